@@ -11,13 +11,13 @@ layout(set = 0, binding = 23) uniform sampler2DArray distance_after;
 layout(set = 0, binding = 24, scalar) buffer Differing { uint differing[]; };
 layout(push_constant, scalar) uniform Push { uint first_before, first_after, mirror; };
 
-bool are_equal_pixels(vec4 a, vec4 b) { return floatBitsToUint(a) == floatBitsToUint(b); }
+bool have_equal_pixel_values(vec4 a, vec4 b) { return floatBitsToUint(a) == floatBitsToUint(b); }
 
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(at.xy, textureSize(colour_after, 0).xy)) || differing[mirror] != 0u) return;
     ivec3 before = at + ivec3(0, 0, first_before), after = at + ivec3(0, 0, first_after);
-    if (!are_equal_pixels(texelFetch(colour_before, before, 0), texelFetch(colour_after, after, 0)) ||
-        !are_equal_pixels(texelFetch(distance_before, before, 0), texelFetch(distance_after, after, 0)))
+    if (!have_equal_pixel_values(texelFetch(colour_before, before, 0), texelFetch(colour_after, after, 0)) ||
+        !have_equal_pixel_values(texelFetch(distance_before, before, 0), texelFetch(distance_after, after, 0)))
         differing[mirror] = 1u; // invocations may write this word at the same time: all write 1
 }

@@ -16,18 +16,18 @@ void main() {
     if (peels != 0u && is_peeled_from_second_layer()) discard;
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
-    Surface surface = surface_at_fragment(n, facet);
-    vec3 shown = shade_fragment(surface, n, facet);
+    Surface surface = find_surface_at_fragment(n, facet);
+    vec3 shown = shade_drawn_fragment(surface, n, facet);
     // A smooth surface that is no mirror reflects the environment only, no objects of the scene.
     if (details != 0u && surface.reflectance != vec3(0))
-        shown += surface.reflectance * environment_radiance(mirror_direction(normalize(direction_from_viewer()), n,
+        shown += surface.reflectance * environment_radiance(reflect_above_facet(normalize(direction_from_viewer()), n,
             normalize(facet)));
-    write_surface(shown);
+    write_captured_surface(shown);
 #ifdef FIRST_HIT
     bool reflects = details != 0u && surface.reflectance != vec3(0);
     if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
     if (reflects || shadow_is_open) {
-        out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), 0u, tracer);
+        out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), 0u, tracer);
         out_distance = float(tracer);
     }
 #endif

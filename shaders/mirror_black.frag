@@ -10,8 +10,8 @@ void main() {
     discard_cut_out_fragments();
     if (lights_mirrors != 0u) {
         vec3 n = normalize(normal);
-        Surface surface = surface_at_fragment(n, facet);
-        shown = shade_fragment(surface, n, facet);
+        Surface surface = find_surface_at_fragment(n, facet);
+        shown = shade_drawn_fragment(surface, n, facet);
     }
-    write_surface(shown);
+    write_captured_surface(shown);
 }

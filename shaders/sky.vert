@@ -17,10 +17,10 @@ layout(location = 4) out vec4 out_colour;
 const float kSkyDepth = 1e-36; // reversed depth behind all surfaces, but in front of the clear value 0
 
 void main() {
-    View view = views[draw.first_view + drawn_layer()];
+    View view = views[draw.first_view + drawn_view_layer()];
     gl_Position = vec4(corner.xy, kSkyDepth, 1);
 #ifdef LAYERED
-    gl_Layer = int(drawn_layer());
+    gl_Layer = int(drawn_view_layer());
 #endif
     write_drawn_pixel(view, Surface(vec3(0), vec3(0), vec3(0), 0u, 0u, vec3(0), 0.0));
     out_normal = vec3(0);

@@ -30,7 +30,7 @@ uvec2 count_work_groups(uint pixels) {
 }
 
 // Lists the pixels of one 8x8 block that the tracer takes.
-void list_pixels(uvec2 pixel) {
+void list_pixels_of_block(uvec2 pixel) {
     bool inside = all(lessThan(pixel, size));
     ivec2 place = ivec2(min(pixel, size - 1u));
 #ifdef FIRST_HIT
@@ -38,7 +38,7 @@ void list_pixels(uvec2 pixel) {
     uint is_mirror = uint(inside) & uint(is_first_hit_on_mirror(words));
     uint is_listed = uint(inside) & uint(is_first_hit_for_tracer(words, tracer));
 #else
-    // `mark` is the number of the tracer that takes the pixel, or 0. `ablated_lookup_colour` is 0 where no mirror
+    // `mark` is the number of the tracer that takes the pixel, or 0. `find_ablated_lookup_colour` is 0 where no mirror
     // looked its reflection up in a capture (lib/surface.glsl).
     float mark = imageLoad(marks, place).r, looked_up = imageLoad(lookup, place).w;
     uint is_mirror = uint(inside) & (uint(mark != 0.0) | uint(looked_up != 0.0));
@@ -76,12 +76,12 @@ void list_pixels(uvec2 pixel) {
 // of live lanes, differs from run to run. Where work is counted, the first work group lists all blocks in order.
 void main() {
     if (count_work == 0u) {
-        list_pixels(gl_GlobalInvocationID.xy);
+        list_pixels_of_block(gl_GlobalInvocationID.xy);
         return;
     }
     if (any(notEqual(gl_WorkGroupID, uvec3(0)))) return;
     for (uint block = 0u; block < gl_NumWorkGroups.x * gl_NumWorkGroups.y; ++block) {
-        list_pixels(8u * uvec2(block % gl_NumWorkGroups.x, block / gl_NumWorkGroups.x) + gl_LocalInvocationID.xy);
+        list_pixels_of_block(8u * uvec2(block % gl_NumWorkGroups.x, block / gl_NumWorkGroups.x) + gl_LocalInvocationID.xy);
         barrier();
     }
 }

@@ -13,88 +13,97 @@
 namespace peers {
 
 using namespace catoptric;
-using measure::Benchmark;
+using measure::BenchmarkResult;
 
 namespace {
 
-const Pair kPairs[] = {{"mesh", "raytrace:depth=4", false},
-                       {"exact", "raytrace:depth=4,sphere=exact", true}};
+const TracedPicturePair kPairs[] = {{"mesh", "raytrace:depth=4", false},
+                                    {"exact", "raytrace:depth=4,sphere=exact", true}};
 /// Our rows with captures, and the edges of their faces. Embree's single rays are only a unit of
 /// time for these rows.
 constexpr std::pair<const char*, int> kOthers[] = {
     {"parallax:face=64", 64}, {"parallax", 256}, {"parallax:face=512", 512}};
-constexpr int kSettles = 14; // frames until mirrors seen in mirrors no longer change
+constexpr int kSettlingFrames = 14; // frames until mirrors seen in mirrors no longer change
 
 /// Prints how much the prototypes' pictures differ from ours. Returns whether the pictures of the
 /// prototypes that trace rays equal ours.
-bool check_prototypes(app::Session& session, app::Request request, Prototypes& prototypes) {
+bool check_prototype_pictures(app::Session& session, app::Request request,
+                              PrototypePrograms& prototypes) {
     for (app::BenchmarkSubject& subject : prototypes.subjects(0))
-        for (int i = 0; i < kSettles; ++i) subject.work();
+        for (int i = 0; i < kSettlingFrames; ++i) subject.work();
     request.techniques = {kPairs[0].technique};
     const measure::Picture traced = session.frame(request).read().hdr;
     bool same = true;
-    for (const std::string& name : Prototypes::tracers()) {
-        const std::size_t other = other_pixels(traced, prototypes.read(name));
+    for (const std::string& name : PrototypePrograms::tracers()) {
+        const std::size_t other = count_differing_pixels(traced, prototypes.read(name));
         std::printf("%-23s %zu pixels differ by more than %g\n", name.c_str(), other,
-                    static_cast<double>(kSame));
-        same = same && other <= kMostOther;
+                    static_cast<double>(kEqualPixelTolerance));
+        same = same && other <= kMaxDifferingPixels;
     }
-    request.frames = kSettles;
+    request.frames = kSettlingFrames;
     for (const auto& [technique, face] : kOthers) {
         request.techniques = {technique};
         const measure::Picture ours = app::run(session, request).parts.front().hdr;
-        const std::vector<Vector> theirs = prototypes.read(Prototypes::name_of(face));
+        const std::vector<PeerVector> theirs = prototypes.read(
+            PrototypePrograms::prototype_name_of_edge(face));
         double squares = 0;
         for (std::size_t i = 0; i < theirs.size(); ++i) {
             const vec3 apart = ours.pixels[i] - vec3(theirs[i].x, theirs[i].y, theirs[i].z);
             squares += dot(dvec3(apart), dvec3(apart)) / 3;
         }
         std::printf("%-23s rmse %.4f from %s, %zu pixels differ by more than %g\n",
-                    Prototypes::name_of(face).c_str(),
+                    PrototypePrograms::prototype_name_of_edge(face).c_str(),
                     std::sqrt(squares / static_cast<double>(theirs.size())), technique,
-                    other_pixels(ours, theirs), static_cast<double>(kSame));
+                    count_differing_pixels(ours, theirs),
+                    static_cast<double>(kEqualPixelTolerance));
     }
     return same;
 }
 
 } // namespace
 
-bool compare_built_in(const Bench& bench) {
-    app::Request request = request_of(scene::make_cornell_mirrors());
+bool compare_built_in_scene_pictures(const PeerBench& bench) {
+    app::Request request = make_request_of_scene(scene::make_cornell_mirrors());
     const auto session = std::make_shared<app::Session>(bench.engine, request.scene);
-    const int frames = bench.rounds * kFramesARound;
+    const int frames = bench.rounds * kFramesPerRound;
     std::vector<app::BenchmarkSubject> subjects;
     bool same = true;
     double rays = 0;
-    for (const Pair& pair : kPairs) {
-        Shown shown = show(bench.device, session, request, pair, bench.threads, frames);
+    for (const TracedPicturePair& pair : kPairs) {
+        PairBenchmarks shown = trace_pair_and_print_differences(bench.device, session, request,
+                                                                pair, bench.threads, frames);
         std::ranges::move(shown.subjects, std::back_inserter(subjects));
         rays = shown.rays;
         same = same && shown.same;
     }
-    const PeerScene mesh(bench.device, request, kDepth, false);
-    Prototypes prototypes(request, mesh);
-    same = check_prototypes(*session, request, prototypes) && same;
-    std::ranges::move(prototypes.subjects(kWarmup), std::back_inserter(subjects));
+    const EmbreePeerScene mesh(bench.device, request, kMirrorBounces, false);
+    PrototypePrograms prototypes(request, mesh);
+    same = check_prototype_pictures(*session, request, prototypes) && same;
+    std::ranges::move(prototypes.subjects(kWarmupFrameCount), std::back_inserter(subjects));
     for (const auto& [technique, face] : kOthers) {
         request.techniques = {technique};
-        subjects.push_back(app::make_frame_subject(session, request, frames));
+        subjects.push_back(app::make_frame_benchmark_subject(session, request, frames));
         subjects.back().name = technique, subjects.back().caller.clear();
     }
-    const std::vector<Benchmark> list = app::measure_in_rounds(
+    const std::vector<BenchmarkResult> list = app::measure_benchmarks_in_rounds(
         subjects, bench.meter, {.iterations = frames, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
-    for (const Benchmark& benchmark : list)
-        print(benchmark, "rays", benchmark.name.starts_with("parallax") ? 0 : rays / 1e6);
+    for (const BenchmarkResult& benchmark : list)
+        print_benchmark(benchmark, "rays", benchmark.name.starts_with("parallax") ? 0 : rays / 1e6);
     std::printf("\n");
-    for (const Pair& pair : kPairs) print_ratios(list, pair.name);
-    print_ratio(named(list, "ours/exact"), named(list, "ours/mesh"));
+    for (const TracedPicturePair& pair : kPairs) print_cost_ratios_of_pair(list, pair.name);
+    print_cost_ratio(find_benchmark_by_name(list, "ours/exact"),
+                     find_benchmark_by_name(list, "ours/mesh"));
     for (const auto& [technique, face] : kOthers)
-        print_ratio(named(list, technique), named(list, peer_name("mesh", 1)));
-    for (const std::string& prototype : Prototypes::tracers())
-        print_ratio(named(list, "ours/mesh"), named(list, prototype));
+        print_cost_ratio(find_benchmark_by_name(list, technique),
+                         find_benchmark_by_name(list, embree_benchmark_name("mesh", 1)));
+    for (const std::string& prototype : PrototypePrograms::tracers())
+        print_cost_ratio(find_benchmark_by_name(list, "ours/mesh"),
+                         find_benchmark_by_name(list, prototype));
     for (const auto& [technique, face] : kOthers)
-        print_ratio(named(list, technique), named(list, Prototypes::name_of(face)));
+        print_cost_ratio(
+            find_benchmark_by_name(list, technique),
+            find_benchmark_by_name(list, PrototypePrograms::prototype_name_of_edge(face)));
     return same;
 }
 

@@ -15,54 +15,56 @@ namespace peers {
 class CapturePrototype {
 public:
     /// Sets up the request's scene. `face` is the edge of the captures' faces, texels.
-    CapturePrototype(catoptric::gpu::Device& device, catoptric::gpu::Pipelines& pipelines,
+    CapturePrototype(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
                      const catoptric::app::Request& request, std::uint32_t face);
 
     /// Draws a frame and waits for the device.
     void draw();
-    std::vector<Vector> read(); ///< returns the camera's view of the last frame, linear
+    std::vector<PeerVector> read(); ///< returns the camera's view of the last frame, linear
 
 private:
-    struct Material {
+    struct PrototypeMaterial {
         catoptric::vec4 albedo, emission; ///< the albedo of a mirror holds its reflectance
     };
     /// Push constants of a draw, as in shaders/draw.glsl.
-    struct Draw {
+    struct DrawPushConstants {
         catoptric::vec4 eye, albedo, emission, centre;
         std::uint32_t first_view;
         float cube;
     };
     /// The captures of all mirrors: cube maps of colour and of distance.
-    struct Cubes {
-        PlainImage colour, distance;
+    struct MirrorCaptureCubes {
+        GeneralLayoutImage colour, distance;
     };
     /// The pipelines of a pass, with descriptor sets for even or for odd frames.
-    struct Programs {
-        Bound diffuse, mirror;
+    struct PrototypePipelines {
+        BoundPlainPipeline diffuse, mirror;
     };
 
     void add_scene(const catoptric::app::Request& request);
     void make_images(catoptric::uvec2 size);
-    void make_programs(catoptric::gpu::Pipelines& pipelines);
-    void draw_object(VkCommandBuffer commands, const Bound& program, std::size_t object,
-                     std::uint32_t first_view, std::uint32_t layers) const;
+    void make_programs(catoptric::gpu::PipelineStore& pipelines);
+    void draw_object(VkCommandBuffer commands, const BoundPlainPipeline& program,
+                     std::size_t object, std::uint32_t first_view, std::uint32_t layers) const;
     void draw_shadows(VkCommandBuffer commands);
-    void draw_surfaces(VkCommandBuffer commands, const Programs& programs, std::uint32_t first_view,
-                       std::uint32_t layers, std::size_t except) const;
+    void draw_surfaces(VkCommandBuffer commands, const PrototypePipelines& programs,
+                       std::uint32_t first_view, std::uint32_t layers, std::size_t except) const;
 
-    catoptric::gpu::Device& device_;
+    catoptric::gpu::GpuDevice& peer_device_;
     std::uint32_t face_;
-    catoptric::render::Geometry geometry_;
-    std::vector<Material> materials_;            ///< by object
+    catoptric::render::FrameGeometry geometry_;
+    std::vector<PrototypeMaterial> materials_;   ///< by object
     std::vector<std::size_t> mirrors_;           ///< indices of the objects that are mirrors
     std::vector<catoptric::shared::View> views_; ///< in the order of Frame in shaders/draw.glsl
-    catoptric::gpu::Buffer vertices_, indices_, frame_, pixels_;
+    catoptric::gpu::GpuBuffer vertices_, indices_, frame_, pixels_;
     catoptric::gpu::UniqueSampler linear_, compare_;
-    PlainImage shadow_map_, depth_, view_, view_depth_;
-    std::array<Cubes, 2> cubes_; ///< captures of the current frame and of the frame before, in turn
-    PlainSets sets_;
-    Bound shadow_;
-    std::array<Programs, 2> capture_, camera_; ///< by the element of `cubes_` that they read
+    GeneralLayoutImage shadow_map_, depth_, view_, view_depth_;
+    std::array<MirrorCaptureCubes, 2>
+        cubes_; ///< captures of the current frame and of the frame before, in turn
+    PlainDescriptorSets sets_;
+    BoundPlainPipeline shadow_;
+    std::array<PrototypePipelines, 2> capture_,
+        camera_; ///< by the element of `cubes_` that they read
     /// The capture's faces as attachments, by element of `cubes_` and by mirror: colour, distance.
     std::array<std::vector<std::array<VkImageView, 2>>, 2> faces_;
     VkImageView shadow_faces_{}, depth_faces_{}, picture_{}, picture_depth_{};

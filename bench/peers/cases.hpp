@@ -10,9 +10,9 @@
 namespace peers {
 
 /// The devices and settings that all comparisons use.
-struct Bench {
+struct PeerBench {
     catoptric::app::Engine& engine;
-    const catoptric::app::UsageMeter& meter; ///< measures the whole process
+    const catoptric::app::ProcessorUsageMeter& meter; ///< measures the whole process
     const EmbreeDevice& device;
     int threads = 1; ///< for our tracer and for Embree, each
     int rounds = 0;
@@ -24,20 +24,20 @@ struct NamedScene {
 };
 /// Returns the scenes of the comparisons: the built-in scene; two variants of it with finer balls
 /// and a ring, with 100,144 and 1,001,756 triangles; and the scene `room`.
-std::span<const NamedScene> scenes();
+std::span<const NamedScene> list_named_scenes();
 
 /// Compares pictures of the built-in scene: traced with mesh balls and with exact spheres, by
 /// captures, and by prototypes. Prints times and differences. Returns whether all traced pictures
 /// agree.
-bool compare_built_in(const Bench& bench);
+bool compare_built_in_scene_pictures(const PeerBench& bench);
 /// Compares our traced picture of a scene with Embree's. Prints times and differences. Returns
 /// whether the pictures agree.
-bool compare_pictures(const Bench& bench, const NamedScene& of);
+bool compare_pictures(const PeerBench& bench, const NamedScene& of);
 /// Compares the first hits of rays with random origins and directions in a scene. Prints times and
 /// differences. Returns whether our hits and Embree's agree.
-bool compare_rays(const Bench& bench, const NamedScene& of);
+bool compare_rays(const PeerBench& bench, const NamedScene& of);
 /// Compares with Embree the build times of trees of a million triangles, and the expected cost of
 /// rays in the trees of all built-in scenes. Prints both.
-void compare_trees(const Bench& bench);
+void compare_trees(const PeerBench& bench);
 
 } // namespace peers

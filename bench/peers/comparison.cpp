@@ -9,59 +9,66 @@
 namespace peers {
 
 using namespace catoptric;
-using measure::Benchmark;
+using measure::BenchmarkResult;
 using measure::CostKind;
 
-std::string our_name(const std::string& pair) { return "ours/" + pair; }
-std::string peer_name(const std::string& pair, int width) {
+std::string our_benchmark_name(const std::string& pair) { return "ours/" + pair; }
+std::string embree_benchmark_name(const std::string& pair, int width) {
     return "embree/" + pair + "/" + std::to_string(width);
 }
 
-app::Request request_of(scene::Scene scene) {
+app::Request make_request_of_scene(scene::Scene scene) {
     app::Request request;
     request.scene = std::move(scene);
     request.camera = request.scene.cameras.front();
-    request.warmup = kWarmup;
+    request.warmup = kWarmupFrameCount;
     return request;
 }
 
-std::size_t other_pixels(const measure::Picture& ours, const std::vector<Vector>& theirs) {
+std::size_t count_differing_pixels(const measure::Picture& ours,
+                                   const std::vector<PeerVector>& theirs) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < theirs.size(); ++i) {
         const auto& [x, y, z] = theirs[i];
         const vec3 apart = abs(ours.pixels[i] - vec3(x, y, z));
-        count += !(std::max({apart.x, apart.y, apart.z}) <= kSame);
+        count += !(std::max({apart.x, apart.y, apart.z}) <= kEqualPixelTolerance);
     }
     return count;
 }
 
-Shown show(const EmbreeDevice& device, std::shared_ptr<app::Session> session, app::Request request,
-           const Pair& pair, int threads, int frames) {
+PairBenchmarks trace_pair_and_print_differences(const EmbreeDevice& device,
+                                                std::shared_ptr<app::Session> session,
+                                                app::Request request, const TracedPicturePair& pair,
+                                                int threads, int frames) {
     request.techniques = {pair.technique};
     const app::TechniqueResult ours = session->frame(request).read();
     const catoptric::RayCounts rays = ours.rays.value();
-    std::printf("%-23s %llu rays\n", our_name(pair.name).c_str(),
+    std::printf("%-23s %llu rays\n", our_benchmark_name(pair.name).c_str(),
                 static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
-    Shown shown{.same = true};
-    shown.subjects.push_back(app::make_frame_subject(std::move(session), request, frames));
-    shown.subjects.back().name = our_name(pair.name), shown.subjects.back().caller.clear();
-    const auto peer = std::make_shared<PeerScene>(device, request, kDepth, pair.exact);
-    for (const int width : kWidths) {
-        const Traced theirs = peer->trace(width, threads);
-        const std::size_t other = other_pixels(ours.hdr, theirs.pixels);
-        const std::string name = peer_name(pair.name, width);
+    PairBenchmarks shown{.same = true};
+    shown.subjects.push_back(
+        app::make_frame_benchmark_subject(std::move(session), request, frames));
+    shown.subjects.back().name = our_benchmark_name(pair.name),
+    shown.subjects.back().caller.clear();
+    const auto peer = std::make_shared<EmbreePeerScene>(device, request, kMirrorBounces,
+                                                        pair.exact);
+    for (const int width : kPacketWidths) {
+        const TracedPeerPicture theirs = peer->trace_picture(width, threads);
+        const std::size_t other = count_differing_pixels(ours.hdr, theirs.pixels);
+        const std::string name = embree_benchmark_name(pair.name, width);
         std::printf("%-23s %llu rays, %zu pixels differ by more than %g\n", name.c_str(),
-                    static_cast<unsigned long long>(theirs.rays.all()), other,
-                    static_cast<double>(kSame));
-        shown.same = shown.same && other <= kMostOther;
-        shown.rays = static_cast<double>(theirs.rays.all());
-        shown.subjects.push_back(app::make_subject(
-            name, [peer, width, threads] { peer->trace(width, threads); }, kWarmup));
+                    static_cast<unsigned long long>(theirs.rays.total_ray_count()), other,
+                    static_cast<double>(kEqualPixelTolerance));
+        shown.same = shown.same && other <= kMaxDifferingPixels;
+        shown.rays = static_cast<double>(theirs.rays.total_ray_count());
+        shown.subjects.push_back(app::make_benchmark_subject(
+            name, [peer, width, threads] { peer->trace_picture(width, threads); },
+            kWarmupFrameCount));
     }
     return shown;
 }
 
-void print(const Benchmark& benchmark, const char* what, double millions) {
+void print_benchmark(const BenchmarkResult& benchmark, const char* what, double millions) {
     const double ms = measure::compute_percentile(list_round_costs(benchmark, CostKind::real_time),
                                                   .5);
     std::printf("%-23s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
@@ -74,7 +81,7 @@ void print(const Benchmark& benchmark, const char* what, double millions) {
     std::printf("\n");
 }
 
-void print_ratio(const Benchmark& a, const Benchmark& b) {
+void print_cost_ratio(const BenchmarkResult& a, const BenchmarkResult& b) {
     const CostKind cost = a.rounds.front().cycles ? CostKind::cycles : CostKind::cpu_time;
     const measure::CostRatio ratio = measure::compute_cost_ratio(list_round_costs(a, cost),
                                                                  list_round_costs(b, cost));
@@ -82,16 +89,18 @@ void print_ratio(const Benchmark& a, const Benchmark& b) {
         list_round_costs(a, CostKind::real_time), list_round_costs(b, CostKind::real_time));
     std::printf("%-19s / %-23s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
                 a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
-                measure::name_of(cost).c_str(), real.median, real.ci95.low, real.ci95.high);
+                measure::cost_kind_name(cost).c_str(), real.median, real.ci95.low, real.ci95.high);
 }
 
-void print_ratios(const std::vector<Benchmark>& list, const std::string& pair) {
-    for (const int width : kWidths)
-        print_ratio(named(list, our_name(pair)), named(list, peer_name(pair, width)));
+void print_cost_ratios_of_pair(const std::vector<BenchmarkResult>& list, const std::string& pair) {
+    for (const int width : kPacketWidths)
+        print_cost_ratio(find_benchmark_by_name(list, our_benchmark_name(pair)),
+                         find_benchmark_by_name(list, embree_benchmark_name(pair, width)));
 }
 
-const Benchmark& named(const std::vector<Benchmark>& list, const std::string& name) {
-    return *std::ranges::find(list, name, &Benchmark::name);
+const BenchmarkResult& find_benchmark_by_name(const std::vector<BenchmarkResult>& list,
+                                              const std::string& name) {
+    return *std::ranges::find(list, name, &BenchmarkResult::name);
 }
 
 } // namespace peers

@@ -15,28 +15,28 @@ namespace peers {
 class EmbreeDevice {
 public:
     explicit EmbreeDevice(int threads = 0)
-        : device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {}
-    ~EmbreeDevice() { rtcReleaseDevice(device_); }
+        : peer_device_(rtcNewDevice(("threads=" + std::to_string(threads)).c_str())) {}
+    ~EmbreeDevice() { rtcReleaseDevice(peer_device_); }
     EmbreeDevice(const EmbreeDevice&) = delete;
     EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
-    RTCDevice get() const { return device_; }
+    RTCDevice embree_device() const { return peer_device_; }
     /// Throws if Embree had an error since the last call.
-    void check() const {
-        if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
+    void throw_on_embree_error() const {
+        if (const RTCError error = rtcGetDeviceError(peer_device_); error != RTC_ERROR_NONE)
             throw std::runtime_error("Embree: error " + std::to_string(error));
     }
 
 private:
-    RTCDevice device_;
+    RTCDevice peer_device_;
 };
 
 /// Returns an Embree geometry of triangles, in which triangle i is primitive i. The caller releases
 /// the geometry.
-inline RTCGeometry triangle_geometry(const EmbreeDevice& device,
-                                     std::span<const catoptric::bvh::Triangle> triangles) {
+inline RTCGeometry make_triangle_geometry(const EmbreeDevice& device,
+                                          std::span<const catoptric::bvh::Triangle> triangles) {
     using catoptric::vec3;
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(device.embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t count = triangles.size();
     auto* corners = static_cast<vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), 3 * count));
@@ -55,32 +55,32 @@ inline RTCGeometry triangle_geometry(const EmbreeDevice& device,
 class EmbreeScene {
 public:
     EmbreeScene(const EmbreeDevice& device, RTCSceneFlags flags, RTCBuildQuality quality)
-        : device_(device), scene_(rtcNewScene(device.get())) {
-        rtcSetSceneFlags(scene_, flags);
-        rtcSetSceneBuildQuality(scene_, quality);
+        : peer_device_(device), embree_scene_(rtcNewScene(device.embree_device())) {
+        rtcSetSceneFlags(embree_scene_, flags);
+        rtcSetSceneBuildQuality(embree_scene_, quality);
     }
-    ~EmbreeScene() { rtcReleaseScene(scene_); }
+    ~EmbreeScene() { rtcReleaseScene(embree_scene_); }
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-    RTCScene get() const { return scene_; }
+    RTCScene embree_scene() const { return embree_scene_; }
 
     /// Adds a geometry. `number` identifies the geometry in a hit and must be unique in the scene.
-    void add(RTCGeometry geometry, unsigned number = 0) {
-        rtcAttachGeometryByID(scene_, geometry, number);
+    void add_geometry(RTCGeometry geometry, unsigned number = 0) {
+        rtcAttachGeometryByID(embree_scene_, geometry, number);
     }
-    void add_and_release(RTCGeometry geometry, unsigned number = 0) {
-        add(geometry, number);
+    void add_geometry_and_release(RTCGeometry geometry, unsigned number = 0) {
+        add_geometry(geometry, number);
         rtcReleaseGeometry(geometry);
     }
-    void commit() {
-        rtcCommitScene(scene_);
-        device_.check();
+    void build_tree() {
+        rtcCommitScene(embree_scene_);
+        peer_device_.throw_on_embree_error();
     }
 
 private:
-    const EmbreeDevice& device_;
-    RTCScene scene_;
+    const EmbreeDevice& peer_device_;
+    RTCScene embree_scene_;
 };
 
 } // namespace peers

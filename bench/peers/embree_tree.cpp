@@ -13,44 +13,45 @@ using bvh::BoundingBox;
 
 namespace {
 
-constexpr unsigned kDeepest = 48; // greatest tree depth that Embree's builder accepts
-constexpr std::size_t kRoom = 2;  // most primitives per triangle after splits
+constexpr unsigned kMaxEmbreeTreeDepth = 48; // greatest tree depth that Embree's builder accepts
+constexpr std::size_t kPrimitiveRoomPerTriangle = 2; // most primitives per triangle after splits
 
-struct Node {
+struct EmbreeTreeNode {
     std::size_t triangles = 0; ///< number of triangles of a leaf; 0: an inner node
     BoundingBox boxes[2];
-    Node* children[2] = {};
+    EmbreeTreeNode* children[2] = {};
 };
 
-double cost_of(const Node& node) {
+double compute_node_cost(const EmbreeTreeNode& node) {
     double sum = 0;
     for (int side = 0; side < 2; ++side) {
-        const Node& child = *node.children[side];
+        const EmbreeTreeNode& child = *node.children[side];
         const bool is_leaf = child.triangles > 0;
         sum += bvh::box_area(node.boxes[side]) *
                    (is_leaf ? static_cast<double>(child.triangles) : bvh::kNodeVisitCost) +
-               (is_leaf ? 0 : cost_of(child));
+               (is_leaf ? 0 : compute_node_cost(child));
     }
     return sum;
 }
 
-BoundingBox box_of(const RTCBounds& bounds) {
+BoundingBox embree_bounds_to_box(const RTCBounds& bounds) {
     return {{bounds.lower_x, bounds.lower_y, bounds.lower_z},
             {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
 }
 
-RTCBounds bounds_of(const BoundingBox& box) {
+RTCBounds box_to_embree_bounds(const BoundingBox& box) {
     return {box.lo.x, box.lo.y, box.lo.z, 0, box.hi.x, box.hi.y, box.hi.z, 0};
 }
 
-Node* new_node(RTCThreadLocalAllocator allocator) {
-    return new (rtcThreadLocalAlloc(allocator, sizeof(Node), alignof(Node))) Node;
+EmbreeTreeNode* make_embree_node(RTCThreadLocalAllocator allocator) {
+    return new (rtcThreadLocalAlloc(allocator, sizeof(EmbreeTreeNode), alignof(EmbreeTreeNode)))
+        EmbreeTreeNode;
 }
 
 /// Splits a primitive at a plane: computes the boxes of the triangle's parts on both sides of the
 /// plane, clipped to the primitive's box.
-void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place, RTCBounds* left,
-           RTCBounds* right, void* triangles) {
+void split_primitive_at_plane(const RTCBuildPrimitive* primitive, unsigned axis_number, float place,
+                              RTCBounds* left, RTCBounds* right, void* triangles) {
     const auto axis = static_cast<glm::length_t>(axis_number);
     const bvh::Triangle& t = static_cast<const bvh::Triangle*>(triangles)[primitive->primID];
     const vec3 corners[] = {t.a, t.b, t.c};
@@ -67,57 +68,58 @@ void split(const RTCBuildPrimitive* primitive, unsigned axis_number, float place
     const vec3 lo(primitive->lower_x, primitive->lower_y, primitive->lower_z),
         hi(primitive->upper_x, primitive->upper_y, primitive->upper_z);
     for (BoundingBox& side : sides) side = {max(side.lo, lo), min(side.hi, hi)};
-    *left = bounds_of(sides[0]), *right = bounds_of(sides[1]);
+    *left = box_to_embree_bounds(sides[0]), *right = box_to_embree_bounds(sides[1]);
 }
 
-void say_how(RTCBuildArguments& arguments) {
-    arguments.maxDepth = kDeepest;
+void set_build_arguments(RTCBuildArguments& arguments) {
+    arguments.maxDepth = kMaxEmbreeTreeDepth;
     arguments.maxLeafSize = bvh::kMaxLeafTriangles;
     arguments.traversalCost = static_cast<float>(bvh::kNodeVisitCost);
     arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
-        return new_node(allocator);
+        return make_embree_node(allocator);
     };
     arguments.setNodeChildren = [](void* node, void** children, unsigned, void*) {
         for (int side = 0; side < 2; ++side)
-            static_cast<Node*>(node)->children[side] = static_cast<Node*>(children[side]);
+            static_cast<EmbreeTreeNode*>(node)->children[side] = static_cast<EmbreeTreeNode*>(
+                children[side]);
     };
     arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned, void*) {
         for (int side = 0; side < 2; ++side)
-            static_cast<Node*>(node)->boxes[side] = box_of(*bounds[side]);
+            static_cast<EmbreeTreeNode*>(node)->boxes[side] = embree_bounds_to_box(*bounds[side]);
     };
     arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive*,
                               std::size_t count, void*) -> void* {
-        Node* const leaf = new_node(allocator);
+        EmbreeTreeNode* const leaf = make_embree_node(allocator);
         leaf->triangles = count;
         return leaf;
     };
-    arguments.splitPrimitive = split;
+    arguments.splitPrimitive = split_primitive_at_plane;
 }
 
 } // namespace
 
-double embree_cost(const EmbreeDevice& device, std::span<const bvh::Triangle> triangles,
-                   RTCBuildQuality quality) {
-    std::vector<RTCBuildPrimitive> primitives(kRoom * triangles.size());
+double compute_embree_tree_cost(const EmbreeDevice& device,
+                                std::span<const bvh::Triangle> triangles, RTCBuildQuality quality) {
+    std::vector<RTCBuildPrimitive> primitives(kPrimitiveRoomPerTriangle * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const bvh::Triangle& t = triangles[i];
-        const BoundingBox box = bvh::triangle_bounds(t.a, t.b, t.c, t.flags);
+        const BoundingBox box = bvh::compute_triangle_bounds(t.a, t.b, t.c, t.flags);
         primitives[i] = {box.lo.x, box.lo.y, box.lo.z, 0,
                          box.hi.x, box.hi.y, box.hi.z, static_cast<unsigned>(i)};
     }
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    say_how(arguments);
+    set_build_arguments(arguments);
     arguments.buildQuality = quality;
-    arguments.bvh = rtcNewBVH(device.get());
+    arguments.bvh = rtcNewBVH(device.embree_device());
     arguments.primitives = primitives.data();
     arguments.primitiveCount = triangles.size();
     arguments.primitiveArrayCapacity = primitives.size();
-    // Only `split` reads the triangles.
+    // Only `split_primitive_at_plane` reads the triangles.
     arguments.userPtr = const_cast<bvh::Triangle*>(triangles.data());
-    const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
-    device.check();
+    const auto* root = static_cast<const EmbreeTreeNode*>(rtcBuildBVH(&arguments));
+    device.throw_on_embree_error();
     // A root that is a leaf needs no walk.
-    const double cost = root->triangles > 0 ? 0 : cost_of(*root);
+    const double cost = root->triangles > 0 ? 0 : compute_node_cost(*root);
     rtcReleaseBVH(arguments.bvh);
     return cost;
 }

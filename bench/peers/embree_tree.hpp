@@ -7,7 +7,8 @@ namespace peers {
 /// Returns the cost, as bvh::compute_sah_cost defines cost, of the binary tree that Embree's
 /// builder makes of the triangles. The builder uses our costs of nodes and triangles and our
 /// largest leaf size. With RTC_BUILD_QUALITY_HIGH the builder also splits triangles.
-double embree_cost(const EmbreeDevice& device, std::span<const catoptric::bvh::Triangle> triangles,
-                   RTCBuildQuality quality);
+double compute_embree_tree_cost(const EmbreeDevice& device,
+                                std::span<const catoptric::bvh::Triangle> triangles,
+                                RTCBuildQuality quality);
 
 } // namespace peers

@@ -12,22 +12,22 @@
 namespace peers {
 
 using namespace catoptric;
-using measure::Benchmark;
+using measure::BenchmarkResult;
 
 namespace {
 
-constexpr std::size_t kRays = 1 << 18;
+constexpr std::size_t kRandomRayCount = 1 << 18;
 // Largest difference of equal hits in t, scene units; relative if t > 1.
-constexpr float kSamePlace = 1e-4F;
+constexpr float kEqualHitTolerance = 1e-4F;
 
 /// Returns a list of random rays in the triangles' bounds. Each call returns the same rays.
-std::vector<Ray> rays_in(std::span<const bvh::Triangle> triangles) {
+std::vector<Ray> make_random_rays_in_bounds(std::span<const bvh::Triangle> triangles) {
     Bounds<float> box;
     for (const bvh::Triangle& triangle : triangles)
         box.add(triangle.a), box.add(triangle.b), box.add(triangle.c);
     std::mt19937 words(7);
     const auto unit = [&] { return static_cast<float>(words() >> 8) * 0x1p-24F; };
-    std::vector<Ray> rays(kRays);
+    std::vector<Ray> rays(kRandomRayCount);
     for (auto& [origin, direction] : rays) {
         const vec3 part{unit(), unit(), unit()}, at = box.lo + part * (box.hi - box.lo);
         const float z = 2 * unit() - 1, angle = 6.2831853F * unit(), across = std::sqrt(1 - z * z);
@@ -37,60 +37,68 @@ std::vector<Ray> rays_in(std::span<const bvh::Triangle> triangles) {
     return rays;
 }
 
-std::size_t hits_of(const std::vector<Met>& met) {
-    return met.size() -
-           static_cast<std::size_t>(std::ranges::count(met, Met::kNothing, &Met::triangle));
+std::size_t count_hits(const std::vector<FirstRayHit>& met) {
+    return met.size() - static_cast<std::size_t>(std::ranges::count(met, FirstRayHit::kNoTriangle,
+                                                                    &FirstRayHit::triangle));
 }
 
-bool is_elsewhere(const Met& a, const Met& b) {
-    if (a.triangle == Met::kNothing || b.triangle == Met::kNothing) return a.triangle != b.triangle;
-    return !(std::abs(a.t - b.t) <= kSamePlace * std::max(1.0F, a.t));
+bool is_hit_at_other_place(const FirstRayHit& a, const FirstRayHit& b) {
+    if (a.triangle == FirstRayHit::kNoTriangle || b.triangle == FirstRayHit::kNoTriangle)
+        return a.triangle != b.triangle;
+    return !(std::abs(a.t - b.t) <= kEqualHitTolerance * std::max(1.0F, a.t));
 }
 
-/// Prints how Embree's hits differ from ours. Returns whether at most kMostOther rays have hits at
-/// different positions.
-bool meet_the_same(const std::string& name, const std::vector<Met>& ours,
-                   const std::vector<Met>& theirs) {
+/// Prints how Embree's hits differ from ours. Returns whether at most kMaxDifferingPixels rays have
+/// hits at different positions.
+bool print_and_check_hit_differences(const std::string& name, const std::vector<FirstRayHit>& ours,
+                                     const std::vector<FirstRayHit>& theirs) {
     std::size_t triangles = 0, places = 0;
     for (std::size_t i = 0; i < theirs.size(); ++i) {
         triangles += theirs[i].triangle != ours[i].triangle;
-        places += is_elsewhere(theirs[i], ours[i]);
+        places += is_hit_at_other_place(theirs[i], ours[i]);
     }
     std::printf("%-23s %zu rays, %zu hits; %zu another triangle, %zu another place\n", name.c_str(),
-                theirs.size(), hits_of(theirs), triangles, places);
-    return places <= kMostOther;
+                theirs.size(), count_hits(theirs), triangles, places);
+    return places <= kMaxDifferingPixels;
 }
 
 } // namespace
 
-bool compare_rays(const Bench& bench, const NamedScene& of) {
+bool compare_rays(const PeerBench& bench, const NamedScene& of) {
     const std::string name = std::string("rays/") + of.name;
-    const std::vector<bvh::Triangle> triangles = triangles_of(of.make());
-    const std::vector<Ray> rays = rays_in(triangles);
+    const std::vector<bvh::Triangle> triangles = list_scene_triangles(of.make());
+    const std::vector<Ray> rays = make_random_rays_in_bounds(triangles);
     std::printf("\nrays in any direction, %s: %zu triangles\n", of.name, triangles.size());
-    gpu::Device device{{}};
-    gpu::Pipelines pipelines(device);
-    RayList list(device, pipelines, triangles, rays);
-    list.trace();
-    const std::vector<Met> ours = list.read();
-    std::printf("%-23s %zu rays, %zu hits\n", our_name(name).c_str(), ours.size(), hits_of(ours));
-    bool same = std::ranges::count(ours, Met::kUntraced, &Met::triangle) == 0;
+    gpu::GpuDevice device{{}};
+    gpu::PipelineStore pipelines(device);
+    TracedRayList list(device, pipelines, triangles, rays);
+    list.trace_all_rays();
+    const std::vector<FirstRayHit> ours = list.read();
+    std::printf("%-23s %zu rays, %zu hits\n", our_benchmark_name(name).c_str(), ours.size(),
+                count_hits(ours));
+    bool same = std::ranges::count(ours, FirstRayHit::kUntraced, &FirstRayHit::triangle) == 0;
     EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
-    tree.add_and_release(triangle_geometry(bench.device, triangles));
-    tree.commit();
-    std::vector<app::BenchmarkSubject> subjects{app::make_subject(
-        our_name(name), [&] { list.trace(); }, kWarmup)};
-    for (const int width : kWidths) {
-        const auto theirs = [&, width] { return meet(tree.get(), rays, width, bench.threads); };
-        same = meet_the_same(peer_name(name, width), ours, theirs()) && same;
-        subjects.push_back(app::make_subject(peer_name(name, width), theirs, kWarmup));
+    tree.add_geometry_and_release(make_triangle_geometry(bench.device, triangles));
+    tree.build_tree();
+    std::vector<app::BenchmarkSubject> subjects{app::make_benchmark_subject(
+        our_benchmark_name(name), [&] { list.trace_all_rays(); }, kWarmupFrameCount)};
+    for (const int width : kPacketWidths) {
+        const auto theirs = [&, width] {
+            return find_closest_hits_of_rays(tree.embree_scene(), rays, width, bench.threads);
+        };
+        same = print_and_check_hit_differences(embree_benchmark_name(name, width), ours,
+                                               theirs()) &&
+               same;
+        subjects.push_back(app::make_benchmark_subject(embree_benchmark_name(name, width), theirs,
+                                                       kWarmupFrameCount));
     }
-    const std::vector<Benchmark> found = app::measure_in_rounds(
+    const std::vector<BenchmarkResult> found = app::measure_benchmarks_in_rounds(
         subjects, bench.meter,
-        {.iterations = bench.rounds * kFramesARound, .rounds = bench.rounds, .watcher = {}});
+        {.iterations = bench.rounds * kFramesPerRound, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
-    for (const Benchmark& benchmark : found) print(benchmark, "rays", kRays / 1e6);
-    print_ratios(found, name);
+    for (const BenchmarkResult& benchmark : found)
+        print_benchmark(benchmark, "rays", kRandomRayCount / 1e6);
+    print_cost_ratios_of_pair(found, name);
     return same;
 }
 

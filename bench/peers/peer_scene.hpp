@@ -11,26 +11,28 @@ namespace peers {
 /// Supports only the features of the scenes `cornell-mirrors` and `room`. These are lamps, spots
 /// without a range, mirrors with the same reflectance at any angle and smooth dielectrics. Further
 /// features are bilinear repeating sRGB textures of albedo, and a perspective camera.
-class PeerScene {
+class EmbreePeerScene {
 public:
-    PeerScene(const EmbreeDevice& device, const catoptric::app::Request& request, int depth,
-              bool exact);
+    EmbreePeerScene(const EmbreeDevice& device, const catoptric::app::Request& request, int depth,
+                    bool exact);
 
-    const Whitted& whitted() const { return whitted_; }
-    Traced trace(int width, int threads) const { return peers::trace(whitted_, width, threads); }
+    const WhittedScene& whitted_scene() const { return whitted_; }
+    TracedPeerPicture trace_picture(int width, int threads) const {
+        return peers::trace_whitted_picture(whitted_, width, threads);
+    }
 
 private:
     void add_objects(const EmbreeDevice& device, const catoptric::app::Request& request,
                      bool exact);
-    void add_triangles(const catoptric::render::Geometry& geometry, std::size_t object,
+    void add_triangles(const catoptric::render::FrameGeometry& geometry, std::size_t object,
                        std::vector<catoptric::bvh::Triangle>& triangles);
     void add_view(const catoptric::app::Request& request);
 
-    EmbreeScene tree_;
-    Whitted whitted_;
+    EmbreeScene embree_tree_;
+    WhittedScene whitted_;
 };
 
 /// Returns all triangles of a scene at time 0, in scene units.
-std::vector<catoptric::bvh::Triangle> triangles_of(const catoptric::scene::Scene& scene);
+std::vector<catoptric::bvh::Triangle> list_scene_triangles(const catoptric::scene::Scene& scene);
 
 } // namespace peers

@@ -19,26 +19,26 @@
 namespace {
 
 using namespace catoptric;
-using peers::Bench;
+using peers::PeerBench;
 
-struct Case {
+struct PeerCase {
     std::string name;
-    std::function<bool(const Bench&)> compare;
+    std::function<bool(const PeerBench&)> compare;
 };
 
-std::vector<Case> all_cases() {
-    std::vector<Case> cases{{"built-in", peers::compare_built_in}};
-    for (const peers::NamedScene& scene : peers::scenes().subspan(1))
-        cases.push_back({scene.name, [&scene](const Bench& bench) {
+std::vector<PeerCase> list_all_cases() {
+    std::vector<PeerCase> cases{{"built-in", peers::compare_built_in_scene_pictures}};
+    for (const peers::NamedScene& scene : peers::list_named_scenes().subspan(1))
+        cases.push_back({scene.name, [&scene](const PeerBench& bench) {
                              return peers::compare_pictures(bench, scene);
                          }});
-    cases.push_back({"rays", [](const Bench& bench) {
-                         return std::ranges::count_if(peers::scenes(),
+    cases.push_back({"rays", [](const PeerBench& bench) {
+                         return std::ranges::count_if(peers::list_named_scenes(),
                                                       [&](const peers::NamedScene& scene) {
                                                           return !peers::compare_rays(bench, scene);
                                                       }) == 0;
                      }});
-    cases.push_back({"trees", [](const Bench& bench) {
+    cases.push_back({"trees", [](const PeerBench& bench) {
                          peers::compare_trees(bench);
                          return true;
                      }});
@@ -46,13 +46,13 @@ std::vector<Case> all_cases() {
 }
 
 /// Returns the cases that the words name, or all cases if `words` is empty.
-std::vector<Case> cases_of(const std::vector<std::string>& words) {
-    const std::vector<Case> all = all_cases();
-    std::vector<Case> chosen;
+std::vector<PeerCase> choose_cases_by_words(const std::vector<std::string>& words) {
+    const std::vector<PeerCase> all = list_all_cases();
+    std::vector<PeerCase> chosen;
     for (const std::string& word : words) {
-        const auto found = std::ranges::find(all, word, &Case::name);
+        const auto found = std::ranges::find(all, word, &PeerCase::name);
         std::string names;
-        for (const Case& one : all) names += " " + one.name;
+        for (const PeerCase& one : all) names += " " + one.name;
         check(found != all.end(), Failure::usage, "no case '", word, "': there are", names);
         chosen.push_back(*found);
     }
@@ -61,7 +61,7 @@ std::vector<Case> cases_of(const std::vector<std::string>& words) {
 
 /// Returns the number of rounds in the first word and removes this word. Returns 0 if the first
 /// word is no number.
-int take_rounds(std::vector<std::string>& words) {
+int parse_round_count(std::vector<std::string>& words) {
     int rounds = 0;
     if (words.empty()) return 0;
     const char* const end = words[0].data() + words[0].size();
@@ -74,26 +74,29 @@ int take_rounds(std::vector<std::string>& words) {
 } // namespace
 
 int main(int argc, char** argv) try {
-    const app::UsageMeter meter(
-        app::UsageMeter::CountedThreads::process); // created before other threads start
+    const app::ProcessorUsageMeter meter(
+        app::ProcessorUsageMeter::CountedThreadChoice::process); // created before other threads
+                                                                 // start
     std::vector<std::string> words(argv + 1, argv + argc);
-    const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples), take_rounds(words));
-    const std::vector<Case> cases = cases_of(words);
-    if (!meter.uncounted().empty())
-        std::printf("cycles are not counted: %s\n", meter.uncounted().c_str());
+    const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples),
+                                parse_round_count(words));
+    const std::vector<PeerCase> cases = choose_cases_by_words(words);
+    if (!meter.why_not_counted().empty())
+        std::printf("cycles are not counted: %s\n", meter.why_not_counted().c_str());
     for (const gpu::EmbeddedShader& shader : peers::prototype_shaders()) gpu::add_shader(shader);
     const peers::EmbreeDevice device;
     app::Engine engine({});
     const int threads = std::max(1, engine.device().threads);
-    std::printf("%s, %s; Embree %s, packets of 16 %s; %d threads each\n",
-                engine.device().name.c_str(), engine.device().driver.c_str(), RTC_VERSION_STRING,
-                rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)
-                    ? "native"
-                    : "emulated",
-                threads);
-    const Bench bench{engine, meter, device, threads, rounds};
+    std::printf(
+        "%s, %s; Embree %s, packets of 16 %s; %d threads each\n", engine.device().name.c_str(),
+        engine.device().driver.c_str(), RTC_VERSION_STRING,
+        rtcGetDeviceProperty(device.embree_device(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)
+            ? "native"
+            : "emulated",
+        threads);
+    const PeerBench bench{engine, meter, device, threads, rounds};
     bool same = true;
-    for (const Case& one : cases) same = one.compare(bench) && same;
+    for (const PeerCase& one : cases) same = one.compare(bench) && same;
     return same ? 0 : 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "catoptric_peers: %s\n", error.what());

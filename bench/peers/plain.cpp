@@ -6,19 +6,19 @@
 namespace peers {
 
 using namespace catoptric;
-using gpu::check_vk;
+using gpu::throw_unless_vk_success;
 
 namespace {
 
-VkImageAspectFlags aspect_of(Format format) {
-    return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
+    return is_depth_format(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 } // namespace
 
-PlainImage::PlainImage(gpu::Device& device, Format format, uvec2 size, std::uint32_t layers,
-                       VkImageUsageFlags usage)
-    : device_(device.handle()), format_(format), extent_{size.x, size.y} {
+GeneralLayoutImage::GeneralLayoutImage(gpu::GpuDevice& device, TexelFormat format, uvec2 size,
+                                       std::uint32_t layers, VkImageUsageFlags usage)
+    : peer_device_(device.device_handle()), format_(format), extent_{size.x, size.y} {
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = layers % 6 == 0 ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
@@ -29,106 +29,113 @@ PlainImage::PlainImage(gpu::Device& device, Format format, uvec2 size, std::uint
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = usage;
     VkImage image = VK_NULL_HANDLE;
-    check_vk(vkCreateImage(device_, &create, nullptr, &image), "create a plain image");
-    image_ = {device_, image};
+    throw_unless_vk_success(vkCreateImage(peer_device_, &create, nullptr, &image),
+                            "create a plain image");
+    image_ = {peer_device_, image};
     VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device_, image, &needs);
+    vkGetImageMemoryRequirements(peer_device_, image, &needs);
     memory_ = device.allocate(needs.size,
                               static_cast<std::uint32_t>(device.memory_type(
                                   needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)),
                               "a plain image");
-    check_vk(vkBindImageMemory(device_, image, memory_, 0), "bind a plain image");
+    throw_unless_vk_success(vkBindImageMemory(peer_device_, image, memory_, 0),
+                            "bind a plain image");
     device.submit_now("lay out a plain image", [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
         barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         barrier.image = image;
-        barrier.subresourceRange = {aspect_of(format), 0, 1, 0, layers};
+        barrier.subresourceRange = {image_aspect_of_format(format), 0, 1, 0, layers};
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                              VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1,
                              &barrier);
     });
 }
 
-VkImageView PlainImage::view(VkImageViewType type, std::uint32_t first, std::uint32_t count) {
+VkImageView GeneralLayoutImage::view(VkImageViewType type, std::uint32_t first,
+                                     std::uint32_t count) {
     VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     create.image = image_;
     create.viewType = type;
     create.format = gpu::to_vk_format(format_);
-    create.subresourceRange = {aspect_of(format_), 0, 1, first, count};
+    create.subresourceRange = {image_aspect_of_format(format_), 0, 1, first, count};
     VkImageView view = VK_NULL_HANDLE;
-    check_vk(vkCreateImageView(device_, &create, nullptr, &view), "view a plain image");
-    views_.emplace_back(device_, view);
+    throw_unless_vk_success(vkCreateImageView(peer_device_, &create, nullptr, &view),
+                            "view a plain image");
+    views_.emplace_back(peer_device_, view);
     return view;
 }
 
-void PlainImage::copy(VkCommandBuffer commands, const gpu::Buffer& to) const {
+void GeneralLayoutImage::copy(VkCommandBuffer commands, const gpu::GpuBuffer& to) const {
     VkBufferImageCopy region{};
-    region.imageSubresource = {aspect_of(format_), 0, 0, 1};
+    region.imageSubresource = {image_aspect_of_format(format_), 0, 0, 1};
     region.imageExtent = {extent_.width, extent_.height, 1};
-    vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+    vkCmdCopyImageToBuffer(commands, image_, VK_IMAGE_LAYOUT_GENERAL, to.buffer_handle(), 1,
+                           &region);
 }
 
-std::vector<Vector> vectors_of(const gpu::Buffer& texels) {
-    const std::vector<std::byte> bytes = texels.read();
-    std::vector<Vector> vectors(bytes.size() / sizeof(vec4));
+std::vector<PeerVector> read_image_vectors(const gpu::GpuBuffer& texels) {
+    const std::vector<std::byte> bytes = texels.read_contents();
+    std::vector<PeerVector> vectors(bytes.size() / sizeof(vec4));
     for (std::size_t i = 0; i < vectors.size(); ++i)
-        std::memcpy(&vectors[i], &bytes[i * sizeof(vec4)], sizeof(Vector));
+        std::memcpy(&vectors[i], &bytes[i * sizeof(vec4)], sizeof(PeerVector));
     return vectors;
 }
 
-void Bound::bind(VkCommandBuffer commands) const {
+void BoundPlainPipeline::bind(VkCommandBuffer commands) const {
     vkCmdBindPipeline(commands, pipeline->bind_point, pipeline->pipeline);
     vkCmdBindDescriptorSets(commands, pipeline->bind_point, pipeline->layout, 0, 1, &set, 0,
                             nullptr);
 }
 
-PlainSets::PlainSets(const gpu::Device& device) : device_(device) {
-    constexpr std::uint32_t kMost = 64;
+PlainDescriptorSets::PlainDescriptorSets(const gpu::GpuDevice& device) : peer_device_(device) {
+    constexpr std::uint32_t kMaxDescriptorSets = 64;
     const std::array<VkDescriptorPoolSize, 5> sizes{
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kMost},
-         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kMost},
-         {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kMost},
-         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMost},
-         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kMost}}};
+        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kMaxDescriptorSets},
+         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kMaxDescriptorSets},
+         {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, kMaxDescriptorSets},
+         {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kMaxDescriptorSets},
+         {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kMaxDescriptorSets}}};
     VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    create.maxSets = kMost;
+    create.maxSets = kMaxDescriptorSets;
     create.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     create.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    check_vk(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool),
-             "create a descriptor pool");
-    pool_ = {device.handle(), pool};
+    throw_unless_vk_success(vkCreateDescriptorPool(device.device_handle(), &create, nullptr, &pool),
+                            "create a descriptor pool");
+    pool_ = {device.device_handle(), pool};
 }
 
-Bound PlainSets::bind(const gpu::Pipeline& pipeline, const Resources& resources) {
+BoundPlainPipeline PlainDescriptorSets::bind(const gpu::Pipeline& pipeline,
+                                             const Resources& resources) {
     const VkDescriptorSetLayout layout = pipeline.set_layout;
     VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     allocate.descriptorPool = pool_;
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    check_vk(vkAllocateDescriptorSets(device_.handle(), &allocate, &set), "allocate a set");
+    throw_unless_vk_success(vkAllocateDescriptorSets(peer_device_.device_handle(), &allocate, &set),
+                            "allocate a set");
     for (const gpu::ShaderBinding& binding : pipeline.bindings) {
         const auto found = resources.find(binding.name);
         check(found != resources.end(), Failure::internal, "a prototype lacks '", binding.name,
               "'");
         const auto& [buffer, view, sampler] = found->second;
         const VkDescriptorImageInfo image{sampler, view, VK_IMAGE_LAYOUT_GENERAL};
-        const VkDescriptorBufferInfo bytes{buffer ? buffer->handle() : VK_NULL_HANDLE, 0,
+        const VkDescriptorBufferInfo bytes{buffer ? buffer->buffer_handle() : VK_NULL_HANDLE, 0,
                                            VK_WHOLE_SIZE};
-        const VkBufferView texels = buffer ? buffer->texels() : VK_NULL_HANDLE;
+        const VkBufferView texels = buffer ? buffer->texel_buffer_view() : VK_NULL_HANDLE;
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
         write.dstBinding = binding.binding;
         write.descriptorCount = 1;
         write.descriptorType = gpu::descriptor_type_of_binding(binding.kind);
         write.pImageInfo = &image, write.pBufferInfo = &bytes, write.pTexelBufferView = &texels;
-        vkUpdateDescriptorSets(device_.handle(), 1, &write, 0, nullptr);
+        vkUpdateDescriptorSets(peer_device_.device_handle(), 1, &write, 0, nullptr);
     }
     return {&pipeline, set};
 }
 
-gpu::UniqueSampler linear_sampler(const gpu::Device& device, bool compares) {
+gpu::UniqueSampler make_linear_sampler(const gpu::GpuDevice& device, bool compares) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     create.magFilter = create.minFilter = VK_FILTER_LINEAR;
     create.addressModeU = create.addressModeV = create.addressModeW =
@@ -136,11 +143,12 @@ gpu::UniqueSampler linear_sampler(const gpu::Device& device, bool compares) {
     create.compareEnable = compares;
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
-    check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
-    return {device.handle(), sampler};
+    throw_unless_vk_success(vkCreateSampler(device.device_handle(), &create, nullptr, &sampler),
+                            "create a sampler");
+    return {device.device_handle(), sampler};
 }
 
-void plain_barrier(VkCommandBuffer commands) {
+void record_plain_barrier(VkCommandBuffer commands) {
     const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
                                   VK_ACCESS_MEMORY_WRITE_BIT,
                                   VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};
@@ -149,7 +157,7 @@ void plain_barrier(VkCommandBuffer commands) {
                          nullptr);
 }
 
-VkRenderingAttachmentInfo cleared(VkImageView view, float red, bool stored) {
+VkRenderingAttachmentInfo make_cleared_attachment(VkImageView view, float red, bool stored) {
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = view;
     info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;

@@ -12,69 +12,71 @@
 namespace peers {
 
 /// An image that is always in VK_IMAGE_LAYOUT_GENERAL.
-class PlainImage {
+class GeneralLayoutImage {
 public:
-    PlainImage() = default;
-    PlainImage(catoptric::gpu::Device& device, catoptric::Format format, catoptric::uvec2 size,
-               std::uint32_t layers, VkImageUsageFlags usage);
+    GeneralLayoutImage() = default;
+    GeneralLayoutImage(catoptric::gpu::GpuDevice& device, catoptric::TexelFormat format,
+                       catoptric::uvec2 size, std::uint32_t layers, VkImageUsageFlags usage);
 
     /// Returns a view of `count` layers from layer `first`. The view is valid as long as the image.
     VkImageView view(VkImageViewType type, std::uint32_t first = 0, std::uint32_t count = 1);
-    VkExtent2D extent() const { return extent_; }
+    VkExtent2D image_extent() const { return extent_; }
     /// Copies the texels of the first layer to a buffer.
-    void copy(VkCommandBuffer commands, const catoptric::gpu::Buffer& to) const;
+    void copy(VkCommandBuffer commands, const catoptric::gpu::GpuBuffer& to) const;
 
 private:
-    catoptric::gpu::DeviceHandle device_;
-    catoptric::Format format_{};
+    catoptric::gpu::DeviceHandle peer_device_;
+    catoptric::TexelFormat format_{};
     VkExtent2D extent_{};
     catoptric::gpu::UniqueMemory memory_; // declared before the image, so destroyed after the image
     catoptric::gpu::UniqueImage image_;
     std::vector<catoptric::gpu::UniqueImageView> views_;
 };
 
-/// Returns the texels, without alpha, of an rgba32f image that PlainImage::copy copied to a buffer.
-std::vector<Vector> vectors_of(const catoptric::gpu::Buffer& texels);
+/// Returns the texels, without alpha, of an rgba32f image that GeneralLayoutImage::copy copied to a
+/// buffer.
+std::vector<PeerVector> read_image_vectors(const catoptric::gpu::GpuBuffer& texels);
 
 /// The resource of a named shader binding: a buffer, or an image view with or without a sampler.
-struct Resource {
-    const catoptric::gpu::Buffer* buffer = nullptr;
+struct BoundResource {
+    const catoptric::gpu::GpuBuffer* buffer = nullptr;
     VkImageView view = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE;
 };
-using Resources = std::map<std::string, Resource>;
+using Resources = std::map<std::string, BoundResource>;
 
 /// A pipeline with its descriptor set.
-struct Bound {
+struct BoundPlainPipeline {
     const catoptric::gpu::Pipeline* pipeline = nullptr;
     VkDescriptorSet set = VK_NULL_HANDLE;
 
     void bind(VkCommandBuffer commands) const;
     template <typename Push>
-    void push(VkCommandBuffer commands, const Push& push) const {
+    void push_draw_constants(VkCommandBuffer commands, const Push& push) const {
         vkCmdPushConstants(commands, pipeline->layout, pipeline->stages, 0, sizeof push, &push);
     }
 };
 
 /// Allocates and owns the descriptor sets of a program.
-class PlainSets {
+class PlainDescriptorSets {
 public:
-    explicit PlainSets(const catoptric::gpu::Device& device);
+    explicit PlainDescriptorSets(const catoptric::gpu::GpuDevice& device);
     /// Writes a descriptor set with the resources that the pipeline uses, by the bindings' names.
-    Bound bind(const catoptric::gpu::Pipeline& pipeline, const Resources& resources);
+    BoundPlainPipeline bind(const catoptric::gpu::Pipeline& pipeline, const Resources& resources);
 
 private:
-    const catoptric::gpu::Device& device_;
+    const catoptric::gpu::GpuDevice& peer_device_;
     catoptric::gpu::UniqueDescriptorPool pool_;
 };
 
 /// Creates a sampler with bilinear filtering. With `compares` the sampler compares reversed depth.
-catoptric::gpu::UniqueSampler linear_sampler(const catoptric::gpu::Device& device, bool compares);
+catoptric::gpu::UniqueSampler make_linear_sampler(const catoptric::gpu::GpuDevice& device,
+                                                  bool compares);
 
 /// Records a barrier that makes all writes before it visible to all commands after it.
-void plain_barrier(VkCommandBuffer commands);
+void record_plain_barrier(VkCommandBuffer commands);
 
 /// Returns an attachment that is cleared to `red` (of a depth image, the depth).
-VkRenderingAttachmentInfo cleared(VkImageView view, float red, bool stored = true);
+VkRenderingAttachmentInfo make_cleared_attachment(VkImageView view, float red, bool stored = true);
 
 } // namespace peers

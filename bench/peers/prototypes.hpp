@@ -13,30 +13,32 @@ namespace peers {
 
 /// The prototypes: "prototype/stack" and "prototype/links" trace rays with two forms of tree.
 /// "prototype/FACE" draws captures with faces of FACE texels.
-class Prototypes {
+class PrototypePrograms {
 public:
     /// Sets up all prototypes for the request's scene and view. `mesh` is the same scene without
     /// exact spheres.
-    Prototypes(const catoptric::app::Request& request, const PeerScene& mesh);
-    ~Prototypes();
-    Prototypes(const Prototypes&) = delete;
-    Prototypes& operator=(const Prototypes&) = delete;
+    PrototypePrograms(const catoptric::app::Request& request, const EmbreePeerScene& mesh);
+    ~PrototypePrograms();
+    PrototypePrograms(const PrototypePrograms&) = delete;
+    PrototypePrograms& operator=(const PrototypePrograms&) = delete;
 
     /// Returns the names of the prototypes that trace rays.
     static std::vector<std::string> tracers();
     /// Returns the name of the prototype with captures of this edge, texels.
-    static std::string name_of(int face) { return "prototype/" + std::to_string(face); }
+    static std::string prototype_name_of_edge(int face) {
+        return "prototype/" + std::to_string(face);
+    }
 
     /// Returns benchmarks that each draw a frame and wait for the device. They must not outlive the
     /// prototypes.
     std::vector<catoptric::app::BenchmarkSubject> subjects(int warmup);
     /// Returns a prototype's picture of its last frame, linear. Throws if no prototype has the
     /// name.
-    std::vector<Vector> read(const std::string& name);
+    std::vector<PeerVector> read(const std::string& name);
 
 private:
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<Impl> prototype_impl_;
 };
 
 } // namespace peers

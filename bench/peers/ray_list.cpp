@@ -7,20 +7,22 @@ namespace peers {
 using namespace catoptric;
 using gpu::BufferUsage;
 
-RayList::RayList(gpu::Device& device, gpu::Pipelines& pipelines,
-                 std::span<const bvh::Triangle> triangles, std::span<const Ray> rays)
-    : device_(device), met_(device, "met", rays.size() * sizeof(Met), BufferUsage::read_back),
-      sets_(device), groups_(static_cast<std::uint32_t>(rays.size() / 64)) {
+TracedRayList::TracedRayList(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+                             std::span<const bvh::Triangle> triangles, std::span<const Ray> rays)
+    : peer_device_(device),
+      met_(device, "met", rays.size() * sizeof(FirstRayHit), BufferUsage::read_back), sets_(device),
+      groups_(static_cast<std::uint32_t>(rays.size() / 64)) {
     const bvh::Bvh tree = bvh::build_bvh(triangles);
     std::vector<vec4> texels;
     for (const auto& [origin, direction] : rays) {
         texels.emplace_back(origin.x, origin.y, origin.z, 0);
         texels.emplace_back(direction.x, direction.y, direction.z, 0);
     }
-    gpu::upload_to_buffer(device_, nodes_, "nodes", tree.nodes, BufferUsage::texels);
-    gpu::upload_to_buffer(device_, triangles_, "triangles", tree.triangles, BufferUsage::texels);
-    gpu::upload_to_buffer(device_, rays_, "rays", texels, BufferUsage::texels);
-    met_.write(std::span<const Met>(std::vector<Met>(rays.size())));
+    gpu::upload_to_buffer(peer_device_, nodes_, "nodes", tree.nodes, BufferUsage::texels);
+    gpu::upload_to_buffer(peer_device_, triangles_, "triangles", tree.triangles,
+                          BufferUsage::texels);
+    gpu::upload_to_buffer(peer_device_, rays_, "rays", texels, BufferUsage::texels);
+    met_.write_contents(std::span<const FirstRayHit>(std::vector<FirstRayHit>(rays.size())));
     bound_ = sets_.bind(pipelines.find_or_make_compute({"peers/rays.comp", {}}),
                         {{"bvh_nodes", {&nodes_}},
                          {"bvh_triangles", {&triangles_}},
@@ -28,17 +30,17 @@ RayList::RayList(gpu::Device& device, gpu::Pipelines& pipelines,
                          {"Met", {&met_}}});
 }
 
-void RayList::trace() {
-    device_.submit_now("trace a list of rays", [&](VkCommandBuffer commands) {
+void TracedRayList::trace_all_rays() {
+    peer_device_.submit_now("trace a list of rays", [&](VkCommandBuffer commands) {
         bound_.bind(commands);
         vkCmdDispatch(commands, groups_, 1, 1);
-        plain_barrier(commands);
+        record_plain_barrier(commands);
     });
 }
 
-std::vector<Met> RayList::read() const {
-    const std::vector<std::byte> bytes = met_.read();
-    std::vector<Met> met(bytes.size() / sizeof(Met));
+std::vector<FirstRayHit> TracedRayList::read() const {
+    const std::vector<std::byte> bytes = met_.read_contents();
+    std::vector<FirstRayHit> met(bytes.size() / sizeof(FirstRayHit));
     std::memcpy(met.data(), bytes.data(), bytes.size());
     return met;
 }

@@ -7,21 +7,21 @@
 namespace peers {
 
 /// Traces a list of rays with the engine's BVH walk (shaders/lib/trace.glsl).
-class RayList {
+class TracedRayList {
 public:
     /// Builds the tree and uploads the rays. The number of rays must be a multiple of 64.
-    RayList(catoptric::gpu::Device& device, catoptric::gpu::Pipelines& pipelines,
-            std::span<const catoptric::bvh::Triangle> triangles, std::span<const Ray> rays);
+    TracedRayList(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
+                  std::span<const catoptric::bvh::Triangle> triangles, std::span<const Ray> rays);
 
     /// Traces all rays and waits for the device.
-    void trace();
-    std::vector<Met> read() const; ///< returns the hits of the last `trace`
+    void trace_all_rays();
+    std::vector<FirstRayHit> read() const; ///< returns the hits of the last `trace_all_rays`
 
 private:
-    catoptric::gpu::Device& device_;
-    catoptric::gpu::Buffer nodes_, triangles_, rays_, met_;
-    PlainSets sets_;
-    Bound bound_;
+    catoptric::gpu::GpuDevice& peer_device_;
+    catoptric::gpu::GpuBuffer nodes_, triangles_, rays_, met_;
+    PlainDescriptorSets sets_;
+    BoundPlainPipeline bound_;
     std::uint32_t groups_;
 };
 

@@ -9,22 +9,23 @@
 namespace peers {
 
 struct Ray {
-    Vector origin, direction; ///< the direction has length 1
+    PeerVector origin, direction; ///< the direction has length 1
 };
 
 /// The first hit of a ray.
-struct Met {
+struct FirstRayHit {
     /// Values of `triangle`: the ray meets no triangle; the ray was not traced, or our walk stopped
     /// at its step limit.
-    static constexpr std::uint32_t kNothing = 0xffffffff, kUntraced = 0xfffffffe;
+    static constexpr std::uint32_t kNoTriangle = 0xffffffff, kUntraced = 0xfffffffe;
     float t = 0;
     std::uint32_t triangle = kUntraced;
 };
-static_assert(sizeof(Met) == 8); // shaders/rays.comp writes two words
+static_assert(sizeof(FirstRayHit) == 8); // shaders/rays.comp writes two words
 
 /// Returns the first hits of rays in Embree's tree of triangles. Each call to Embree traces `width`
 /// rays: 1, 8 or 16. The number of rays must be a multiple of 16. Each of `threads` threads takes
 /// runs of 256 rays from a shared counter.
-std::vector<Met> meet(RTCScene tree, std::span<const Ray> rays, int width, int threads);
+std::vector<FirstRayHit> find_closest_hits_of_rays(RTCScene tree, std::span<const Ray> rays,
+                                                   int width, int threads);
 
 } // namespace peers

@@ -11,7 +11,7 @@ namespace {
 
 /// Returns the built-in scene with more triangles: balls of 4^(levels+1) triangles, and a diffuse
 /// torus of around^2 triangles.
-scene::Scene finer(int levels, int around) {
+scene::Scene make_finer_built_in_scene(int levels, int around) {
     scene::Scene scene = scene::make_cornell_mirrors();
     // All four balls share this mesh.
     scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels);
@@ -21,13 +21,13 @@ scene::Scene finer(int levels, int around) {
     return scene;
 }
 
-constexpr NamedScene kScenes[] = {{"built-in", scene::make_cornell_mirrors},
-                                  {"100k", [] { return finer(6, 186); }},
-                                  {"1M", [] { return finer(7, 860); }},
-                                  {"room", [] { return scene::load("room"); }}};
+constexpr NamedScene kNamedScenes[] = {{"built-in", scene::make_cornell_mirrors},
+                                       {"100k", [] { return make_finer_built_in_scene(6, 186); }},
+                                       {"1M", [] { return make_finer_built_in_scene(7, 860); }},
+                                       {"room", [] { return scene::load("room"); }}};
 
 } // namespace
 
-std::span<const NamedScene> scenes() { return kScenes; }
+std::span<const NamedScene> list_named_scenes() { return kNamedScenes; }
 
 } // namespace peers

@@ -9,12 +9,12 @@ namespace peers {
 
 namespace {
 
-const Sphere& sphere_at(const void* list, unsigned number) {
-    return static_cast<const Sphere*>(list)[number];
+const PeerSphere& sphere_of_list(const void* list, unsigned number) {
+    return static_cast<const PeerSphere*>(list)[number];
 }
 
-void put_bounds(const RTCBoundsFunctionArguments* asked) {
-    const auto& [centre, radius] = sphere_at(asked->geometryUserPtr, asked->primID);
+void write_sphere_bounds(const RTCBoundsFunctionArguments* asked) {
+    const auto& [centre, radius] = sphere_of_list(asked->geometryUserPtr, asked->primID);
     RTCBounds& box = *asked->bounds_o;
     box.lower_x = centre.x - radius, box.lower_y = centre.y - radius,
     box.lower_z = centre.z - radius;
@@ -25,83 +25,88 @@ void put_bounds(const RTCBoundsFunctionArguments* asked) {
 /// Intersects a packet of rays with a sphere. The discriminant is computed from the ray's point
 /// nearest to the centre, which stays precise far away (Haines, Günther, Akenine-Möller 2019).
 template <typename Kind>
-struct Meeting {
+struct SphereIntersection {
     using Real = typename Kind::Real;
     typename Kind::Mask met;
     Real t;
-    Three<Real> arm; ///< vector from the sphere's centre to the hit
+    PacketVector<Real> arm; ///< vector from the sphere's centre to the hit
 
-    Meeting(const Sphere& sphere, const typename Kind::Rays& ray,
-            const typename Kind::Mask& valid) {
-        const Three<Real> direction{load<Real>(ray.dir_x), load<Real>(ray.dir_y),
-                                    load<Real>(ray.dir_z)};
-        const Three<Real> from = Three<Real>{load<Real>(ray.org_x), load<Real>(ray.org_y),
-                                             load<Real>(ray.org_z)} -
-                                 same<Real>(sphere.centre);
-        const Real scale = (Real{} + 1.0f) / dot(direction, direction);
-        const Real nearest = Real{} - scale * dot(from, direction);
-        const Three<Real> off = from + nearest * direction;
-        const Real rest = (Real{} + sphere.radius * sphere.radius) - dot(off, off);
-        const Real half = root(scale * select(greater(rest, Real{}), rest, Real{}));
-        const Real begin = load<Real>(ray.tnear), end = load<Real>(ray.tfar);
+    SphereIntersection(const PeerSphere& sphere, const typename Kind::Rays& ray,
+                       const typename Kind::Mask& valid) {
+        const PacketVector<Real> direction{load_packet_values<Real>(ray.dir_x),
+                                           load_packet_values<Real>(ray.dir_y),
+                                           load_packet_values<Real>(ray.dir_z)};
+        const PacketVector<Real> from = PacketVector<Real>{load_packet_values<Real>(ray.org_x),
+                                                           load_packet_values<Real>(ray.org_y),
+                                                           load_packet_values<Real>(ray.org_z)} -
+                                        broadcast_vector<Real>(sphere.centre);
+        const Real scale = (Real{} + 1.0f) / dot_product(direction, direction);
+        const Real nearest = Real{} - scale * dot_product(from, direction);
+        const PacketVector<Real> off = from + nearest * direction;
+        const Real rest = (Real{} + sphere.radius * sphere.radius) - dot_product(off, off);
+        const Real half = square_root(scale * select_lanes(is_greater(rest, Real{}), rest, Real{}));
+        const Real begin = load_packet_values<Real>(ray.tnear),
+                   end = load_packet_values<Real>(ray.tfar);
         const Real first = nearest - half, second = nearest + half;
-        t = select(greater(first, begin), first, second);
-        met = valid & greater(rest, Real{}) & greater(t, begin) & greater(end, t);
+        t = select_lanes(is_greater(first, begin), first, second);
+        met = valid & is_greater(rest, Real{}) & is_greater(t, begin) & is_greater(end, t);
         arm = from + t * direction;
     }
 };
 
 /// Stores a vector into one of Embree's arrays, in the lanes of the mask only.
 template <typename Mask, typename Value, typename Field>
-void store_some(const Mask& mask, Field& field, const Value& value) {
-    store(field, select(mask, value, load<Value>(field)));
+void store_masked_lanes(const Mask& mask, Field& field, const Value& value) {
+    store_packet_values(field, select_lanes(mask, value, load_packet_values<Value>(field)));
 }
 
 template <typename Kind>
-void meet_all(const RTCIntersectFunctionNArguments* asked) {
+void intersect_packet_of_any_width(const RTCIntersectFunctionNArguments* asked) {
     using Mask = typename Kind::Mask;
     auto& hits = *reinterpret_cast<typename Kind::Hits*>(asked->rayhit);
     Mask valid;
     std::memcpy(&valid, asked->valid, sizeof valid);
-    const Meeting<Kind> meeting(sphere_at(asked->geometryUserPtr, asked->primID), hits.ray, valid);
-    store_some(meeting.met, hits.ray.tfar, meeting.t);
-    store_some(meeting.met, hits.hit.Ng_x, meeting.arm.x);
-    store_some(meeting.met, hits.hit.Ng_y, meeting.arm.y);
-    store_some(meeting.met, hits.hit.Ng_z, meeting.arm.z);
-    store_some(meeting.met, hits.hit.geomID, Mask{} + static_cast<int>(asked->geomID));
-    store_some(meeting.met, hits.hit.primID, Mask{} + static_cast<int>(asked->primID));
+    const SphereIntersection<Kind> meeting(sphere_of_list(asked->geometryUserPtr, asked->primID),
+                                           hits.ray, valid);
+    store_masked_lanes(meeting.met, hits.ray.tfar, meeting.t);
+    store_masked_lanes(meeting.met, hits.hit.Ng_x, meeting.arm.x);
+    store_masked_lanes(meeting.met, hits.hit.Ng_y, meeting.arm.y);
+    store_masked_lanes(meeting.met, hits.hit.Ng_z, meeting.arm.z);
+    store_masked_lanes(meeting.met, hits.hit.geomID, Mask{} + static_cast<int>(asked->geomID));
+    store_masked_lanes(meeting.met, hits.hit.primID, Mask{} + static_cast<int>(asked->primID));
 }
 
 template <typename Kind>
-void block_all(const RTCOccludedFunctionNArguments* asked) {
+void occlude_packet_of_any_width(const RTCOccludedFunctionNArguments* asked) {
     using Real = typename Kind::Real;
     auto& rays = *reinterpret_cast<typename Kind::Rays*>(asked->ray);
     typename Kind::Mask valid;
     std::memcpy(&valid, asked->valid, sizeof valid);
-    const Meeting<Kind> meeting(sphere_at(asked->geometryUserPtr, asked->primID), rays, valid);
-    store_some(meeting.met, rays.tfar, Real{} - std::numeric_limits<float>::infinity());
+    const SphereIntersection<Kind> meeting(sphere_of_list(asked->geometryUserPtr, asked->primID),
+                                           rays, valid);
+    store_masked_lanes(meeting.met, rays.tfar, Real{} - std::numeric_limits<float>::infinity());
 }
 
-void meet(const RTCIntersectFunctionNArguments* asked) {
-    if (asked->N == 1) return meet_all<One>(asked);
-    if (asked->N == 8) return meet_all<Eight>(asked);
-    meet_all<Sixteen>(asked);
+void intersect_packet_with_sphere(const RTCIntersectFunctionNArguments* asked) {
+    if (asked->N == 1) return intersect_packet_of_any_width<SingleRayPacket>(asked);
+    if (asked->N == 8) return intersect_packet_of_any_width<EightRayPacket>(asked);
+    intersect_packet_of_any_width<SixteenRayPacket>(asked);
 }
-void block(const RTCOccludedFunctionNArguments* asked) {
-    if (asked->N == 1) return block_all<One>(asked);
-    if (asked->N == 8) return block_all<Eight>(asked);
-    block_all<Sixteen>(asked);
+void occlude_packet_by_sphere(const RTCOccludedFunctionNArguments* asked) {
+    if (asked->N == 1) return occlude_packet_of_any_width<SingleRayPacket>(asked);
+    if (asked->N == 8) return occlude_packet_of_any_width<EightRayPacket>(asked);
+    occlude_packet_of_any_width<SixteenRayPacket>(asked);
 }
 
 } // namespace
 
-RTCGeometry user_spheres(RTCDevice device, const std::vector<Sphere>& spheres) {
+RTCGeometry make_sphere_geometry(RTCDevice device, const std::vector<PeerSphere>& spheres) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
-    rtcSetGeometryUserData(geometry, const_cast<Sphere*>(spheres.data()));
-    rtcSetGeometryBoundsFunction(geometry, put_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, meet);
-    rtcSetGeometryOccludedFunction(geometry, block);
+    rtcSetGeometryUserData(geometry, const_cast<PeerSphere*>(spheres.data()));
+    rtcSetGeometryBoundsFunction(geometry, write_sphere_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, intersect_packet_with_sphere);
+    rtcSetGeometryOccludedFunction(geometry, occlude_packet_by_sphere);
     rtcCommitGeometry(geometry);
     return geometry;
 }

@@ -8,6 +8,6 @@ namespace peers {
 /// Embree's own spheres (RTC_GEOMETRY_TYPE_SPHERE_POINT), a frame takes 1.2, 1.4 and 2 times as
 /// long for packets of 1, 8 and 16 rays. The caller releases the geometry. The list must outlive
 /// it.
-RTCGeometry user_spheres(RTCDevice device, const std::vector<Sphere>& spheres);
+RTCGeometry make_sphere_geometry(RTCDevice device, const std::vector<PeerSphere>& spheres);
 
 } // namespace peers

@@ -8,11 +8,11 @@ namespace peers {
 
 /// The two texels whose centres lie on both sides of a texture coordinate, and the weight of the
 /// second texel. The axis has `size` texels and repeats.
-struct Between {
+struct BilinearTexelPair {
     int first, second;
     float share;
 
-    Between(float u, int size) {
+    BilinearTexelPair(float u, int size) {
         const float place = (u - std::floor(u)) * static_cast<float>(size) - .5F;
         const float below = std::floor(place);
         share = place - below;
@@ -21,18 +21,18 @@ struct Between {
     }
 };
 
-inline Vector mix(const Vector& a, const Vector& b, float share) {
+inline PeerVector interpolate_vectors(const PeerVector& a, const PeerVector& b, float share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-inline Vector colour_at(const Texture& texture, Place place) {
-    const Between across(place.u, texture.width), down(place.v, texture.height);
+inline PeerVector sample_texture_bilinear(const PeerTexture& texture, TextureCoordinates place) {
+    const BilinearTexelPair across(place.u, texture.width), down(place.v, texture.height);
     const auto row = [&](int y) {
-        const Vector* const texels =
+        const PeerVector* const texels =
             &texture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width)];
-        return mix(texels[across.first], texels[across.second], across.share);
+        return interpolate_vectors(texels[across.first], texels[across.second], across.share);
     };
-    return mix(row(down.first), row(down.second), down.share);
+    return interpolate_vectors(row(down.first), row(down.second), down.share);
 }
 
 } // namespace peers

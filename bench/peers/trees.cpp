@@ -10,64 +10,65 @@
 namespace peers {
 
 using namespace catoptric;
-using measure::Benchmark;
+using measure::BenchmarkResult;
 
 namespace {
 
-constexpr int kTorus = 1000; // segments of the torus, which has kTorus^2 triangles
+constexpr int kTorusSegments = 1000; // segments of the torus, which has kTorusSegments^2 triangles
 
-void compare_builds(const Bench& bench, const std::vector<bvh::Triangle>& triangles) {
-    RTCGeometry geometry = triangle_geometry(bench.device, triangles);
+void compare_tree_build_times(const PeerBench& bench, const std::vector<bvh::Triangle>& triangles) {
+    RTCGeometry geometry = make_triangle_geometry(bench.device, triangles);
     const auto theirs = [&] {
         EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
-        tree.add(geometry);
-        tree.commit();
+        tree.add_geometry(geometry);
+        tree.build_tree();
     };
     const auto ours = [&](unsigned threads) {
         return [&triangles, threads] {
             bvh::build_bvh(triangles, {}, bvh::kMaxLeafTriangles, threads);
         };
     };
-    const std::vector<Benchmark> list = app::measure_in_rounds(
-        {app::make_subject("ours/build", ours(0)), app::make_subject("ours/build/1", ours(1)),
-         app::make_subject("embree/build", theirs)},
+    const std::vector<BenchmarkResult> list = app::measure_benchmarks_in_rounds(
+        {app::make_benchmark_subject("ours/build", ours(0)),
+         app::make_benchmark_subject("ours/build/1", ours(1)),
+         app::make_benchmark_subject("embree/build", theirs)},
         bench.meter, {.iterations = bench.rounds, .rounds = bench.rounds, .watcher = {}});
     rtcReleaseGeometry(geometry);
     std::printf("\n%zu triangles\n", triangles.size());
-    for (const Benchmark& benchmark : list)
-        print(benchmark, "triangles", static_cast<double>(triangles.size()) / 1e6);
-    print_ratio(list[0], list[2]);
-    print_ratio(list[1], list[2]);
+    for (const BenchmarkResult& benchmark : list)
+        print_benchmark(benchmark, "triangles", static_cast<double>(triangles.size()) / 1e6);
+    print_cost_ratio(list[0], list[2]);
+    print_cost_ratio(list[1], list[2]);
 }
 
 /// Prints the ratios of a ray's expected cost in our tree to that in Embree's trees of two build
 /// qualities.
-void compare_costs(const EmbreeDevice& device, const std::string& name,
-                   const std::vector<bvh::Triangle>& triangles) {
+void compare_tree_costs(const EmbreeDevice& device, const std::string& name,
+                        const std::vector<bvh::Triangle>& triangles) {
     const double ours = bvh::compute_sah_cost(bvh::build_bvh(triangles));
     std::printf("%-24s %8zu triangles, cost of the tree / Embree's: medium %.3f, high %.3f\n",
                 name.c_str(), triangles.size(),
-                ours / embree_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),
-                ours / embree_cost(device, triangles, RTC_BUILD_QUALITY_HIGH));
+                ours / compute_embree_tree_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),
+                ours / compute_embree_tree_cost(device, triangles, RTC_BUILD_QUALITY_HIGH));
 }
 
-std::vector<bvh::Triangle> torus() {
+std::vector<bvh::Triangle> make_torus_triangles() {
     scene::Scene scene;
-    scene.meshes.push_back(scene::torus("torus", 1, .4, kTorus));
+    scene.meshes.push_back(scene::torus("torus", 1, .4, kTorusSegments));
     scene.materials.emplace_back();
     scene.objects.emplace_back();
-    return triangles_of(scene);
+    return list_scene_triangles(scene);
 }
 
 } // namespace
 
-void compare_trees(const Bench& bench) {
-    const std::vector<bvh::Triangle> million = torus();
-    compare_builds(bench, million);
+void compare_trees(const PeerBench& bench) {
+    const std::vector<bvh::Triangle> million = make_torus_triangles();
+    compare_tree_build_times(bench, million);
     std::printf("\n");
-    compare_costs(bench.device, "torus", million);
+    compare_tree_costs(bench.device, "torus", million);
     for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
-        compare_costs(bench.device, scene.name, triangles_of(scene.make()));
+        compare_tree_costs(bench.device, scene.name, list_scene_triangles(scene.make()));
 }
 
 } // namespace peers

@@ -12,31 +12,31 @@
 /// header of the engine, because whitted.cpp is compiled for this machine's processor alone.
 namespace peers {
 
-struct Vector {
+struct PeerVector {
     float x = 0, y = 0, z = 0;
 };
 
-struct Sphere {
-    Vector centre;
+struct PeerSphere {
+    PeerVector centre;
     float radius = 0;
 };
 
 /// Texture coordinates.
-struct Place {
+struct TextureCoordinates {
     float u = 0, v = 0;
 };
 
 /// A texture of linear colours, row by row, which repeats along both axes and is sampled
 /// bilinearly.
-struct Texture {
-    std::vector<Vector> texels;
+struct PeerTexture {
+    std::vector<PeerVector> texels;
     int width = 0, height = 0;
 };
 
 /// The reflection and emission of an object's surface.
-struct Surface {
-    Vector albedo, emission;
-    Vector reflectance; ///< of a mirror at any angle, of a smooth dielectric head-on; else 0
+struct PeerSurface {
+    PeerVector albedo, emission;
+    PeerVector reflectance; ///< of a mirror at any angle, of a smooth dielectric head-on; else 0
     bool is_mirror = false;
     bool is_sharp = false;              ///< a smooth dielectric, whose F90 is 1
     bool turns = false;                 ///< two-sided: the normal turns to the viewer's side
@@ -44,31 +44,32 @@ struct Surface {
     std::optional<std::size_t> texture; ///< texture that multiplies the albedo
 };
 
-struct Light {
-    Vector position, normal, intensity; ///< a zero normal means no cosine factor at the light
+struct PeerLight {
+    PeerVector position, normal, intensity; ///< a zero normal means no cosine factor at the light
     bool is_spot = false;
-    Vector axis;                        ///< direction in which a spot shines
+    PeerVector axis;                    ///< direction in which a spot shines
     float cos_outer = 0, sharpness = 1; ///< sharpness: 1 / (cos inner - cos outer) of a spot
 };
 
 /// Numbers of the geometries in an Embree tree. Shadow rays pass through the lamps' triangles.
-enum GeometryNumber { kTriangles, kSpheres, kLamps };
+enum EmbreeGeometryNumber { kTriangles, kSpheres, kLamps };
 
 /// A scene with point lights and spots.
-struct Whitted {
+struct WhittedScene {
     RTCScene tree = nullptr;
-    std::vector<std::array<Vector, 3>> corners; ///< corners of each triangle
-    std::vector<std::array<Vector, 3>> normals; ///< normals at the corners of each triangle
-    std::vector<std::array<Place, 3>> places;   ///< texture coordinates of each triangle's corners
+    std::vector<std::array<PeerVector, 3>> corners; ///< corners of each triangle
+    std::vector<std::array<PeerVector, 3>> normals; ///< normals at the corners of each triangle
+    std::vector<std::array<TextureCoordinates, 3>>
+        places; ///< texture coordinates of each triangle's corners
     std::vector<std::uint32_t> triangle_objects;
     std::size_t first_lamp = 0; ///< first triangle of a lamp; lamps' triangles follow all others
-    std::vector<Sphere> spheres;
+    std::vector<PeerSphere> spheres;
     std::vector<std::uint32_t> sphere_objects;
-    std::vector<Surface> surfaces; ///< by object
-    std::vector<Texture> textures; ///< by material; empty for a material without a texture
-    std::vector<Light> lights;
+    std::vector<PeerSurface> surfaces; ///< by object
+    std::vector<PeerTexture> textures; ///< by material; empty for a material without a texture
+    std::vector<PeerLight> lights;
     float ambient = 0;
-    Vector eye, forward, right,
+    PeerVector eye, forward, right,
         down;                  ///< camera ray: forward + right * x + down * y, x and y in [-1, 1]
     int width = 0, height = 0; ///< size of the picture, multiples of 16
     int depth = 0;             ///< most mirror bounces; a path with more mirrors ends black
@@ -77,19 +78,19 @@ struct Whitted {
     float lift = 0;            ///< distance from a surface at which rays that leave it start
 };
 
-struct RayCounts {
+struct PeerRayCounts {
     std::uint64_t primary = 0, mirror = 0, shadow = 0;
-    std::uint64_t all() const { return primary + mirror + shadow; }
+    std::uint64_t total_ray_count() const { return primary + mirror + shadow; }
 };
 
-struct Traced {
-    std::vector<Vector> pixels; ///< linear radiance, row by row
-    RayCounts rays;
+struct TracedPeerPicture {
+    std::vector<PeerVector> pixels; ///< linear radiance, row by row
+    PeerRayCounts rays;
 };
 
 /// Traces a picture with one camera ray through each pixel's centre. Each call to Embree traces
 /// `width` rays: 1, 8 or 16. Each of `threads` threads takes tiles of 16x16 pixels from a shared
 /// counter.
-Traced trace(const Whitted& scene, int width, int threads);
+TracedPeerPicture trace_whitted_picture(const WhittedScene& scene, int width, int threads);
 
 } // namespace peers

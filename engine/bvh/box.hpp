@@ -24,9 +24,9 @@ inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core
     const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
     if (inside) return 0;
     const vec3 middle = core.lo * 0.5f + core.hi * 0.5f;
-    return 2 * f32::gamma_bound(16) *
+    return 2 * f32::rounding_error_gamma_bound(16) *
            // The error bound is doubled, to cover the rounding errors of this function as well.
-           f32::largest(max(abs(box.lo - middle), abs(box.hi - middle)));
+           f32::largest_vector_component(max(abs(box.lo - middle), abs(box.hi - middle)));
 }
 
 /// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
@@ -35,13 +35,14 @@ inline BoundingBox pad_box(const BoundingBox& box, float pad) {
             min(box.hi + pad, vec3(f32::kLargestFloat))};
 }
 
-/// Returns the bounds of a triangle. If `flags` has kSpherePrimitive, returns the bounds of a
+/// Returns the bounds of a triangle. If `flags` has kSpherePrimitiveFlag, returns the bounds of a
 /// sphere, grown by the rounding errors of the sphere test.
-inline BoundingBox triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
-                                   std::uint32_t flags) {
+inline BoundingBox compute_triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
+                                           std::uint32_t flags) {
     BoundingBox box;
-    if ((flags & kSpherePrimitive) != 0) {
-        const float reach = b.x + f32::gamma_bound(16) * (b.x + f32::largest(abs(a)));
+    if ((flags & kSpherePrimitiveFlag) != 0) {
+        const float reach = b.x + f32::rounding_error_gamma_bound(16) *
+                                      (b.x + f32::largest_vector_component(abs(a)));
         box.add(a - reach), box.add(a + reach);
     } else {
         box.add(a), box.add(b), box.add(c);
@@ -49,7 +50,7 @@ inline BoundingBox triangle_bounds(const vec3& a, const vec3& b, const vec3& c,
     return box;
 }
 
-inline bool is_finite(const Triangle& t) {
+inline bool is_finite_triangle(const Triangle& t) {
     return f32::is_finite(t.a) && f32::is_finite(t.b) && f32::is_finite(t.c);
 }
 

@@ -15,14 +15,14 @@
 namespace catoptric::bvh {
 namespace {
 
-constexpr std::uint32_t kMaxTriangles = f32::kBvhIndexMask;
+constexpr std::uint32_t kMaxBvhTriangles = f32::kBvhIndexMask;
 constexpr std::size_t kTrianglesPerTask = 8192; // triangles that one task of a thread reads
 
 /// The references that have been written for a list of triangles.
-struct WrittenReferences {
+struct WrittenTriangleReferences {
     /// Those of triangles that cast shadows, and those of other triangles. The references of both
     /// lie in one run.
-    std::array<ReferenceRange, 2> parts;
+    std::array<TriangleReferenceRange, 2> parts;
     std::vector<std::size_t> shadowless; ///< places in the run of the second part, ascending
 
     std::size_t reference_count() const { return parts[0].count + parts[1].count; }
@@ -30,45 +30,46 @@ struct WrittenReferences {
 
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
 /// `core` means that all triangles lie in the core.
-WrittenReferences write_triangle_references(std::span<const Triangle> triangles, std::size_t first,
-                                            const BoundingBox& core, TriangleReference* into) {
-    WrittenReferences written;
+WrittenTriangleReferences write_triangle_references(std::span<const Triangle> triangles,
+                                                    std::size_t first, const BoundingBox& core,
+                                                    TriangleReference* into) {
+    WrittenTriangleReferences written;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
-        if (!is_finite(t)) continue;
-        BoundingBox box = triangle_bounds(t.a, t.b, t.c, t.flags);
+        if (!is_finite_triangle(t)) continue;
+        BoundingBox box = compute_triangle_bounds(t.a, t.b, t.c, t.flags);
         if (!core.empty()) box = pad_box(box, compute_box_padding(box, core));
-        const TriangleReference r{load_simd(box.lo, id_to_float_word(first + i)),
-                                  load_simd(box.hi, 0)};
-        const bool is_shadowless = (t.flags & kCastsNoShadow) != 0;
+        const TriangleReference r{load_simd_vector(box.lo, index_to_float_word(first + i)),
+                                  load_simd_vector(box.hi, 0)};
+        const bool is_shadowless = (t.flags & kCastsNoShadowFlag) != 0;
         if (is_shadowless) written.shadowless.push_back(written.reference_count());
-        written.parts[is_shadowless ? 1 : 0].add(r);
+        written.parts[is_shadowless ? 1 : 0].add_reference(r);
         *into++ = r;
     }
     return written;
 }
 
 /// Writes references to all finite triangles, on several threads.
-WrittenReferences write_references_in_parallel(std::span<const Triangle> triangles,
-                                               const BoundingBox& core, TriangleReferences into,
-                                               unsigned threads) {
-    std::vector<WrittenReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
-                                        kTrianglesPerTask);
+WrittenTriangleReferences write_references_in_parallel(std::span<const Triangle> triangles,
+                                                       const BoundingBox& core,
+                                                       TriangleReferences into, unsigned threads) {
+    std::vector<WrittenTriangleReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
+                                                kTrianglesPerTask);
     run_in_parallel(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kTrianglesPerTask,
                           count = std::min(kTrianglesPerTask, triangles.size() - first);
         runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,
                                             &into[first]);
     });
-    WrittenReferences all;
+    WrittenTriangleReferences all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::size_t before = all.reference_count();
         if (before < i * kTrianglesPerTask) // an earlier task had triangles that are not finite
             std::copy_n(&into[i * kTrianglesPerTask], runs[i].reference_count(), &into[before]);
         for (const std::size_t place : runs[i].shadowless) all.shadowless.push_back(before + place);
         for (std::size_t k = 0; k < 2; ++k) {
-            const ReferenceRange& part = runs[i].parts[k];
-            all.parts[k].box.add(part.box), all.parts[k].centres.add(part.centres);
+            const TriangleReferenceRange& part = runs[i].parts[k];
+            all.parts[k].box.add_box(part.box), all.parts[k].centres.add_box(part.centres);
             all.parts[k].count += part.count;
         }
     }
@@ -77,18 +78,19 @@ WrittenReferences write_references_in_parallel(std::span<const Triangle> triangl
 
 /// Returns the parts that get a tree each: all references, or first those of triangles that cast
 /// shadows. In the latter case, moves the others behind them.
-std::vector<ReferenceRange> separate_shadowless(const WrittenReferences& written,
-                                                TriangleReferences references) {
+std::vector<TriangleReferenceRange>
+separate_shadowless_triangles(const WrittenTriangleReferences& written,
+                              TriangleReferences references) {
     const auto& [casters, others] = written.parts;
-    if (casters.count == 0 || others.count == 0 || others.count > kMaxShadowlessApart) {
-        ReferenceRange all = casters;
-        all.box.add(others.box), all.centres.add(others.centres), all.count += others.count;
+    if (casters.count == 0 || others.count == 0 || others.count > kMaxSeparateShadowlessTriangles) {
+        TriangleReferenceRange all = casters;
+        all.box.add_box(others.box), all.centres.add_box(others.centres), all.count += others.count;
         return {all};
     }
     std::size_t end = written.reference_count();
     for (auto place = written.shadowless.rbegin(); place != written.shadowless.rend(); ++place)
         std::swap(references[*place], references[--end]);
-    std::vector<ReferenceRange> parts{casters, others};
+    std::vector<TriangleReferenceRange> parts{casters, others};
     parts[1].first = casters.count;
     return parts;
 }
@@ -97,26 +99,28 @@ std::vector<ReferenceRange> separate_shadowless(const WrittenReferences& written
 
 Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf,
               unsigned threads) {
-    return build_bvh(triangles, core, DuplicateScope::within_object, leaf, threads);
+    return build_bvh(triangles, core, DuplicateSearchScope::within_object, leaf, threads);
 }
 
-Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, DuplicateScope copies,
-              std::uint32_t leaf, unsigned threads) {
-    check(triangles.size() <= kMaxTriangles, Failure::exhausted, "bounding volume hierarchy wants ",
-          triangles.size(), " triangles, its words hold ", kMaxTriangles);
+Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core,
+              DuplicateSearchScope copies, std::uint32_t leaf, unsigned threads) {
+    check(triangles.size() <= kMaxBvhTriangles, Failure::exhausted,
+          "bounding volume hierarchy wants ", triangles.size(), " triangles, its words hold ",
+          kMaxBvhTriangles);
     if (threads == 0) threads = hardware_thread_count();
     // The memory stays uninitialised because each reference is written before it is read.
     const auto memory = std::make_unique_for_overwrite<TriangleReference[]>(2 * triangles.size());
     const TriangleReferences references(memory.get(), 2 * triangles.size());
     advise_large_pages(references.data(), references.size_bytes());
-    BuildWorkspace work{triangles,
-                        {references.first(triangles.size()), references.last(triangles.size())},
-                        nullptr,
-                        leaf,
-                        copies};
-    const WrittenReferences written = write_references_in_parallel(triangles, core, work.buffers[0],
-                                                                   threads);
-    const std::vector<ReferenceRange> parts = separate_shadowless(written, work.buffers[0]);
+    BvhBuildWorkspace work{triangles,
+                           {references.first(triangles.size()), references.last(triangles.size())},
+                           nullptr,
+                           leaf,
+                           copies};
+    const WrittenTriangleReferences written = write_references_in_parallel(
+        triangles, core, work.buffers[0], threads);
+    const std::vector<TriangleReferenceRange> parts = separate_shadowless_triangles(
+        written, work.buffers[0]);
     Bvh bvh;
     bvh.dropped = triangles.size() - written.reference_count();
     bvh.triangles.reserve(3 * written.reference_count());
@@ -128,10 +132,10 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, Du
     bvh.copies = written.reference_count() - kept;
     bvh.triangles.resize(3 * kept);
     SimdBox bounds;
-    for (const ReferenceRange& part : parts) bounds.add(part.box);
+    for (const TriangleReferenceRange& part : parts) bounds.add_box(part.box);
     const BoundingBox slack = core.empty() ? bounds.to_bounding_box() : core;
-    bvh.nodes[0] = vec4(slack.lo, id_to_float_word(count_triangles(bvh)));
-    bvh.nodes[1] = vec4(slack.hi, id_to_float_word(count_nodes(bvh)));
+    bvh.nodes[0] = vec4(slack.lo, index_to_float_word(count_triangles(bvh)));
+    bvh.nodes[1] = vec4(slack.hi, index_to_float_word(count_nodes(bvh)));
     if (parts.size() == 2)
         set_walk_start(bvh, float_to_bits(bvh.nodes[4].w), float_to_bits(bvh.nodes[5].w));
     else

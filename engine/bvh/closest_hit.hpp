@@ -32,23 +32,23 @@ struct RayHit {
 };
 
 /// Counters of node visits and triangle tests.
-struct TraversalCounters {
+struct BvhTraversalCounters {
     std::size_t nodes = 0;
     std::size_t triangles = 0;
-    std::size_t total_steps() const { return nodes + triangles; }
+    std::size_t count_all_steps() const { return nodes + triangles; }
 };
 
 namespace detail {
 
 using f32::hits_back_face, f64::hits_back_face;
+using f32::intersect_sphere_robustly, f64::intersect_sphere_robustly;
+using f32::intersect_triangle_watertight, f64::intersect_triangle_watertight;
 using f32::make_box_ray, f64::make_box_ray;
 using f32::make_ray_shear, f64::make_ray_shear;
-using f32::ray_in_object_space, f64::ray_in_object_space;
-using f32::sphere_test, f64::sphere_test;
-using f32::triangle_test, f64::triangle_test;
+using f32::transform_ray_to_object_space, f64::transform_ray_to_object_space;
 
 template <typename Real>
-Vec3<Real> read_corner(const vec4& texel) {
+Vec3<Real> read_triangle_corner(const vec4& texel) {
     return Vec3<Real>(vec3(texel));
 }
 
@@ -60,9 +60,10 @@ using InstancePlacement =
 template <typename Real>
 InstancePlacement<Real> read_instance_placement(const Bvh& bvh, std::uint32_t record) {
     const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
-    return {read_corner<Real>(texel[0]), read_corner<Real>(texel[1]), read_corner<Real>(texel[2]),
-            read_corner<Real>(texel[4]), read_corner<Real>(texel[5]), read_corner<Real>(texel[6]),
-            read_corner<Real>(texel[3]), read_corner<Real>(texel[7])};
+    return {read_triangle_corner<Real>(texel[0]), read_triangle_corner<Real>(texel[1]),
+            read_triangle_corner<Real>(texel[2]), read_triangle_corner<Real>(texel[4]),
+            read_triangle_corner<Real>(texel[5]), read_triangle_corner<Real>(texel[6]),
+            read_triangle_corner<Real>(texel[3]), read_triangle_corner<Real>(texel[7])};
 }
 
 /// The closest hit that the traversal has found, and the state that a triangle test needs.
@@ -77,12 +78,12 @@ struct ClosestHitSearch {
     std::uint32_t record = 0;
 
     /// Continues in the tree of a record, or returns to the tree above (0).
-    void enter_tree(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
+    void enter_tree_of_record(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
         record = into, ray = as_it_sees_it;
         shear = make_ray_shear(ray.direction);
     }
 
-    void test_triangle(std::uint32_t place) {
+    void test_stored_triangle(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
         const vec4* of = &bvh.nodes[4 * std::size_t{record}];
         const std::uint32_t triangle = float_word_to_integer(texel[1].w) +
@@ -90,68 +91,73 @@ struct ClosestHitSearch {
         const std::uint32_t flags = float_word_to_integer(record ? of[3].w : texel[2].w);
         const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
-        if (skips != 0 && hits_back_face(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
-                                         read_corner<Real>(texel[2]), ray.direction))
+        if (skips != 0 && hits_back_face(read_triangle_corner<Real>(texel[0]),
+                                         read_triangle_corner<Real>(texel[1]),
+                                         read_triangle_corner<Real>(texel[2]), ray.direction))
             return;
         Real t;
         Vec3<Real> weights;
         if ((flags & f32::kBvhSpherePrimitive) != 0) {
-            if (!sphere_test(read_corner<Real>(texel[0]), Real{texel[1].x}, ray,
-                             Real{f32::kLargestFloat}, t))
+            if (!intersect_sphere_robustly(read_triangle_corner<Real>(texel[0]), Real{texel[1].x},
+                                           ray, Real{f32::kLargestFloat}, t))
                 return;
             weights = {1, 0, 0};
-        } else if (!triangle_test(read_corner<Real>(texel[0]), read_corner<Real>(texel[1]),
-                                  read_corner<Real>(texel[2]), ray.origin, shear, t, weights)) {
+        } else if (!intersect_triangle_watertight(
+                       read_triangle_corner<Real>(texel[0]), read_triangle_corner<Real>(texel[1]),
+                       read_triangle_corner<Real>(texel[2]), ray.origin, shear, t, weights)) {
             return;
         }
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
-            best = RayHit<Real>{t,        barycentric(weights),
+            best = RayHit<Real>{t,        normalise_barycentric_weights(weights),
                                 triangle, float_word_to_integer((record ? of[1] : texel[0]).w),
                                 place,    record};
         }
     }
 
-    static Vec3<Real> barycentric(const Vec3<Real>& weights) {
+    static Vec3<Real> normalise_barycentric_weights(const Vec3<Real>& weights) {
         return weights / (weights.x + weights.y + weights.z);
     }
 };
 
 template <typename Real>
-bool is_hittable(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
-    return is_valid(ray) && t_max > 0 && !bvh.triangles.empty();
+bool is_ray_hittable(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
+    return is_valid_ray(ray) && t_max > 0 && !bvh.triangles.empty();
 }
 
 template <typename Real>
 auto make_box_rays_outside(const Bvh& bvh, const Ray<Real>& ray) {
     const vec4* header = bvh.nodes.data();
     const Real times = header[2].x > 0 ? Real{header[2].x} : Real{1};
-    return make_box_ray(ray, read_corner<Real>(header[0]), read_corner<Real>(header[1]), times);
+    return make_box_ray(ray, read_triangle_corner<Real>(header[0]),
+                        read_triangle_corner<Real>(header[1]), times);
 }
 
 template <typename Real>
-std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low,
-                                     Real t_max, std::uint32_t skipped_flags, bool any,
-                                     TraversalCounters* steps) {
-    if (!is_hittable(bvh, ray, t_max)) return {};
+std::optional<RayHit<Real>>
+find_hit_in_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low, Real t_max,
+                std::uint32_t skipped_flags, bool any, BvhTraversalCounters* steps) {
+    if (!is_ray_hittable(bvh, ray, t_max)) return {};
     ClosestHitSearch<Real> search{bvh, ray, t_max, skipped_flags};
     auto boxes = make_box_rays_outside<Real>(bvh, ray);
     std::array<std::uint32_t, f32::kBvhMaxStack> stack;
     std::size_t waiting = 0;
-    TraversalCounters count;
+    BvhTraversalCounters count;
     std::uint32_t child = float_to_bits(bvh.nodes[3].x);
     const std::uint32_t others = float_to_bits(bvh.nodes[3].y);
-    if (others != f32::kBvhEmptyChild && (skipped_flags & kCastsNoShadow) == 0)
+    if (others != f32::kBvhEmptyChild && (skipped_flags & kCastsNoShadowFlag) == 0)
         stack[waiting++] = others;
     while (child != f32::kBvhEmptyChild) {
-        if (f32::bvh_is_inner(child)) {
+        if (f32::is_bvh_word_inner_node(child)) {
             ++count.nodes;
-            const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
+            const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_word_index(child)}];
             Real near_0, near_1;
-            const bool meets_0 = slab_test(read_corner<Real>(node[0]), read_corner<Real>(node[1]),
-                                           boxes, search.t_max, near_0);
-            const bool meets_1 = slab_test(read_corner<Real>(node[2]), read_corner<Real>(node[3]),
-                                           boxes, search.t_max, near_1);
+            const bool meets_0 = intersect_box_slabs(read_triangle_corner<Real>(node[0]),
+                                                     read_triangle_corner<Real>(node[1]), boxes,
+                                                     search.t_max, near_0);
+            const bool meets_1 = intersect_box_slabs(read_triangle_corner<Real>(node[2]),
+                                                     read_triangle_corner<Real>(node[3]), boxes,
+                                                     search.t_max, near_1);
             const bool second_first = meets_1 && (!meets_0 || near_1 < near_0);
             const std::uint32_t first = float_to_bits(node[second_first ? 1 : 0].w);
             const std::uint32_t second = float_to_bits(node[second_first ? 0 : 1].w);
@@ -162,23 +168,24 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
             }
         } else if (child == f32::kBvhReturnFromInstance) {
             ++count.nodes;
-            search.enter_tree(0, ray);
+            search.enter_tree_of_record(0, ray);
             boxes = make_box_rays_outside<Real>(bvh, ray);
-        } else if (f32::bvh_count(child) == f32::kBvhInstanceMarker) {
+        } else if (f32::bvh_word_triangle_count(child) == f32::kBvhInstanceMarker) {
             ++count.nodes;
-            const std::uint32_t record = f32::bvh_index(child);
+            const std::uint32_t record = f32::bvh_word_index(child);
             const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
-            search.enter_tree(
-                record, ray_in_object_space(read_instance_placement<Real>(bvh, record), ray, low));
-            boxes = make_box_ray(search.ray, read_corner<Real>(texel[8]),
-                                 read_corner<Real>(texel[9]), Real{1});
+            search.enter_tree_of_record(
+                record, transform_ray_to_object_space(read_instance_placement<Real>(bvh, record),
+                                                      ray, low));
+            boxes = make_box_ray(search.ray, read_triangle_corner<Real>(texel[8]),
+                                 read_triangle_corner<Real>(texel[9]), Real{1});
             stack.at(waiting++) = f32::kBvhReturnFromInstance;
             child = float_to_bits(texel[0].w);
             continue;
         } else {
-            for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
+            for (std::uint32_t i = 0; i < f32::bvh_word_triangle_count(child); ++i) {
                 ++count.triangles;
-                search.test_triangle(f32::bvh_index(child) + i);
+                search.test_stored_triangle(f32::bvh_word_index(child) + i);
                 if (any && search.best) break;
             }
             if (any && search.best) break;
@@ -192,21 +199,21 @@ std::optional<RayHit<Real>> walk_bvh(const Bvh& bvh, const Ray<Real>& ray, const
 } // namespace detail
 
 /// Returns the first triangle that the ray meets at a t in (0, t_max). A ray that is not finite
-/// misses. Skips triangles that have a flag of `skipped`; kOneSided skips hits from behind only. A
-/// ray never hits the triangle that it leaves. `low`: the rounding error of the ray's origin, so
-/// that origin + low is the exact start.
+/// misses. Skips triangles that have a flag of `skipped`; kOneSidedFlag skips hits from behind
+/// only. A ray never hits the triangle that it leaves. `low`: the rounding error of the ray's
+/// origin, so that origin + low is the exact start.
 template <typename Real>
 std::optional<RayHit<Real>>
 find_closest_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
-                 TraversalCounters* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
-    return detail::walk_bvh<Real>(bvh, ray, low, t_max, skipped, false, steps);
+                 BvhTraversalCounters* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
+    return detail::find_hit_in_bvh<Real>(bvh, ray, low, t_max, skipped, false, steps);
 }
 
 /// Returns whether the ray meets any triangle at a t in (0, t_max).
 template <typename Real>
 bool has_any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t skipped = 0,
-                 TraversalCounters* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
-    return detail::walk_bvh<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
+                 BvhTraversalCounters* steps = nullptr, const Vec3<Real>& low = Vec3<Real>(0)) {
+    return detail::find_hit_in_bvh<Real>(bvh, ray, low, t_max, skipped, true, steps).has_value();
 }
 
 /// Returns the same as `find_closest_hit`, by testing every triangle. Valid only for hierarchies
@@ -214,9 +221,9 @@ bool has_any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t
 template <typename Real>
 std::optional<RayHit<Real>> find_closest_hit_by_brute_force(const Bvh& bvh, const Ray<Real>& ray,
                                                             Real t_max, std::uint32_t skipped = 0) {
-    if (!detail::is_hittable(bvh, ray, t_max)) return {};
+    if (!detail::is_ray_hittable(bvh, ray, t_max)) return {};
     detail::ClosestHitSearch<Real> search{bvh, ray, t_max, skipped};
-    for (std::uint32_t i = 0; i < count_triangles(bvh); ++i) search.test_triangle(i);
+    for (std::uint32_t i = 0; i < count_triangles(bvh); ++i) search.test_stored_triangle(i);
     return search.best;
 }
 

@@ -9,23 +9,23 @@ namespace catoptric::bvh {
 
 namespace {
 
-BoundingBox decode_bounds(const vec4* stored) {
-    return triangle_bounds(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]),
-                           float_word_to_integer(stored[2].w));
+BoundingBox decode_node_bounds(const vec4* stored) {
+    return compute_triangle_bounds(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]),
+                                   float_word_to_integer(stored[2].w));
 }
 
 /// Returns the bounds of a child, from the corners and nodes below it.
 BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const BoundingBox& core) {
     BoundingBox box;
-    if (f32::bvh_is_inner(child)) {
-        const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_index(child)}];
+    if (f32::is_bvh_word_inner_node(child)) {
+        const vec4* node = &bvh.nodes[4 * std::size_t{f32::bvh_word_index(child)}];
         for (int side = 0; side < 2; ++side)
             box.add(BoundingBox{vec3(node[2 * side]), vec3(node[2 * side + 1])});
         return box;
     }
-    for (std::uint32_t i = 0; i < f32::bvh_count(child); ++i) {
-        const BoundingBox triangle = decode_bounds(
-            &bvh.triangles[3 * std::size_t{f32::bvh_index(child) + i}]);
+    for (std::uint32_t i = 0; i < f32::bvh_word_triangle_count(child); ++i) {
+        const BoundingBox triangle = decode_node_bounds(
+            &bvh.triangles[3 * std::size_t{f32::bvh_word_index(child) + i}]);
         box.add(pad_box(triangle, compute_box_padding(triangle, core)));
     }
     return box;
@@ -33,12 +33,13 @@ BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const Boun
 
 /// Returns the cost of one child. The cost of a node is the sum over its two children.
 double compute_child_cost(std::uint32_t child, const BoundingBox& box) {
-    return box_area(box) *
-           (f32::bvh_is_inner(child) ? kNodeVisitCost : static_cast<double>(f32::bvh_count(child)));
+    return box_area(box) * (f32::is_bvh_word_inner_node(child)
+                                ? kNodeVisitCost
+                                : static_cast<double>(f32::bvh_word_triangle_count(child)));
 }
 
 /// Compares bits, because 0 and -0 count as different here.
-bool have_equal_bits(const vec3& a, const vec3& b) {
+bool have_equal_float_bits(const vec3& a, const vec3& b) {
     return float_to_bits(a.x) == float_to_bits(b.x) && float_to_bits(a.y) == float_to_bits(b.y) &&
            float_to_bits(a.z) == float_to_bits(b.z);
 }
@@ -54,11 +55,11 @@ bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle>
     const std::array corners{t.a, t.b, t.c};
     bool moved = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (have_equal_bits(vec3(texel[k]), corners[k])) continue;
+        if (have_equal_float_bits(vec3(texel[k]), corners[k])) continue;
         texel[k] = vec4(corners[k], texel[k].w);
         moved = true;
     }
-    check(!moved || is_finite(t), Failure::internal,
+    check(!moved || is_finite_triangle(t), Failure::internal,
           "a hierarchy is refitted to finite triangles, number ", number, " is none");
     return moved;
 }
@@ -75,8 +76,8 @@ void update_stored_box(Bvh& bvh, std::uint32_t place, const BoundingBox& slack) 
 
 } // namespace
 
-RefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) {
-    RefitRegion reach;
+BvhRefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) {
+    BvhRefitRegion reach;
     std::vector<char> moves(count_triangles(bvh)), holds(count_nodes(bvh));
     for (std::uint32_t place = 0; place < moves.size(); ++place) {
         if (!objects[float_word_to_integer(bvh.triangles[3 * std::size_t{place}].w)]) continue;
@@ -84,9 +85,10 @@ RefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) {
         reach.triangles.push_back(place);
     }
     const auto is_reached = [&](std::uint32_t child) {
-        if (f32::bvh_is_inner(child)) return holds[f32::bvh_index(child)] != 0;
-        const auto first = moves.begin() + f32::bvh_index(child);
-        return std::any_of(first, first + f32::bvh_count(child), [](char c) { return c != 0; });
+        if (f32::is_bvh_word_inner_node(child)) return holds[f32::bvh_word_index(child)] != 0;
+        const auto first = moves.begin() + f32::bvh_word_index(child);
+        return std::any_of(first, first + f32::bvh_word_triangle_count(child),
+                           [](char c) { return c != 0; });
     };
     // Nodes precede their descendants, so the loop runs backwards.
     for (auto node = static_cast<std::uint32_t>(count_nodes(bvh)); node-- > 1;) {
@@ -100,7 +102,7 @@ RefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) {
 }
 
 IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
-                     const RefitRegion* reach) {
+                     const BvhRefitRegion* reach) {
     IndexRange run;
     const auto move_one = [&](std::size_t place) {
         if (write_moved_triangle(bvh, place, triangles))
@@ -113,7 +115,7 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
     BoundingBox slack = core;
     if (slack.empty())
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3)
-            slack.add(decode_bounds(&bvh.triangles[i]));
+            slack.add(decode_node_bounds(&bvh.triangles[i]));
     // The padding of far triangles depends on the core, so a new core changes every box.
     if (reach && vec3(bvh.nodes[0]) == slack.lo && vec3(bvh.nodes[1]) == slack.hi)
         for (const std::uint32_t place : reach->boxes) update_stored_box(bvh, place, slack);

@@ -12,7 +12,7 @@ namespace {
 using SimdInt4 = std::int32_t __attribute__((vector_size(16)));
 
 /// Distance of the prefetch, in references. Processors do not prefetch across pages by themselves.
-constexpr std::size_t kPrefetchDistance = 24;
+constexpr std::size_t kReferencePrefetchDistance = 24;
 
 double compute_split_cost(const SimdBox& extent, std::size_t count) {
     return extent.half_surface_area() * static_cast<double>(count);
@@ -21,27 +21,29 @@ double compute_split_cost(const SimdBox& extent, std::size_t count) {
 bool is_centre_before(const TriangleReference& a, const TriangleReference& b, std::size_t axis) {
     const float place_a = a.lo[axis] * .5f + a.hi[axis] * .5f,
                 place_b = b.lo[axis] * .5f + b.hi[axis] * .5f;
-    return place_a != place_b ? place_a < place_b : a.triangle() < b.triangle();
+    return place_a != place_b ? place_a < place_b : a.triangle_number() < b.triangle_number();
 }
 
 } // namespace
 
-BinMapping::BinMapping(const SimdBox& centres)
-    : lo(centres.lo), bins_per_unit(broadcast_simd(kSplitBinCount) / (centres.hi - centres.lo)) {
-    lo[3] = bins_per_unit[3] = 0;
+SplitBinMapping::SplitBinMapping(const SimdBox& centres)
+    : lowest_centre(centres.lo),
+      bins_per_unit(broadcast_simd(kSplitBinCount) / (centres.hi - centres.lo)) {
+    lowest_centre[3] = bins_per_unit[3] = 0;
 }
 
 void SplitBins::add_references(std::span<const TriangleReference> references,
-                               const BinMapping& binning) {
+                               const SplitBinMapping& binning) {
     for (const TriangleReference& r : references) {
-        __builtin_prefetch(&r + kPrefetchDistance);
+        __builtin_prefetch(&r + kReferencePrefetchDistance);
         // The minimum also sends NaN to the last bin.
         const SimdInt4 bin = __builtin_convertvector(
-            simd_min(broadcast_simd(kSplitBinCount - 1), binning.bin_position(r.centre())),
+            simd_min(broadcast_simd(kSplitBinCount - 1),
+                     binning.bin_position_of_centre(r.centre_of_box())),
             SimdInt4);
         for (int axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<std::size_t>(bin[axis]);
-            extents_[axis][k].add(r.extent());
+            extents_[axis][k].add_box(r.triangle_box());
             ++counts_[axis][k];
         }
     }
@@ -50,7 +52,7 @@ void SplitBins::add_references(std::span<const TriangleReference> references,
 void SplitBins::add_references(const SplitBins& other) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t k = 0; k < kSplitBinCount; ++k) {
-            extents_[axis][k].add(other.extents_[axis][k]);
+            extents_[axis][k].add_box(other.extents_[axis][k]);
             counts_[axis][k] += other.counts_[axis][k];
         }
 }
@@ -63,34 +65,35 @@ std::size_t SplitBins::left_count(const BinSplit& split) const {
 std::array<SimdBox, 2> SplitBins::extents(const BinSplit& split) const {
     std::array<SimdBox, 2> sides;
     for (int k = 0; k < kSplitBinCount; ++k)
-        sides[k < split.first_right ? 0 : 1].add(extents_[split.axis][k]);
+        sides[k < split.first_right ? 0 : 1].add_box(extents_[split.axis][k]);
     return sides;
 }
 
-SplitRanges partition_ranges(const ReferenceRange& part, const SplitBins& bins,
-                             const BinSplit& split, const std::array<SimdBox, 2>& centres) {
+SplitRanges partition_range_by_split(const TriangleReferenceRange& part, const SplitBins& bins,
+                                     const BinSplit& split, const std::array<SimdBox, 2>& centres) {
     const std::size_t left = bins.left_count(split);
     const std::array<SimdBox, 2> boxes = bins.extents(split);
-    return {ReferenceRange{part.first, left, !part.in_second, false, boxes[0], centres[0]},
-            ReferenceRange{part.first + left, part.count - left, !part.in_second, false, boxes[1],
-                           centres[1]}};
+    return {TriangleReferenceRange{part.first, left, !part.in_second, false, boxes[0], centres[0]},
+            TriangleReferenceRange{part.first + left, part.count - left, !part.in_second, false,
+                                   boxes[1], centres[1]}};
 }
 
 void BinSplit::scatter_references(std::span<const TriangleReference> references,
-                                  const BinMapping& binning, std::array<TriangleReference*, 2> to,
+                                  const SplitBinMapping& binning,
+                                  std::array<TriangleReference*, 2> to,
                                   std::array<SimdBox, 2>& centres) const {
     const auto k = static_cast<std::size_t>(axis);
-    const float lo = binning.lo[k], bins_per_unit = binning.bins_per_unit[k],
+    const float lo = binning.lowest_centre[k], bins_per_unit = binning.bins_per_unit[k],
                 end = static_cast<float>(first_right);
     TriangleReference *left = to[0], *right = to[1];
     for (const TriangleReference& r : references) {
-        __builtin_prefetch(&r + kPrefetchDistance);
-        const SimdFloat4 centre = r.centre();
+        __builtin_prefetch(&r + kReferencePrefetchDistance);
+        const SimdFloat4 centre = r.centre_of_box();
         // Without a branch, because no predictor could foresee it. Without sums in memory, too.
         const bool is_right = !((centre[k] - lo) * bins_per_unit < end);
         *(is_right ? right : left) = r;
         right += is_right, left += !is_right;
-        const SimdFloat4 away[2] = {broadcast_simd(0), broadcast_simd(kInfinity)};
+        const SimdFloat4 away[2] = {broadcast_simd(0), broadcast_simd(kInfinityFloat)};
         centres[0].add_point_unless_infinite(centre, away[is_right]);
         centres[1].add_point_unless_infinite(centre, away[!is_right]);
     }
@@ -107,14 +110,14 @@ std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most)
         SimdBox right;
         std::size_t count = 0;
         for (std::size_t i = kSplitBinCount; i-- > 1;) {
-            right.add(extents[i]), count += counts[i];
+            right.add_box(extents[i]), count += counts[i];
             right_count[i] = count;
             right_cost[i] = compute_split_cost(right, count);
         }
         SimdBox left;
         count = 0;
         for (std::size_t i = 1; i < kSplitBinCount; ++i) {
-            left.add(extents[i - 1]), count += counts[i - 1];
+            left.add_box(extents[i - 1]), count += counts[i - 1];
             if (count == 0 || right_count[i] == 0) continue;
             if (count > most || right_count[i] > most) continue;
             const double cost = compute_split_cost(left, count) + right_cost[i];
@@ -126,11 +129,11 @@ std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most)
     return best;
 }
 
-std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences references,
-                                                         std::size_t most) {
+std::optional<SweepSplit> find_best_division_by_sweep(TriangleReferences references,
+                                                      std::size_t most) {
     const std::size_t count = references.size();
     std::array<TriangleReference, kMaxSweepTriangles> sorted, best_order;
-    std::optional<SweepDivision> best;
+    std::optional<SweepSplit> best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t k = i;
@@ -141,17 +144,17 @@ std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences refe
         std::array<double, kMaxSweepTriangles> right_cost;
         SimdBox right;
         for (std::size_t i = count; i-- > 1;) {
-            right.add(sorted[i].extent());
+            right.add_box(sorted[i].triangle_box());
             right_cost[i] = compute_split_cost(right, count - i);
         }
         SimdBox left;
         bool is_best = false;
         for (std::size_t i = 1; i < count; ++i) {
-            left.add(sorted[i - 1].extent());
+            left.add_box(sorted[i - 1].triangle_box());
             if (i > most || count - i > most) continue;
             const double cost = compute_split_cost(left, i) + right_cost[i];
             if (best && !(cost < best->cost)) continue;
-            best = SweepDivision{cost, i};
+            best = SweepSplit{cost, i};
             is_best = true;
         }
         if (is_best) best_order = sorted;
@@ -174,27 +177,27 @@ std::size_t partition_at_median(TriangleReferences references, const SimdBox& ce
 
 TriangleReferences remove_duplicate_triangles(TriangleReferences references,
                                               std::span<const Triangle> triangles,
-                                              DuplicateScope copies) {
+                                              DuplicateSearchScope copies) {
     const auto what = [&](const TriangleReference& r) {
-        const Triangle& t = triangles[r.triangle()];
+        const Triangle& t = triangles[r.triangle_number()];
         return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     };
     const auto whose = [&](const TriangleReference& r) {
-        const Triangle& t = triangles[r.triangle()];
-        const bool is_told_apart = copies == DuplicateScope::within_object ||
-                                   (t.flags & (kAlphaMasked | kStandsForSphere)) != 0;
+        const Triangle& t = triangles[r.triangle_number()];
+        const bool is_told_apart = copies == DuplicateSearchScope::within_object ||
+                                   (t.flags & (kAlphaMaskedFlag | kStandsForSphereFlag)) != 0;
         return std::pair{is_told_apart ? t.object : 0, t.flags};
     };
     std::ranges::sort(references, [&](const TriangleReference& a, const TriangleReference& b) {
-        return std::tuple{what(a), whose(a), a.triangle()} <
-               std::tuple{what(b), whose(b), b.triangle()};
+        return std::tuple{what(a), whose(a), a.triangle_number()} <
+               std::tuple{what(b), whose(b), b.triangle_number()};
     });
     const auto left_out = std::ranges::unique(
         references, [&](const TriangleReference& a, const TriangleReference& b) {
             return what(a) == what(b) && whose(a) == whose(b);
         });
     references = references.first(references.size() - left_out.size());
-    std::ranges::sort(references, {}, &TriangleReference::triangle);
+    std::ranges::sort(references, {}, &TriangleReference::triangle_number);
     return references;
 }
 

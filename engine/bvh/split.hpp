@@ -16,35 +16,39 @@ struct TriangleReference {
     SimdFloat4 lo; ///< low corner of the box; the fourth element is the triangle's number as a word
     SimdFloat4 hi;
 
-    std::uint32_t triangle() const { return float_word_to_integer(lo[3]); }
+    std::uint32_t triangle_number() const { return float_word_to_integer(lo[3]); }
     /// Returns the centre of the box. Halves before adding, because the sum itself may overflow.
-    SimdFloat4 centre() const { return lo * .5f + hi * .5f; }
-    SimdBox extent() const { return {lo, hi}; }
+    SimdFloat4 centre_of_box() const { return lo * .5f + hi * .5f; }
+    SimdBox triangle_box() const { return {lo, hi}; }
 };
 
 using TriangleReferences = std::span<TriangleReference>;
 
 /// The references below a node.
-struct ReferenceRange {
+struct TriangleReferenceRange {
     std::size_t first = 0, count = 0; ///< place among all references
     bool in_second = false;           ///< lies in the second of the two buffers
     bool is_heap = false; ///< all centres are equal, copies are gone, and the order is by number
     SimdBox box, centres;
 
-    void add(const TriangleReference& r) { box.add(r.extent()), centres.add(r.centre()), ++count; }
+    void add_reference(const TriangleReference& r) {
+        box.add_box(r.triangle_box()), centres.add_point(r.centre_of_box()), ++count;
+    }
 };
 
 inline constexpr int kSplitBinCount = 16;
 
 /// A map from centres to bins along each axis of the centres' bounds.
-struct BinMapping {
-    SimdFloat4 lo, bins_per_unit;
+struct SplitBinMapping {
+    SimdFloat4 lowest_centre, bins_per_unit;
 
-    explicit BinMapping(const SimdBox& centres);
+    explicit SplitBinMapping(const SimdBox& centres);
     /// Returns the position in units of bins, 0 to kSplitBinCount inclusive. The result is not
     /// finite if the bounds are too small or too large for a float quotient. In that case all
     /// references go to one bin.
-    SimdFloat4 bin_position(SimdFloat4 centre) const { return (centre - lo) * bins_per_unit; }
+    SimdFloat4 bin_position_of_centre(SimdFloat4 centre) const {
+        return (centre - lowest_centre) * bins_per_unit;
+    }
 };
 
 struct BinSplit;
@@ -52,7 +56,8 @@ struct BinSplit;
 /// The contents of the bins of each axis.
 class SplitBins {
 public:
-    void add_references(std::span<const TriangleReference> references, const BinMapping& binning);
+    void add_references(std::span<const TriangleReference> references,
+                        const SplitBinMapping& binning);
     void add_references(const SplitBins& other);
     std::size_t left_count(const BinSplit& split) const;
     /// Returns the bounds of both sides.
@@ -72,16 +77,16 @@ struct BinSplit {
     /// Copies the references of each side, in order, to the addresses in `to`. Adds their centres
     /// to `centres`.
     void scatter_references(std::span<const TriangleReference> references,
-                            const BinMapping& binning, std::array<TriangleReference*, 2> to,
+                            const SplitBinMapping& binning, std::array<TriangleReference*, 2> to,
                             std::array<SimdBox, 2>& centres) const;
 };
 
-using SplitRanges = std::array<ReferenceRange, 2>;
+using SplitRanges = std::array<TriangleReferenceRange, 2>;
 
 /// Returns the two ranges of references into which a split divides a node, in the buffer that does
 /// not hold the node. `centres`: bounds of the centres on each side.
-SplitRanges partition_ranges(const ReferenceRange& part, const SplitBins& bins,
-                             const BinSplit& split, const std::array<SimdBox, 2>& centres);
+SplitRanges partition_range_by_split(const TriangleReferenceRange& part, const SplitBins& bins,
+                                     const BinSplit& split, const std::array<SimdBox, 2>& centres);
 
 /// Returns the cheapest plane between bins that leaves at most `most` triangles on each side.
 /// Returns nothing if no plane does so, for example because one bin holds all references.
@@ -91,7 +96,7 @@ std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most)
 inline constexpr std::size_t kMaxSweepTriangles = 8;
 
 /// The cheapest way to cut a list of references in two along an axis.
-struct SweepDivision {
+struct SweepSplit {
     double cost;        ///< sum over the sides of half area times count
     std::size_t middle; ///< index of the first reference on the right
 };
@@ -99,8 +104,8 @@ struct SweepDivision {
 /// Sorts references by centre, then by number, along the axis with the cheapest division, and
 /// returns that division. Returns nothing if one side would always have more than `most`. Accepts
 /// at most kMaxSweepTriangles references.
-std::optional<SweepDivision> find_best_division_by_sweep(TriangleReferences references,
-                                                         std::size_t most);
+std::optional<SweepSplit> find_best_division_by_sweep(TriangleReferences references,
+                                                      std::size_t most);
 
 /// Moves the half with the smaller centres, along the longest axis of their bounds, to the front.
 /// Breaks ties by number. Returns the index of the first reference of the other half.
@@ -111,6 +116,6 @@ std::size_t partition_at_median(TriangleReferences references, const SimdBox& ce
 /// every copy: all are at the same t and the lowest number wins.
 TriangleReferences remove_duplicate_triangles(TriangleReferences references,
                                               std::span<const Triangle> triangles,
-                                              DuplicateScope copies);
+                                              DuplicateSearchScope copies);
 
 } // namespace catoptric::bvh

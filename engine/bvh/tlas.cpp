@@ -14,7 +14,7 @@ namespace catoptric::bvh {
 
 namespace {
 
-constexpr double kFloatBoxError = 0x1p-22; // relative error of a box that becomes float
+constexpr double kFloatBoxRoundingError = 0x1p-22; // relative error of a box that becomes float
 
 BoundingBox compute_object_space_bounds(const Bvh& tree) {
     return {vec3(tree.nodes[0]), vec3(tree.nodes[1])};
@@ -30,7 +30,7 @@ BoundingBox compute_node_bounds(const Bvh& bvh, std::size_t node) {
 }
 
 /// Appends a tree without its header. Returns the word of its root.
-std::uint32_t append_tree(Bvh& into, const Bvh& part) {
+std::uint32_t append_tree_without_header(Bvh& into, const Bvh& part) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1),
                triangles = static_cast<std::uint32_t>(count_triangles(into));
     for (std::size_t node = 1; node < count_nodes(part); ++node)
@@ -38,8 +38,8 @@ std::uint32_t append_tree(Bvh& into, const Bvh& part) {
             vec4 texel = part.nodes[4 * node + k];
             const std::uint32_t child = float_to_bits(texel.w);
             if (k < 2 && child != f32::kBvhEmptyChild)
-                texel.w = std::bit_cast<float>(child +
-                                               (f32::bvh_is_inner(child) ? nodes : triangles));
+                texel.w = std::bit_cast<float>(
+                    child + (f32::is_bvh_word_inner_node(child) ? nodes : triangles));
             into.nodes.push_back(texel);
         }
     into.triangles.insert(into.triangles.end(), part.triangles.begin(), part.triangles.end());
@@ -79,7 +79,7 @@ BoundingBox compute_instance_bounds(const BvhInstance& instance) {
                 instance.scene_from_own * dvec3((corner & 1 ? own.lo : own.hi).x,
                                                 (corner & 2 ? own.lo : own.hi).y,
                                                 (corner & 4 ? own.lo : own.hi).z));
-    const dvec3 pad = kFloatBoxError * glm::max(glm::abs(box.lo), glm::abs(box.hi));
+    const dvec3 pad = kFloatBoxRoundingError * glm::max(glm::abs(box.lo), glm::abs(box.hi));
     return {vec3(box.lo - pad), vec3(box.hi + pad)};
 }
 
@@ -91,9 +91,9 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
         BoundingBox box = compute_instance_bounds(instances[i]);
         const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
         const vec3 size = max(abs(box.lo), abs(box.hi));
-        if (f32::largest(beyond) > 0) { // beyond the slack of the walk
-            const float pad = static_cast<float>(times) * 2 * f32::gamma_bound(16) *
-                              f32::largest(size + core.extent());
+        if (f32::largest_vector_component(beyond) > 0) { // beyond the slack of the walk
+            const float pad = static_cast<float>(times) * 2 * f32::rounding_error_gamma_bound(16) *
+                              f32::largest_vector_component(size + core.extent());
             box.lo -= pad, box.hi += pad;
         }
         boxes.push_back({box.lo, box.hi, box.hi, static_cast<std::uint32_t>(i), 0});
@@ -105,9 +105,9 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
         for (std::size_t side = 0; side < 2; ++side) {
             float& child = top.nodes[4 * node + side].w;
             const std::uint32_t leaf = float_to_bits(child);
-            if (leaf == f32::kBvhEmptyChild || f32::bvh_is_inner(leaf)) continue;
+            if (leaf == f32::kBvhEmptyChild || f32::is_bvh_word_inner_node(leaf)) continue;
             const std::uint32_t number = float_word_to_integer(
-                top.triangles[3 * f32::bvh_index(leaf) + 1].w);
+                top.triangles[3 * f32::bvh_word_index(leaf) + 1].w);
             child = integer_to_float_word(f32::kBvhInstanceMarker << f32::kBvhCountShift |
                                           (first_record + f32::kBvhNodesPerInstance * number));
         }
@@ -115,12 +115,12 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
     return top;
 }
 
-/// Appends like `append_tree`, for a tree whose leaf words already refer to records.
+/// Appends like `append_tree_without_header`, for a tree whose leaf words already refer to records.
 std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1);
     for (std::size_t i = 4; i < top.nodes.size(); ++i) {
         vec4 texel = top.nodes[i];
-        if (i % 4 < 2 && f32::bvh_is_inner(float_to_bits(texel.w)))
+        if (i % 4 < 2 && f32::is_bvh_word_inner_node(float_to_bits(texel.w)))
             texel.w = std::bit_cast<float>(float_to_bits(texel.w) + nodes);
         into.nodes.push_back(texel);
     }
@@ -139,7 +139,7 @@ vec3 float_rounding_error(const dvec3& v) {
     return low;
 }
 
-double bound_rounding_amplification(const dmat3& matrix) {
+double max_rounding_amplification(const dmat3& matrix) {
     const dmat3 inverse = glm::inverse(matrix);
     double most = 0;
     for (int row = 0; row < 3; ++row) {
@@ -158,17 +158,18 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
     Bvh result;
     result.nodes.resize(8, vec4(0));
     const BoundingBox in_flat = compute_node_bounds(flat, 1);
-    const std::uint32_t flat_root = count_triangles(flat) > 0 ? append_tree(result, flat)
-                                                              : f32::kBvhEmptyChild;
+    const std::uint32_t flat_root = count_triangles(flat) > 0
+                                        ? append_tree_without_header(result, flat)
+                                        : f32::kBvhEmptyChild;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
     BoundingBox core = compute_object_space_bounds(flat);
     for (const BvhInstance& instance : instances) {
-        worst = std::max(worst, bound_rounding_amplification(instance.scene_from_own));
+        worst = std::max(worst, max_rounding_amplification(instance.scene_from_own));
         if (count_triangles(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
             core.add(compute_instance_bounds(instance));
         if (!roots.contains(instance.tree))
-            roots[instance.tree] = append_tree(result, *instance.tree);
+            roots[instance.tree] = append_tree_without_header(result, *instance.tree);
     }
     const auto first_record = result.first_record = static_cast<std::uint32_t>(count_nodes(result));
     for (const BvhInstance& instance : instances)
@@ -181,8 +182,8 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
         count_nodes(result) <= f32::kBvhIndexMask && count_triangles(result) <= f32::kBvhIndexMask,
         Failure::exhausted, "bounding volume hierarchy wants ", count_nodes(result), " nodes and ",
         count_triangles(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
-    result.nodes[0] = vec4(core.lo, id_to_float_word(count_triangles(result)));
-    result.nodes[1] = vec4(core.hi, id_to_float_word(count_nodes(result)));
+    result.nodes[0] = vec4(core.lo, index_to_float_word(count_triangles(result)));
+    result.nodes[1] = vec4(core.hi, index_to_float_word(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
     set_walk_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));

@@ -15,26 +15,26 @@ constexpr std::size_t kMaxSubtreeReferences = 8192;
 constexpr std::size_t kMaxTaskReferences = 4096; // the most references that one task bins or moves
 
 /// A node of the top-level tree, or a subtree below it.
-struct TreeBranch {
-    ReferenceRange part;
+struct TopLevelTreeBranch {
+    TriangleReferenceRange part;
     std::uint32_t depth = 0;
     std::size_t sides = 0; ///< index of the first of two branches; 0: a subtree
-    Subtree subtree{};
+    BvhSubtree subtree{};
     std::size_t first_node = 0;               ///< index in the whole tree
     std::size_t copies = 0;                   ///< copies left out before its first triangle
     std::uint32_t word = f32::kBvhEmptyChild; ///< its word in the whole tree
 };
 
 /// The division of a branch.
-struct BranchCut {
+struct TreeBranchCut {
     std::size_t branch;
-    BinMapping binning;
+    SplitBinMapping binning;
     SplitBins bins{};
     std::optional<BinSplit> split{};
 };
 
 /// A share of a branch's references, for one task.
-struct BranchChunk {
+struct BranchReferenceChunk {
     std::size_t cut;
     TriangleReferences references;
     SplitBins bins{};
@@ -44,61 +44,62 @@ struct BranchChunk {
 
 class TopLevelTreeBuilder {
 public:
-    TopLevelTreeBuilder(const BuildWorkspace& work, unsigned threads)
-        : work_(work), threads_(threads) {}
+    TopLevelTreeBuilder(const BvhBuildWorkspace& work, unsigned threads)
+        : build_workspace_(work), threads_(threads) {}
 
-    void build_from_root(std::span<const ReferenceRange> parts) {
+    void build_from_root(std::span<const TriangleReferenceRange> parts) {
         std::vector<std::size_t> level{0};
         if (parts.size() == 2) {
             branches_.push_back({{}, 0, 1});
             level = {1, 2};
         }
-        for (const ReferenceRange& part : parts)
+        for (const TriangleReferenceRange& part : parts)
             branches_.push_back({part, static_cast<std::uint32_t>(parts.size() - 1)});
-        while (!level.empty()) level = divide_level(level);
+        while (!level.empty()) level = divide_branches_of_level(level);
         build_subtrees();
     }
 
-    std::size_t append_to(std::vector<vec4>& nodes) {
+    std::size_t append_nodes_to(std::vector<vec4>& nodes) {
         node_count_ = nodes.size() / 4;
-        number_nodes(0);
-        const bool is_node = f32::bvh_is_inner(branches_[0].word);
+        number_nodes_depth_first(0);
+        const bool is_node = f32::is_bvh_word_inner_node(branches_[0].word);
         nodes.reserve(4 * (node_count_ + (is_node ? 0 : 1)));
         advise_large_pages(nodes.data(), nodes.capacity() * sizeof(vec4));
         nodes.resize(nodes.capacity(), vec4(0));
-        if (!is_node) write_node(&nodes[4], branches_[0], TreeBranch{});
+        if (!is_node) write_node_texels(&nodes[4], branches_[0], TopLevelTreeBranch{});
         run_in_parallel(branches_.size(), threads_, [&](std::size_t i) {
-            const TreeBranch& branch = branches_[i];
+            const TopLevelTreeBranch& branch = branches_[i];
             vec4* texel = nodes.data() + 4 * branch.first_node;
             if (branch.sides != 0)
-                write_node(texel, branches_[branch.sides], branches_[branch.sides + 1]);
+                write_node_texels(texel, branches_[branch.sides], branches_[branch.sides + 1]);
             else
-                copy_nodes(texel, branch);
+                copy_branch_nodes(texel, branch);
         });
         return triangle_count_;
     }
 
 private:
     /// Divides all branches of a level. Returns the branches one level deeper.
-    std::vector<std::size_t> divide_level(const std::vector<std::size_t>& level) {
-        std::vector<BranchCut> cuts;
-        std::vector<BranchChunk> pieces;
+    std::vector<std::size_t> divide_branches_of_level(const std::vector<std::size_t>& level) {
+        std::vector<TreeBranchCut> cuts;
+        std::vector<BranchReferenceChunk> pieces;
         for (const std::size_t i : level) {
-            const ReferenceRange& part = branches_[i].part;
-            if (part.count <= kMaxSubtreeReferences || part.centres.is_point()) continue;
-            for (TriangleReferences rest = work_.references_of(part); !rest.empty();) {
+            const TriangleReferenceRange& part = branches_[i].part;
+            if (part.count <= kMaxSubtreeReferences || part.centres.is_single_point()) continue;
+            for (TriangleReferences rest = build_workspace_.references_of_range(part);
+                 !rest.empty();) {
                 const std::size_t count = std::min(kMaxTaskReferences, rest.size());
                 pieces.push_back({cuts.size(), rest.first(count)});
                 rest = rest.subspan(count);
             }
-            cuts.push_back({i, BinMapping(part.centres)});
+            cuts.push_back({i, SplitBinMapping(part.centres)});
         }
         run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
             pieces[i].bins.add_references(pieces[i].references, cuts[pieces[i].cut].binning);
         });
-        choose_cuts(cuts, pieces);
+        choose_branch_cuts(cuts, pieces);
         run_in_parallel(pieces.size(), threads_, [&](std::size_t i) {
-            const BranchCut& cut = cuts[pieces[i].cut];
+            const TreeBranchCut& cut = cuts[pieces[i].cut];
             if (cut.split)
                 cut.split->scatter_references(pieces[i].references, cut.binning, pieces[i].to,
                                               pieces[i].centres);
@@ -106,17 +107,20 @@ private:
         return create_child_branches(cuts, pieces);
     }
 
-    void choose_cuts(std::vector<BranchCut>& cuts, std::vector<BranchChunk>& pieces) const {
-        for (const BranchChunk& piece : pieces) cuts[piece.cut].bins.add_references(piece.bins);
+    void choose_branch_cuts(std::vector<TreeBranchCut>& cuts,
+                            std::vector<BranchReferenceChunk>& pieces) const {
+        for (const BranchReferenceChunk& piece : pieces)
+            cuts[piece.cut].bins.add_references(piece.bins);
         std::vector<std::array<TriangleReference*, 2>> to;
-        for (BranchCut& cut : cuts) {
-            const TreeBranch& branch = branches_[cut.branch];
-            cut.split = find_best_split(cut.bins, max_triangles_below(work_, branch.depth + 1));
-            TriangleReference* into = work_.other_buffer_of(branch.part).data();
+        for (TreeBranchCut& cut : cuts) {
+            const TopLevelTreeBranch& branch = branches_[cut.branch];
+            cut.split = find_best_split(
+                cut.bins, max_triangles_of_subtree(build_workspace_, branch.depth + 1));
+            TriangleReference* into = build_workspace_.other_buffer_of_range(branch.part).data();
             to.push_back({into, into + (cut.split ? cut.bins.left_count(*cut.split) : 0)});
         }
-        for (BranchChunk& piece : pieces) {
-            const BranchCut& cut = cuts[piece.cut];
+        for (BranchReferenceChunk& piece : pieces) {
+            const TreeBranchCut& cut = cuts[piece.cut];
             if (!cut.split) continue;
             const std::size_t left = piece.bins.left_count(*cut.split);
             piece.to = to[piece.cut];
@@ -124,22 +128,23 @@ private:
         }
     }
 
-    std::vector<std::size_t> create_child_branches(const std::vector<BranchCut>& cuts,
-                                                   const std::vector<BranchChunk>& pieces) {
+    std::vector<std::size_t>
+    create_child_branches(const std::vector<TreeBranchCut>& cuts,
+                          const std::vector<BranchReferenceChunk>& pieces) {
         std::vector<std::array<SimdBox, 2>> centres(cuts.size());
-        for (const BranchChunk& piece : pieces)
+        for (const BranchReferenceChunk& piece : pieces)
             for (std::size_t side = 0; side < 2; ++side)
-                centres[piece.cut][side].add(piece.centres[side]);
+                centres[piece.cut][side].add_box(piece.centres[side]);
         std::vector<std::size_t> next;
         for (std::size_t i = 0; i < cuts.size(); ++i) {
             if (!cuts[i].split) continue;
             const std::size_t sides = branches_.size();
-            const TreeBranch& branch = branches_[cuts[i].branch];
+            const TopLevelTreeBranch& branch = branches_[cuts[i].branch];
             const std::uint32_t depth = branch.depth + 1;
-            const SplitRanges parts = partition_ranges(branch.part, cuts[i].bins, *cuts[i].split,
-                                                       centres[i]);
+            const SplitRanges parts = partition_range_by_split(branch.part, cuts[i].bins,
+                                                               *cuts[i].split, centres[i]);
             branches_[cuts[i].branch].sides = sides;
-            for (const ReferenceRange& part : parts) branches_.push_back({part, depth});
+            for (const TriangleReferenceRange& part : parts) branches_.push_back({part, depth});
             next.insert(next.end(), {sides, sides + 1});
         }
         return next;
@@ -153,37 +158,40 @@ private:
         std::ranges::stable_sort(order, std::greater(),
                                  [&](std::size_t i) { return branches_[i].part.count; });
         run_in_parallel(order.size(), threads_, [&](std::size_t i) {
-            TreeBranch& branch = branches_[order[i]];
-            branch.subtree = build_subtree(work_, branch.part, branch.depth);
+            TopLevelTreeBranch& branch = branches_[order[i]];
+            branch.subtree = build_subtree(build_workspace_, branch.part, branch.depth);
         });
     }
 
     /// Numbers nodes and triangles in the order of a depth-first walk, left side first.
-    void number_nodes(std::size_t i) {
-        TreeBranch& branch = branches_[i];
+    void number_nodes_depth_first(std::size_t i) {
+        TopLevelTreeBranch& branch = branches_[i];
         branch.first_node = node_count_;
         if (branch.sides != 0) {
             branch.word = f32::kBvhNormalFloatBit | static_cast<std::uint32_t>(node_count_++);
-            number_nodes(branch.sides), number_nodes(branch.sides + 1);
+            number_nodes_depth_first(branch.sides), number_nodes_depth_first(branch.sides + 1);
             return;
         }
         branch.copies = branch.part.first - triangle_count_;
         branch.word = to_whole_tree_word(branch, branch.subtree.root);
         if (branch.copies > 0)
-            std::copy_n(work_.triangles + 3 * branch.part.first, 3 * branch.subtree.triangles,
-                        work_.triangles + 3 * triangle_count_);
+            std::copy_n(build_workspace_.triangles + 3 * branch.part.first,
+                        3 * branch.subtree.triangles,
+                        build_workspace_.triangles + 3 * triangle_count_);
         node_count_ += branch.subtree.nodes.size() / 4;
         triangle_count_ += branch.subtree.triangles;
     }
 
     /// Converts a word of the branch's subtree to a word of the whole tree.
-    static std::uint32_t to_whole_tree_word(const TreeBranch& branch, std::uint32_t word) {
+    static std::uint32_t to_whole_tree_word(const TopLevelTreeBranch& branch, std::uint32_t word) {
         if (word == f32::kBvhEmptyChild) return word;
-        return word + static_cast<std::uint32_t>(f32::bvh_is_inner(word) ? branch.first_node - 1
-                                                                         : -branch.copies);
+        return word + static_cast<std::uint32_t>(f32::is_bvh_word_inner_node(word)
+                                                     ? branch.first_node - 1
+                                                     : -branch.copies);
     }
 
-    static void write_node(vec4* texel, const TreeBranch& left, const TreeBranch& right) {
+    static void write_node_texels(vec4* texel, const TopLevelTreeBranch& left,
+                                  const TopLevelTreeBranch& right) {
         const std::array sides{&left, &right};
         for (std::size_t i = 0; i < 2; ++i) {
             const BoundingBox box = sides[i]->part.box.to_bounding_box();
@@ -193,7 +201,7 @@ private:
         }
     }
 
-    static void copy_nodes(vec4* texel, const TreeBranch& branch) {
+    static void copy_branch_nodes(vec4* texel, const TopLevelTreeBranch& branch) {
         for (std::size_t i = 0; i < branch.subtree.nodes.size(); ++i) {
             texel[i] = branch.subtree.nodes[i];
             if (i % 4 < 2)
@@ -202,20 +210,20 @@ private:
         }
     }
 
-    const BuildWorkspace& work_;
+    const BvhBuildWorkspace& build_workspace_;
     unsigned threads_;
-    std::vector<TreeBranch> branches_{}; ///< the first is the root
+    std::vector<TopLevelTreeBranch> branches_{}; ///< the first is the root
     std::size_t node_count_ = 0, triangle_count_ = 0;
 };
 
 } // namespace
 
-std::size_t build_tree_in_parallel(const BuildWorkspace& work,
-                                   std::span<const ReferenceRange> parts, unsigned threads,
+std::size_t build_tree_in_parallel(const BvhBuildWorkspace& work,
+                                   std::span<const TriangleReferenceRange> parts, unsigned threads,
                                    std::vector<vec4>& nodes) {
     TopLevelTreeBuilder crown(work, threads);
     crown.build_from_root(parts);
-    return crown.append_to(nodes);
+    return crown.append_nodes_to(nodes);
 }
 
 } // namespace catoptric::bvh

@@ -13,7 +13,7 @@ inline std::uint32_t float_to_bits(float value) { return std::bit_cast<std::uint
 inline float integer_to_float_word(std::uint32_t number) {
     return std::bit_cast<float>(number | f32::kBvhNormalFloatBit);
 }
-inline float id_to_float_word(std::size_t number) {
+inline float index_to_float_word(std::size_t number) {
     return integer_to_float_word(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
 }
 inline std::uint32_t float_word_to_integer(float word) {

@@ -19,14 +19,14 @@ namespace {
 class FileByteSource final : public ByteSource {
 public:
     FileByteSource(int file, std::uint64_t size, std::string name)
-        : file_(file), size_(size), name_(std::move(name)) {}
-    ~FileByteSource() override { ::close(file_); }
+        : file_descriptor_(file), size_(size), name_(std::move(name)) {}
+    ~FileByteSource() override { ::close(file_descriptor_); }
 
     std::uint64_t size() const override { return size_; }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override {
         std::size_t count = 0;
         while (count < into.size()) {
-            const ssize_t more = ::pread(file_, into.data() + count, into.size() - count,
+            const ssize_t more = ::pread(file_descriptor_, into.data() + count, into.size() - count,
                                          static_cast<off_t>(offset + count));
             if (more < 0 && errno == EINTR) continue;
             check(more >= 0, Failure::io, name_, ": reading failed after ", offset + count,
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    int file_;
+    int file_descriptor_;
     std::uint64_t size_;
     std::string name_;
 };

@@ -35,7 +35,7 @@ fs::path resolve_all_links(fs::path path) {
 }
 
 /// Writes, flushes and closes the file. Throws `io` with `path`, not with the temporary's name.
-void write_and_close(FileHandle file, std::string_view content, const fs::path& path) {
+void write_and_close_file(FileHandle file, std::string_view content, const fs::path& path) {
     const std::size_t written = content.empty()
                                     ? 0
                                     : std::fwrite(content.data(), 1, content.size(), file.get());
@@ -90,7 +90,7 @@ void replace_file(const fs::path& target, fs::file_status old, std::string_view 
             check(!error, Failure::io, path.string(),
                   ": cannot be given the mode of the file in its place: ", error.message());
         }
-        write_and_close(std::move(file), content, path);
+        write_and_close_file(std::move(file), content, path);
         fs::rename(temporary, target, error);
         check(!error, Failure::io, path.string(), ": cannot be replaced: ", error.message());
     } catch (...) {
@@ -122,7 +122,7 @@ void write_file(const fs::path& path, std::string_view content) {
     const int open_error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
           ": cannot be opened: ", describe_system_error(open_error));
-    write_and_close(std::move(file), content, path);
+    write_and_close_file(std::move(file), content, path);
 }
 
 void write_file(const fs::path& path, std::span<const std::byte> content) {

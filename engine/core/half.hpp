@@ -6,7 +6,7 @@
 
 namespace catoptric {
 
-inline constexpr float kLargestHalf = 65504;
+inline constexpr float kLargestHalfFloat = 65504;
 inline constexpr std::uint16_t kLargestHalfBits = 0x7bff;
 
 /// Returns the value of a 16-bit float (IEEE 754 binary16).

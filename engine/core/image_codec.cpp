@@ -13,33 +13,33 @@ namespace catoptric {
 
 namespace {
 
-struct FormatSignature {
+struct ImageFormatSignature {
     std::string_view bytes, format;
 };
 using namespace std::string_view_literals;
-constexpr FormatSignature kFormatSignatures[] = {{"\x89PNG\r\n\x1a\n", "png"},
-                                                 {"\xff\xd8\xff", "jpeg"},
-                                                 {"\x76\x2f\x31\x01", "openexr"},
-                                                 {"#?", "hdr"},
-                                                 {"BM", "bmp"},
-                                                 {"GIF8", "gif"},
-                                                 {"II*\0"sv, "tiff"},
-                                                 {"MM\0*"sv, "tiff"},
-                                                 {"DDS ", "dds"},
-                                                 {"8BPS", "psd"}};
+constexpr ImageFormatSignature kFormatSignatures[] = {{"\x89PNG\r\n\x1a\n", "png"},
+                                                      {"\xff\xd8\xff", "jpeg"},
+                                                      {"\x76\x2f\x31\x01", "openexr"},
+                                                      {"#?", "hdr"},
+                                                      {"BM", "bmp"},
+                                                      {"GIF8", "gif"},
+                                                      {"II*\0"sv, "tiff"},
+                                                      {"MM\0*"sv, "tiff"},
+                                                      {"DDS ", "dds"},
+                                                      {"8BPS", "psd"}};
 
 /// Throws unless the answer is `done`.
-void check_codec_result(const CodecResult& result, const std::string& name,
+void check_codec_result(const ImageCodecResult& result, const std::string& name,
                         const std::string& format) {
     const std::string why = result.why.empty() ? "" : ": " + result.why;
     switch (result.answer) {
-    case CodecStatus::done: return;
-    case CodecStatus::no_codec:
+    case ImageCodecStatus::done: return;
+    case ImageCodecStatus::no_codec:
         fail(Failure::bad_data, name, ": this OpenImageIO cannot read ", format);
-    case CodecStatus::refused: fail(Failure::bad_data, name, ": cannot be decoded", why);
-    case CodecStatus::out_of_memory:
+    case ImageCodecStatus::refused: fail(Failure::bad_data, name, ": cannot be decoded", why);
+    case ImageCodecStatus::out_of_memory:
         fail(Failure::exhausted, name, ": not enough memory to decode it");
-    case CodecStatus::broken: fail(Failure::internal, name, ": OpenImageIO fails", why);
+    case ImageCodecStatus::broken: fail(Failure::internal, name, ": OpenImageIO fails", why);
     }
 }
 
@@ -66,20 +66,20 @@ void check_image_sides(const ImageShape& shape, const std::string& name) {
 }
 
 /// Reads a picture with OpenImageIO.
-class CodecReader {
+class ImageCodecReader {
 public:
-    CodecReader(const ByteSource& bytes, const std::string& format, const std::string& name)
-        : format_(format), name_(name) {
+    ImageCodecReader(const ByteSource& bytes, const std::string& format, const std::string& name)
+        : image_format_(format), name_(name) {
         check_codec_result(codecs_.open(bytes, format, name, picture_, header_), name, format);
     }
-    ~CodecReader() {
+    ~ImageCodecReader() {
         if (picture_) codecs_.close(picture_);
     }
-    CodecReader(const CodecReader&) = delete;
-    CodecReader& operator=(const CodecReader&) = delete;
+    ImageCodecReader(const ImageCodecReader&) = delete;
+    ImageCodecReader& operator=(const ImageCodecReader&) = delete;
 
     /// Returns the picture's shape. Throws `bad_data` for a deep picture or one without pixels.
-    ImageShape shape() const {
+    ImageShape image_shape() const {
         check(!header_.is_deep && header_.size.x > 0 && header_.size.y > 0, Failure::bad_data,
               name_, ": wanted a flat picture of 1 to ", ImageReader::kMaxImageSide,
               " pixels a side, found ", header_.is_deep ? "a deep one of " : "", header_.size.x,
@@ -87,12 +87,14 @@ public:
         return {uvec2(header_.size), std::size_t(header_.channel_count), header_.channels,
                 header_.description};
     }
-    void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
-        check_codec_result(codecs_.read(*picture_, first, row_count, type, values), name_, format_);
+    void read_image_rows(std::uint32_t first, std::uint32_t row_count, ImageCodecValueType type,
+                         void* values) {
+        check_codec_result(codecs_.read(*picture_, first, row_count, type, values), name_,
+                           image_format_);
     }
 
 private:
-    std::string format_, name_;
+    std::string image_format_, name_;
     const ImageCodecs& codecs_ = get_image_codecs();
     ImageCodecs::Picture* picture_ = nullptr;
     ImageCodecs::PictureHeader header_;
@@ -101,63 +103,67 @@ private:
 } // namespace
 
 struct ImageReader::ImageReadState {
-    void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values) {
+    void read_image_rows(std::uint32_t first, std::uint32_t row_count, ImageCodecValueType type,
+                         void* values) {
         try {
             if (png)
-                png->read_rows(first, row_count, type, values);
+                png->read_image_rows(first, row_count, type, values);
             else
-                codec->read_rows(first, row_count, type, values);
+                codec->read_image_rows(first, row_count, type, values);
         } catch (const std::bad_alloc&) {
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
     }
     template <typename Value>
-    std::vector<Value> read_all(CodecValue type) {
+    std::vector<Value> read_all_values(ImageCodecValueType type) {
         std::vector<Value> values;
         try {
             values.resize(std::size_t(shape.size.x) * shape.size.y * shape.channel_count);
         } catch (const std::bad_alloc&) {
             fail(Failure::exhausted, name, ": not enough memory to decode it");
         }
-        read_rows(0, shape.size.y, type, values.data());
+        read_image_rows(0, shape.size.y, type, values.data());
         return values;
     }
 
     std::string name;
     ImageShape shape;
     std::optional<PngReader> png;
-    std::optional<CodecReader> codec; ///< set for all formats but PNG
+    std::optional<ImageCodecReader> codec; ///< set for all formats but PNG
 };
 
 ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
                          const ImageShapeCheck& judge)
-    : open_(std::make_unique<ImageReadState>()) {
-    open_->name = std::move(name);
+    : image_state_(std::make_unique<ImageReadState>()) {
+    image_state_->name = std::move(name);
     const auto accept = [&](const ImageShape& shape) {
-        check_image_sides(shape, open_->name);
+        check_image_sides(shape, image_state_->name);
         if (judge) judge(shape);
-        open_->shape = shape;
+        image_state_->shape = shape;
     };
     if (format == "png") {
-        accept(open_->png.emplace(bytes, open_->name).shape());
-        open_->png->check_size();
+        accept(image_state_->png.emplace(bytes, image_state_->name).image_shape());
+        image_state_->png->check_size_against_file();
         return;
     }
-    if (const auto shape = read_image_header(bytes, format, open_->name)) accept(*shape);
-    accept(open_->codec.emplace(bytes, format, open_->name).shape());
+    if (const auto shape = read_image_header(bytes, format, image_state_->name)) accept(*shape);
+    accept(image_state_->codec.emplace(bytes, format, image_state_->name).image_shape());
 }
 
 ImageReader::~ImageReader() = default;
 
-const ImageShape& ImageReader::shape() const { return open_->shape; }
-std::vector<float> ImageReader::floats() { return open_->read_all<float>(CodecValue::float32); }
-std::vector<std::uint8_t> ImageReader::bytes() {
-    return open_->read_all<std::uint8_t>(CodecValue::uint8);
+const ImageShape& ImageReader::image_shape() const { return image_state_->shape; }
+std::vector<float> ImageReader::floats() {
+    return image_state_->read_all_values<float>(ImageCodecValueType::float32);
 }
-void ImageReader::read_rows(std::uint32_t first, std::span<float> values) {
-    const std::size_t row = std::size_t(open_->shape.size.x) * open_->shape.channel_count;
-    open_->read_rows(first, static_cast<std::uint32_t>(values.size() / row), CodecValue::float32,
-                     values.data());
+std::vector<std::uint8_t> ImageReader::bytes() {
+    return image_state_->read_all_values<std::uint8_t>(ImageCodecValueType::uint8);
+}
+void ImageReader::read_image_rows(std::uint32_t first, std::span<float> values) {
+    const std::size_t row = std::size_t(image_state_->shape.size.x) *
+                            image_state_->shape.channel_count;
+    image_state_->read_image_rows(first, static_cast<std::uint32_t>(values.size() / row),
+                                  ImageCodecValueType::float32, values.data());
 }
 
 std::string encode_openexr(const ImageShape& shape, std::span<const float> values) {
@@ -167,16 +173,16 @@ std::string encode_openexr(const ImageShape& shape, std::span<const float> value
     const auto [answer, why] = get_image_codecs().encode("openexr",
                                                          {.size = shape.size,
                                                           .channel_count = shape.channel_count,
-                                                          .type = CodecValue::float32,
+                                                          .type = ImageCodecValueType::float32,
                                                           .values = values.data(),
                                                           .channels = shape.channels,
                                                           .description = shape.description},
                                                          bytes);
-    check(answer != CodecStatus::no_codec, Failure::internal,
+    check(answer != ImageCodecStatus::no_codec, Failure::internal,
           "this OpenImageIO cannot write openexr");
-    check(answer != CodecStatus::out_of_memory, Failure::exhausted,
+    check(answer != ImageCodecStatus::out_of_memory, Failure::exhausted,
           "not enough memory to encode OpenEXR");
-    check(answer == CodecStatus::done, Failure::internal, "OpenImageIO cannot encode openexr",
+    check(answer == ImageCodecStatus::done, Failure::internal, "OpenImageIO cannot encode openexr",
           why.empty() ? "" : ": ", why);
     return bytes;
 }

@@ -48,18 +48,18 @@ public:
                 const ImageShapeCheck& judge = {});
     ~ImageReader();
 
-    const ImageShape& shape() const;
+    const ImageShape& image_shape() const;
     /// Returns all values. Colours are as stored, not multiplied by alpha. `floats` maps integers
     /// to [0,1]; `bytes` rounds to 8 bits. Throws `bad_data` if the picture cannot be decoded.
     std::vector<float> floats();
     std::vector<std::uint8_t> bytes();
     /// Fills `values` with as many rows as it holds, from row `first` on. Rows must be read in
     /// rising order: each call continues where the last one ended.
-    void read_rows(std::uint32_t first, std::span<float> values);
+    void read_image_rows(std::uint32_t first, std::span<float> values);
 
 private:
     struct ImageReadState;
-    std::unique_ptr<ImageReadState> open_;
+    std::unique_ptr<ImageReadState> image_state_;
 };
 
 /// Returns the bytes of an OpenEXR file of floats, or of a PNG file of 8 bits in sRGB. A PNG has 1

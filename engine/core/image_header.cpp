@@ -14,25 +14,25 @@ namespace catoptric {
 namespace {
 
 /// Reads integers at offsets in a file; 0 beyond its end.
-class IntegerReader {
+class FileIntegerReader {
 public:
-    explicit IntegerReader(const ByteSource& bytes) : bytes_(bytes) {}
+    explicit FileIntegerReader(const ByteSource& bytes) : bytes_(bytes) {}
 
     std::uint32_t read_little_endian(std::uint64_t offset, std::size_t size) const {
         std::uint32_t value = 0;
-        const auto read = bytes_at(offset);
+        const auto read = bytes_at_offset(offset);
         for (std::size_t i = 0; i < size; ++i) value |= std::uint32_t(read[i]) << (8 * i);
         return value;
     }
     std::uint32_t read_big_endian(std::uint64_t offset, std::size_t size) const {
         std::uint32_t value = 0;
-        const auto read = bytes_at(offset);
+        const auto read = bytes_at_offset(offset);
         for (std::size_t i = 0; i < size; ++i) value = value << 8 | read[i];
         return value;
     }
 
 private:
-    std::array<unsigned char, 4> bytes_at(std::uint64_t offset) const {
+    std::array<unsigned char, 4> bytes_at_offset(std::uint64_t offset) const {
         std::array<char, 4> read{};
         bytes_.read(offset, read);
         std::array<unsigned char, 4> values{};
@@ -50,7 +50,7 @@ ImageShape make_image_shape(std::uint32_t width, std::uint32_t height, std::size
 /// Returns the shape in the frame header, which follows any number of segments. If the file ends or
 /// is no JPEG there, the size is 0.
 ImageShape read_jpeg_header(const ByteSource& bytes) {
-    const IntegerReader numbers(bytes);
+    const FileIntegerReader numbers(bytes);
     for (std::uint64_t at = 2; at + 9 < bytes.size();) {
         const std::uint32_t mark = numbers.read_big_endian(at, 2), kind = mark & 0xff;
         if (mark >> 8 != 0xff) break;
@@ -70,7 +70,7 @@ ImageShape read_jpeg_header(const ByteSource& bytes) {
 }
 
 ImageShape read_webp_header(const ByteSource& bytes) {
-    const IntegerReader numbers(bytes);
+    const FileIntegerReader numbers(bytes);
     switch (numbers.read_big_endian(12, 4)) {
     case 0x56503858: // "VP8X"
         return make_image_shape(numbers.read_little_endian(24, 3) + 1,
@@ -124,30 +124,30 @@ ImageShape read_radiance_header(const ByteSource& bytes, const std::string& name
 class TiffDirectory {
 public:
     explicit TiffDirectory(const ByteSource& bytes)
-        : numbers_(bytes), is_big_endian_(numbers_.read_big_endian(0, 2) == 0x4d4d),
-          first_(entry_number(4, 4)) {}
+        : tiff_integers_(bytes), is_big_endian_(tiff_integers_.read_big_endian(0, 2) == 0x4d4d),
+          first_(read_entry_number(4, 4)) {}
 
     /// Returns the first value of a tag, of 16 or 32 bits; `otherwise` if the tag is missing.
-    std::uint32_t entry_value(std::uint32_t tag, std::uint32_t otherwise) const {
+    std::uint32_t read_entry_value(std::uint32_t tag, std::uint32_t otherwise) const {
         constexpr std::uint32_t kTiffShortType = 3;
-        for (std::uint32_t i = 0; i < entry_number(first_, 2); ++i) {
+        for (std::uint32_t i = 0; i < read_entry_number(first_, 2); ++i) {
             const std::uint64_t entry = first_ + 2 + std::uint64_t{12} * i;
-            if (entry_number(entry, 2) != tag) continue;
-            const std::size_t size = entry_number(entry + 2, 2) == kTiffShortType ? 2 : 4;
+            if (read_entry_number(entry, 2) != tag) continue;
+            const std::size_t size = read_entry_number(entry + 2, 2) == kTiffShortType ? 2 : 4;
             // Otherwise the entry holds the value's offset.
-            const bool is_inside = size * entry_number(entry + 4, 4) <= 4;
-            return entry_number(is_inside ? entry + 8 : entry_number(entry + 8, 4), size);
+            const bool is_inside = size * read_entry_number(entry + 4, 4) <= 4;
+            return read_entry_number(is_inside ? entry + 8 : read_entry_number(entry + 8, 4), size);
         }
         return otherwise;
     }
 
 private:
-    std::uint32_t entry_number(std::uint64_t at, std::size_t size) const {
-        return is_big_endian_ ? numbers_.read_big_endian(at, size)
-                              : numbers_.read_little_endian(at, size);
+    std::uint32_t read_entry_number(std::uint64_t at, std::size_t size) const {
+        return is_big_endian_ ? tiff_integers_.read_big_endian(at, size)
+                              : tiff_integers_.read_little_endian(at, size);
     }
 
-    IntegerReader numbers_;
+    FileIntegerReader tiff_integers_;
     bool is_big_endian_;
     std::uint64_t first_;
 };
@@ -155,11 +155,11 @@ private:
 /// Returns the least bytes of a TIFF file with this many decoded bytes; 0 if no limit of its
 /// compression is known.
 std::uint64_t min_tiff_file_bytes(std::uint64_t decoded, std::uint64_t compression) {
-    constexpr std::uint64_t kNoCompression = 1, kLzwCompression = 5, kDeflateCompression = 8,
+    constexpr std::uint64_t kTiffNoCompression = 1, kLzwCompression = 5, kDeflateCompression = 8,
                             kOldDeflate = 32946, kPackBits = 32773;
     constexpr std::uint64_t kMaxLzwBytesPerCode =
         4096; // bytes per code, above deflate's limit of 1032
-    if (compression == kNoCompression) return decoded;
+    if (compression == kTiffNoCompression) return decoded;
     if (compression == kPackBits) return decoded / 64;
     const bool is_known = compression == kLzwCompression || compression == kDeflateCompression ||
                           compression == kOldDeflate;
@@ -167,20 +167,20 @@ std::uint64_t min_tiff_file_bytes(std::uint64_t decoded, std::uint64_t compressi
 }
 
 ImageShape read_tiff_header(const ByteSource& bytes, const std::string& name) {
-    constexpr std::uint32_t kWidthTag = 256, kHeightTag = 257, kBitsTag = 258,
+    constexpr std::uint32_t kTiffWidthTag = 256, kHeightTag = 257, kBitsTag = 258,
                             kCompressionTag = 259, kChannelsTag = 277;
     const TiffDirectory directory(bytes);
-    const std::uint32_t width = directory.entry_value(kWidthTag, 0),
-                        height = directory.entry_value(kHeightTag, 0),
-                        channels = std::clamp(directory.entry_value(kChannelsTag, 1), 1u, 64u),
-                        bits = std::clamp(directory.entry_value(kBitsTag, 1), 1u, 64u);
+    const std::uint32_t width = directory.read_entry_value(kTiffWidthTag, 0),
+                        height = directory.read_entry_value(kHeightTag, 0),
+                        channels = std::clamp(directory.read_entry_value(kChannelsTag, 1), 1u, 64u),
+                        bits = std::clamp(directory.read_entry_value(kBitsTag, 1), 1u, 64u);
     const std::uint64_t texels = std::uint64_t{width} * height;
     // Clamping the number of texels avoids overflow of the product below. Later checks refuse
     // pictures with sides that are so long.
-    constexpr std::uint64_t kTexelCountClamp = std::uint64_t{1} << 40;
-    const std::uint64_t least = min_tiff_file_bytes(std::min(texels, kTexelCountClamp) * channels *
-                                                        bits / 8,
-                                                    directory.entry_value(kCompressionTag, 1));
+    constexpr std::uint64_t kMaxClampedTexelCount = std::uint64_t{1} << 40;
+    const std::uint64_t least = min_tiff_file_bytes(std::min(texels, kMaxClampedTexelCount) *
+                                                        channels * bits / 8,
+                                                    directory.read_entry_value(kCompressionTag, 1));
     check(least <= bytes.size(), Failure::bad_data, name, ": wanted at least ", least,
           " bytes for ", width, "x", height, " pixels, found ", bytes.size());
     return make_image_shape(width, height, channels);
@@ -190,7 +190,7 @@ ImageShape read_tiff_header(const ByteSource& bytes, const std::string& name) {
 
 std::optional<ImageShape> read_image_header(const ByteSource& bytes, const std::string& format,
                                             const std::string& name) {
-    const IntegerReader numbers(bytes);
+    const FileIntegerReader numbers(bytes);
     if (format == "openexr") return read_openexr_header(bytes, name);
     if (format == "hdr") return read_radiance_header(bytes, name);
     if (format == "tiff") return read_tiff_header(bytes, name);

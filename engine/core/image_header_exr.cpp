@@ -15,21 +15,21 @@ namespace catoptric {
 namespace {
 
 constexpr std::size_t kMaxNameLength = 255;
-constexpr std::uint32_t kTiledFlag = 0x200, kDeepPartsFlag = 0x800, kMultiPartFlag = 0x1000;
+constexpr std::uint32_t kExrTiledFlag = 0x200, kDeepPartsFlag = 0x800, kMultiPartFlag = 0x1000;
 
 /// Reads a file from front to end.
-class ExrCursor {
+class ExrFileCursor {
 public:
-    ExrCursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+    ExrFileCursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
-    [[noreturn]] void refuse(const auto&... what) const {
+    [[noreturn]] void throw_bad_exr(const auto&... what) const {
         fail(Failure::bad_data, name_, ": cannot be decoded: byte ", at_, ": ", what...);
     }
-    std::uint64_t bytes_left() const { return bytes_.size() - at_; }
+    std::uint64_t count_bytes_left() const { return bytes_.size() - at_; }
 
     std::uint32_t read_uint32() {
         std::array<char, 4> read{};
-        read_bytes(read);
+        read_bytes_into(read);
         std::uint32_t value = 0;
         for (std::size_t i = 0; i < 4; ++i)
             value |= std::uint32_t(static_cast<unsigned char>(read[i])) << (8 * i);
@@ -38,7 +38,7 @@ public:
     std::int32_t read_int32() { return static_cast<std::int32_t>(read_uint32()); }
     std::uint8_t read_byte() {
         std::array<char, 1> read{};
-        read_bytes(read);
+        read_bytes_into(read);
         return static_cast<std::uint8_t>(read[0]);
     }
     /// Returns the text up to a zero byte, and skips this byte.
@@ -46,7 +46,7 @@ public:
         std::array<char, kMaxNameLength + 1> read{};
         const std::string_view text(read.data(), bytes_.read(at_, read));
         const std::size_t end = text.find('\0');
-        if (end == text.npos) refuse("wanted a name of at most ", kMaxNameLength, " bytes");
+        if (end == text.npos) throw_bad_exr("wanted a name of at most ", kMaxNameLength, " bytes");
         at_ += end + 1;
         return std::string(text.substr(0, end));
     }
@@ -57,20 +57,20 @@ public:
         return is_zero;
     }
     /// Throws if fewer than `size` bytes are left.
-    void require_bytes(std::uint64_t size, const char* what) const {
-        if (size > bytes_left())
-            refuse("wanted ", size, " bytes of ", what, ", found ", bytes_left());
+    void require_bytes_left(std::uint64_t size, const char* what) const {
+        if (size > count_bytes_left())
+            throw_bad_exr("wanted ", size, " bytes of ", what, ", found ", count_bytes_left());
     }
-    void skip(std::uint64_t size) {
-        require_bytes(size, "an attribute");
+    void skip_bytes(std::uint64_t size) {
+        require_bytes_left(size, "an attribute");
         at_ += size;
     }
-    std::uint64_t position() const { return at_; }
-    void seek(std::uint64_t at) { at_ = at; }
+    std::uint64_t file_position() const { return at_; }
+    void seek_to_offset(std::uint64_t at) { at_ = at; }
 
 private:
-    void read_bytes(std::span<char> into) {
-        if (bytes_.read(at_, into) < into.size()) refuse("the file ends in its header");
+    void read_bytes_into(std::span<char> into) {
+        if (bytes_.read(at_, into) < into.size()) throw_bad_exr("the file ends in its header");
         at_ += into.size();
     }
 
@@ -80,7 +80,7 @@ private:
 };
 
 /// The header of one part of the file.
-struct ExrPart {
+struct ExrPartHeader {
     std::vector<std::string> channels;
     std::uint64_t pixel_bytes = 0;
     bool is_subsampled = false;
@@ -90,14 +90,14 @@ struct ExrPart {
     bool is_tiled = false;
     std::uint64_t chunk_count = 0; ///< as the file claims; 0 if it claims none
 
-    std::uint64_t side(std::size_t axis) const {
+    std::uint64_t window_side(std::size_t axis) const {
         const std::int64_t first = window[axis], last = window[axis + 2];
         return static_cast<std::uint64_t>(std::max<std::int64_t>(0, last - first + 1));
     }
 };
 
-void read_channels(ExrCursor& file, ExrPart& part, std::uint64_t end) {
-    while (file.position() < end) {
+void read_exr_channels(ExrFileCursor& file, ExrPartHeader& part, std::uint64_t end) {
+    while (file.file_position() < end) {
         std::string name = file.read_string();
         if (name.empty()) break;
         const std::uint32_t type = file.read_uint32();
@@ -110,22 +110,22 @@ void read_channels(ExrCursor& file, ExrPart& part, std::uint64_t end) {
 }
 
 /// Checks the strings of a vector, because OpenEXR trusts the length of each.
-void check_string_vector(ExrCursor& file, std::uint64_t end) {
-    while (file.position() + 4 <= end) {
+void check_string_vector(ExrFileCursor& file, std::uint64_t end) {
+    while (file.file_position() + 4 <= end) {
         const std::uint32_t size = file.read_uint32();
-        if (size > end - std::min(end, file.position()))
-            file.refuse("a string of ", size, " bytes");
-        file.skip(size);
+        if (size > end - std::min(end, file.file_position()))
+            file.throw_bad_exr("a string of ", size, " bytes");
+        file.skip_bytes(size);
     }
 }
 
-void read_attribute(ExrCursor& file, ExrPart& part, const std::string& name,
-                    const std::string& type) {
+void read_exr_attribute(ExrFileCursor& file, ExrPartHeader& part, const std::string& name,
+                        const std::string& type) {
     const std::uint32_t size = file.read_uint32();
-    file.require_bytes(size, "an attribute");
-    const std::uint64_t end = file.position() + size;
+    file.require_bytes_left(size, "an attribute");
+    const std::uint64_t end = file.file_position() + size;
     if (name == "channels") {
-        read_channels(file, part, end);
+        read_exr_channels(file, part, end);
     } else if (name == "compression" && size == 1) {
         part.compression = file.read_byte();
     } else if (name == "dataWindow" && size == 16) {
@@ -140,78 +140,81 @@ void read_attribute(ExrCursor& file, ExrPart& part, const std::string& name,
     } else if (type == "preview" && size >= 8) {
         const std::uint64_t width = file.read_uint32(), height = file.read_uint32();
         if (width * height > (size - 8) / 4)
-            file.refuse("a preview of ", width, "x", height, " pixels in ", size, " bytes");
+            file.throw_bad_exr("a preview of ", width, "x", height, " pixels in ", size, " bytes");
     }
-    file.seek(end);
+    file.seek_to_offset(end);
 }
 
-ExrPart read_part_header(ExrCursor& file, bool is_tiled) {
-    ExrPart part;
+ExrPartHeader read_part_header(ExrFileCursor& file, bool is_tiled) {
+    ExrPartHeader part;
     part.is_tiled = is_tiled;
     for (std::string name = file.read_string(); !name.empty(); name = file.read_string()) {
         const std::string type = file.read_string();
-        read_attribute(file, part, name, type);
+        read_exr_attribute(file, part, name, type);
     }
     return part;
 }
 
 /// Returns the number of lines in one chunk.
-std::uint32_t lines_per_chunk(std::uint32_t compression) {
-    constexpr std::uint32_t kLinesPerChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
-    return compression < std::size(kLinesPerChunk) ? kLinesPerChunk[compression] : 256;
+std::uint32_t exr_lines_per_chunk(std::uint32_t compression) {
+    constexpr std::uint32_t kExrLinesPerChunk[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    return compression < std::size(kExrLinesPerChunk) ? kExrLinesPerChunk[compression] : 256;
 }
 
 /// Returns the most bytes of values that one byte of the file can stand for. RLE stores runs of 128
 /// in 2 bytes. Deflate stores at most 1032 bytes in 1. PXR24 drops a quarter of a float before
 /// deflate. B44A stores 32 bytes in 3. The limits of other compressions are not known.
-double max_expansion_factor(std::uint32_t compression) {
-    constexpr double kMaxExpansion[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
-    const double most = compression < std::size(kMaxExpansion) ? kMaxExpansion[compression] : 0;
+double exr_max_expansion_factor(std::uint32_t compression) {
+    constexpr double kExrMaxExpansionFactors[] = {1, 64, 1032, 1032, 0, 1032 * 4 / 3.0, 11, 11};
+    const double most = compression < std::size(kExrMaxExpansionFactors)
+                            ? kExrMaxExpansionFactors[compression]
+                            : 0;
     return most > 0 ? most : std::numeric_limits<double>::infinity();
 }
 
 /// Returns the least bytes that the chunks of this part take. Each chunk has 8 bytes in the chunk
 /// table and 8 before its values. The result is a double, because products of claimed sizes may
 /// overflow any integer.
-double min_chunk_bytes(const ExrCursor& file, const ExrPart& part) {
-    const auto width = double(part.side(0)), height = double(part.side(1));
-    double chunks = std::ceil(height / lines_per_chunk(part.compression));
+double min_exr_chunk_bytes(const ExrFileCursor& file, const ExrPartHeader& part) {
+    const auto width = double(part.window_side(0)), height = double(part.window_side(1));
+    double chunks = std::ceil(height / exr_lines_per_chunk(part.compression));
     if (part.is_tiled) {
         // OpenEXR allocates a whole tile, however small the picture is.
         constexpr double kMaxTileSide = 1024;
         const auto [across, down] = part.tile;
         if (across == 0 || down == 0 || across > std::max(kMaxTileSide, width) ||
             down > std::max(kMaxTileSide, height))
-            file.refuse("wanted tiles of 1 to ", kMaxTileSide, " pixels a side or as large as the ",
-                        "picture, found ", across, "x", down, " for ", width, "x", height);
+            file.throw_bad_exr("wanted tiles of 1 to ", kMaxTileSide,
+                               " pixels a side or as large as the ", "picture, found ", across, "x",
+                               down, " for ", width, "x", height);
         chunks = std::ceil(width / across) * std::ceil(height / down);
     }
     const double values = part.is_subsampled ? 0 : width * height * double(part.pixel_bytes);
     return 16 * std::max(chunks, double(part.chunk_count)) +
-           std::floor(values / max_expansion_factor(part.compression));
+           std::floor(values / exr_max_expansion_factor(part.compression));
 }
 
 } // namespace
 
 ImageShape read_openexr_header(const ByteSource& bytes, const std::string& name) {
-    ExrCursor file(bytes, name);
+    ExrFileCursor file(bytes, name);
     file.read_uint32(); // skips the magic number
     const std::uint32_t flags = file.read_uint32();
     check((flags & kDeepPartsFlag) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");
-    std::vector<ExrPart> parts{read_part_header(file, (flags & kTiledFlag) != 0)};
+    std::vector<ExrPartHeader> parts{read_part_header(file, (flags & kExrTiledFlag) != 0)};
     if ((flags & kMultiPartFlag) != 0)
         while (!file.skip_zero_byte()) parts.push_back(read_part_header(file, false));
     double least = 0;
-    for (const ExrPart& part : parts) least += min_chunk_bytes(file, part);
-    const ExrPart& first = parts.front();
-    check(least <= double(file.bytes_left()), Failure::bad_data, name, ": wanted at least ",
+    for (const ExrPartHeader& part : parts) least += min_exr_chunk_bytes(file, part);
+    const ExrPartHeader& first = parts.front();
+    check(least <= double(file.count_bytes_left()), Failure::bad_data, name, ": wanted at least ",
           static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
-          first.side(0), "x", first.side(1), " pixels of ", first.channels.size(),
-          " channels, found ", file.bytes_left());
+          first.window_side(0), "x", first.window_side(1), " pixels of ", first.channels.size(),
+          " channels, found ", file.count_bytes_left());
     constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
-    return {{static_cast<std::uint32_t>(std::min(first.side(0), kMaxUint32)),
-             static_cast<std::uint32_t>(std::min(first.side(1), kMaxUint32))},
+    return {{static_cast<std::uint32_t>(std::min(first.window_side(0), kMaxUint32)),
+             static_cast<std::uint32_t>(std::min(first.window_side(1), kMaxUint32))},
             first.channels.size(),
             first.channels};
 }

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kModuleFileName = "catoptric-images.so";
 // Bytes of address space for all its libraries.
-constexpr std::size_t kModuleAddressSpace = std::size_t{512} << 20;
+constexpr std::size_t kCodecModuleAddressSpace = std::size_t{512} << 20;
 constexpr const char* kModuleRequirementText =
     "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
     "libopenimageio2.4)";
 
 /// Returns the folder of the library or program that contains this function.
-fs::path find_own_folder() {
+fs::path find_folder_of_this_library() {
     static const char kOwnAddress = 0;
     Dl_info info{};
     link_map* own = nullptr;
@@ -40,7 +40,7 @@ fs::path find_own_folder() {
 /// Returns the module's file. In a build tree it is beside the programs and the library. Installed,
 /// it is in its own folder beside the library.
 fs::path find_image_module_file() {
-    const fs::path own = find_own_folder();
+    const fs::path own = find_folder_of_this_library();
     const fs::path folders[] = {own, own / "catoptric",
                                 (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
     for (const fs::path& folder : folders)
@@ -52,7 +52,7 @@ fs::path find_image_module_file() {
 
 const ImageCodecs* load_image_module() {
     const fs::path file = find_image_module_file();
-    check_address_space(kModuleAddressSpace, "OpenImageIO");
+    check_address_space(kCodecModuleAddressSpace, "OpenImageIO");
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(module != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(),

@@ -12,7 +12,7 @@
 // first picture.
 namespace catoptric {
 
-enum class CodecStatus {
+enum class ImageCodecStatus {
     done,
     no_codec, ///< this OpenImageIO does not support the format
     refused,
@@ -20,12 +20,12 @@ enum class CodecStatus {
     broken ///< OpenImageIO threw something else
 };
 
-struct CodecResult {
-    CodecStatus answer = CodecStatus::done;
+struct ImageCodecResult {
+    ImageCodecStatus answer = ImageCodecStatus::done;
     std::string why = {}; ///< reason in one line; may be empty
 };
 
-enum class CodecValue { uint8, float32 };
+enum class ImageCodecValueType { uint8, float32 };
 
 /// The functions of the module. The functions throw no exceptions. After a call they refer to no
 /// argument, except to the bytes of an open picture. `format` is OpenImageIO's name of a format.
@@ -41,7 +41,7 @@ struct ImageCodecs {
     struct PixelValueBuffer {
         uvec2 size{0};
         std::size_t channel_count = 0;
-        CodecValue type = CodecValue::uint8;
+        ImageCodecValueType type = ImageCodecValueType::uint8;
         const void* values = nullptr;
         std::vector<std::string> channels; ///< empty: named by the format
         std::string description;           ///< see ImageShape
@@ -49,15 +49,16 @@ struct ImageCodecs {
 
     /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is
     /// null.
-    CodecResult (*open)(const ByteSource& bytes, const std::string& format, const std::string& name,
-                        Picture*& picture, PictureHeader& header) noexcept;
+    ImageCodecResult (*open)(const ByteSource& bytes, const std::string& format,
+                             const std::string& name, Picture*& picture,
+                             PictureHeader& header) noexcept;
     /// Reads `row_count` rows from `first` on. Rows of tiled pictures may be read again from their
     /// tiles.
-    CodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
-                        CodecValue type, void* values) noexcept;
+    ImageCodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,
+                             ImageCodecValueType type, void* values) noexcept;
     void (*close)(Picture* picture) noexcept;
-    CodecResult (*encode)(const std::string& format, const PixelValueBuffer& picture,
-                          std::string& bytes) noexcept;
+    ImageCodecResult (*encode)(const std::string& format, const PixelValueBuffer& picture,
+                               std::string& bytes) noexcept;
 };
 
 /// The only symbol that the module exports: a function that returns its `ImageCodecs`. Its number

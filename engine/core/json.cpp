@@ -19,7 +19,7 @@ constexpr int kNumberOutOfRangeError =
     406; // the parser's error number for a number too large for a double
 
 /// Pairs of a part of the parser's message and the expected token. The first match counts.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kExpectedTokens{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kJsonTokenNames{
     {{"missing closing quote", "a closing quotation mark"},
      {"control character", "control characters of a text written as \\n, \\t or \\u00XX"},
      {"ill-formed UTF-8", "UTF-8"},
@@ -43,9 +43,9 @@ std::string describe_json_position(const std::string& file, std::string_view tex
 
 /// Returns the length of the last word of the parser's token, which may also contain the text
 /// before the word.
-std::size_t last_word_length(const std::string& token) {
-    constexpr std::string_view kPunctuation = "[]{}:,";
-    if (token.empty() || kPunctuation.find(token.back()) != kPunctuation.npos) return 1;
+std::size_t length_of_last_word(const std::string& token) {
+    constexpr std::string_view kJsonPunctuation = "[]{}:,";
+    if (token.empty() || kJsonPunctuation.find(token.back()) != kJsonPunctuation.npos) return 1;
     const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
     // For a number or a string the token is exact.
     if (!is_letter(token.back())) return token.size();
@@ -55,7 +55,7 @@ std::size_t last_word_length(const std::string& token) {
 
 /// Returns the text at `at` for a message: the word of `length` characters, cut to 40, or one
 /// character.
-std::string quote_text_at(std::string_view text, std::size_t at, std::size_t length) {
+std::string quote_json_text_at(std::string_view text, std::size_t at, std::size_t length) {
     constexpr std::size_t kMaxQuotedBytes = 40;
     if (at >= text.size()) return "the end";
     const std::string_view word = text.substr(at,
@@ -66,7 +66,7 @@ std::string quote_text_at(std::string_view text, std::size_t at, std::size_t len
 class JsonChecker : public nlohmann::json_sax<Json> {
 public:
     JsonChecker(const std::string& file, std::string_view text, const JsonMemoryCallback& spends)
-        : file_(file), text_(text), spends_(spends) {}
+        : json_file_name_(file), text_(text), spends_(spends) {}
 
     bool null() override { return count_value_memory(); }
     bool boolean(bool) override { return count_value_memory(); }
@@ -89,15 +89,15 @@ public:
         const bool is_whole = words.find("unexpected") != words.npos ||
                               error.id == kNumberOutOfRangeError;
         const bool is_end = words.find("unexpected end of input") != words.npos;
-        const std::size_t length = is_whole ? last_word_length(token) : 1;
+        const std::size_t length = is_whole ? length_of_last_word(token) : 1;
         const std::size_t at = is_end ? text_.size()
                                       : std::min(read - std::min(read, length), text_.size());
         const auto* wanted = std::ranges::find_if(
-            kExpectedTokens, [&](const auto& one) { return words.find(one.first) != words.npos; });
-        fail(Failure::bad_data, describe_json_position(file_, text_, at), ": wanted ",
+            kJsonTokenNames, [&](const auto& one) { return words.find(one.first) != words.npos; });
+        fail(Failure::bad_data, describe_json_position(json_file_name_, text_, at), ": wanted ",
              error.id == kNumberOutOfRangeError ? "a number that a double can hold"
                                                 : wanted->second,
-             ", found ", quote_text_at(text_, at, length));
+             ", found ", quote_json_text_at(text_, at, length));
     }
 
 private:
@@ -107,12 +107,12 @@ private:
         return true;
     }
     bool enter_nesting_level() {
-        check(++depth_ < kMaxNestingDepth, Failure::bad_data, file_,
+        check(++depth_ < kMaxNestingDepth, Failure::bad_data, json_file_name_,
               ": JSON: wanted nesting below ", kMaxNestingDepth, ", found more");
         return count_value_memory(64);
     }
 
-    const std::string& file_;
+    const std::string& json_file_name_;
     std::string_view text_;
     const JsonMemoryCallback& spends_;
     int depth_ = 0;
@@ -120,7 +120,8 @@ private:
 
 } // namespace
 
-void check_json(const std::string& file, std::string_view text, const JsonMemoryCallback& spends) {
+void check_json_syntax(const std::string& file, std::string_view text,
+                       const JsonMemoryCallback& spends) {
     JsonChecker reader(file, text, spends);
     Json::sax_parse(text, &reader);
 }

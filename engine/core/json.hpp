@@ -17,14 +17,15 @@ using JsonMemoryCallback = std::function<void(std::uint64_t bytes)>;
 /// Checks that `text` is JSON, without storing values. Throws `bad_data` if it is not JSON or nests
 /// 64 levels deep or more. The message has file, line, column (from 1, in bytes), what was expected
 /// and what was found.
-void check_json(const std::string& file, std::string_view text,
-                const JsonMemoryCallback& spends = {});
+void check_json_syntax(const std::string& file, std::string_view text,
+                       const JsonMemoryCallback& spends = {});
 
-/// Returns the values of `text`. Throws like `check_json`. `Json` is a type of nlohmann's library.
+/// Returns the values of `text`. Throws like `check_json_syntax`. `Json` is a type of nlohmann's
+/// library.
 template <typename Json>
 Json parse_json(const std::string& file, std::string_view text,
                 const JsonMemoryCallback& spends = {}) {
-    check_json(file, text, spends);
+    check_json_syntax(file, text, spends);
     return Json::parse(text);
 }
 

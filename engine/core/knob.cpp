@@ -37,49 +37,52 @@ std::size_t compute_edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-bool is_same(const Knob& a, const Knob& b) {
+bool is_same_knob(const TechniqueKnob& a, const TechniqueKnob& b) {
     return a.name == b.name && a.special == b.special && a.choices.data() == b.choices.data();
 }
 
 } // namespace
 
-KnobSettings::KnobSettings(std::span<const Knob> knobs) : knobs_(knobs) {
-    for (const Knob& knob : knobs) values_.push_back(knob.value);
+KnobSettings::KnobSettings(std::span<const TechniqueKnob> knobs) : knobs_(knobs) {
+    for (const TechniqueKnob& knob : knobs) values_.push_back(knob.value);
 }
 
-std::size_t KnobSettings::index(const Knob& knob) const {
+std::size_t KnobSettings::value_index(const TechniqueKnob& knob) const {
     const auto found = std::ranges::find_if(
-        knobs_, [&](const Knob& known) { return is_same(known, knob); });
+        knobs_, [&](const TechniqueKnob& known) { return is_same_knob(known, knob); });
     check(found != knobs_.end(), Failure::internal, "there is no knob '", knob.name, "'");
     return static_cast<std::size_t>(found - knobs_.begin());
 }
 
-bool KnobSettings::has_knob(const Knob& knob) const {
-    return std::ranges::any_of(knobs_, [&](const Knob& known) { return is_same(known, knob); });
+bool KnobSettings::has_knob(const TechniqueKnob& knob) const {
+    return std::ranges::any_of(
+        knobs_, [&](const TechniqueKnob& known) { return is_same_knob(known, knob); });
 }
 
-double KnobSettings::number_value(const Knob& knob) const {
-    const std::size_t i = index(knob);
+double KnobSettings::number_value(const TechniqueKnob& knob) const {
+    const std::size_t i = value_index(knob);
     check(values_[i].has_value(), Failure::internal, "knob '", knob.name, "' is '",
           knobs_[i].special, "', no number");
     return *values_[i];
 }
 
-std::string_view KnobSettings::choice_name(const Knob& knob) const {
-    const std::size_t i = index(knob);
+std::string_view KnobSettings::choice_name(const TechniqueKnob& knob) const {
+    const std::size_t i = value_index(knob);
     check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
     return knobs_[i].choices[static_cast<std::size_t>(number_value(knob))];
 }
 
-bool KnobSettings::is_special(const Knob& knob) const { return !values_[index(knob)].has_value(); }
+bool KnobSettings::is_special(const TechniqueKnob& knob) const {
+    return !values_[value_index(knob)].has_value();
+}
 
 void KnobSettings::set_knob(std::string_view owner, std::string_view name, std::string_view text) {
     std::vector<std::string> names;
-    for (const Knob& knob : knobs_) names.emplace_back(knob.name);
-    const auto named = std::ranges::find(knobs_, name, &Knob::name);
+    for (const TechniqueKnob& knob : knobs_) names.emplace_back(knob.name);
+    const auto named = std::ranges::find(knobs_, name, &TechniqueKnob::name);
     check(named != knobs_.end(), Failure::usage, "technique '", owner, "' has no knob '", name, "'",
-          suggest_name(name, names));
-    const Knob& knob = *named;
+          suggest_nearest_name(name, names));
+    const TechniqueKnob& knob = *named;
     std::optional<double>& target = values_[static_cast<std::size_t>(named - knobs_.begin())];
     if (!knob.choices.empty()) {
         const auto found = std::ranges::find(knob.choices, text);
@@ -87,7 +90,7 @@ void KnobSettings::set_knob(std::string_view owner, std::string_view name, std::
         std::string wanted;
         for (const std::string& choice : choices) wanted += (wanted.empty() ? "" : "|") + choice;
         check(found != knob.choices.end(), Failure::usage, "knob '", name, "' of '", owner,
-              "' takes ", wanted, ", not '", text, "'", suggest_name(text, choices));
+              "' takes ", wanted, ", not '", text, "'", suggest_nearest_name(text, choices));
         target = static_cast<double>(found - knob.choices.begin());
         return;
     }
@@ -103,13 +106,13 @@ void KnobSettings::set_knob(std::string_view owner, std::string_view name, std::
               (knob.is_real || value == std::floor(value)),
           Failure::usage, "knob '", name, "' of '", owner, "' takes a ",
           knob.is_real ? "" : "whole ", "number from ", range, ", not '", text, "'",
-          suggest_name(text, std::vector{std::string(knob.special)}));
+          suggest_nearest_name(text, std::vector{std::string(knob.special)}));
     check(value >= knob.low && value <= knob.high, Failure::usage, "knob '", name, "' of '", owner,
           "' takes ", range, ", not ", text);
     target = value;
 }
 
-std::string KnobSettings::format_value(const Knob& knob) const {
+std::string KnobSettings::format_value(const TechniqueKnob& knob) const {
     if (is_special(knob)) return std::string(knob.special);
     return knob.choices.empty() ? format_knob_value(number_value(knob))
                                 : std::string(choice_name(knob));
@@ -128,9 +131,9 @@ std::string find_nearest_name(std::string_view word, std::span<const std::string
     return nearest;
 }
 
-std::string suggest_name(std::string_view word, std::span<const std::string> names) {
+std::string suggest_nearest_name(std::string_view word, std::span<const std::string> names) {
     const std::string nearest = find_nearest_name(word, names);
-    return nearest.empty() ? "" : " (did you mean " + quote_printable(nearest) + "?)";
+    return nearest.empty() ? "" : " (did you mean " + quote_as_printable_text(nearest) + "?)";
 }
 
 } // namespace catoptric

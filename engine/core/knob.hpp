@@ -12,7 +12,7 @@ namespace catoptric {
 
 /// One adjustable number or choice of a technique. Parsing, help, sweeps and tests at extreme
 /// values are all generated from it.
-struct Knob {
+struct TechniqueKnob {
     std::string_view name;
     std::string_view help;
     double low = 0;
@@ -27,37 +27,39 @@ struct Knob {
 /// A value for each of a technique's knobs.
 class KnobSettings {
 public:
-    explicit KnobSettings(std::span<const Knob> knobs);
+    explicit KnobSettings(std::span<const TechniqueKnob> knobs);
 
     /// Returns the knob's number, or the index of its choice. Throws `internal` if there is no such
     /// knob, or if its special word is set.
-    double number_value(const Knob& knob) const;
-    int integer_value(const Knob& knob) const { return static_cast<int>(number_value(knob)); }
+    double number_value(const TechniqueKnob& knob) const;
+    int knob_value_as_integer(const TechniqueKnob& knob) const {
+        return static_cast<int>(number_value(knob));
+    }
     /// Returns the knob's choice as a value of an enumeration, which names the choices in order.
     template <typename Enum>
-    Enum enum_value(const Knob& knob) const {
-        return static_cast<Enum>(integer_value(knob));
+    Enum knob_value_as_enum(const TechniqueKnob& knob) const {
+        return static_cast<Enum>(knob_value_as_integer(knob));
     }
-    std::string_view choice_name(const Knob& knob) const;
+    std::string_view choice_name(const TechniqueKnob& knob) const;
     /// Returns whether the knob's special word is set instead of a number.
-    bool is_special(const Knob& knob) const;
+    bool is_special(const TechniqueKnob& knob) const;
     /// Returns whether the technique has this knob. Another knob of the same name, with other
     /// choices or another special word, does not count.
-    bool has_knob(const Knob& knob) const;
+    bool has_knob(const TechniqueKnob& knob) const;
 
     /// Sets a knob from text. Throws `Failure::usage`, naming the nearest knob or the range.
     void set_knob(std::string_view owner, std::string_view knob, std::string_view text);
-    std::span<const Knob> knobs() const { return knobs_; }
+    std::span<const TechniqueKnob> list_knobs() const { return knobs_; }
     /// Returns the value as the user would type it.
-    std::string format_value(const Knob& knob) const;
+    std::string format_value(const TechniqueKnob& knob) const;
 
     friend bool operator==(const KnobSettings& a, const KnobSettings& b) {
         return a.values_ == b.values_;
     }
 
 private:
-    std::size_t index(const Knob& knob) const;
-    std::span<const Knob> knobs_;
+    std::size_t value_index(const TechniqueKnob& knob) const;
+    std::span<const TechniqueKnob> knobs_;
     std::vector<std::optional<double>> values_; ///< no value: the special word
 };
 
@@ -68,6 +70,6 @@ private:
 std::string find_nearest_name(std::string_view word, std::span<const std::string> names);
 
 /// Returns the end of a message about an unknown name: " (did you mean 'x'?)", or an empty string.
-std::string suggest_name(std::string_view word, std::span<const std::string> names);
+std::string suggest_nearest_name(std::string_view word, std::span<const std::string> names);
 
 } // namespace catoptric

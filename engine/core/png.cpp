@@ -26,7 +26,7 @@ void append_png_bytes(png_structp png, png_bytep data, std::size_t size) {
         png_error(png, "out of memory");
     }
 }
-void flush_png_nothing(png_structp) {}
+void ignore_png_flush(png_structp) {}
 
 [[noreturn]] void fail_png_write(png_structp png, png_const_charp why) {
     auto& destination = *static_cast<PngDestination*>(png_get_error_ptr(png));
@@ -86,7 +86,7 @@ std::string encode_png(const ImageShape& shape, std::span<const std::uint8_t> va
     const auto destroy = [&](png_structp) { png_destroy_write_struct(&png, &info); };
     const std::unique_ptr<png_struct, decltype(destroy)> owner(png, destroy);
     check(info != nullptr, Failure::exhausted, "not enough memory to encode PNG");
-    png_set_write_fn(png, &destination, append_png_bytes, flush_png_nothing);
+    png_set_write_fn(png, &destination, append_png_bytes, ignore_png_flush);
     check(write_png_image(png, info, shape, values.data()), Failure::internal,
           "libpng cannot encode a picture of ", shape.size.x, "x", shape.size.y, ": ",
           destination.why);

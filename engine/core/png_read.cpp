@@ -74,9 +74,9 @@ bool read_png_rows(png_structp png, png_bytepp rows) {
 /// Converts a row of values of 8 bits, or of 16 bits with the high byte first.
 template <typename Value>
 void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, Value* values) {
-    constexpr bool kReadsFloats = std::is_same_v<Value, float>;
+    constexpr bool kIsFloatPixelValue = std::is_same_v<Value, float>;
     if (!is_wide) {
-        if constexpr (kReadsFloats)
+        if constexpr (kIsFloatPixelValue)
             std::transform(row, row + count, values,
                            [](std::uint8_t value) { return float(value) * (1.0F / 255); });
         else
@@ -85,7 +85,7 @@ void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, V
     }
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t value = std::uint32_t(row[2 * i]) << 8 | row[2 * i + 1];
-        if constexpr (kReadsFloats)
+        if constexpr (kIsFloatPixelValue)
             values[i] = float(value) * (1.0F / 65535);
         else
             values[i] = static_cast<std::uint8_t>((value + 128) / 257);
@@ -111,13 +111,13 @@ struct PngReader::PngReadState {
     PngReadState(const PngReadState&) = delete;
     PngReadState& operator=(const PngReadState&) = delete;
 
-    void require(bool works) const {
+    void throw_unless_valid(bool works) const {
         if (works) return;
         fail(Failure::bad_data, name, ": cannot be decoded", origin.why.empty() ? "" : ": ",
              origin.why);
     }
     /// Throws if the picture has more values than deflate can store in the file.
-    void check_size() const {
+    void check_size_against_file() const {
         const std::uint64_t bits = std::uint64_t(png_get_bit_depth(png, info)) *
                                    png_get_channels(png, info);
         const std::uint64_t row_bytes = 1 + (png_get_image_width(png, info) * bits + 7) / 8;
@@ -140,9 +140,9 @@ struct PngReader::PngReadState {
 };
 
 PngReader::PngReader(const ByteSource& bytes, const std::string& name)
-    : open_(std::make_unique<PngReadState>(bytes, name)) {
-    PngReadState& open = *open_;
-    open.require(read_png_header(open.png, open.info));
+    : png_state_(std::make_unique<PngReadState>(bytes, name)) {
+    PngReadState& open = *png_state_;
+    open.throw_unless_valid(read_png_header(open.png, open.info));
     open.size = {png_get_image_width(open.png, open.info),
                  png_get_image_height(open.png, open.info)};
     const int colours = png_get_color_type(open.png, open.info);
@@ -155,29 +155,29 @@ PngReader::PngReader(const ByteSource& bytes, const std::string& name)
 
 PngReader::~PngReader() = default;
 
-void PngReader::check_size() const { open_->check_size(); }
+void PngReader::check_size_against_file() const { png_state_->check_size_against_file(); }
 
-ImageShape PngReader::shape() const {
+ImageShape PngReader::image_shape() const {
     constexpr const char* kGreyChannelNames[] = {"Y", "A"};
     constexpr const char* kColourChannelNames[] = {"R", "G", "B", "A"};
-    const bool is_grey = open_->channel_count < 3;
+    const bool is_grey = png_state_->channel_count < 3;
     const char* const* const names = is_grey ? kGreyChannelNames : kColourChannelNames;
-    return {.size = open_->size,
-            .channel_count = open_->channel_count,
-            .channels = {names, names + open_->channel_count},
+    return {.size = png_state_->size,
+            .channel_count = png_state_->channel_count,
+            .channels = {names, names + png_state_->channel_count},
             .description = {},
-            .has_8_bits = !open_->is_wide};
+            .has_8_bits = !png_state_->is_wide};
 }
 
-void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type,
-                          void* values) {
-    PngReadState& open = *open_;
+void PngReader::read_image_rows(std::uint32_t first, std::uint32_t row_count,
+                                ImageCodecValueType type, void* values) {
+    PngReadState& open = *png_state_;
     check(first == open.next && row_count <= open.size.y - first, Failure::internal, open.name,
           ": wanted row ", open.next, " to be read next, found ", first);
     const std::size_t count = std::size_t(open.size.x) * open.channel_count;
     const std::size_t row_bytes = count * (open.is_wide ? 2 : 1);
     if (!open.is_started) {
-        open.require(start_png_rows(open.png, open.info));
+        open.throw_unless_valid(start_png_rows(open.png, open.info));
         check(png_get_rowbytes(open.png, open.info) == row_bytes, Failure::internal, open.name,
               ": wanted ", row_bytes, " bytes a row, found ",
               png_get_rowbytes(open.png, open.info));
@@ -188,7 +188,7 @@ void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecVal
             std::vector<png_bytep> rows(open.size.y);
             for (std::size_t y = 0; y < rows.size(); ++y)
                 rows[y] = open.whole.data() + y * row_bytes;
-            open.require(read_png_rows(open.png, rows.data()));
+            open.throw_unless_valid(read_png_rows(open.png, rows.data()));
         }
     }
     for (std::uint32_t y = 0; y < row_count; ++y) {
@@ -196,8 +196,8 @@ void PngReader::read_rows(std::uint32_t first, std::uint32_t row_count, CodecVal
         if (open.is_interlaced)
             row = open.whole.data() + std::size_t(first + y) * row_bytes;
         else
-            open.require(read_png_row(open.png, open.row.data()));
-        if (type == CodecValue::float32)
+            open.throw_unless_valid(read_png_row(open.png, open.row.data()));
+        if (type == ImageCodecValueType::float32)
             convert_png_row(row, count, open.is_wide, static_cast<float*>(values) + y * count);
         else
             convert_png_row(row, count, open.is_wide,

@@ -18,18 +18,19 @@ public:
     PngReader(const ByteSource& bytes, const std::string& name);
     ~PngReader();
 
-    ImageShape shape() const;
+    ImageShape image_shape() const;
     /// Throws `bad_data` if the picture claims more than its file can hold: deflate expands one
     /// byte to at most 1032.
-    void check_size() const;
+    void check_size_against_file() const;
     /// Fills `values`, floats in [0,1] or bytes, with the rows from `first` on. Each call must
     /// continue where the last one ended. An interlaced picture is held in memory as a whole.
     /// Throws `bad_data`.
-    void read_rows(std::uint32_t first, std::uint32_t row_count, CodecValue type, void* values);
+    void read_image_rows(std::uint32_t first, std::uint32_t row_count, ImageCodecValueType type,
+                         void* values);
 
 private:
     struct PngReadState;
-    std::unique_ptr<PngReadState> open_;
+    std::unique_ptr<PngReadState> png_state_;
 };
 
 } // namespace catoptric

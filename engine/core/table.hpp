@@ -12,7 +12,7 @@ namespace catoptric {
 /// Returns the rows of a table as they were registered. A program has one table of each type of
 /// row. Call it only in the .cpp of the table.
 template <typename Row>
-std::vector<Row>& registered_rows() {
+std::vector<Row>& get_registered_rows() {
     static std::vector<Row> rows;
     return rows;
 }
@@ -20,7 +20,7 @@ std::vector<Row>& registered_rows() {
 /// Returns the rows sorted by what `key` returns for them.
 template <typename Row, typename Key>
 std::vector<Row> sort_registered_rows(const Key& key) {
-    std::vector<Row> rows = registered_rows<Row>();
+    std::vector<Row> rows = get_registered_rows<Row>();
     std::ranges::sort(rows, {}, [&](const Row& row) { return std::invoke(key, row); });
     return rows;
 }

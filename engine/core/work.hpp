@@ -82,7 +82,7 @@ struct WorkCounts {
     const std::optional<std::uint64_t>& operator[](WorkKind kind) const {
         return values[static_cast<std::size_t>(kind)];
     }
-    void add(WorkKind kind, std::uint64_t count) {
+    void add_count(WorkKind kind, std::uint64_t count) {
         std::optional<std::uint64_t>& value = (*this)[kind];
         value = value.value_or(0) + count;
     }
@@ -103,7 +103,8 @@ struct PassWork {
 };
 
 /// Returns the sum over all passes whose name begins with `prefix`.
-inline WorkCounts sum_work(const std::vector<PassWork>& passes, std::string_view prefix = {}) {
+inline WorkCounts sum_work_of_passes(const std::vector<PassWork>& passes,
+                                     std::string_view prefix = {}) {
     WorkCounts sum;
     for (const PassWork& pass : passes)
         if (pass.name.starts_with(prefix)) sum += pass.counts;

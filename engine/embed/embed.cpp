@@ -9,7 +9,7 @@ namespace catoptric::embed {
 
 namespace {
 
-graph::ResourceUse graph_use_of_layout(VkImageLayout layout) {
+graph::ResourceUse graph_use_of_image_layout(VkImageLayout layout) {
     switch (layout) {
     case VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL: return graph::ResourceUse::sampled;
     case VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL: return graph::ResourceUse::copy_from;
@@ -26,12 +26,12 @@ graph::ResourceUse graph_use_of_layout(VkImageLayout layout) {
 /// Adds the frame's last pass, which copies the displayed picture byte for byte.
 void add_copy_to_target(app::FrameGraph& frame, const Target& target, uvec2 size) {
     const graph::ImageDesc desc{
-        .name = "target", .format = Format::rgba8_unorm, .width = size.x, .height = size.y};
+        .name = "target", .format = TexelFormat::rgba8_unorm, .width = size.x, .height = size.y};
     frame.target = std::make_shared<graph::PhysicalImage>(
         graph::wrap_external_image(desc, target.image));
     const graph::ImageHandle display = frame.parts.front().display;
     const graph::ImageHandle image = frame.graph.import_external(
-        desc, frame.target.get(), std::nullopt, graph_use_of_layout(target.leaves));
+        desc, frame.target.get(), std::nullopt, graph_use_of_image_layout(target.leaves));
     frame.graph.add_pass("target")
         .reads(display, graph::ResourceUse::copy_from)
         .writes(image, graph::ResourceUse::copy_to)
@@ -51,8 +51,8 @@ RequiredDeviceFeatures::RequiredDeviceFeatures(VkPhysicalDevice device) {
 }
 
 app::Engine make_engine(const Device& device, const app::EngineOptions& options) {
-    const gpu::ExternalDevice given{device.instance, device.physical, device.device, device.queue,
-                                    device.queue_family};
+    const gpu::ExternalDeviceHandles given{device.instance, device.physical, device.device,
+                                           device.queue, device.queue_family};
     return app::Access::make_engine(options, {.given = &given});
 }
 
@@ -61,10 +61,10 @@ app::Frame render_frame_into(app::Session& session, const app::FrameSpec& spec,
     check(spec.techniques.size() == 1, Failure::usage, "a target shows one technique, not ",
           spec.techniques.size());
     check(target.image != VK_NULL_HANDLE, Failure::usage, "a target wants an image");
-    static_cast<void>(graph_use_of_layout(target.leaves)); // throws before any work
-    return app::EmbeddingAccess::submit(session, spec, [&](app::FrameGraph& frame) {
-        add_copy_to_target(frame, target, spec.size);
-    });
+    static_cast<void>(graph_use_of_image_layout(target.leaves)); // throws before any work
+    return app::EmbeddingEngineAccess::submit_embedded_frame(
+        session, spec,
+        [&](app::FrameGraph& frame) { add_copy_to_target(frame, target, spec.size); });
 }
 
 } // namespace catoptric::embed

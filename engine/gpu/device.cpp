@@ -15,8 +15,8 @@ std::atomic<bool> some_device_abandoned{false};
 
 bool has_abandoned_device() { return some_device_abandoned; }
 
-Device::Device(const DeviceOptions& options)
-    : messages_(std::make_unique<std::vector<std::string>>()) {
+GpuDevice::GpuDevice(const DeviceOptions& options)
+    : validation_messages_(std::make_unique<std::vector<std::string>>()) {
     try {
         if (options.given)
             adopt_external_device(*options.given);
@@ -31,11 +31,12 @@ Device::Device(const DeviceOptions& options)
     }
 }
 
-Device::~Device() { close(); }
+GpuDevice::~GpuDevice() { close(); }
 
-void Device::close() {
-    if (abandoned_) { // the debug messenger writes to `messages_` as long as the instance exists
-        static_cast<void>(messages_.release());
+void GpuDevice::close() {
+    if (abandoned_) { // the debug messenger writes to `validation_messages_` as long as the
+                      // instance exists
+        static_cast<void>(validation_messages_.release());
         return;
     }
     uploads_.reset();
@@ -49,31 +50,31 @@ void Device::close() {
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
-void Device::abandon(const Error& why) {
+void GpuDevice::abandon(const Error& why) {
     abandoned_ = some_device_abandoned = true;
     if (!why_abandoned_) why_abandoned_ = why;
 }
 
-void Device::check_not_lost(VkResult result, const std::string& doing) try {
-    check_vk(result, doing);
+void GpuDevice::check_not_lost(VkResult result, const std::string& doing) try {
+    throw_unless_vk_success(result, doing);
 } catch (const Error& error) {
     if (error.failure == Failure::device_lost) abandon(error);
     throw;
 }
 
-void Device::check_wait_result(VkResult result, const std::string& doing) try {
-    check_vk(result, doing);
+void GpuDevice::check_wait_result(VkResult result, const std::string& doing) try {
+    throw_unless_vk_success(result, doing);
 } catch (const Error& error) {
     abandon(error);
     throw;
 }
 
-void Device::check_usable() const {
+void GpuDevice::check_usable() const {
     if (abandoned_)
         fail(why_abandoned_->failure, "the device was given up: ", why_abandoned_->what());
 }
 
-int Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const {
+int GpuDevice::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
         if ((type_bits >> i & 1) &&
             (memory_.memoryTypes[i].propertyFlags & properties) == properties)
@@ -81,7 +82,7 @@ int Device::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags propertie
     return -1;
 }
 
-std::uint64_t Device::memory_budget() const {
+std::uint64_t GpuDevice::memory_budget() const {
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < memory_.memoryHeapCount; ++i)
         if (memory_.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
@@ -89,23 +90,23 @@ std::uint64_t Device::memory_budget() const {
     return bytes;
 }
 
-UniqueMemory Device::allocate(std::uint64_t bytes, std::uint32_t type,
-                              const std::string& what) const {
+UniqueMemory GpuDevice::allocate(std::uint64_t bytes, std::uint32_t type,
+                                 const std::string& what) const {
     check(bytes <= max_allocation_, Failure::exhausted, what, " wants ", bytes,
           " bytes in one piece, the device allows ", max_allocation_);
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = bytes;
     allocate.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory),
-             "allocate " + std::to_string(bytes) + " bytes for " + what + " (the device has " +
-                 std::to_string(memory_budget()) + ")");
-    UniqueMemory owned(handle(), memory);
+    throw_unless_vk_success(vkAllocateMemory(device_, &allocate, nullptr, &memory),
+                            "allocate " + std::to_string(bytes) + " bytes for " + what +
+                                " (the device has " + std::to_string(memory_budget()) + ")");
+    UniqueMemory owned(device_handle(), memory);
     set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), what);
     return owned;
 }
 
-void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
+void GpuDevice::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
     if (!set_object_name_) return;
     VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
     info.objectType = type;
@@ -114,29 +115,30 @@ void Device::set_name(VkObjectType type, std::uint64_t handle, const std::string
     set_object_name_(device_, &info);
 }
 
-StagedUploads& Device::uploads() {
+StagedUploads& GpuDevice::uploads() {
     if (!uploads_) uploads_ = std::make_unique<StagedUploads>(*this);
     return *uploads_;
 }
 
-void Device::submit_uploads() {
+void GpuDevice::submit_uploads() {
     if (uploads_) uploads_->submit();
 }
 
-void Device::begin_one_shot(const std::string& doing) {
+void GpuDevice::begin_one_shot(const std::string& doing) {
     check_usable();
     submit_uploads();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check_vk(vkBeginCommandBuffer(one_shot_, &begin), doing + " (begin a command buffer)");
+    throw_unless_vk_success(vkBeginCommandBuffer(one_shot_, &begin),
+                            doing + " (begin a command buffer)");
 }
 
 /// Submits the copies and waits. Their writes become visible to the host and to all later commands.
-void Device::end_one_shot(const std::string& doing) {
-    record_memory_barrier(one_shot_, kTransferWrite,
+void GpuDevice::end_one_shot(const std::string& doing) {
+    record_memory_barrier(one_shot_, kTransferWriteScope,
                           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT});
-    check_vk(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
+    throw_unless_vk_success(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = one_shot_;
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
@@ -146,9 +148,10 @@ void Device::end_one_shot(const std::string& doing) {
     check_wait_result(vkQueueWaitIdle(queue_), doing);
 }
 
-void Device::check_validation() const {
-    check(messages_->empty(), Failure::internal, "the validation layer has ", messages_->size(),
-          " message(s), the first: ", messages_->empty() ? "" : messages_->front());
+void GpuDevice::check_validation() const {
+    check(validation_messages_->empty(), Failure::internal, "the validation layer has ",
+          validation_messages_->size(), " message(s), the first: ",
+          validation_messages_->empty() ? "" : validation_messages_->front());
 }
 
 } // namespace catoptric::gpu

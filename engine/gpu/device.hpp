@@ -31,7 +31,7 @@ class StagedUploads;
 
 /// A device made by the caller with DeviceFeatures::enable_features. All handles must outlive the
 /// Device.
-struct ExternalDevice {
+struct ExternalDeviceHandles {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
@@ -47,7 +47,7 @@ struct DeviceOptions {
     std::vector<std::string> instance_extensions = {}; ///< required by the window system
     /// Makes the surface to show pictures on; empty: none.
     std::function<VkSurfaceKHR(VkInstance)> make_surface = {};
-    std::optional<ExternalDevice> given = {}; ///< a device to use instead of making one
+    std::optional<ExternalDeviceHandles> given = {}; ///< a device to use instead of making one
 };
 
 /// Returns whether a device of this process was abandoned. Its driver's threads may still run, and
@@ -60,26 +60,26 @@ bool has_abandoned_device();
 /// A device that is lost, or that cannot be waited for, may still use its resources. It becomes
 /// *abandoned*: it takes no more work, and neither it, its instance nor its objects are destroyed.
 /// Their memory is lost until the process ends. Another Device may be made.
-class Device {
+class GpuDevice {
 public:
     /// Opens a device. Throws `no_device` if there is none, it cannot be opened or it lacks a
     /// required feature. Throws `usage` if `wanted` matches no device. May throw `exhausted`.
-    explicit Device(const DeviceOptions& options);
-    ~Device();
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
+    explicit GpuDevice(const DeviceOptions& options);
+    ~GpuDevice();
+    GpuDevice(const GpuDevice&) = delete;
+    GpuDevice& operator=(const GpuDevice&) = delete;
 
-    const DeviceProperties& info() const { return info_; }
-    const VkPhysicalDeviceLimits& limits() const { return limits_; }
-    DeviceHandle handle() const { return {device_, &abandoned_}; }
-    VkPhysicalDevice physical() const { return physical_; }
-    VkSurfaceKHR surface() const { return surface_; } ///< null if none was asked for
-    VkQueue queue() const { return queue_; }
-    std::uint32_t queue_family() const { return queue_family_; }
-    bool is_cpu() const { return info_.type == "cpu"; }
+    const DeviceProperties& device_properties() const { return info_; }
+    const VkPhysicalDeviceLimits& vulkan_limits() const { return limits_; }
+    DeviceHandle device_handle() const { return {device_, &abandoned_}; }
+    VkPhysicalDevice physical_device() const { return physical_; }
+    VkSurfaceKHR window_surface() const { return surface_; } ///< null if none was asked for
+    VkQueue vulkan_queue() const { return queue_; }
+    std::uint32_t queue_family_index() const { return queue_family_; }
+    bool is_cpu_device() const { return info_.type == "cpu"; }
     /// Returns the shader variants of the device: the defaults unless `set_variant_choices` was
     /// called. Call `set_variant_choices` before the first frame.
-    const VariantChoices& variant_choices() const { return choices_; }
+    const VariantChoices& list_variant_choices() const { return choices_; }
     void set_variant_choices(const VariantChoices& choices) { choices_ = choices; }
     /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
     /// layer.
@@ -101,8 +101,8 @@ public:
     bool supports_primitive_ids() const { return numbers_triangles_; }
     /// Returns whether the device counts vertices, fragments and other invocations.
     bool has_pipeline_statistics() const { return pipeline_statistics_; }
-    bool needs_staging() const { return staged_; }
-    std::uint32_t timestamp_bits() const { return timestamp_bits_; }
+    bool needs_staged_uploads() const { return staged_; }
+    std::uint32_t valid_timestamp_bits() const { return timestamp_bits_; }
 
     /// Returns the index of the first memory type that is among `type_bits` and has all of
     /// `properties`, or -1.
@@ -110,27 +110,27 @@ public:
     /// Returns the bytes of the largest device-local heap.
     std::uint64_t memory_budget() const;
     /// Returns the most bytes of one allocation.
-    std::uint64_t max_allocation() const { return max_allocation_; }
+    std::uint64_t max_allocation_bytes() const { return max_allocation_; }
     /// Returns the bytes of the heap of a memory type.
-    std::uint64_t heap_bytes(std::uint32_t type) const {
+    std::uint64_t heap_bytes_of_memory_type(std::uint32_t type) const {
         return memory_.memoryHeaps[memory_.memoryTypes[type].heapIndex].size;
     }
     /// Allocates memory. Throws `exhausted`, naming the bytes, and the device's limit if it is
     /// exceeded.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
-    /// Does `check_vk` for a call that submits work or asks about its result. If the device is
-    /// lost, it becomes abandoned.
+    /// Does `throw_unless_vk_success` for a call that submits work or asks about its result. If the
+    /// device is lost, it becomes abandoned.
     void check_not_lost(VkResult result, const std::string& doing);
-    /// Does `check_vk` for a call that waits for the device. If the wait fails, the device becomes
-    /// abandoned.
+    /// Does `throw_unless_vk_success` for a call that waits for the device. If the wait fails, the
+    /// device becomes abandoned.
     void check_wait_result(VkResult result, const std::string& doing);
-    bool abandoned() const { return abandoned_; }
+    bool is_abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.
     void check_usable() const;
     /// Names the object in validation messages and debuggers. Does nothing without
     /// VK_EXT_debug_utils.
     void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
-    bool has_labels() const { return has_debug_utils_; }
+    bool has_debug_labels() const { return has_debug_utils_; }
 
     /// Records copies with `record`, submits them and waits. Their writes are visible to the host
     /// and to all later commands. For uploads and read-back, never inside a timed frame. `doing`
@@ -148,7 +148,7 @@ public:
     void submit_uploads();
 
     /// Returns the messages of the validation layer so far (errors and warnings).
-    const std::vector<std::string>& validation_messages() const { return *messages_; }
+    const std::vector<std::string>& validation_messages() const { return *validation_messages_; }
     /// Throws `internal` with the first validation message, if there is any.
     void check_validation() const;
 
@@ -156,7 +156,7 @@ private:
     void close();
     void create_instance(const DeviceOptions& options);
     void set_variant_choices(const DeviceOptions& options);
-    void adopt_external_device(const ExternalDevice& given);
+    void adopt_external_device(const ExternalDeviceHandles& given);
     void read_physical_device(const DeviceOptions& options);
     void create_device();
     void make_pool();
@@ -187,7 +187,7 @@ private:
     bool abandoned_ = false;
     std::optional<Error> why_abandoned_;
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name_ = nullptr;
-    std::unique_ptr<std::vector<std::string>> messages_;
+    std::unique_ptr<std::vector<std::string>> validation_messages_;
     UniqueCommandPool one_shot_pool_;
     VkCommandBuffer one_shot_ = VK_NULL_HANDLE;
     std::unique_ptr<StagedUploads> uploads_;

@@ -30,7 +30,8 @@ VkDebugUtilsMessengerEXT make_debug_messenger(VkInstance instance,
     const auto make = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT"));
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    check_vk(make(instance, &create, nullptr, &messenger), "create the validation messenger");
+    throw_unless_vk_success(make(instance, &create, nullptr, &messenger),
+                            "create the validation messenger");
     return messenger;
 }
 
@@ -46,7 +47,8 @@ std::size_t find_wanted_device(const std::vector<DeviceProperties>& devices,
         names.push_back(info.name);
     }
     fail(Failure::usage, "no device '", wanted, "': there are ", devices.size(),
-         ", counted from 0; `catoptric list devices` names them", suggest_name(wanted, names));
+         ", counted from 0; `catoptric list devices` names them",
+         suggest_nearest_name(wanted, names));
 }
 
 std::vector<DeviceProperties> describe_all_devices(const std::vector<VkPhysicalDevice>& devices) {
@@ -72,14 +74,14 @@ std::vector<DeviceProperties> list_devices() {
     return list;
 }
 
-void Device::create_instance(const DeviceOptions& options) {
+void GpuDevice::create_instance(const DeviceOptions& options) {
     instance_ = make_instance(options.validate, options.instance_extensions, has_debug_utils_);
     if (options.validate && has_debug_utils_)
-        messenger_ = make_debug_messenger(instance_, *messages_);
+        messenger_ = make_debug_messenger(instance_, *validation_messages_);
     if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
-void Device::set_variant_choices(const DeviceOptions& options) {
+void GpuDevice::set_variant_choices(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = list_physical_devices(instance_);
     std::vector<DeviceProperties> infos = describe_all_devices(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
@@ -100,7 +102,7 @@ void Device::set_variant_choices(const DeviceOptions& options) {
     queue_family_ = static_cast<std::uint32_t>(find_queue_family(physical_));
 }
 
-void Device::adopt_external_device(const ExternalDevice& given) {
+void GpuDevice::adopt_external_device(const ExternalDeviceHandles& given) {
     is_given_ = true;
     instance_ = given.instance, physical_ = given.physical, device_ = given.device;
     queue_ = given.queue, queue_family_ = given.queue_family;
@@ -112,7 +114,7 @@ void Device::adopt_external_device(const ExternalDevice& given) {
 }
 
 /// Reads limits and features of the physical device.
-void Device::read_physical_device(const DeviceOptions& options) {
+void GpuDevice::read_physical_device(const DeviceOptions& options) {
     staged_ = options.staged;
     VkPhysicalDeviceMaintenance3Properties pieces{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
@@ -143,7 +145,7 @@ void Device::read_physical_device(const DeviceOptions& options) {
           queue_family_, ", which does not");
 }
 
-void Device::create_device() {
+void GpuDevice::create_device() {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = queue_family_;
@@ -157,26 +159,28 @@ void Device::create_device() {
     create.ppEnabledExtensionNames = &extension;
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queue;
-    check_vk_start(vkCreateDevice(physical_, &create, nullptr, &device_),
-                   "open device '" + info_.name + "'", "no usable Vulkan device");
+    throw_unless_vulkan_started(vkCreateDevice(physical_, &create, nullptr, &device_),
+                                "open device '" + info_.name + "'", "no usable Vulkan device");
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
     if (has_debug_utils_)
         set_object_name_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
 }
 
-void Device::make_pool() {
+void GpuDevice::make_pool() {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family_;
     VkCommandPool handle = VK_NULL_HANDLE;
-    check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
-    one_shot_pool_ = {this->handle(), handle};
+    throw_unless_vk_success(vkCreateCommandPool(device_, &pool, nullptr, &handle),
+                            "create a command pool");
+    one_shot_pool_ = {this->device_handle(), handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    check_vk(vkAllocateCommandBuffers(device_, &allocate, &one_shot_), "allocate a command buffer");
+    throw_unless_vk_success(vkAllocateCommandBuffers(device_, &allocate, &one_shot_),
+                            "allocate a command buffer");
     set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(one_shot_), "one shot");
 }
 

@@ -46,7 +46,7 @@ std::vector<Item> list_vulkan_items(Call&& call, Failed&& failed) {
 bool has_instance_layer(const char* name) {
     const auto layers = list_vulkan_items<VkLayerProperties>(
         vkEnumerateInstanceLayerProperties,
-        [](VkResult result) { check_vk(result, "enumerate layers"); });
+        [](VkResult result) { throw_unless_vk_success(result, "enumerate layers"); });
     return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
 }
 
@@ -58,7 +58,7 @@ bool has_instance_extension(const char* layer, const char* name) {
         [](VkResult result) {
             // The loader returns VK_ERROR_OUT_OF_HOST_MEMORY for a missing file.
             fail(Failure::no_device, kNoDriverMessage,
-                 " (the Vulkan loader cannot read its driver files: ", name_of(result),
+                 " (the Vulkan loader cannot read its driver files: ", vk_result_name(result),
                  "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
         });
     return std::ranges::any_of(list, [&](const auto& e) { return !strcmp(e.extensionName, name); });
@@ -78,7 +78,7 @@ int rank_device_type(VkPhysicalDeviceType type) {
 /// environment. For widths other than 128 and 256 bits it compiles code that crashes (tested from 0
 /// to 1024 bits).
 std::string describe_vector_width_problem(const VkPhysicalDeviceDriverProperties& driver) {
-    const std::optional<long> asked = requested_vector_bits();
+    const std::optional<long> asked = read_requested_vector_bits();
     const bool is_sound = !asked || *asked == 128 || *asked == 256;
     if (is_sound || driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE ||
         std::string_view(driver.driverInfo).find("Mesa 22.") == std::string_view::npos)
@@ -125,7 +125,7 @@ bool has_subgroup_operations(VkPhysicalDevice device, VkSubgroupFeatureFlags wan
            (subgroups.supportedOperations & wanted) == wanted;
 }
 
-std::uint32_t max_work_group_size(VkPhysicalDevice device) {
+std::uint32_t max_work_group_invocations(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
     return std::min(properties.limits.maxComputeWorkGroupInvocations,
@@ -134,7 +134,7 @@ std::uint32_t max_work_group_size(VkPhysicalDevice device) {
 
 } // namespace
 
-std::optional<long> requested_vector_bits() {
+std::optional<long> read_requested_vector_bits() {
     const char* const text = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     if (text == nullptr) return std::nullopt;
     char* end = nullptr;
@@ -142,11 +142,12 @@ std::optional<long> requested_vector_bits() {
     return end == text ? std::nullopt : std::optional(bits);
 }
 
-void check_vk_start(VkResult result, const std::string& doing, const char* or_else) {
+void throw_unless_vulkan_started(VkResult result, const std::string& doing, const char* or_else) {
     const bool begun = result != VK_ERROR_INITIALIZATION_FAILED &&
                        result != VK_ERROR_INCOMPATIBLE_DRIVER;
-    check(begun, Failure::no_device, or_else, " (cannot ", doing, ": ", name_of(result), ")");
-    check_vk(result, doing);
+    check(begun, Failure::no_device, or_else, " (cannot ", doing, ": ", vk_result_name(result),
+          ")");
+    throw_unless_vk_success(result, doing);
 }
 
 VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
@@ -186,8 +187,8 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     create.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     create.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
-    check_vk_start(vkCreateInstance(&create, nullptr, &instance), "create an instance",
-                   kNoDriverMessage);
+    throw_unless_vulkan_started(vkCreateInstance(&create, nullptr, &instance), "create an instance",
+                                kNoDriverMessage);
     return instance;
 }
 
@@ -196,7 +197,9 @@ std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance) {
         [&](std::uint32_t* count, VkPhysicalDevice* items) {
             return vkEnumeratePhysicalDevices(instance, count, items);
         },
-        [](VkResult result) { check_vk_start(result, "enumerate devices", kNoDriverMessage); });
+        [](VkResult result) {
+            throw_unless_vulkan_started(result, "enumerate devices", kNoDriverMessage);
+        });
     check(!devices.empty(), Failure::no_device, kNoDriverMessage);
     std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
         VkPhysicalDeviceProperties properties;
@@ -246,14 +249,16 @@ bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface) {
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateDeviceExtensionProperties(device, nullptr, count, items);
         },
-        [](VkResult result) { check_vk(result, "enumerate a device's extensions"); });
+        [](VkResult result) {
+            throw_unless_vk_success(result, "enumerate a device's extensions");
+        });
     const auto is_swapchain = [](const VkExtensionProperties& extension) {
         return !strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     };
     VkBool32 can = VK_FALSE;
     const auto family = static_cast<std::uint32_t>(find_queue_family(device));
-    check_vk(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &can),
-             "ask whether a device can show pictures in a window");
+    throw_unless_vk_success(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &can),
+                            "ask whether a device can show pictures in a window");
     return can && std::ranges::any_of(extensions, is_swapchain);
 }
 
@@ -309,7 +314,7 @@ std::string DeviceFeatures::describe_missing_features(VkPhysicalDevice device) {
          has_subgroup_operations(device, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)},
         {"subgroup ballots in compute shaders",
          has_subgroup_operations(device, VK_SUBGROUP_FEATURE_BALLOT_BIT)},
-        {"work groups of 256", max_work_group_size(device) >= 256},
+        {"work groups of 256", max_work_group_invocations(device) >= 256},
     };
     std::string names;
     for (const auto& [name, there] : required)

@@ -4,9 +4,9 @@
 
 namespace catoptric::gpu {
 
-/// Does `check_vk`, but throws `no_device` if the driver is missing or cannot start. `or_else` says
-/// what that means and what to do.
-void check_vk_start(VkResult result, const std::string& doing, const char* or_else);
+/// Does `throw_unless_vk_success`, but throws `no_device` if the driver is missing or cannot start.
+/// `or_else` says what that means and what to do.
+void throw_unless_vulkan_started(VkResult result, const std::string& doing, const char* or_else);
 
 /// Creates an instance with the wanted extensions, with VK_EXT_debug_utils where it exists, and
 /// with the validation layer if `validate` is set. Throws `no_device` if no driver is installed, or
@@ -26,7 +26,7 @@ bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface);
 
 /// Returns the vector width in bits that the environment sets for Mesa's software driver
 /// (LP_NATIVE_VECTOR_WIDTH). None if the variable is unset or no number.
-std::optional<long> requested_vector_bits();
+std::optional<long> read_requested_vector_bits();
 
 /// Returns the index of the queue family that can draw, dispatch and copy, or -1.
 int find_queue_family(VkPhysicalDevice device);

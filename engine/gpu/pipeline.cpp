@@ -11,36 +11,40 @@
 
 namespace catoptric::gpu {
 
-VkDescriptorType descriptor_type_of_binding(BindingKind kind) {
+VkDescriptorType descriptor_type_of_binding(ShaderBindingKind kind) {
     switch (kind) {
-    case BindingKind::uniform_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    case BindingKind::storage_buffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    case BindingKind::texel_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    case BindingKind::sampled_image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    case BindingKind::texture: return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    case BindingKind::sampler: return VK_DESCRIPTOR_TYPE_SAMPLER;
-    case BindingKind::storage_image: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case ShaderBindingKind::uniform_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case ShaderBindingKind::storage_buffer: return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case ShaderBindingKind::texel_buffer: return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    case ShaderBindingKind::sampled_image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case ShaderBindingKind::texture: return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    case ShaderBindingKind::sampler: return VK_DESCRIPTOR_TYPE_SAMPLER;
+    case ShaderBindingKind::storage_image: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     }
     return VK_DESCRIPTOR_TYPE_MAX_ENUM;
 }
 
 namespace {
 
-std::string name_of(const ShaderConstants& constants) {
+std::string format_shader_constants(const ShaderConstants& constants) {
     std::string name;
     for (const auto& [constant, value] : constants)
-        name += ";" + constant + "=" + std::to_string(constant_bits(value));
+        name += ";" + constant + "=" + std::to_string(bits_of_constant(value));
     return name;
 }
 
-std::string name_of(const RasterState& state, const Attachments& attachments) {
-    std::string name = state.vertex + "+" + state.fragment + name_of(state.constants) +
-                       name_of(state.features);
-    for (Format format : attachments.colour) name += "/" + std::string(catoptric::name_of(format));
+std::string describe_raster_pipeline(const RasterState& state,
+                                     const AttachmentFormats& attachments) {
+    std::string name = state.vertex + "+" + state.fragment +
+                       format_shader_constants(state.constants) +
+                       format_shader_constants(state.features);
+    for (TexelFormat format : attachments.colour)
+        name += "/" + std::string(catoptric::texel_format_name(format));
     if (attachments.depth) name += "/depth";
     if (state.blended) name += "/blended";
-    if (state.hidden != Winding::none)
-        name += state.hidden == Winding::clockwise ? "/no clockwise" : "/no counterclockwise";
+    if (state.hidden != TriangleWinding::none)
+        name += state.hidden == TriangleWinding::clockwise ? "/no clockwise"
+                                                           : "/no counterclockwise";
     return name;
 }
 
@@ -48,34 +52,36 @@ std::string name_of(const RasterState& state, const Attachments& attachments) {
 bool is_constant_before(const ShaderConstants& a, const ShaderConstants& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
         return x.first != y.first ? x.first < y.first
-                                  : constant_bits(x.second) < constant_bits(y.second);
+                                  : bits_of_constant(x.second) < bits_of_constant(y.second);
     });
 }
 
 template <typename State>
-bool are_constants_before(const State& a, const State& b) {
+bool is_constant_list_before(const State& a, const State& b) {
     if (is_constant_before(a.constants, b.constants)) return true;
     return !is_constant_before(b.constants, a.constants) &&
            is_constant_before(a.features, b.features);
 }
 
-void check_image_bindings(const Device& device, const std::string& name,
+void check_image_bindings(const GpuDevice& device, const std::string& name,
                           const std::vector<ShaderBinding>& bindings) {
     std::uint32_t images = 0;
     for (const ShaderBinding& binding : bindings)
-        if (binding.kind == BindingKind::sampled_image || binding.kind == BindingKind::texture)
+        if (binding.kind == ShaderBindingKind::sampled_image ||
+            binding.kind == ShaderBindingKind::texture)
             images += binding.count;
-    const std::uint32_t most = device.limits().maxPerStageDescriptorSampledImages;
+    const std::uint32_t most = device.vulkan_limits().maxPerStageDescriptorSampledImages;
     check(images <= most, Failure::exhausted, "pipeline '", name, "' samples ", images,
           " images, the device allows ", most);
 }
 
 /// Checks that every constant is known to a stage, merges the bindings and creates the layouts.
-void make_pipeline_layout(const Device& device, const std::string& name,
+void make_pipeline_layout(const GpuDevice& device, const std::string& name,
                           std::span<ShaderStage> stages, const ShaderConstants& constants,
                           Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
-        check(std::ranges::any_of(stages, [&](const ShaderStage& s) { return s.find(constant); }),
+        check(std::ranges::any_of(stages,
+                                  [&](const ShaderStage& s) { return s.find_constant(constant); }),
               Failure::internal, "pipeline '", name, "' has no constant '", constant, "'");
     for (const ShaderStage& stage : stages) {
         pipeline.stages |= stage.bit;
@@ -101,9 +107,10 @@ void make_pipeline_layout(const Device& device, const std::string& name,
     set.bindingCount = static_cast<std::uint32_t>(slots.size());
     set.pBindings = slots.data();
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
-    check_vk(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_layout),
-             "lay out '" + name + "'");
-    pipeline.set_layout = {device.handle(), set_layout};
+    throw_unless_vk_success(
+        vkCreateDescriptorSetLayout(device.device_handle(), &set, nullptr, &set_layout),
+        "lay out '" + name + "'");
+    pipeline.set_layout = {device.device_handle(), set_layout};
 
     const VkPushConstantRange push{pipeline.stages, 0, pipeline.push_bytes};
     VkPipelineLayoutCreateInfo create{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
@@ -112,15 +119,16 @@ void make_pipeline_layout(const Device& device, const std::string& name,
     create.pushConstantRangeCount = pipeline.push_bytes ? 1 : 0;
     create.pPushConstantRanges = &push;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    check_vk(vkCreatePipelineLayout(device.handle(), &create, nullptr, &layout),
-             "lay out '" + name + "'");
-    pipeline.layout = {device.handle(), layout};
+    throw_unless_vk_success(
+        vkCreatePipelineLayout(device.device_handle(), &create, nullptr, &layout),
+        "lay out '" + name + "'");
+    pipeline.layout = {device.device_handle(), layout};
 }
 
 /// Creates a raster pipeline with the fixed-function state that all raster pipelines share.
-VkPipeline make_raster_pipeline(const Device& device, VkPipelineCache cache,
+VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
                                 std::span<const VkPipelineShaderStageCreateInfo> stages,
-                                const Attachments& attachments, const RasterState& state,
+                                const AttachmentFormats& attachments, const RasterState& state,
                                 VkPipelineLayout layout, const std::string& name) {
     const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
@@ -142,9 +150,11 @@ VkPipeline make_raster_pipeline(const Device& device, VkPipelineCache cache,
     VkPipelineRasterizationStateCreateInfo raster{
         VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
     raster.polygonMode = VK_POLYGON_MODE_FILL;
-    raster.cullMode = state.hidden == Winding::none ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
-    raster.frontFace = state.hidden == Winding::counterclockwise ? VK_FRONT_FACE_CLOCKWISE
-                                                                 : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+    raster.cullMode = state.hidden == TriangleWinding::none ? VK_CULL_MODE_NONE
+                                                            : VK_CULL_MODE_BACK_BIT;
+    raster.frontFace = state.hidden == TriangleWinding::counterclockwise
+                           ? VK_FRONT_FACE_CLOCKWISE
+                           : VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
     VkPipelineMultisampleStateCreateInfo samples{
         VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
@@ -169,11 +179,11 @@ VkPipeline make_raster_pipeline(const Device& device, VkPipelineCache cache,
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
     std::vector<VkFormat> formats;
-    for (Format format : attachments.colour) formats.push_back(to_vk_format(format));
+    for (TexelFormat format : attachments.colour) formats.push_back(to_vk_format(format));
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
     rendering.pColorAttachmentFormats = formats.data();
-    if (attachments.depth) rendering.depthAttachmentFormat = to_vk_format(Format::d32f);
+    if (attachments.depth) rendering.depthAttachmentFormat = to_vk_format(TexelFormat::d32f);
 
     VkGraphicsPipelineCreateInfo create{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
                                         &rendering};
@@ -189,76 +199,82 @@ VkPipeline make_raster_pipeline(const Device& device, VkPipelineCache cache,
     create.pDynamicState = &dynamic;
     create.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check_vk(vkCreateGraphicsPipelines(device.handle(), cache, 1, &create, nullptr, &pipeline),
-             "create pipeline '" + name + "'");
+    throw_unless_vk_success(
+        vkCreateGraphicsPipelines(device.device_handle(), cache, 1, &create, nullptr, &pipeline),
+        "create pipeline '" + name + "'");
     return pipeline;
 }
 
 } // namespace
 
-const std::string& Pipelines::variant_of(const std::string& shader) const {
+const std::string& PipelineStore::variant_of(const std::string& shader) const {
     const auto found = variants_.find(shader);
     return found == variants_.end() ? shader : found->second;
 }
 
-bool Pipelines::ConstantsOrder::operator()(const RasterKeyView& a, const RasterKeyView& b) const {
+bool PipelineStore::ShaderConstantsOrder::operator()(const RasterKeyView& a,
+                                                     const RasterKeyView& b) const {
     const auto first = [](const RasterKeyView& view) {
         const auto& [state, attachments] = view;
         return std::tie(state.hidden, state.blended, attachments.depth, attachments.colour,
                         state.fragment, state.vertex);
     };
     const auto order = first(a) <=> first(b);
-    return order != 0 ? order < 0 : are_constants_before(a.first, b.first);
+    return order != 0 ? order < 0 : is_constant_list_before(a.first, b.first);
 }
 
-bool Pipelines::ConstantsOrder::operator()(const ComputeState& a, const ComputeState& b) const {
-    return a.shader != b.shader ? a.shader < b.shader : are_constants_before(a, b);
+bool PipelineStore::ShaderConstantsOrder::operator()(const ComputeState& a,
+                                                     const ComputeState& b) const {
+    return a.shader != b.shader ? a.shader < b.shader : is_constant_list_before(a, b);
 }
 
-const Pipeline& Pipelines::find_or_make_raster(const RasterState& state,
-                                               const Attachments& attachments) {
+const Pipeline& PipelineStore::find_or_make_raster(const RasterState& state,
+                                                   const AttachmentFormats& attachments) {
     const auto found = rasters_.find(RasterKeyView(state, attachments));
     if (found != rasters_.end()) return found->second;
 
     const Stopwatch watch(ms_);
-    const std::string name = name_of(state, attachments);
+    const std::string name = describe_raster_pipeline(state, attachments);
     Pipeline pipeline;
     std::vector<ShaderStage> stages;
-    stages.emplace_back(device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
+    stages.emplace_back(pipeline_device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
                         state.constants, state.features);
     if (!state.fragment.empty())
-        stages.emplace_back(device_, variant_of(state.fragment), VK_SHADER_STAGE_FRAGMENT_BIT,
-                            state.constants, state.features);
-    make_pipeline_layout(device_, name, stages, state.constants, pipeline);
+        stages.emplace_back(pipeline_device_, variant_of(state.fragment),
+                            VK_SHADER_STAGE_FRAGMENT_BIT, state.constants, state.features);
+    make_pipeline_layout(pipeline_device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
-    for (const ShaderStage& stage : stages) infos.push_back(stage.info());
-    pipeline.pipeline = {device_.handle(),
-                         make_raster_pipeline(device_, cache_.handle(), infos, attachments, state,
-                                              pipeline.layout, name)};
-    device_.set_name(VK_OBJECT_TYPE_PIPELINE,
-                     reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), name);
+    for (const ShaderStage& stage : stages) infos.push_back(stage.make_create_info());
+    pipeline.pipeline = {pipeline_device_.device_handle(),
+                         make_raster_pipeline(pipeline_device_, cache_.cache_handle(), infos,
+                                              attachments, state, pipeline.layout, name)};
+    pipeline_device_.set_name(VK_OBJECT_TYPE_PIPELINE,
+                              reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), name);
     return rasters_.emplace(RasterKey(state, attachments), std::move(pipeline)).first->second;
 }
 
-const Pipeline& Pipelines::find_or_make_compute(const ComputeState& state) {
+const Pipeline& PipelineStore::find_or_make_compute(const ComputeState& state) {
     if (const auto found = computes_.find(state); found != computes_.end()) return found->second;
 
     const Stopwatch watch(ms_);
-    const std::string name = state.shader + name_of(state.constants) + name_of(state.features);
+    const std::string name = state.shader + format_shader_constants(state.constants) +
+                             format_shader_constants(state.features);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-    ShaderStage stage(device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT,
+    ShaderStage stage(pipeline_device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT,
                       state.constants, state.features);
-    make_pipeline_layout(device_, name, {&stage, 1}, state.constants, pipeline);
+    make_pipeline_layout(pipeline_device_, name, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    create.stage = stage.info();
+    create.stage = stage.make_create_info();
     create.layout = pipeline.layout;
     VkPipeline handle = VK_NULL_HANDLE;
-    check_vk(
-        vkCreateComputePipelines(device_.handle(), cache_.handle(), 1, &create, nullptr, &handle),
-        "create pipeline '" + name + "'");
-    pipeline.pipeline = {device_.handle(), handle};
-    device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle), name);
+    throw_unless_vk_success(vkCreateComputePipelines(pipeline_device_.device_handle(),
+                                                     cache_.cache_handle(), 1, &create, nullptr,
+                                                     &handle),
+                            "create pipeline '" + name + "'");
+    pipeline.pipeline = {pipeline_device_.device_handle(), handle};
+    pipeline_device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle),
+                              name);
     return computes_.emplace(state, std::move(pipeline)).first->second;
 }
 

@@ -15,7 +15,7 @@ namespace catoptric::gpu {
 using ShaderConstants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
 
 /// The order of a triangle's corners in the picture.
-enum class Winding { none, clockwise, counterclockwise };
+enum class TriangleWinding { none, clockwise, counterclockwise };
 
 /// A raster pipeline as a pass body asks for it. Attachments come from the pass. Depth is reversed:
 /// greater is nearer.
@@ -23,9 +23,9 @@ struct RasterState {
     std::string vertex;
     std::string fragment; ///< empty: depth only
     ShaderConstants constants;
-    Winding hidden = Winding::none; ///< triangles of this winding are culled
-    ShaderConstants features = {};  ///< constants of the scene; ignored by shaders that lack them
-    bool blended = false;           ///< blended over the attachment by alpha
+    TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
+    ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
+    bool blended = false;          ///< blended over the attachment by alpha
 };
 
 struct ComputeState {
@@ -34,13 +34,13 @@ struct ComputeState {
     ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
 };
 
-struct Attachments {
-    std::vector<Format> colour;
+struct AttachmentFormats {
+    std::vector<TexelFormat> colour;
     bool depth = false;
 };
 
 /// Returns Vulkan's descriptor type of a binding.
-VkDescriptorType descriptor_type_of_binding(BindingKind kind);
+VkDescriptorType descriptor_type_of_binding(ShaderBindingKind kind);
 
 /// A pipeline with its layout and the bindings that its shaders use.
 struct Pipeline {
@@ -55,36 +55,39 @@ struct Pipeline {
 
 /// Makes each pipeline once. References stay valid as long as this object lives. On a software
 /// driver the first use of a pipeline still compiles it inside the frame.
-class Pipelines {
+class PipelineStore {
 public:
     /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
     /// for benchmarks that compare two builds of one shader.
     /// `cache`: folder for compiled pipelines; empty: none.
-    explicit Pipelines(Device& device, std::map<std::string, std::string> variants = {},
-                       const std::filesystem::path& cache = {})
-        : device_(device), variants_(std::move(variants)), cache_(device, cache) {}
-    const Pipeline& find_or_make_raster(const RasterState& state, const Attachments& attachments);
+    explicit PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants = {},
+                           const std::filesystem::path& cache = {})
+        : pipeline_device_(device), variants_(std::move(variants)), cache_(device, cache) {}
+    const Pipeline& find_or_make_raster(const RasterState& state,
+                                        const AttachmentFormats& attachments);
     const Pipeline& find_or_make_compute(const ComputeState& state);
-    const PipelineCache& cache() const { return cache_; }
-    std::size_t made_pipeline_count() const { return rasters_.size() + computes_.size(); }
-    double compile_ms() const { return ms_; } ///< milliseconds of the host, for all pipelines made
+    const PipelineCache& pipeline_cache() const { return cache_; }
+    std::size_t count_made_pipelines() const { return rasters_.size() + computes_.size(); }
+    double total_compile_ms() const {
+        return ms_;
+    } ///< milliseconds of the host, for all pipelines made
 
 private:
-    using RasterKey = std::pair<RasterState, Attachments>;
-    using RasterKeyView = std::pair<const RasterState&, const Attachments&>;
+    using RasterKey = std::pair<RasterState, AttachmentFormats>;
+    using RasterKeyView = std::pair<const RasterState&, const AttachmentFormats&>;
     /// An order of the requests, so that a lookup builds no name.
-    struct ConstantsOrder {
+    struct ShaderConstantsOrder {
         using is_transparent = void;
         bool operator()(const RasterKeyView& a, const RasterKeyView& b) const;
         bool operator()(const ComputeState& a, const ComputeState& b) const;
     };
 
     const std::string& variant_of(const std::string& shader) const;
-    Device& device_;
+    GpuDevice& pipeline_device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
-    std::map<RasterKey, Pipeline, ConstantsOrder> rasters_;
-    std::map<ComputeState, Pipeline, ConstantsOrder> computes_;
+    std::map<RasterKey, Pipeline, ShaderConstantsOrder> rasters_;
+    std::map<ComputeState, Pipeline, ShaderConstantsOrder> computes_;
     double ms_ = 0;
 };
 

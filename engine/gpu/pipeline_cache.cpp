@@ -43,9 +43,9 @@ std::string strip_cache_file_header(const std::string& file) {
 
 /// Returns a file name for device, driver and driver build. Vulkan does not define pipeline data of
 /// one to be valid for another.
-std::string make_cache_file_name(const Device& device) {
+std::string make_cache_file_name(const GpuDevice& device) {
     VkPhysicalDeviceProperties properties{};
-    vkGetPhysicalDeviceProperties(device.physical(), &properties);
+    vkGetPhysicalDeviceProperties(device.physical_device(), &properties);
     char text[64];
     std::snprintf(text, sizeof text, "pipelines-%08x-%08x-%08x-", properties.vendorID,
                   properties.deviceID, properties.driverVersion);
@@ -59,7 +59,7 @@ std::string make_cache_file_name(const Device& device) {
 
 } // namespace
 
-PipelineCache::PipelineCache(Device& device, const fs::path& folder) : device_(device) {
+PipelineCache::PipelineCache(GpuDevice& device, const fs::path& folder) : cache_device_(device) {
     if (!folder.empty()) {
         std::error_code error;
         fs::create_directories(folder, error);
@@ -70,13 +70,13 @@ PipelineCache::PipelineCache(Device& device, const fs::path& folder) : device_(d
     create.initialDataSize = known_.size();
     create.pInitialData = known_.data();
     VkPipelineCache cache = VK_NULL_HANDLE;
-    check_vk(vkCreatePipelineCache(device.handle(), &create, nullptr, &cache),
-             "create a pipeline cache");
-    cache_ = {device.handle(), cache};
+    throw_unless_vk_success(vkCreatePipelineCache(device.device_handle(), &create, nullptr, &cache),
+                            "create a pipeline cache");
+    cache_ = {device.device_handle(), cache};
 }
 
 PipelineCache::~PipelineCache() {
-    if (file_.empty() || device_.abandoned()) return;
+    if (file_.empty() || cache_device_.is_abandoned()) return;
     try {
         save();
     } catch (...) { // ignored: it is only a cache
@@ -110,9 +110,12 @@ std::string PipelineCache::loaded() {
 
 void PipelineCache::save() const {
     std::size_t size = 0;
-    if (vkGetPipelineCacheData(device_.handle(), cache_, &size, nullptr) != VK_SUCCESS) return;
+    if (vkGetPipelineCacheData(cache_device_.device_handle(), cache_, &size, nullptr) != VK_SUCCESS)
+        return;
     std::string data(size, '\0');
-    if (vkGetPipelineCacheData(device_.handle(), cache_, &size, data.data()) != VK_SUCCESS) return;
+    if (vkGetPipelineCacheData(cache_device_.device_handle(), cache_, &size, data.data()) !=
+        VK_SUCCESS)
+        return;
     data.resize(size);
     if (data != known_) write_file(file_, add_cache_file_header(data));
 }

@@ -71,28 +71,29 @@ public:
             const std::uint32_t length = words[i] >> 16;
             check(length > 0 && i + length <= words.size(), Failure::internal, "shader '", name,
                   "' is cut off");
-            read(words[i] & 0xffff, words.subspan(i + 1, length - 1));
+            read_instruction(words[i] & 0xffff, words.subspan(i + 1, length - 1));
             i += length;
         }
     }
 
-    ShaderReflection reflection() const {
+    ShaderReflection make_reflection() const {
         ShaderReflection result;
         for (const SpirvVariable& variable : variables_) {
             if (variable.storage == kPushConstant)
-                result.push_bytes = std::max(result.push_bytes, size_of(pointee(variable)));
-            else if (used_.contains(variable.id) && decoration(variable.id, kBinding))
-                result.bindings.push_back(binding(variable));
+                result.push_bytes = std::max(result.push_bytes,
+                                             size_of_type(pointed_to_type(variable)));
+            else if (used_.contains(variable.id) && find_decoration(variable.id, kBinding))
+                result.bindings.push_back(make_shader_binding(variable));
         }
         for (const auto& [key, value] : decorations_)
-            if (key.second == kSpecId) result.constants.push_back({name_of(key.first), value});
+            if (key.second == kSpecId) result.constants.push_back({name_of_id(key.first), value});
         result.doubles = doubles_, result.triangle_numbers = triangle_numbers_;
         std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);
         return result;
     }
 
 private:
-    void read(std::uint32_t op, std::span<const std::uint32_t> words) {
+    void read_instruction(std::uint32_t op, std::span<const std::uint32_t> words) {
         switch (op) {
         case kName: names_[words[0]] = reinterpret_cast<const char*>(words.data() + 1); break;
         case kCapability:
@@ -128,51 +129,51 @@ private:
         }
     }
 
-    std::optional<std::uint32_t> decoration(std::uint32_t id, std::uint32_t which) const {
+    std::optional<std::uint32_t> find_decoration(std::uint32_t id, std::uint32_t which) const {
         const auto found = decorations_.find({id, which});
         return found == decorations_.end() ? std::nullopt : std::optional(found->second);
     }
-    std::string name_of(std::uint32_t id) const {
+    std::string name_of_id(std::uint32_t id) const {
         const auto found = names_.find(id);
         return found == names_.end() ? "" : found->second;
     }
-    std::uint32_t pointee(const SpirvVariable& variable) const {
+    std::uint32_t pointed_to_type(const SpirvVariable& variable) const {
         return types_.at(variable.type).words[1];
     }
 
     /// Returns the bytes of a type in the scalar layout.
-    std::uint32_t size_of(std::uint32_t id) const {
+    std::uint32_t size_of_type(std::uint32_t id) const {
         const SpirvType& type = types_.at(id);
         switch (type.op) {
         case kTypeInt:
         case kTypeFloat: return type.words[0] / 8;
         case kTypeVector:
-        case kTypeMatrix: return size_of(type.words[0]) * type.words[1];
-        case kTypeArray: return size_of(type.words[0]) * constants_.at(type.words[1]);
+        case kTypeMatrix: return size_of_type(type.words[0]) * type.words[1];
+        case kTypeArray: return size_of_type(type.words[0]) * constants_.at(type.words[1]);
         case kTypeStruct: {
             if (type.words.empty()) return 0;
             const auto last = static_cast<std::uint32_t>(type.words.size() - 1);
-            return member_offsets_.at({id, last}) + size_of(type.words[last]);
+            return member_offsets_.at({id, last}) + size_of_type(type.words[last]);
         }
         default: fail(Failure::internal, "shader '", name_, "': a push constant of unknown size");
         }
     }
 
-    ShaderBinding binding(const SpirvVariable& variable) const {
+    ShaderBinding make_shader_binding(const SpirvVariable& variable) const {
         ShaderBinding result;
-        result.name = name_of(variable.id);
-        result.binding = *decoration(variable.id, kBinding);
-        check(decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
+        result.name = name_of_id(variable.id);
+        result.binding = *find_decoration(variable.id, kBinding);
+        check(find_decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
               "shader '", name_, "': '", result.name, "' is not in set 0");
-        const SpirvType* type = &types_.at(pointee(variable));
+        const SpirvType* type = &types_.at(pointed_to_type(variable));
         if (type->op == kTypeStruct) {
-            if (result.name.empty()) result.name = name_of(pointee(variable));
-            result.kind = variable.storage == kUniform ? BindingKind::uniform_buffer
-                                                       : BindingKind::storage_buffer;
+            if (result.name.empty()) result.name = name_of_id(pointed_to_type(variable));
+            result.kind = variable.storage == kUniform ? ShaderBindingKind::uniform_buffer
+                                                       : ShaderBindingKind::storage_buffer;
             return result;
         }
         if (type->op == kTypeSampler) {
-            result.kind = BindingKind::sampler;
+            result.kind = ShaderBindingKind::sampler;
             return result;
         }
         const bool is_array = type->op == kTypeArray;
@@ -184,11 +185,11 @@ private:
         if (has_sampler) type = &types_.at(type->words[0]);
         const std::uint32_t dim = type->words[1], arrayed = type->words[3],
                             sampled = type->words[5];
-        result.kind = dim == kDimBuffer ? BindingKind::texel_buffer
-                      : sampled == 2    ? BindingKind::storage_image
-                      : has_sampler     ? BindingKind::sampled_image
-                                        : BindingKind::texture;
-        check(!is_array || result.kind == BindingKind::texture, Failure::internal, "shader '",
+        result.kind = dim == kDimBuffer ? ShaderBindingKind::texel_buffer
+                      : sampled == 2    ? ShaderBindingKind::storage_image
+                      : has_sampler     ? ShaderBindingKind::sampled_image
+                                        : ShaderBindingKind::texture;
+        check(!is_array || result.kind == ShaderBindingKind::texture, Failure::internal, "shader '",
               name_, "': '", result.name, "' is an array of something else than textures");
         result.shape = dim == kDimCube
                            ? (arrayed ? ImageViewType::cube_array : ImageViewType::cube)
@@ -210,7 +211,7 @@ private:
 
 namespace {
 
-std::map<std::string_view, EmbeddedShader>& added_shaders() {
+std::map<std::string_view, EmbeddedShader>& list_added_shaders() {
     static std::map<std::string_view, EmbeddedShader> shaders; // filled while the program starts
     return shaders;
 }
@@ -219,8 +220,8 @@ const EmbeddedShader* find_embedded_shader(std::string_view name) {
     const auto shaders = embedded_shaders();
     const auto found = std::ranges::find(shaders, name, &EmbeddedShader::name);
     if (found != shaders.end()) return &*found;
-    const auto other = added_shaders().find(name);
-    return other == added_shaders().end() ? nullptr : &other->second;
+    const auto other = list_added_shaders().find(name);
+    return other == list_added_shaders().end() ? nullptr : &other->second;
 }
 
 } // namespace
@@ -228,7 +229,7 @@ const EmbeddedShader* find_embedded_shader(std::string_view name) {
 void add_shader(const EmbeddedShader& shader) {
     check(!find_embedded_shader(shader.name), Failure::usage, "there is a shader '", shader.name,
           "' already");
-    added_shaders().emplace(shader.name, shader);
+    list_added_shaders().emplace(shader.name, shader);
 }
 
 const EmbeddedShader& find_shader(std::string_view name) {
@@ -238,7 +239,7 @@ const EmbeddedShader& find_shader(std::string_view name) {
 }
 
 ShaderReflection reflect_spirv(std::string_view name, std::span<const std::uint32_t> words) {
-    return SpirvModule(name, words).reflection();
+    return SpirvModule(name, words).make_reflection();
 }
 
 } // namespace catoptric::gpu

@@ -10,7 +10,7 @@ namespace {
 
 /// Returns the constants that switch shaders to substitutes for features that the device lacks. A
 /// shader without such a constant is not affected.
-ShaderConstants make_feature_constants(const Device& device) {
+ShaderConstants make_feature_constants(const GpuDevice& device) {
     ShaderConstants constants;
     if (device.reads_texels_from_storage()) constants.emplace_back("texels_in_storage", 1u);
     if (!device.has_float_filtering()) constants.emplace_back("distances_by_gather", 1u);
@@ -19,22 +19,24 @@ ShaderConstants make_feature_constants(const Device& device) {
 
 } // namespace
 
-ShaderStage::ShaderStage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
-                         const ShaderConstants& constants, const ShaderConstants& features)
+ShaderStage::ShaderStage(const GpuDevice& device, const std::string& name,
+                         VkShaderStageFlagBits stage, const ShaderConstants& constants,
+                         const ShaderConstants& features)
     : bit(stage) {
     const EmbeddedShader& shader = find_shader(name);
     reflection = reflect_spirv(name, shader.words);
     check(!reflection.doubles || device.supports_doubles(), Failure::no_device, "shader '", name,
-          "' computes with doubles, which device '", device.info().name, "' cannot");
+          "' computes with doubles, which device '", device.device_properties().name, "' cannot");
     check(!reflection.triangle_numbers || device.supports_primitive_ids(), Failure::no_device,
-          "shader '", name, "' reads the number of a triangle, which device '", device.info().name,
+          "shader '", name, "' reads the number of a triangle, which device '",
+          device.device_properties().name,
           "' does not give; the technique raytrace with first=ray needs none");
     std::map<std::uint32_t, std::uint32_t> values;
     const ShaderConstants of_device = make_feature_constants(device);
     for (const ShaderConstants* list : {&of_device, &constants, &features})
         for (const auto& [constant, value] : *list)
-            if (const SpecialisationConstant* known = find(constant))
-                values[known->id] = constant_bits(value);
+            if (const SpecialisationConstant* known = find_constant(constant))
+                values[known->id] = bits_of_constant(value);
     const std::vector<std::uint32_t> words = specialise_shader(name, shader.words, values);
     // Only the bindings that are still used with these constants.
     reflection.bindings = reflect_spirv(name, words).bindings;
@@ -42,9 +44,9 @@ ShaderStage::ShaderStage(const Device& device, const std::string& name, VkShader
     create.codeSize = words.size() * sizeof(std::uint32_t);
     create.pCode = words.data();
     VkShaderModule handle = VK_NULL_HANDLE;
-    check_vk(vkCreateShaderModule(device.handle(), &create, nullptr, &handle),
-             "load shader '" + name + "'");
-    module = {device.handle(), handle};
+    throw_unless_vk_success(vkCreateShaderModule(device.device_handle(), &create, nullptr, &handle),
+                            "load shader '" + name + "'");
+    module = {device.device_handle(), handle};
 }
 
 } // namespace catoptric::gpu

@@ -9,15 +9,15 @@
 namespace catoptric::gpu {
 
 /// Returns the 32 bits that are passed to the shader for a constant.
-inline std::uint32_t constant_bits(const std::variant<std::uint32_t, float>& value) {
+inline std::uint32_t bits_of_constant(const std::variant<std::uint32_t, float>& value) {
     return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
 }
 
 /// One stage of a pipeline. Its module must outlive the call that creates the pipeline.
 struct ShaderStage {
-    ShaderStage(const Device& device, const std::string& name, VkShaderStageFlagBits stage,
+    ShaderStage(const GpuDevice& device, const std::string& name, VkShaderStageFlagBits stage,
                 const ShaderConstants& constants, const ShaderConstants& features);
-    VkPipelineShaderStageCreateInfo info() const {
+    VkPipelineShaderStageCreateInfo make_create_info() const {
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;
         stage.module = module;
@@ -25,7 +25,7 @@ struct ShaderStage {
         return stage;
     }
     /// Returns the constant of this name, or null if the shader has none.
-    const SpecialisationConstant* find(const std::string& constant) const {
+    const SpecialisationConstant* find_constant(const std::string& constant) const {
         const auto found = std::ranges::find(reflection.constants, constant,
                                              &SpecialisationConstant::name);
         return found == reflection.constants.end() ? nullptr : &*found;

@@ -12,20 +12,20 @@ namespace catoptric::gpu {
 class Swapchain {
 public:
     /// `device` must have a surface. Throws `no_device` if the window takes no colours of 8 bits.
-    explicit Swapchain(Device& device);
+    explicit Swapchain(GpuDevice& device);
 
     /// Waits until the device is idle. Call it before `create_images`, and before views of the
     /// images are destroyed.
     void wait_idle();
     /// Makes images of this size, in pixels, or of the size that the window system demands. Returns
-    /// false if the window has no pixels now (it is minimised), or is gone (see `is_lost`).
+    /// false if the window has no pixels now (it is minimised), or is gone (see `is_surface_lost`).
     bool create_images(uvec2 size);
     /// Returns whether the surface is lost together with its window. Only another device with
     /// another surface helps.
-    bool is_lost() const { return lost_; }
-    Format format() const { return format_; }
-    uvec2 size() const { return size_; }
-    const std::vector<VkImage>& images() const { return images_; }
+    bool is_surface_lost() const { return lost_; }
+    TexelFormat texel_format() const { return format_; }
+    uvec2 size_in_pixels() const { return size_; }
+    const std::vector<VkImage>& swapchain_images() const { return images_; }
 
     /// Returns the index of the image to draw next. Waits for the window system if none is free.
     /// Returns nothing if the window has changed and `create_images` must be called.
@@ -40,9 +40,9 @@ public:
 private:
     bool check_result(VkResult result, const std::string& doing);
 
-    Device& device_;
+    GpuDevice& presenting_device_;
     VkSurfaceFormatKHR colours_{};
-    Format format_ = Format::bgra8_unorm;
+    TexelFormat format_ = TexelFormat::bgra8_unorm;
     UniqueSwapchain chain_;
     uvec2 size_{0, 0};
     std::vector<VkImage> images_;

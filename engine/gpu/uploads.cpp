@@ -13,37 +13,40 @@ constexpr const char* kUploadActivity = "write buffers";
 
 } // namespace
 
-StagedUploads::StagedUploads(Device& device) : device_(device) {
+StagedUploads::StagedUploads(GpuDevice& device) : upload_device_(device) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    pool.queueFamilyIndex = device.queue_family();
+    pool.queueFamilyIndex = device.queue_family_index();
     VkCommandPool pool_handle = VK_NULL_HANDLE;
-    check_vk(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_handle),
-             "create a command pool");
-    pool_ = {device.handle(), pool_handle};
+    throw_unless_vk_success(
+        vkCreateCommandPool(device.device_handle(), &pool, nullptr, &pool_handle),
+        "create a command pool");
+    pool_ = {device.device_handle(), pool_handle};
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type};
     VkSemaphore semaphore_handle = VK_NULL_HANDLE;
-    check_vk(vkCreateSemaphore(device.handle(), &semaphore, nullptr, &semaphore_handle),
-             "create a semaphore");
-    timeline_ = {device.handle(), semaphore_handle};
+    throw_unless_vk_success(
+        vkCreateSemaphore(device.device_handle(), &semaphore, nullptr, &semaphore_handle),
+        "create a semaphore");
+    timeline_ = {device.device_handle(), semaphore_handle};
     for (StagingBlock& block : blocks_) {
-        block.staging = std::make_unique<Buffer>(device, "staging", kStagingBlockBytes,
-                                                 BufferUsage::staging);
+        block.staging = std::make_unique<GpuBuffer>(device, "staging", kStagingBlockBytes,
+                                                    BufferUsage::staging);
         VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         allocate.commandPool = pool_;
         allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
         allocate.commandBufferCount = 1;
-        check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &block.commands),
-                 "allocate a command buffer");
+        throw_unless_vk_success(
+            vkAllocateCommandBuffers(device.device_handle(), &allocate, &block.commands),
+            "allocate a command buffer");
     }
 }
 
 /// Waits for the submitted uploads. Buffers that were written are already destroyed, and waited for
 /// their uploads.
 StagedUploads::~StagedUploads() {
-    if (device_.abandoned() || ended_ == submitted_) return;
+    if (upload_device_.is_abandoned() || ended_ == submitted_) return;
     try {
         wait(submitted_);
     } catch (const Error&) { // the device is abandoned now
@@ -57,8 +60,9 @@ void StagedUploads::wait(WriteNumber ticket) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket;
-    device_.check_wait_result(vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0}),
-                              kUploadActivity);
+    upload_device_.check_wait_result(
+        vkWaitSemaphores(upload_device_.device_handle(), &wait, ~std::uint64_t{0}),
+        kUploadActivity);
     ended_ = ticket;
 }
 
@@ -71,36 +75,36 @@ StagedUploads::StagingBlock& StagedUploads::open_block() {
     block.used = 0, block.targets.clear();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check_vk(vkBeginCommandBuffer(block.commands, &begin), kUploadActivity);
+    throw_unless_vk_success(vkBeginCommandBuffer(block.commands, &begin), kUploadActivity);
     is_recording_ = true;
     return block;
 }
 
 /// Adds a barrier if a write overlaps an earlier one, so that writes happen in the order of their
 /// calls.
-void StagedUploads::order_overlapping_writes(StagingBlock& block, const WriteRange& target) {
-    const bool overlaps = std::ranges::any_of(block.targets, [&](const WriteRange& other) {
+void StagedUploads::order_overlapping_writes(StagingBlock& block, const UploadWriteRange& target) {
+    const bool overlaps = std::ranges::any_of(block.targets, [&](const UploadWriteRange& other) {
         return other.buffer == target.buffer && other.first < target.end &&
                target.first < other.end;
     });
     if (overlaps) {
-        record_memory_barrier(block.commands, kTransferWrite, kTransferWrite);
+        record_memory_barrier(block.commands, kTransferWriteScope, kTransferWriteScope);
         block.targets.clear();
     }
     block.targets.push_back(target);
 }
 
-StagedUploads::WriteNumber StagedUploads::write(VkBuffer to, std::uint64_t offset,
-                                                std::span<const std::byte> data) {
-    device_.check_usable();
+StagedUploads::WriteNumber StagedUploads::stage_write(VkBuffer to, std::uint64_t offset,
+                                                      std::span<const std::byte> data) {
+    upload_device_.check_usable();
     while (!data.empty()) {
         StagingBlock& block = open_block();
         const auto part = data.first(
             std::min<std::uint64_t>(data.size(), kStagingBlockBytes - block.used));
-        block.staging->write(block.used, part);
+        block.staging->write_contents(block.used, part);
         order_overlapping_writes(block, {to, offset, offset + part.size()});
         const VkBufferCopy region{block.used, offset, part.size()};
-        vkCmdCopyBuffer(block.commands, block.staging->handle(), to, 1, &region);
+        vkCmdCopyBuffer(block.commands, block.staging->buffer_handle(), to, 1, &region);
         block.used += part.size(), offset += part.size();
         data = data.subspan(part.size());
     }
@@ -110,11 +114,11 @@ StagedUploads::WriteNumber StagedUploads::write(VkBuffer to, std::uint64_t offse
 void StagedUploads::submit() {
     if (!is_recording_) return;
     StagingBlock& block = blocks_[current_];
-    record_memory_barrier(block.commands, kTransferWrite,
+    record_memory_barrier(block.commands, kTransferWriteScope,
                           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
     is_recording_ = false;
-    check_vk(vkEndCommandBuffer(block.commands), kUploadActivity);
+    throw_unless_vk_success(vkEndCommandBuffer(block.commands), kUploadActivity);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = block.commands;
     VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
@@ -126,8 +130,8 @@ void StagedUploads::submit() {
     submit.pCommandBufferInfos = &commands;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &signal;
-    device_.check_not_lost(vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE),
-                           kUploadActivity);
+    upload_device_.check_not_lost(
+        vkQueueSubmit2(upload_device_.vulkan_queue(), 1, &submit, VK_NULL_HANDLE), kUploadActivity);
     block.ends = ++submitted_;
     current_ = (current_ + 1) % blocks_.size();
 }
@@ -139,7 +143,7 @@ void StagedUploads::wait_for_write(WriteNumber ticket) {
 }
 
 PendingUpload::~PendingUpload() {
-    if (ticket_ == 0 || device_->abandoned()) return;
+    if (ticket_ == 0 || device_->is_abandoned()) return;
     try {
         device_->uploads().wait_for_write(ticket_);
     } catch (const Error&) { // the device is abandoned now, or the write was not submitted

@@ -12,8 +12,8 @@
 
 namespace catoptric::gpu {
 
-class Buffer;
-class Device;
+class GpuBuffer;
+class GpuDevice;
 
 /// Writes to buffers that the host cannot map, through a ring of staging blocks. A write copies its
 /// bytes into a block and records a copy on the device. It waits only if the whole ring is in
@@ -23,12 +23,12 @@ public:
     /// The number of a write; 0: none. Larger numbers end later.
     using WriteNumber = std::uint64_t;
 
-    explicit StagedUploads(Device& device);
+    explicit StagedUploads(GpuDevice& device);
     ~StagedUploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
-    /// Throws as Device::check_not_lost and check_wait_result do.
-    WriteNumber write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
+    /// Throws as GpuDevice::check_not_lost and check_wait_result do.
+    WriteNumber stage_write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
@@ -36,22 +36,22 @@ public:
 
 private:
     /// Bytes of `to` that a block's commands write.
-    struct WriteRange {
+    struct UploadWriteRange {
         VkBuffer buffer;
         std::uint64_t first, end;
     };
     struct StagingBlock {
-        std::unique_ptr<Buffer> staging;
+        std::unique_ptr<GpuBuffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
-        std::uint64_t used = 0;          ///< bytes used in `staging`
-        WriteNumber ends = 0;            ///< timeline value at which the block is free again
-        std::vector<WriteRange> targets; ///< writes since the last barrier
+        std::uint64_t used = 0;                ///< bytes used in `staging`
+        WriteNumber ends = 0;                  ///< timeline value at which the block is free again
+        std::vector<UploadWriteRange> targets; ///< writes since the last barrier
     };
     StagingBlock& open_block();
     void wait(WriteNumber ticket);
-    void order_overlapping_writes(StagingBlock& block, const WriteRange& target);
+    void order_overlapping_writes(StagingBlock& block, const UploadWriteRange& target);
 
-    Device& device_;
+    GpuDevice& upload_device_;
     UniqueCommandPool pool_;
     UniqueSemaphore timeline_;
     std::array<StagingBlock, 3> blocks_;
@@ -65,23 +65,23 @@ private:
 class PendingUpload {
 public:
     PendingUpload() = default;
-    PendingUpload(PendingUpload&& other) noexcept { swap(other); }
+    PendingUpload(PendingUpload&& other) noexcept { swap_uploads(other); }
     PendingUpload& operator=(PendingUpload&& other) noexcept {
-        swap(other);
+        swap_uploads(other);
         return *this;
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void replace_by_later(Device& device, StagedUploads::WriteNumber ticket) {
+    void replace_by_later_upload(GpuDevice& device, StagedUploads::WriteNumber ticket) {
         device_ = &device, ticket_ = ticket;
     }
 
 private:
-    void swap(PendingUpload& other) noexcept {
+    void swap_uploads(PendingUpload& other) noexcept {
         std::swap(device_, other.device_), std::swap(ticket_, other.ticket_);
     }
 
-    Device* device_ = nullptr;
+    GpuDevice* device_ = nullptr;
     StagedUploads::WriteNumber ticket_ = 0;
 };
 

@@ -2,7 +2,7 @@
 
 namespace catoptric::gpu {
 
-const char* name_of(VkResult result) {
+const char* vk_result_name(VkResult result) {
     switch (result) {
     case VK_SUCCESS: return "VK_SUCCESS";
     case VK_TIMEOUT: return "VK_TIMEOUT";
@@ -29,7 +29,7 @@ const char* name_of(VkResult result) {
     }
 }
 
-void check_vk(VkResult result, const std::string& doing) {
+void throw_unless_vk_success(VkResult result, const std::string& doing) {
     if (result == VK_SUCCESS) return;
     Failure failure = Failure::internal;
     switch (result) {
@@ -47,27 +47,27 @@ void check_vk(VkResult result, const std::string& doing) {
     case VK_ERROR_FORMAT_NOT_SUPPORTED: failure = Failure::no_device; break;
     default: break;
     }
-    fail(failure, "Vulkan: cannot ", doing, ": ", name_of(result), " (", static_cast<int>(result),
-         ")");
+    fail(failure, "Vulkan: cannot ", doing, ": ", vk_result_name(result), " (",
+         static_cast<int>(result), ")");
 }
 
-VkFormat to_vk_format(Format format) {
+VkFormat to_vk_format(TexelFormat format) {
     switch (format) {
-    case Format::r8_unorm: return VK_FORMAT_R8_UNORM;
-    case Format::rgba8_unorm: return VK_FORMAT_R8G8B8A8_UNORM;
-    case Format::bgra8_unorm: return VK_FORMAT_B8G8R8A8_UNORM;
-    case Format::r16f: return VK_FORMAT_R16_SFLOAT;
-    case Format::rgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
-    case Format::r32f: return VK_FORMAT_R32_SFLOAT;
-    case Format::rgba32f: return VK_FORMAT_R32G32B32A32_SFLOAT;
-    case Format::r32ui: return VK_FORMAT_R32_UINT;
-    case Format::d32f: return VK_FORMAT_D32_SFLOAT;
+    case TexelFormat::r8_unorm: return VK_FORMAT_R8_UNORM;
+    case TexelFormat::rgba8_unorm: return VK_FORMAT_R8G8B8A8_UNORM;
+    case TexelFormat::bgra8_unorm: return VK_FORMAT_B8G8R8A8_UNORM;
+    case TexelFormat::r16f: return VK_FORMAT_R16_SFLOAT;
+    case TexelFormat::rgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case TexelFormat::r32f: return VK_FORMAT_R32_SFLOAT;
+    case TexelFormat::rgba32f: return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case TexelFormat::r32ui: return VK_FORMAT_R32_UINT;
+    case TexelFormat::d32f: return VK_FORMAT_D32_SFLOAT;
     }
     return VK_FORMAT_UNDEFINED;
 }
 
-void record_memory_barrier(VkCommandBuffer commands, const MemoryUse& earlier,
-                           const MemoryUse& later) {
+void record_memory_barrier(VkCommandBuffer commands, const MemoryAccessScope& earlier,
+                           const MemoryAccessScope& later) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = earlier.stages;
     barrier.srcAccessMask = earlier.access;

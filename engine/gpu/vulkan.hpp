@@ -14,27 +14,27 @@ namespace catoptric::gpu {
 
 /// Throws unless `result` is VK_SUCCESS: `exhausted` without memory, `device_lost` for a lost
 /// device, else `internal`. `doing` completes "Vulkan: cannot ".
-void check_vk(VkResult result, const std::string& doing);
-const char* name_of(VkResult result);
+void throw_unless_vk_success(VkResult result, const std::string& doing);
+const char* vk_result_name(VkResult result);
 
-VkFormat to_vk_format(Format format);
+VkFormat to_vk_format(TexelFormat format);
 
 /// Stages and kinds of access of the work on one side of a barrier.
-struct MemoryUse {
+struct MemoryAccessScope {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
 };
 /// The writes of copies.
-inline constexpr MemoryUse kTransferWrite{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                          VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr MemoryAccessScope kTransferWriteScope{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                                       VK_ACCESS_2_TRANSFER_WRITE_BIT};
 /// Records a barrier that makes the writes of earlier work visible to later work, in all memory.
-void record_memory_barrier(VkCommandBuffer commands, const MemoryUse& earlier,
-                           const MemoryUse& later);
+void record_memory_barrier(VkCommandBuffer commands, const MemoryAccessScope& earlier,
+                           const MemoryAccessScope& later);
 /// Records one barrier of a single image.
 void record_image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier);
 
 /// Returns the surface for the number that window libraries pass for it.
-inline VkSurfaceKHR surface_from_number(std::uint64_t number) {
+inline VkSurfaceKHR surface_from_handle_number(std::uint64_t number) {
     return std::bit_cast<VkSurfaceKHR>(number);
 }
 
@@ -51,21 +51,21 @@ template <typename Handle, auto Destroy>
 class UniqueHandle {
 public:
     UniqueHandle() = default;
-    UniqueHandle(DeviceHandle device, Handle handle) : device_(device), handle_(handle) {}
+    UniqueHandle(DeviceHandle device, Handle handle) : owner_device_(device), handle_(handle) {}
     UniqueHandle(UniqueHandle&& other) noexcept
-        : device_(other.device_), handle_(std::exchange(other.handle_, Handle{})) {}
+        : owner_device_(other.owner_device_), handle_(std::exchange(other.handle_, Handle{})) {}
     UniqueHandle& operator=(UniqueHandle&& other) noexcept {
-        std::swap(device_, other.device_), std::swap(handle_, other.handle_);
+        std::swap(owner_device_, other.owner_device_), std::swap(handle_, other.handle_);
         return *this;
     }
     ~UniqueHandle() {
-        const bool abandoned = device_.abandoned && *device_.abandoned;
-        if (handle_ && !abandoned) Destroy(device_, handle_, nullptr);
+        const bool abandoned = owner_device_.abandoned && *owner_device_.abandoned;
+        if (handle_ && !abandoned) Destroy(owner_device_, handle_, nullptr);
     }
     operator Handle() const { return handle_; }
 
 private:
-    DeviceHandle device_;
+    DeviceHandle owner_device_;
     Handle handle_{};
 };
 

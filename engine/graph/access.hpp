@@ -25,8 +25,8 @@ struct ResourceAccess {
 
     /// Returns the layer after the last, in 64 bits: the sum can exceed 32 bits for an invalid
     /// access.
-    std::uint64_t end_layer() const { return std::uint64_t{first_layer} + layer_count; }
-    std::uint64_t end_mip() const { return std::uint64_t{first_mip} + mip_count; }
+    std::uint64_t end_of_layers() const { return std::uint64_t{first_layer} + layer_count; }
+    std::uint64_t end_of_mips() const { return std::uint64_t{first_mip} + mip_count; }
 };
 
 /// Returns the accesses of the pass: images in order of declaration, then buffers.
@@ -46,7 +46,7 @@ private:
 };
 
 /// Returns the touch that the access of this pass leaves on the resource.
-ResourceTouch make_touch(const ResourceAccess& access, const Pass& pass);
+AccessState make_access_state(const ResourceAccess& access, const Pass& pass);
 
 constexpr bool is_attachment(ResourceUse use) {
     return use == ResourceUse::colour || use == ResourceUse::depth;
@@ -78,33 +78,40 @@ template <typename T>
 class SubresourceMap {
 public:
     explicit SubresourceMap(const Graph& graph, const T& value = {})
-        : images_(graph.images().size()) {
-        entries_.reserve(images_ + graph.buffers().size());
-        for (const ImageDesc& desc : graph.images())
+        : image_count_(graph.list_images().size()) {
+        entries_.reserve(image_count_ + graph.list_buffers().size());
+        for (const ImageDesc& desc : graph.list_images())
             entries_.push_back({RunLengthArray<T>(desc.layers * desc.mips, value), desc.layers});
-        entries_.resize(images_ + graph.buffers().size(), {RunLengthArray<T>(1, value), 1});
+        entries_.resize(image_count_ + graph.list_buffers().size(),
+                        {RunLengthArray<T>(1, value), 1});
     }
-    RunLengthArray<T>& of(const ResourceAccess& a) { return entry(a).runs; }
-    const RunLengthArray<T>& of(const ResourceAccess& a) const { return entry(a).runs; }
-    std::uint32_t layer_count_of(const ResourceAccess& a) const { return entry(a).layers; }
+    RunLengthArray<T>& runs_of_resource(const ResourceAccess& a) {
+        return values_of_resource(a).runs;
+    }
+    const RunLengthArray<T>& runs_of_resource(const ResourceAccess& a) const {
+        return values_of_resource(a).runs;
+    }
+    std::uint32_t layer_count_of_access(const ResourceAccess& a) const {
+        return values_of_resource(a).layers;
+    }
 
     /// Calls visit(first, end, value) for each run of equal values that the access meets.
     template <typename Visit>
     void for_each_value(const ResourceAccess& a, const Visit& visit) const {
-        const LayerValues& e = entry(a);
+        const MipLayerValues& e = values_of_resource(a);
         for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.for_each_run(first, end, visit);
         });
     }
     template <typename Visit>
-    void modify_values(const ResourceAccess& a, const Visit& visit) {
-        LayerValues& e = entries_[index(a)];
+    void modify_each_value(const ResourceAccess& a, const Visit& visit) {
+        MipLayerValues& e = entries_[value_index(a)];
         for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
-            e.runs.modify_runs(first, end, visit);
+            e.runs.modify_each_run(first, end, visit);
         });
     }
-    void set_value(const ResourceAccess& a, const T& value) {
-        modify_values(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    void set_value_of_access(const ResourceAccess& a, const T& value) {
+        modify_each_value(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
     /// Returns whether some layer of the access has the value.
     bool contains_value(const ResourceAccess& a, const T& value) const {
@@ -114,16 +121,20 @@ public:
     }
 
 private:
-    struct LayerValues {
+    struct MipLayerValues {
         RunLengthArray<T> runs;
         std::uint32_t layers;
     };
-    std::size_t index(const ResourceAccess& a) const { return a.is_buffer ? images_ + a.id : a.id; }
-    LayerValues& entry(const ResourceAccess& a) { return entries_[index(a)]; }
-    const LayerValues& entry(const ResourceAccess& a) const { return entries_[index(a)]; }
+    std::size_t value_index(const ResourceAccess& a) const {
+        return a.is_buffer ? image_count_ + a.id : a.id;
+    }
+    MipLayerValues& values_of_resource(const ResourceAccess& a) { return entries_[value_index(a)]; }
+    const MipLayerValues& values_of_resource(const ResourceAccess& a) const {
+        return entries_[value_index(a)];
+    }
 
-    std::size_t images_;
-    std::vector<LayerValues> entries_; // images, then buffers
+    std::size_t image_count_;
+    std::vector<MipLayerValues> entries_; // images, then buffers
 };
 
 /// Returns an access to a part of an image. Its use is left at the default.

@@ -14,7 +14,7 @@ constexpr const char* kCountWorkConstant = "count_work";
 constexpr std::string_view kWorkBufferName = "WorkBuffer";
 
 /// Returns the bytes of one mip of a part of an image.
-std::uint64_t count_bytes(const ImageDesc& desc, const ImageHandle& part) {
+std::uint64_t count_bytes_of_part(const ImageDesc& desc, const ImageHandle& part) {
     return std::uint64_t{size_at_mip(desc.width, part.first_mip)} *
            size_at_mip(desc.height, part.first_mip) * part.layer_count *
            bytes_per_texel(desc.format);
@@ -23,20 +23,21 @@ std::uint64_t count_bytes(const ImageDesc& desc, const ImageHandle& part) {
 } // namespace
 
 void PassCommands::add_counted_work(WorkKind kind, std::uint64_t count) {
-    if (WorkCounter* const work = recorder_.work_counter()) work->add(kind, count);
+    if (WorkCounter* const work = frame_recorder_.frame_work_counter())
+        work->add_count(kind, count);
 }
 
 void PassCommands::bind_pipeline(gpu::RasterState state) {
-    gpu::Attachments attachments;
+    gpu::AttachmentFormats attachments;
     for (const ImageUse& use : pass_.images) {
         if (use.use == ResourceUse::colour)
-            attachments.colour.push_back(graph_.images()[use.image.id].format);
+            attachments.colour.push_back(pass_graph_.list_images()[use.image.id].format);
         if (use.use == ResourceUse::depth) attachments.depth = true;
     }
     if (layer_count_ > 1) state.vertex += "#layered";
-    if (recorder_.work_counter()) state.features.emplace_back(kCountWorkConstant, 1u);
+    if (frame_recorder_.frame_work_counter()) state.features.emplace_back(kCountWorkConstant, 1u);
     pipeline_name_ = state.vertex + "+" + state.fragment;
-    pipeline_ = &recorder_.pipelines().find_or_make_raster(state, attachments);
+    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_raster(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
@@ -44,12 +45,12 @@ void PassCommands::bind_pipeline(gpu::RasterState state) {
 void PassCommands::bind_pipeline(const gpu::ComputeState& state) {
     pipeline_name_ = state.shader;
     gpu::ComputeState counting;
-    if (recorder_.work_counter()) {
+    if (frame_recorder_.frame_work_counter()) {
         counting = state;
         counting.features.emplace_back(kCountWorkConstant, 1u);
     }
-    pipeline_ = &recorder_.pipelines().find_or_make_compute(recorder_.work_counter() ? counting
-                                                                                     : state);
+    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_compute(
+        frame_recorder_.frame_work_counter() ? counting : state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
@@ -64,12 +65,12 @@ void PassCommands::require_declared(ImageHandle image, std::string_view name) co
                    use.image.first_layer + use.image.layer_count;
     };
     check(std::ranges::any_of(pass_.images, same), Failure::internal, "pass '", pass_.name,
-          "' uses image '", graph_.images()[image.id].name, "' as '", name,
+          "' uses image '", pass_graph_.list_images()[image.id].name, "' as '", name,
           "' but does not declare it");
 }
 
-void PassCommands::bind(std::string_view name, std::span<const ImageHandle> images,
-                        TextureFilter filter) {
+void PassCommands::bind_resource(std::string_view name, std::span<const ImageHandle> images,
+                                 TextureFilter filter) {
     check(!images.empty() && images.size() <= kMaxBoundImages, Failure::internal, "pass '",
           pass_.name, "': '", name, "' wants 1 to ", kMaxBoundImages, " images, found ",
           images.size());
@@ -80,7 +81,7 @@ void PassCommands::bind(std::string_view name, std::span<const ImageHandle> imag
     dirty_ = true;
 }
 
-void PassCommands::bind(std::string_view name, TextureFilter sampler) {
+void PassCommands::bind_resource(std::string_view name, TextureFilter sampler) {
     bound_.insert_or_assign(std::string(name), sampler);
     dirty_ = true;
 }
@@ -89,25 +90,26 @@ void PassCommands::require_declared(BufferHandle buffer, std::string_view name) 
     check(std::ranges::any_of(pass_.buffers,
                               [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
           Failure::internal, "pass '", pass_.name, "' uses buffer '",
-          graph_.buffers()[buffer.id].name, "' as '", name, "' but does not declare it");
+          pass_graph_.list_buffers()[buffer.id].name, "' as '", name, "' but does not declare it");
 }
 
-void PassCommands::bind(std::string_view name, BufferHandle buffer) {
+void PassCommands::bind_resource(std::string_view name, BufferHandle buffer) {
     require_declared(buffer, name);
-    bound_.insert_or_assign(std::string(name), recorder_.buffer(buffer));
+    bound_.insert_or_assign(std::string(name), frame_recorder_.vulkan_buffer(buffer));
     dirty_ = true;
 }
 
-void PassCommands::bind(std::string_view name, const gpu::Buffer& buffer) {
+void PassCommands::bind_resource(std::string_view name, const gpu::GpuBuffer& buffer) {
     bound_.insert_or_assign(std::string(name), &buffer);
     dirty_ = true;
 }
 
-void PassCommands::bind_geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices) {
+void PassCommands::bind_geometry(const gpu::GpuBuffer& vertices, const gpu::GpuBuffer& indices) {
     const VkDeviceSize offset = 0;
-    if (const VkBuffer buffer = vertices.handle(); std::exchange(vertices_, buffer) != buffer)
+    if (const VkBuffer buffer = vertices.buffer_handle();
+        std::exchange(vertices_, buffer) != buffer)
         vkCmdBindVertexBuffers(commands_, 0, 1, &buffer, &offset);
-    if (const VkBuffer buffer = indices.handle(); std::exchange(indices_, buffer) != buffer)
+    if (const VkBuffer buffer = indices.buffer_handle(); std::exchange(indices_, buffer) != buffer)
         vkCmdBindIndexBuffer(commands_, buffer, 0, VK_INDEX_TYPE_UINT32);
 }
 
@@ -145,11 +147,11 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
         return use.buffer.id == arguments.id && use.use == ResourceUse::indirect;
     };
     check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name,
-          "' dispatches what buffer '", graph_.buffers()[arguments.id].name,
+          "' dispatches what buffer '", pass_graph_.list_buffers()[arguments.id].name,
           "' says but does not declare it as indirect");
     flush_bindings();
     add_counted_work(WorkKind::dispatches);
-    vkCmdDispatchIndirect(commands_, recorder_.buffer(arguments), offset);
+    vkCmdDispatchIndirect(commands_, frame_recorder_.vulkan_buffer(arguments), offset);
 }
 
 void PassCommands::storage_barrier() {
@@ -162,47 +164,50 @@ void PassCommands::storage_barrier() {
 void PassCommands::copy_image(ImageHandle from, ImageHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
-    const ImageDesc& desc = graph_.images()[from.id];
-    const VkImageAspectFlags aspect = is_depth(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                            : VK_IMAGE_ASPECT_COLOR_BIT;
+    const ImageDesc& desc = pass_graph_.list_images()[from.id];
+    const VkImageAspectFlags aspect = is_depth_format(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                   : VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageCopy region{};
     region.srcSubresource = {aspect, from.first_mip, from.first_layer, from.layer_count};
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
     region.extent = {size_at_mip(desc.width, from.first_mip),
                      size_at_mip(desc.height, from.first_mip), 1};
-    add_counted_work(WorkKind::bytes, count_bytes(desc, from));
-    vkCmdCopyImage(commands_, recorder_.physical_image(from).image,
-                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.physical_image(to).image,
+    add_counted_work(WorkKind::bytes, count_bytes_of_part(desc, from));
+    vkCmdCopyImage(commands_, frame_recorder_.physical_image(from).image,
+                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame_recorder_.physical_image(to).image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void PassCommands::copy_image(ImageHandle from, BufferHandle to) {
     require_declared(from, "source of a copy");
     require_declared(to, "target of a copy");
-    const VkBufferImageCopy region = make_copy_region(graph_.images()[from.id], from);
-    add_counted_work(WorkKind::bytes, count_bytes(graph_.images()[from.id], from));
-    vkCmdCopyImageToBuffer(commands_, recorder_.physical_image(from).image,
-                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, recorder_.buffer(to), 1, &region);
+    const VkBufferImageCopy region = make_copy_region(pass_graph_.list_images()[from.id], from);
+    add_counted_work(WorkKind::bytes,
+                     count_bytes_of_part(pass_graph_.list_images()[from.id], from));
+    vkCmdCopyImageToBuffer(commands_, frame_recorder_.physical_image(from).image,
+                           VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame_recorder_.vulkan_buffer(to),
+                           1, &region);
 }
 
 void PassCommands::fill_buffer(BufferHandle buffer, std::uint32_t word) {
     require_declared(buffer, "target of a fill");
-    add_counted_work(WorkKind::bytes, graph_.buffers()[buffer.id].bytes);
-    vkCmdFillBuffer(commands_, recorder_.buffer(buffer), 0, VK_WHOLE_SIZE, word);
+    add_counted_work(WorkKind::bytes, pass_graph_.list_buffers()[buffer.id].bytes);
+    vkCmdFillBuffer(commands_, frame_recorder_.vulkan_buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
 void PassCommands::update_buffer(BufferHandle buffer, std::span<const std::byte> bytes) {
     require_declared(buffer, "target of an update");
     add_counted_work(WorkKind::bytes, bytes.size());
-    vkCmdUpdateBuffer(commands_, recorder_.buffer(buffer), 0, bytes.size(), bytes.data());
+    vkCmdUpdateBuffer(commands_, frame_recorder_.vulkan_buffer(buffer), 0, bytes.size(),
+                      bytes.data());
 }
 
 namespace {
 
-bool is_image_binding(gpu::BindingKind kind) {
-    using gpu::BindingKind;
-    return kind == BindingKind::sampled_image || kind == BindingKind::texture ||
-           kind == BindingKind::storage_image;
+bool is_image_binding(gpu::ShaderBindingKind kind) {
+    using gpu::ShaderBindingKind;
+    return kind == ShaderBindingKind::sampled_image || kind == ShaderBindingKind::texture ||
+           kind == ShaderBindingKind::storage_image;
 }
 
 const char* name_image_kind(bool image, bool sampler) {
@@ -214,7 +219,7 @@ const char* name_image_kind(bool image, bool sampler) {
 void PassCommands::require_kind(const gpu::ShaderBinding& binding,
                                 const BoundResource& bound) const {
     const bool wants_image = is_image_binding(binding.kind),
-               wants_sampler = binding.kind == gpu::BindingKind::sampler,
+               wants_sampler = binding.kind == gpu::ShaderBindingKind::sampler,
                image = std::holds_alternative<BoundImageList>(bound),
                sampler = std::holds_alternative<TextureFilter>(bound);
     check(wants_image == image && wants_sampler == sampler, Failure::internal, "pass '", pass_.name,
@@ -225,41 +230,42 @@ void PassCommands::require_kind(const gpu::ShaderBinding& binding,
 
 void PassCommands::write_images(const gpu::ShaderBinding& binding, const BoundResource& bound,
                                 std::vector<VkDescriptorImageInfo>& infos) {
-    using gpu::BindingKind;
+    using gpu::ShaderBindingKind;
     if (const auto* filter = std::get_if<TextureFilter>(&bound)) {
-        infos.push_back({recorder_.sampler(*filter), VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
+        infos.push_back({frame_recorder_.sampler_of_filter(*filter), VK_NULL_HANDLE,
+                         VK_IMAGE_LAYOUT_UNDEFINED});
         return;
     }
     const auto& [images, count, filter] = std::get<BoundImageList>(bound);
-    const bool stored = binding.kind == BindingKind::storage_image;
+    const bool stored = binding.kind == ShaderBindingKind::storage_image;
     for (std::size_t i = 0; i < binding.count; ++i) {
         const ImageHandle image = images[i < count ? i : 0];
         infos.push_back(
-            {binding.kind == BindingKind::sampled_image
-                 ? recorder_.sampler(sampler_filter_of_binding(image, filter))
+            {binding.kind == ShaderBindingKind::sampled_image
+                 ? frame_recorder_.sampler_of_filter(sampler_filter_of_binding(image, filter))
                  : VK_NULL_HANDLE,
-             recorder_.physical_image(image).find_or_create_view(recorder_.device(), binding.shape,
-                                                                 image),
+             frame_recorder_.physical_image(image).find_or_create_view(
+                 frame_recorder_.recording_device(), binding.shape, image),
              stored ? VK_IMAGE_LAYOUT_GENERAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
     }
 }
 
 void PassCommands::write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
                                 VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
-    const auto* owned = std::get_if<const gpu::Buffer*>(&bound);
-    buffer = {owned ? (*owned)->handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
-    if (binding.kind != gpu::BindingKind::texel_buffer) return;
-    check(owned && (*owned)->texels(), Failure::internal, "pass '", pass_.name, "': '",
+    const auto* owned = std::get_if<const gpu::GpuBuffer*>(&bound);
+    buffer = {owned ? (*owned)->buffer_handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
+    if (binding.kind != gpu::ShaderBindingKind::texel_buffer) return;
+    check(owned && (*owned)->texel_buffer_view(), Failure::internal, "pass '", pass_.name, "': '",
           binding.name, "' wants a buffer of texels");
-    texels = (*owned)->texels();
+    texels = (*owned)->texel_buffer_view();
 }
 
 /// Returns the name under which a pass binds the resource of this binding. A list of texels has two
 /// bindings, a texel buffer and a storage buffer, with one name (shaders/lib/texels.glsl).
 std::string_view PassCommands::find_bound_image_list(const gpu::ShaderBinding& binding) {
-    constexpr std::string_view kInStorageSuffix = "_in_storage";
+    constexpr std::string_view kStorageImageNameSuffix = "_in_storage";
     std::string_view name = binding.name;
-    if (name.ends_with(kInStorageSuffix)) name.remove_suffix(kInStorageSuffix.size());
+    if (name.ends_with(kStorageImageNameSuffix)) name.remove_suffix(kStorageImageNameSuffix.size());
     return name;
 }
 
@@ -268,14 +274,15 @@ std::string_view PassCommands::find_bound_image_list(const gpu::ShaderBinding& b
 /// (`distances_by_gather`).
 TextureFilter PassCommands::sampler_filter_of_binding(ImageHandle image,
                                                       TextureFilter filter) const {
-    const ImageDesc& desc = graph_.images()[image.id];
-    const bool is_float = desc.format == Format::r32f || desc.format == Format::rgba32f;
-    if (!is_float || filter == TextureFilter::nearest || recorder_.device().has_float_filtering())
+    const ImageDesc& desc = pass_graph_.list_images()[image.id];
+    const bool is_float = desc.format == TexelFormat::r32f || desc.format == TexelFormat::rgba32f;
+    if (!is_float || filter == TextureFilter::nearest ||
+        frame_recorder_.recording_device().has_float_filtering())
         return filter;
-    check(desc.format == Format::r32f && filter == TextureFilter::linear, Failure::no_device,
+    check(desc.format == TexelFormat::r32f && filter == TextureFilter::linear, Failure::no_device,
           "pass '", pass_.name, "' filters '", desc.name,
-          "', an image of 32-bit floats, which device '", recorder_.device().info().name,
-          "' cannot");
+          "', an image of 32-bit floats, which device '",
+          frame_recorder_.recording_device().device_properties().name, "' cannot");
     return TextureFilter::nearest;
 }
 
@@ -284,7 +291,7 @@ void PassCommands::flush_bindings() {
     check(pipeline_, Failure::internal, "pass '", pass_.name,
           "' draws or dispatches without a pipeline");
     if (dirty_ && !pipeline_->bindings.empty()) {
-        const VkDescriptorSet set = recorder_.descriptor_set(pipeline_->set_layout);
+        const VkDescriptorSet set = frame_recorder_.allocate_descriptor_set(pipeline_->set_layout);
         const std::size_t count = pipeline_->bindings.size();
         std::size_t image_count = 0;
         for (const gpu::ShaderBinding& binding : pipeline_->bindings) image_count += binding.count;
@@ -296,7 +303,8 @@ void PassCommands::flush_bindings() {
         writes.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const gpu::ShaderBinding& binding = pipeline_->bindings[i];
-            const bool is_work = binding.name == kWorkBufferName && recorder_.work_counter();
+            const bool is_work = binding.name == kWorkBufferName &&
+                                 frame_recorder_.frame_work_counter();
             const auto bound = bound_.find(find_bound_image_list(binding));
             check(is_work || bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
@@ -310,14 +318,15 @@ void PassCommands::flush_bindings() {
             write.pBufferInfo = &buffers[i];
             write.pTexelBufferView = &texels[i];
             if (is_work)
-                buffers[i] = recorder_.work_counter()->shader_counts();
-            else if (is_image_binding(binding.kind) || binding.kind == gpu::BindingKind::sampler)
+                buffers[i] = frame_recorder_.frame_work_counter()->shader_counts();
+            else if (is_image_binding(binding.kind) ||
+                     binding.kind == gpu::ShaderBindingKind::sampler)
                 write_images(binding, bound->second, images);
             else
                 write_buffer(binding, bound->second, buffers[i], texels[i]);
             writes.push_back(write);
         }
-        vkUpdateDescriptorSets(recorder_.device().handle(),
+        vkUpdateDescriptorSets(frame_recorder_.recording_device().device_handle(),
                                static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
                                nullptr);
         vkCmdBindDescriptorSets(commands_, pipeline_->bind_point, pipeline_->layout, 0, 1, &set, 0,

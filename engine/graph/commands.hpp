@@ -37,7 +37,7 @@ class PassCommands {
 public:
     PassCommands(FrameRecorder& recorder, const Graph& graph, const Pass& pass,
                  VkCommandBuffer commands, std::uint32_t first_layer, std::uint32_t layer_count)
-        : recorder_(recorder), graph_(graph), pass_(pass), commands_(commands),
+        : frame_recorder_(recorder), pass_graph_(graph), pass_(pass), commands_(commands),
           first_layer_(first_layer), layer_count_(layer_count) {}
 
     /// Selects a raster pipeline. A pass of several layers uses the vertex shader's "#layered"
@@ -46,18 +46,18 @@ public:
     void bind_pipeline(gpu::RasterState state);
     void bind_pipeline(const gpu::ComputeState& state);
     /// Binds an image, which the pass must declare.
-    void bind(std::string_view name, ImageHandle image,
-              TextureFilter filter = TextureFilter::nearest) {
-        bind(name, std::span(&image, 1), filter);
+    void bind_resource(std::string_view name, ImageHandle image,
+                       TextureFilter filter = TextureFilter::nearest) {
+        bind_resource(name, std::span(&image, 1), filter);
     }
     /// Binds 1 to kMaxBoundImages images to an array. If the shader's array is longer, the first
     /// image fills its other entries.
-    void bind(std::string_view name, std::span<const ImageHandle> images,
-              TextureFilter filter = TextureFilter::nearest);
+    void bind_resource(std::string_view name, std::span<const ImageHandle> images,
+                       TextureFilter filter = TextureFilter::nearest);
     /// Binds a sampler without an image.
-    void bind(std::string_view name, TextureFilter sampler);
-    void bind(std::string_view name, BufferHandle buffer);
-    void bind(std::string_view name, const gpu::Buffer& buffer);
+    void bind_resource(std::string_view name, TextureFilter sampler);
+    void bind_resource(std::string_view name, BufferHandle buffer);
+    void bind_resource(std::string_view name, const gpu::GpuBuffer& buffer);
     /// Sets the push constants of the draws and dispatches that follow.
     template <typename T>
     void push_constants(const T& value) {
@@ -69,7 +69,7 @@ public:
     /// whole picture.
     void draw_covering_triangle();
     /// Sets the vertices (as in shaders/shared.h) and the 32-bit indices of the draws that follow.
-    void bind_geometry(const gpu::Buffer& vertices, const gpu::Buffer& indices);
+    void bind_geometry(const gpu::GpuBuffer& vertices, const gpu::GpuBuffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
     /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
@@ -100,7 +100,8 @@ private:
         std::size_t count = 1;
         TextureFilter filter = TextureFilter::nearest;
     };
-    using BoundResource = std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::Buffer*>;
+    using BoundResource =
+        std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::GpuBuffer*>;
     void flush_bindings();
     /// Adds to the counted work of the pass, if the frame counts work.
     void add_counted_work(WorkKind kind, std::uint64_t count = 1);
@@ -114,8 +115,8 @@ private:
     void write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
                       VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 
-    FrameRecorder& recorder_;
-    const Graph& graph_;
+    FrameRecorder& frame_recorder_;
+    const Graph& pass_graph_;
     const Pass& pass_;
     VkCommandBuffer commands_;
     std::uint32_t first_layer_, layer_count_;

@@ -22,7 +22,7 @@ struct PersistentImage {
     bool valid = false;      ///< whether a last frame exists
     LayerHashes stamps;      ///< content hashes of a persistent image
 
-    PhysicalImage& copy(bool previous) {
+    PhysicalImage& image_of_frame(bool previous) {
         return lifetime == ImageLifetime::persistent ? copies[0]
                                                      : copies[previous ? last : 1 - last];
     }
@@ -30,22 +30,22 @@ struct PersistentImage {
 
 /// Images and buffers of a shape, indexed by their number in the graph. Entries whose memory lies
 /// elsewhere are empty.
-struct ShapeResources {
+struct GraphShapeResources {
     std::vector<PhysicalImage> images;
     std::vector<gpu::UniqueBuffer> buffers;
     bool made = false;
 };
 
 /// A shape with its plan and, once it has run, the resources that it runs with.
-struct CompiledGraph {
+struct CompiledGraphShape {
     Graph outline; ///< without bodies
     std::uint64_t hash = 0;
     GraphPlan plan;
     /// Whether a frame with this plan has run; other plans do not count for memory.
     bool ran = false;
 
-    ShapeResources shared; ///< resources that live within a frame
-    std::array<ShapeResources, kMaxFramesInFlight>
+    GraphShapeResources shared; ///< resources that live within a frame
+    std::array<GraphShapeResources, kMaxFramesInFlight>
         own; ///< outputs of a frame, a copy for each slot
     /// Images that outlive frames, by image number, for the frame submitted last; null for others.
     std::vector<PersistentImage*> kept;
@@ -53,23 +53,23 @@ struct CompiledGraph {
     /// Returns whether the image has its own memory across frames. A persistent image always does:
     /// it may be read after a frame whose passes do not touch it.
     bool is_persistent(std::uint32_t image) const {
-        const ImageLifetime lifetime = outline.lifetime(image);
+        const ImageLifetime lifetime = outline.image_lifetime(image);
         return lifetime == ImageLifetime::persistent ||
                (lifetime == ImageLifetime::previous && plan.images[image].used);
     }
     /// Returns whether the image is used and the runner owns its memory.
-    bool is_owned(std::uint32_t image) const {
-        return plan.images[image].used && outline.lifetime(image) != ImageLifetime::imported;
+    bool has_runner_memory(std::uint32_t image) const {
+        return plan.images[image].used && outline.image_lifetime(image) != ImageLifetime::imported;
     }
-    bool is_owned(BufferHandle buffer) const {
+    bool has_runner_memory(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
     /// Returns the device image that stands for `image` in a frame of the slot.
-    PhysicalImage& physical(ImageHandle image, std::size_t slot) {
-        if (PersistentImage* const k = kept[image.id]) return k->copy(image.previous);
+    PhysicalImage& device_image(ImageHandle image, std::size_t slot) {
+        if (PersistentImage* const k = kept[image.id]) return k->image_of_frame(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }
-    VkBuffer buffer(BufferHandle buffer, std::size_t slot) const {
+    VkBuffer vulkan_buffer(BufferHandle buffer, std::size_t slot) const {
         return (plan.buffers[buffer.id].alone ? own[slot] : shared).buffers[buffer.id];
     }
 };

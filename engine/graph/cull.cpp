@@ -7,14 +7,14 @@ namespace catoptric::graph {
 namespace {
 
 /// Returns the layers and buffers whose contents are needed at the end of the frame.
-SubresourceMap<char> mark_live_at_frame_end(const Graph& graph) {
+SubresourceMap<char> mark_parts_live_at_frame_end(const Graph& graph) {
     SubresourceMap<char> live = mark_output_parts(graph);
-    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (graph.lifetime(i) == ImageLifetime::persistent ||
-            graph.lifetime(i) == ImageLifetime::imported)
-            live.set_value(access_to_whole_image(graph, i), true);
-    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
-        if (graph.is_imported({b})) live.set_value({.is_buffer = true, .id = b}, true);
+    for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
+        if (graph.image_lifetime(i) == ImageLifetime::persistent ||
+            graph.image_lifetime(i) == ImageLifetime::imported)
+            live.set_value_of_access(access_to_whole_image(graph, i), true);
+    for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
+        if (graph.is_imported({b})) live.set_value_of_access({.is_buffer = true, .id = b}, true);
     return live;
 }
 
@@ -34,9 +34,9 @@ std::uint32_t find_unread_attachments(std::span<const ResourceAccess> accesses,
 
 /// Sweeps from the last pass to the first. `live` starts as the contents needed at the end of the
 /// frame.
-std::vector<PassFate> cull_backwards(const GraphAccesses& all, std::size_t passes,
-                                     SubresourceMap<char> live) {
-    std::vector<PassFate> fates(passes);
+std::vector<PassCullResult> cull_from_last_pass(const GraphAccesses& all, std::size_t passes,
+                                                SubresourceMap<char> live) {
+    std::vector<PassCullResult> fates(passes);
     for (std::size_t p = fates.size(); p-- > 0;) {
         fates[p].survives = std::ranges::any_of(
             all.accesses_of_pass(p),
@@ -44,19 +44,20 @@ std::vector<PassFate> cull_backwards(const GraphAccesses& all, std::size_t passe
         if (!fates[p].survives) continue;
         fates[p].unread = find_unread_attachments(all.accesses_of_pass(p), live);
         for (const ResourceAccess& a : all.accesses_of_pass(p))
-            if (a.write) live.set_value(a, false);
+            if (a.write) live.set_value_of_access(a, false);
         for (const ResourceAccess& a : all.accesses_of_pass(p))
-            if (a.needs && !a.previous) live.set_value(a, true);
+            if (a.needs && !a.previous) live.set_value_of_access(a, true);
     }
     return fates;
 }
 
 } // namespace
 
-std::vector<PassFate> decide_pass_fates(const Graph& graph, const GraphAccesses& all) {
-    SubresourceMap<char> at_end = mark_live_at_frame_end(graph);
+std::vector<PassCullResult> decide_pass_culling(const Graph& graph, const GraphAccesses& all) {
+    SubresourceMap<char> at_end = mark_parts_live_at_frame_end(graph);
     while (true) {
-        std::vector<PassFate> fates = cull_backwards(all, graph.passes().size(), at_end);
+        std::vector<PassCullResult> fates = cull_from_last_pass(all, graph.list_passes().size(),
+                                                                at_end);
         // Contents of the last frame that survivors read must be complete at the end of this frame,
         // too.
         bool grew = false;
@@ -64,7 +65,7 @@ std::vector<PassFate> decide_pass_fates(const Graph& graph, const GraphAccesses&
             if (!fates[p].survives) continue;
             for (const ResourceAccess& a : all.accesses_of_pass(p)) {
                 if (!a.previous || !at_end.contains_value(a, false)) continue;
-                at_end.set_value(a, true);
+                at_end.set_value_of_access(a, true);
                 grew = true;
             }
         }

@@ -6,16 +6,17 @@ namespace catoptric::graph {
 
 namespace {
 
-VkMemoryRequirements query_image_memory(const gpu::Device& device, const ImageDesc& desc) {
-    const VkImageCreateInfo create = image_create_info(desc);
+VkMemoryRequirements query_memory_requirements(const gpu::GpuDevice& device,
+                                               const ImageDesc& desc) {
+    const VkImageCreateInfo create = make_image_create_info(desc);
     VkDeviceImageMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vkGetDeviceImageMemoryRequirements(device.handle(), &info, &needs);
+    vkGetDeviceImageMemoryRequirements(device.device_handle(), &info, &needs);
     return needs.memoryRequirements;
 }
 
-VkBufferCreateInfo buffer_create_info(const BufferDesc& desc) {
+VkBufferCreateInfo make_buffer_create_info(const BufferDesc& desc) {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = desc.bytes;
     create.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -24,53 +25,56 @@ VkBufferCreateInfo buffer_create_info(const BufferDesc& desc) {
     return create;
 }
 
-VkMemoryRequirements query_image_memory(const gpu::Device& device, const BufferDesc& desc) {
-    const VkBufferCreateInfo create = buffer_create_info(desc);
+VkMemoryRequirements query_memory_requirements(const gpu::GpuDevice& device,
+                                               const BufferDesc& desc) {
+    const VkBufferCreateInfo create = make_buffer_create_info(desc);
     VkDeviceBufferMemoryRequirements info{VK_STRUCTURE_TYPE_DEVICE_BUFFER_MEMORY_REQUIREMENTS};
     info.pCreateInfo = &create;
     VkMemoryRequirements2 needs{VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vkGetDeviceBufferMemoryRequirements(device.handle(), &info, &needs);
+    vkGetDeviceBufferMemoryRequirements(device.device_handle(), &info, &needs);
     return needs.memoryRequirements;
 }
 
-MemoryRequirements make_memory_requirements(const gpu::Device& device,
+MemoryRequirements make_memory_requirements(const gpu::GpuDevice& device,
                                             const VkMemoryRequirements& needs,
                                             const std::string& name) {
     const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
     // Buffers and images share heaps. Aligning to the granularity keeps them on separate pages.
-    const auto granularity = device.limits().bufferImageGranularity;
+    const auto granularity = device.vulkan_limits().bufferImageGranularity;
     return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity),
             static_cast<std::uint32_t>(type)};
 }
 
 } // namespace
 
-MemorySizer make_device_sizer(const gpu::Device& device) {
-    return {
-        [&device](const ImageDesc& desc) {
-            return make_memory_requirements(device, query_image_memory(device, desc), desc.name);
-        },
-        [&device](const BufferDesc& desc) {
-            return make_memory_requirements(device, query_image_memory(device, desc), desc.name);
-        }};
+MemoryRequirementQueries make_device_requirement_queries(const gpu::GpuDevice& device) {
+    return {[&device](const ImageDesc& desc) {
+                return make_memory_requirements(device, query_memory_requirements(device, desc),
+                                                desc.name);
+            },
+            [&device](const BufferDesc& desc) {
+                return make_memory_requirements(device, query_memory_requirements(device, desc),
+                                                desc.name);
+            }};
 }
 
-gpu::UniqueBuffer make_unbound_buffer(const gpu::Device& device, const BufferDesc& desc) {
-    const VkBufferCreateInfo create = buffer_create_info(desc);
+gpu::UniqueBuffer make_unbound_buffer(const gpu::GpuDevice& device, const BufferDesc& desc) {
+    const VkBufferCreateInfo create = make_buffer_create_info(desc);
     VkBuffer buffer = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateBuffer(device.handle(), &create, nullptr, &buffer),
-                  "create buffer '" + desc.name + "'");
+    gpu::throw_unless_vk_success(vkCreateBuffer(device.device_handle(), &create, nullptr, &buffer),
+                                 "create buffer '" + desc.name + "'");
     device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), desc.name);
-    return {device.handle(), buffer};
+    return {device.device_handle(), buffer};
 }
 
-OwnedImage make_importable_image(const gpu::Device& device, const ImageDesc& desc) {
-    const MemoryRequirements needs = make_device_sizer(device).image(desc);
-    OwnedImage made{device.allocate(needs.bytes, needs.heap, desc.name),
-                    make_physical_image(device, desc)};
-    gpu::check_vk(vkBindImageMemory(device.handle(), made.image.image, made.memory, 0),
-                  "place image '" + desc.name + "'");
+ImageWithMemory make_importable_image(const gpu::GpuDevice& device, const ImageDesc& desc) {
+    const MemoryRequirements needs = make_device_requirement_queries(device).image(desc);
+    ImageWithMemory made{device.allocate(needs.bytes, needs.heap, desc.name),
+                         make_physical_image(device, desc)};
+    gpu::throw_unless_vk_success(
+        vkBindImageMemory(device.device_handle(), made.image.image, made.memory, 0),
+        "place image '" + desc.name + "'");
     return made;
 }
 

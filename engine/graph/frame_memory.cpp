@@ -11,21 +11,21 @@ namespace {
 /// Calls visit(placement) for each resource in the memory of frames whose `alone` is as given.
 /// Images that outlive frames are skipped.
 template <typename Visit>
-void for_each_placement(const CompiledGraph& shape, bool alone, const Visit& visit) {
+void for_each_placement(const CompiledGraphShape& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const MemoryPlacement& placement = shape.plan.images[i];
-        if (shape.is_owned(i) && placement.alone == alone && !shape.is_persistent(i))
+        if (shape.has_runner_memory(i) && placement.alone == alone && !shape.is_persistent(i))
             visit(placement);
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
-        if (shape.is_owned(BufferHandle{b}) && shape.plan.buffers[b].alone == alone)
+        if (shape.has_runner_memory(BufferHandle{b}) && shape.plan.buffers[b].alone == alone)
             visit(shape.plan.buffers[b]);
 }
 
 /// Returns the offset in each heap of the plan at which the outputs begin. The plan puts outputs
 /// after the shared part. The runner puts them into a separate arena, at the same distance from one
 /// another.
-std::vector<std::uint64_t> output_offsets_in_heaps(const CompiledGraph& shape) {
+std::vector<std::uint64_t> find_output_offsets_in_heaps(const CompiledGraphShape& shape) {
     const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
     std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
     for_each_placement(shape, true, [&](const MemoryPlacement& p) {
@@ -37,9 +37,9 @@ std::vector<std::uint64_t> output_offsets_in_heaps(const CompiledGraph& shape) {
 }
 
 /// Returns the bytes that a shape needs of each heap.
-std::vector<std::uint64_t> claimed_heap_bytes(const CompiledGraph& shape, bool alone) {
+std::vector<std::uint64_t> count_claimed_heap_bytes(const CompiledGraphShape& shape, bool alone) {
     std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
-    const std::vector<std::uint64_t> begin = output_offsets_in_heaps(shape);
+    const std::vector<std::uint64_t> begin = find_output_offsets_in_heaps(shape);
     for_each_placement(shape, alone, [&](const MemoryPlacement& p) {
         const std::uint64_t end = p.offset + p.bytes - (alone ? begin[p.heap] : 0);
         bytes[p.heap] = std::max(bytes[p.heap], end);
@@ -48,11 +48,11 @@ std::vector<std::uint64_t> claimed_heap_bytes(const CompiledGraph& shape, bool a
 }
 
 std::vector<std::uint64_t>
-max_claimed_heap_bytes(std::span<const std::shared_ptr<CompiledGraph>> shapes, bool alone) {
+max_claimed_heap_bytes(std::span<const std::shared_ptr<CompiledGraphShape>> shapes, bool alone) {
     std::vector<std::uint64_t> largest;
     for (const auto& shape : shapes) {
         if (!shape->ran) continue;
-        const std::vector<std::uint64_t> bytes = claimed_heap_bytes(*shape, alone);
+        const std::vector<std::uint64_t> bytes = count_claimed_heap_bytes(*shape, alone);
         largest.resize(std::max(largest.size(), bytes.size()), 0);
         for (std::size_t h = 0; h < bytes.size(); ++h) largest[h] = std::max(largest[h], bytes[h]);
     }
@@ -61,47 +61,49 @@ max_claimed_heap_bytes(std::span<const std::shared_ptr<CompiledGraph>> shapes, b
 
 } // namespace
 
-void FrameMemory::allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes) {
+void SharedFrameMemory::allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes) {
     arena = {}; // frees the old memory before more is allocated
     for (std::size_t type = 0; type < bytes.size(); ++type)
-        arena.heaps.push_back(bytes[type]
-                                  ? device_.allocate(bytes[type], static_cast<std::uint32_t>(type),
-                                                     "images of the frame")
-                                  : gpu::UniqueMemory());
+        arena.heaps.push_back(
+            bytes[type] ? memory_device_.allocate(bytes[type], static_cast<std::uint32_t>(type),
+                                                  "images of the frame")
+                        : gpu::UniqueMemory());
     arena.bytes = std::move(bytes);
 }
 
-void FrameMemory::create_resources(CompiledGraph& shape, ShapeResources& resources,
-                                   const HeapAllocations& arena, bool alone) {
+void SharedFrameMemory::create_resources(CompiledGraphShape& shape, GraphShapeResources& resources,
+                                         const HeapAllocations& arena, bool alone) {
     resources = {};
-    const std::vector<std::uint64_t> begin = output_offsets_in_heaps(shape);
+    const std::vector<std::uint64_t> begin = find_output_offsets_in_heaps(shape);
     const auto offset_of = [&](const MemoryPlacement& p) {
         return p.offset - (alone ? begin[p.heap] : 0);
     };
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const MemoryPlacement& p = shape.plan.images[i];
-        const ImageDesc& desc = shape.outline.images()[i];
+        const ImageDesc& desc = shape.outline.list_images()[i];
         resources.images.emplace_back();
-        if (!shape.is_owned(i) || p.alone != alone || shape.is_persistent(i)) continue;
-        resources.images.back() = make_physical_image(device_, desc);
-        gpu::check_vk(vkBindImageMemory(device_.handle(), resources.images.back().image,
-                                        arena.heaps[p.heap], offset_of(p)),
-                      "place image '" + desc.name + "'");
+        if (!shape.has_runner_memory(i) || p.alone != alone || shape.is_persistent(i)) continue;
+        resources.images.back() = make_physical_image(memory_device_, desc);
+        gpu::throw_unless_vk_success(vkBindImageMemory(memory_device_.device_handle(),
+                                                       resources.images.back().image,
+                                                       arena.heaps[p.heap], offset_of(p)),
+                                     "place image '" + desc.name + "'");
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b) {
         const MemoryPlacement& p = shape.plan.buffers[b];
-        const BufferDesc& desc = shape.outline.buffers()[b];
+        const BufferDesc& desc = shape.outline.list_buffers()[b];
         resources.buffers.emplace_back();
-        if (!shape.is_owned(BufferHandle{b}) || p.alone != alone) continue;
-        resources.buffers.back() = make_unbound_buffer(device_, desc);
-        gpu::check_vk(vkBindBufferMemory(device_.handle(), resources.buffers.back(),
-                                         arena.heaps[p.heap], offset_of(p)),
-                      "place buffer '" + desc.name + "'");
+        if (!shape.has_runner_memory(BufferHandle{b}) || p.alone != alone) continue;
+        resources.buffers.back() = make_unbound_buffer(memory_device_, desc);
+        gpu::throw_unless_vk_success(vkBindBufferMemory(memory_device_.device_handle(),
+                                                        resources.buffers.back(),
+                                                        arena.heaps[p.heap], offset_of(p)),
+                                     "place buffer '" + desc.name + "'");
     }
     resources.made = true;
 }
 
-std::uint64_t FrameMemory::memory_bytes() const {
+std::uint64_t SharedFrameMemory::allocated_device_bytes() const {
     std::uint64_t sum = 0;
     const auto add = [&](const HeapAllocations& arena) {
         for (const std::uint64_t bytes : arena.bytes) sum += bytes;
@@ -111,9 +113,10 @@ std::uint64_t FrameMemory::memory_bytes() const {
     return sum;
 }
 
-void FrameMemory::find_or_allocate(CompiledGraph& shape, std::size_t slot,
-                                   std::span<const std::shared_ptr<CompiledGraph>> shapes,
-                                   const std::function<void()>& wait) {
+void SharedFrameMemory::find_or_allocate(
+    CompiledGraphShape& shape, std::size_t slot,
+    std::span<const std::shared_ptr<CompiledGraphShape>> shapes,
+    const std::function<void()>& wait) {
     shape.ran = true;
     if (shape.shared.made && shape.own[slot].made) return;
     if (std::vector<std::uint64_t> bytes = max_claimed_heap_bytes(shapes, false);

@@ -10,19 +10,19 @@ namespace catoptric::graph {
 /// Memory that the shapes of a runner use in turn, as large as the largest shape needs. Resources
 /// that live within a frame share one arena, because frames run one after another. Outputs of a
 /// frame have one arena per slot and stay until the slot's next frame is submitted.
-class FrameMemory {
+class SharedFrameMemory {
 public:
-    explicit FrameMemory(const gpu::Device& device) : device_(device) {}
+    explicit SharedFrameMemory(const gpu::GpuDevice& device) : memory_device_(device) {}
 
     /// Makes the resources that `shape` runs with in this slot, unless they exist. `shapes`: all
     /// shapes that need memory. Calls `wait` before it destroys anything that frames in flight may
     /// use.
-    void find_or_allocate(CompiledGraph& shape, std::size_t slot,
-                          std::span<const std::shared_ptr<CompiledGraph>> shapes,
+    void find_or_allocate(CompiledGraphShape& shape, std::size_t slot,
+                          std::span<const std::shared_ptr<CompiledGraphShape>> shapes,
                           const std::function<void()>& wait);
 
     /// Returns the bytes of device memory that are allocated.
-    std::uint64_t memory_bytes() const;
+    std::uint64_t allocated_device_bytes() const;
 
 private:
     /// The bytes of each heap and the memory allocated for them.
@@ -31,10 +31,10 @@ private:
         std::vector<gpu::UniqueMemory> heaps;
     };
     void allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes);
-    void create_resources(CompiledGraph& shape, ShapeResources& resources,
+    void create_resources(CompiledGraphShape& shape, GraphShapeResources& resources,
                           const HeapAllocations& arena, bool alone);
 
-    const gpu::Device& device_;
+    const gpu::GpuDevice& memory_device_;
     HeapAllocations shared_;
     std::array<HeapAllocations, kMaxFramesInFlight> own_;
 };

@@ -8,7 +8,7 @@ namespace catoptric::graph {
 
 namespace {
 
-gpu::UniqueSampler make_sampler(const gpu::Device& device, TextureFilter filter) {
+gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filter) {
     VkSamplerCreateInfo create{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     create.magFilter = create.minFilter = filter == TextureFilter::nearest ? VK_FILTER_NEAREST
                                                                            : VK_FILTER_LINEAR;
@@ -22,34 +22,36 @@ gpu::UniqueSampler make_sampler(const gpu::Device& device, TextureFilter filter)
     // Reversed depth: passes unless behind the stored depth.
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "create a sampler");
-    return {device.handle(), sampler};
+    gpu::throw_unless_vk_success(
+        vkCreateSampler(device.device_handle(), &create, nullptr, &sampler), "create a sampler");
+    return {device.device_handle(), sampler};
 }
 
-VkExtent2D pass_extent(const Graph& graph, const Pass& pass) {
+VkExtent2D find_pass_extent(const Graph& graph, const Pass& pass) {
     const ImageHandle& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
                                    return use.use == ResourceUse::colour ||
                                           use.use == ResourceUse::depth;
                                })->image;
-    const ImageDesc& desc = graph.images()[image.id];
+    const ImageDesc& desc = graph.list_images()[image.id];
     return {size_at_mip(desc.width, image.first_mip), size_at_mip(desc.height, image.first_mip)};
 }
 
-VkRect2D pass_render_area(const Pass& pass, VkExtent2D extent) {
+VkRect2D find_pass_render_area(const Pass& pass, VkExtent2D extent) {
     if (!pass.area) return {{0, 0}, extent};
     const auto& [x, y, width, height] = *pass.area;
     return {{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}, {width, height}};
 }
 
 /// Stages and accesses on both sides of a barrier.
-struct BarrierScopes {
+struct BarrierSyncScopes {
     SyncScope before, after;
 };
 
-BarrierScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
-    BarrierScopes sides{sync_scope_of_touch(barrier.before), sync_scope_of_touch(barrier.after)};
-    for (const ResourceTouch& touch : barrier.shared) {
-        const SyncScope scope = sync_scope_of_touch(touch);
+BarrierSyncScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
+    BarrierSyncScopes sides{sync_scope_of_access(barrier.before),
+                            sync_scope_of_access(barrier.after)};
+    for (const AccessState& touch : barrier.shared) {
+        const SyncScope scope = sync_scope_of_access(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
     }
     if (last) sides.after = {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT};
@@ -64,15 +66,15 @@ BarrierScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
 }
 
 template <typename VulkanBarrier>
-void set_barrier_scopes(VulkanBarrier& barrier, const BarrierScopes& sides) {
+void set_barrier_scopes(VulkanBarrier& barrier, const BarrierSyncScopes& sides) {
     barrier.srcStageMask = sides.before.stages, barrier.srcAccessMask = sides.before.access;
     barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
 }
 
 /// Returns the bytes of an attachment that a pass loads or clears before it draws, plus those that
 /// it stores.
-std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment, Format format,
-                                     const VkRenderingInfo& rendering) {
+std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment,
+                                     TexelFormat format, const VkRenderingInfo& rendering) {
     const VkExtent2D extent = rendering.renderArea.extent;
     const std::uint64_t once = std::uint64_t{extent.width} * extent.height * rendering.layerCount *
                                bytes_per_texel(format);
@@ -81,25 +83,26 @@ std::uint64_t count_attachment_bytes(const VkRenderingAttachmentInfo& attachment
 
 } // namespace
 
-FrameRecorder::FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines)
-    : device_(device), pipelines_(pipelines) {
+FrameRecorder::FrameRecorder(gpu::GpuDevice& device, gpu::PipelineStore& pipelines)
+    : graph_device_(device), pipelines_(pipelines) {
     for (TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear,
                                  TextureFilter::compare, TextureFilter::mipmapped})
         samplers_[static_cast<std::size_t>(filter)] = make_sampler(device, filter);
-    if (!device.has_labels()) return;
+    if (!device.has_debug_labels()) return;
     begin_label_ = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
-        vkGetDeviceProcAddr(device.handle(), "vkCmdBeginDebugUtilsLabelEXT"));
+        vkGetDeviceProcAddr(device.device_handle(), "vkCmdBeginDebugUtilsLabelEXT"));
     end_label_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
-        vkGetDeviceProcAddr(device.handle(), "vkCmdEndDebugUtilsLabelEXT"));
+        vkGetDeviceProcAddr(device.device_handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-void FrameRecorder::record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
-                                 std::size_t slot_index, PassTiming timing, WorkCounter* work) {
+void FrameRecorder::record_frame(const Graph& graph, CompiledGraphShape& shape,
+                                 FrameInFlightSlot& slot, std::size_t slot_index, PassTiming timing,
+                                 WorkCounter* work) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index, work_ = work;
     commands_ = slot.commands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
+    gpu::throw_unless_vk_success(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
     record_full_barrier();
     if (timing == PassTiming::isolated) write_timestamp(timing);
     for (const PlannedPass& planned : shape.plan.passes) {
@@ -109,7 +112,7 @@ void FrameRecorder::record_frame(const Graph& graph, CompiledGraph& shape, Frame
         write_timestamp(timing);
     }
     record_barriers(shape.plan.last, true);
-    gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
+    gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
 }
 
 /// Records a barrier that completes all earlier work and makes it visible to all later work. It
@@ -133,11 +136,11 @@ void FrameRecorder::write_timestamp(PassTiming timing) {
 }
 
 void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) {
-    const BarrierScopes sides = make_barrier_scopes(barrier, last);
+    const BarrierSyncScopes sides = make_barrier_scopes(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
         set_barrier_scopes(b, sides);
-        b.buffer = buffer({barrier.id});
+        b.buffer = vulkan_buffer({barrier.id});
         b.size = VK_WHOLE_SIZE;
         buffer_barriers_.push_back(b);
         return;
@@ -148,8 +151,9 @@ void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) 
                                          : image_layout_of_use(barrier.before.use);
     b.newLayout = image_layout_of_use(barrier.after.use);
     b.image = physical_image({.id = barrier.id, .previous = barrier.previous}).image;
-    b.subresourceRange = {image_aspect(graph_->images()[barrier.id].format), barrier.first_mip,
-                          barrier.mip_count, barrier.first_layer, barrier.layer_count};
+    b.subresourceRange = {image_aspect_of_format(graph_->list_images()[barrier.id].format),
+                          barrier.first_mip, barrier.mip_count, barrier.first_layer,
+                          barrier.layer_count};
     image_barriers_.push_back(b);
 }
 
@@ -166,7 +170,7 @@ void FrameRecorder::record_barriers(const std::vector<PlannedBarrier>& list, boo
 }
 
 void FrameRecorder::record_pass(const PlannedPass& planned) {
-    const Pass& pass = graph_->passes()[planned.pass];
+    const Pass& pass = graph_->list_passes()[planned.pass];
     if (begin_label_) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
         label.pLabelName = pass.name.c_str();
@@ -176,7 +180,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
     if (!pass.is_raster()) {
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
-    } else if (pass.layer_count == 1 || device_.supports_layered_rendering()) {
+    } else if (pass.layer_count == 1 || graph_device_.supports_layered_rendering()) {
         record_raster_pass(planned, 0, pass.layer_count);
     } else {
         for (std::uint32_t layer = 0; layer < pass.layer_count; ++layer)
@@ -187,20 +191,21 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
 }
 
 PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
-    if (graph_->lifetime(image.id) != ImageLifetime::imported)
-        return shape_->physical(image, slot_index_);
-    PhysicalImage* const outside = graph_->imported_image(image.id);
-    check(outside && outside->desc.width == graph_->images()[image.id].width, Failure::internal,
-          "image '", graph_->images()[image.id].name, "' is imported from nowhere");
+    if (graph_->image_lifetime(image.id) != ImageLifetime::imported)
+        return shape_->device_image(image, slot_index_);
+    PhysicalImage* const outside = graph_->find_imported_resource(image.id);
+    check(outside && outside->desc.width == graph_->list_images()[image.id].width,
+          Failure::internal, "image '", graph_->list_images()[image.id].name,
+          "' is imported from nowhere");
     return *outside;
 }
 
-VkBuffer FrameRecorder::buffer(BufferHandle buffer) const {
-    if (!graph_->is_imported(buffer)) return shape_->buffer(buffer, slot_index_);
-    const gpu::Buffer* const outside = graph_->imported_image(buffer);
-    check(outside, Failure::internal, "buffer '", graph_->buffers()[buffer.id].name,
+VkBuffer FrameRecorder::vulkan_buffer(BufferHandle buffer) const {
+    if (!graph_->is_imported(buffer)) return shape_->vulkan_buffer(buffer, slot_index_);
+    const gpu::GpuBuffer* const outside = graph_->find_imported_resource(buffer);
+    check(outside, Failure::internal, "buffer '", graph_->list_buffers()[buffer.id].name,
           "' is imported from nowhere");
-    return outside->handle();
+    return outside->buffer_handle();
 }
 
 void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
@@ -209,7 +214,7 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
                                                      : gpu::ImageViewType::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = physical_image(use.image).find_or_create_view(
-        device_, shape, use.image.layers(first_layer, layer_count));
+        graph_device_, shape, use.image.select_layers(first_layer, layer_count));
     info.imageLayout = image_layout_of_use(use.use);
     info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
@@ -225,37 +230,37 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
         depth_ = info;
 }
 
-void FrameRecorder::count_bytes(const Pass& pass, const VkRenderingInfo& rendering) {
+void FrameRecorder::count_attachment_traffic(const Pass& pass, const VkRenderingInfo& rendering) {
     std::size_t colour = 0;
     for (const ImageUse& use : pass.images) {
         if (use.use != ResourceUse::colour && use.use != ResourceUse::depth) continue;
         const VkRenderingAttachmentInfo& attachment = use.use == ResourceUse::depth
                                                           ? depth_
                                                           : colours_[colour++];
-        work_->add(
-            WorkKind::bytes,
-            count_attachment_bytes(attachment, graph_->images()[use.image.id].format, rendering));
+        work_->add_count(WorkKind::bytes,
+                         count_attachment_bytes(
+                             attachment, graph_->list_images()[use.image.id].format, rendering));
     }
 }
 
 /// Records one rendering scope over some layers of the pass's attachments.
 void FrameRecorder::record_raster_pass(const PlannedPass& planned, std::uint32_t first_layer,
                                        std::uint32_t layer_count) {
-    const Pass& pass = graph_->passes()[planned.pass];
+    const Pass& pass = graph_->list_passes()[planned.pass];
     colours_.clear();
     depth_ = {};
     for (std::size_t i = 0; i < pass.images.size(); ++i)
         if (pass.images[i].use == ResourceUse::colour || pass.images[i].use == ResourceUse::depth)
             add_attachment(pass.images[i], i < 32 && (planned.unread >> i & 1), first_layer,
                            layer_count);
-    const VkExtent2D extent = pass_extent(*graph_, pass);
+    const VkExtent2D extent = find_pass_extent(*graph_, pass);
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    rendering.renderArea = pass_render_area(pass, extent);
+    rendering.renderArea = find_pass_render_area(pass, extent);
     rendering.layerCount = layer_count;
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(colours_.size());
     rendering.pColorAttachments = colours_.data();
     rendering.pDepthAttachment = depth_.imageView ? &depth_ : nullptr;
-    if (work_) count_bytes(pass, rendering);
+    if (work_) count_attachment_traffic(pass, rendering);
     vkCmdBeginRendering(commands_, &rendering);
     const VkViewport viewport{
         0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};

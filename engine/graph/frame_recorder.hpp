@@ -10,25 +10,25 @@ namespace catoptric::graph {
 /// Records a planned frame into the command buffer of a slot.
 class FrameRecorder {
 public:
-    FrameRecorder(gpu::Device& device, gpu::Pipelines& pipelines);
+    FrameRecorder(gpu::GpuDevice& device, gpu::PipelineStore& pipelines);
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
     /// `work` counts the frame's work; null: nothing is counted.
-    void record_frame(const Graph& graph, CompiledGraph& shape, FrameSlot& slot,
+    void record_frame(const Graph& graph, CompiledGraphShape& shape, FrameInFlightSlot& slot,
                       std::size_t slot_index, PassTiming timing, WorkCounter* work);
 
     // Returns the device. Only Commands may call this function, while a pass records its commands.
-    gpu::Device& device() { return device_; }
-    gpu::Pipelines& pipelines() { return pipelines_; }
+    gpu::GpuDevice& recording_device() { return graph_device_; }
+    gpu::PipelineStore& pipeline_store() { return pipelines_; }
     /// Returns the counter of the frame's work; null: nothing is counted.
-    WorkCounter* work_counter() { return work_; }
+    WorkCounter* frame_work_counter() { return work_; }
     PhysicalImage& physical_image(ImageHandle image);
-    VkBuffer buffer(BufferHandle buffer) const;
-    VkSampler sampler(TextureFilter filter) const {
+    VkBuffer vulkan_buffer(BufferHandle buffer) const;
+    VkSampler sampler_of_filter(TextureFilter filter) const {
         return samplers_[static_cast<std::size_t>(filter)];
     }
-    VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout) {
-        return slot_->descriptor_set(layout);
+    VkDescriptorSet allocate_descriptor_set(VkDescriptorSetLayout layout) {
+        return slot_->allocate_descriptor_set(layout);
     }
 
 private:
@@ -37,22 +37,22 @@ private:
                             std::uint32_t layer_count);
     void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                         std::uint32_t layer_count);
-    void count_bytes(const Pass& pass, const VkRenderingInfo& rendering);
+    void count_attachment_traffic(const Pass& pass, const VkRenderingInfo& rendering);
     void record_barriers(const std::vector<PlannedBarrier>& list, bool last);
     void add_image_barrier(const PlannedBarrier& barrier, bool last);
     void record_full_barrier();
     void write_timestamp(PassTiming timing);
 
-    gpu::Device& device_;
-    gpu::Pipelines& pipelines_;
+    gpu::GpuDevice& graph_device_;
+    gpu::PipelineStore& pipelines_;
     std::array<gpu::UniqueSampler, 4> samplers_;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label_ = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label_ = nullptr;
 
     // The frame that is being recorded.
     const Graph* graph_ = nullptr;
-    CompiledGraph* shape_ = nullptr;
-    FrameSlot* slot_ = nullptr;
+    CompiledGraphShape* shape_ = nullptr;
+    FrameInFlightSlot* slot_ = nullptr;
     std::size_t slot_index_ = 0;
     WorkCounter* work_ = nullptr;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

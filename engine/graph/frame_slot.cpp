@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::uint32_t kDescriptorSetsPerPool = 256;
 
-gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::Device& device) {
+gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::GpuDevice& device) {
     const VkDescriptorPoolSize sizes[] = {
         {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kDescriptorSetsPerPool},
         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 8 * kDescriptorSetsPerPool},
@@ -20,60 +20,66 @@ gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::Device& device) {
     create.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     create.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool),
-                  "create a descriptor pool");
-    return {device.handle(), pool};
+    gpu::throw_unless_vk_success(
+        vkCreateDescriptorPool(device.device_handle(), &create, nullptr, &pool),
+        "create a descriptor pool");
+    return {device.device_handle(), pool};
 }
 
 } // namespace
 
-FrameSlot::FrameSlot(const gpu::Device& device) : device_(device) {
+FrameInFlightSlot::FrameInFlightSlot(const gpu::GpuDevice& device) : slot_device_(device) {
     VkCommandPoolCreateInfo create{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     create.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    create.queueFamilyIndex = device.queue_family();
+    create.queueFamilyIndex = device.queue_family_index();
     VkCommandPool handle = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateCommandPool(device.handle(), &create, nullptr, &handle),
-                  "create a command pool");
-    pool_ = {device.handle(), handle};
+    gpu::throw_unless_vk_success(
+        vkCreateCommandPool(device.device_handle(), &create, nullptr, &handle),
+        "create a command pool");
+    pool_ = {device.device_handle(), handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    gpu::check_vk(vkAllocateCommandBuffers(device.handle(), &allocate, &commands),
-                  "allocate a command buffer");
+    gpu::throw_unless_vk_success(
+        vkAllocateCommandBuffers(device.device_handle(), &allocate, &commands),
+        "allocate a command buffer");
 }
 
-void FrameSlot::reset(std::uint32_t stamps) {
+void FrameInFlightSlot::reset(std::uint32_t stamps) {
     if (query_count_ < stamps) {
         VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
         create.queryCount = stamps;
         VkQueryPool pool = VK_NULL_HANDLE;
-        gpu::check_vk(vkCreateQueryPool(device_.handle(), &create, nullptr, &pool),
-                      "create time stamps");
-        queries = {device_.handle(), pool};
+        gpu::throw_unless_vk_success(
+            vkCreateQueryPool(slot_device_.device_handle(), &create, nullptr, &pool),
+            "create time stamps");
+        queries = {slot_device_.device_handle(), pool};
         query_count_ = stamps;
     }
-    vkResetQueryPool(device_.handle(), queries, 0, query_count_);
-    for (const auto& pool : descriptor_pools_) vkResetDescriptorPool(device_.handle(), pool, 0);
+    vkResetQueryPool(slot_device_.device_handle(), queries, 0, query_count_);
+    for (const auto& pool : descriptor_pools_)
+        vkResetDescriptorPool(slot_device_.device_handle(), pool, 0);
     next_pool_ = 0;
     next_query = 0;
 }
 
-VkDescriptorSet FrameSlot::descriptor_set(VkDescriptorSetLayout layout) {
+VkDescriptorSet FrameInFlightSlot::allocate_descriptor_set(VkDescriptorSetLayout layout) {
     for (;; ++next_pool_) {
         const bool fresh = next_pool_ == descriptor_pools_.size();
-        if (fresh) descriptor_pools_.push_back(make_descriptor_pool(device_));
+        if (fresh) descriptor_pools_.push_back(make_descriptor_pool(slot_device_));
         VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
         allocate.descriptorPool = descriptor_pools_[next_pool_];
         allocate.descriptorSetCount = 1;
         allocate.pSetLayouts = &layout;
         VkDescriptorSet set = VK_NULL_HANDLE;
-        const VkResult result = vkAllocateDescriptorSets(device_.handle(), &allocate, &set);
+        const VkResult result = vkAllocateDescriptorSets(slot_device_.device_handle(), &allocate,
+                                                         &set);
         if (result == VK_SUCCESS) return set;
         const bool full = result == VK_ERROR_OUT_OF_POOL_MEMORY ||
                           result == VK_ERROR_FRAGMENTED_POOL;
-        if (fresh || !full) gpu::check_vk(result, "allocate a descriptor set");
+        if (fresh || !full) gpu::throw_unless_vk_success(result, "allocate a descriptor set");
     }
 }
 

@@ -12,12 +12,12 @@ namespace catoptric::graph {
 
 /// The resources of one frame in flight: command buffer, timestamps, descriptors. They are reused
 /// once the frame has ended.
-class FrameSlot {
+class FrameInFlightSlot {
 public:
-    explicit FrameSlot(const gpu::Device& device);
+    explicit FrameInFlightSlot(const gpu::GpuDevice& device);
     /// Empties the descriptor pools and makes room for `stamps` timestamps.
     void reset(std::uint32_t stamps);
-    VkDescriptorSet descriptor_set(VkDescriptorSetLayout layout);
+    VkDescriptorSet allocate_descriptor_set(VkDescriptorSetLayout layout);
 
     VkCommandBuffer commands = VK_NULL_HANDLE;
     gpu::UniqueQueryPool queries;
@@ -28,13 +28,13 @@ public:
     bool ended = true;       ///< whether the host has waited for the slot's last frame
     bool stays = false;
     PassTiming timing = PassTiming::isolated;
-    std::shared_ptr<CompiledGraph> shape;
+    std::shared_ptr<CompiledGraphShape> shape;
     SteadyClock::time_point submitted;
     GraphFrameTimes times;
     std::unique_ptr<WorkCounter> work; ///< null: the frame does not count its work
 
 private:
-    const gpu::Device& device_;
+    const gpu::GpuDevice& slot_device_;
     gpu::UniqueCommandPool pool_;
     std::uint32_t query_count_ = 0;
     std::vector<gpu::UniqueDescriptorPool> descriptor_pools_;

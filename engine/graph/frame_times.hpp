@@ -15,7 +15,7 @@ struct GraphPassTime {
     std::string name;
     double begin_ms = 0; ///< from the frame's first timestamp
     double end_ms = 0;
-    double ms() const { return end_ms - begin_ms; }
+    double elapsed_ms() const { return end_ms - begin_ms; }
 };
 
 /// Times of one frame in milliseconds. On a cpu device the GPU times are processor time of the

@@ -8,7 +8,7 @@
 
 namespace catoptric::graph {
 
-std::string_view name_of(ResourceUse use) {
+std::string_view resource_use_name(ResourceUse use) {
     switch (use) {
     case ResourceUse::sampled: return "sampled";
     case ResourceUse::storage_read: return "storage_read";
@@ -26,7 +26,7 @@ std::string_view name_of(ResourceUse use) {
 
 namespace {
 
-ImageHandle whole_image(std::uint32_t id, const ImageDesc& desc) {
+ImageHandle make_whole_image_handle(std::uint32_t id, const ImageDesc& desc) {
     return {.id = id, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
@@ -81,7 +81,7 @@ ImageHandle Graph::add_image(ImageDesc desc) {
     const auto id = static_cast<std::uint32_t>(images_.size());
     images_.push_back(std::move(desc));
     lives_.emplace_back();
-    return whole_image(id, images_.back());
+    return make_whole_image_handle(id, images_.back());
 }
 
 BufferHandle Graph::add_buffer(BufferDesc desc) {
@@ -110,11 +110,11 @@ const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) co
 
 bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
     const ImageDesc& desc = find_image_desc(part, "holds()");
-    check(lifetime(part.id) == ImageLifetime::persistent, Failure::internal, "holds() of image '",
-          desc.name, "', which is not kept");
+    check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
+          "holds() of image '", desc.name, "', which is not kept");
     bool all = true;
     for_each_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
-        content_hashes_at_start(part.id).for_each_run(
+        list_content_hashes_at_start(part.id).for_each_run(
             first, end, [&](std::uint32_t, std::uint32_t, const std::optional<std::uint64_t>& s) {
                 all = all && s == content_hash;
             });
@@ -124,7 +124,7 @@ bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
 
 void Graph::set_content_hash(ImageHandle part, std::uint64_t content_hash) {
     const ImageDesc& desc = find_image_desc(part, "made_from()");
-    check(lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
+    check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
           "made_from() of image '", desc.name, "', which is not kept");
     stamped_.push_back({part, content_hash});
 }
@@ -140,14 +140,14 @@ ImageHandle Graph::import_external(ImageDesc desc, PhysicalImage* outside,
     return handle;
 }
 
-BufferHandle Graph::import_external(BufferDesc desc, const gpu::Buffer* outside) {
+BufferHandle Graph::import_external(BufferDesc desc, const gpu::GpuBuffer* outside) {
     const BufferHandle handle = add_buffer(std::move(desc));
     imported_buffers_.back() = true;
     outside_buffers_.back() = outside;
     return handle;
 }
 
-PassBuilder Graph::add_pass(std::string name, PassTag tag) {
+PassBuilder Graph::add_pass(std::string name, PassPurpose tag) {
     Pass& pass = passes_.emplace_back();
     pass.name = std::move(name);
     pass.tag = tag;
@@ -184,7 +184,7 @@ GraphHistory Graph::history_for_next_frame() const {
         for_each_layer_range(part, images_[part.id].layers,
                              [&](std::uint32_t first, std::uint32_t end) {
                                  left.persistent.at(images_[part.id].name)
-                                     .stamps.fill_range(first, end, content_hash);
+                                     .stamps.fill_cell_range(first, end, content_hash);
                              });
     return left;
 }
@@ -194,7 +194,7 @@ Graph Graph::copy_without_recorders() const {
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;
     for (ImportedImageState& life : outline.lives_) life.outside = nullptr;
-    for (const gpu::Buffer*& outside : outline.outside_buffers_) outside = nullptr;
+    for (const gpu::GpuBuffer*& outside : outline.outside_buffers_) outside = nullptr;
     return outline;
 }
 

@@ -18,7 +18,7 @@
 /// A frame as data: images, buffers and passes in the order in which they run. A frame is declared
 /// (this file), planned (plan.hpp, without a device) and run (graph_runner.hpp, on the device).
 namespace catoptric::gpu {
-class Buffer;
+class GpuBuffer;
 }
 
 namespace catoptric::graph {
@@ -39,14 +39,14 @@ enum class ResourceUse {
     indirect, ///< buffer of draw or dispatch arguments
     present,  ///< how an imported image is left for the window; no pass uses it
 };
-std::string_view name_of(ResourceUse use);
+std::string_view resource_use_name(ResourceUse use);
 
 /// Purpose of a pass. `scene` passes are the scene passes that the report counts as R.
-enum class PassTag { none, scene };
+enum class PassPurpose { none, scene };
 
 struct ImageDesc {
     std::string name; ///< unique in the graph
-    Format format = Format::rgba16f;
+    TexelFormat format = TexelFormat::rgba16f;
     std::uint32_t width = 1;
     std::uint32_t height = 1;
     std::uint32_t layers = 1;
@@ -85,14 +85,14 @@ struct ImageHandle {
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
     /// Returns a handle of some of the layers, counted from this handle's first.
-    ImageHandle layers(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle select_layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
     /// Returns a handle of some of the mips, counted from this handle's first.
-    ImageHandle mips(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle select_mips(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer, layer_count, previous, first_mip + first, count};
     }
-    ImageHandle mip(std::uint32_t number) const { return mips(number, 1); }
+    ImageHandle select_mip(std::uint32_t number) const { return select_mips(number, 1); }
     friend bool operator==(const ImageHandle&, const ImageHandle&) = default;
 };
 
@@ -128,7 +128,7 @@ struct PixelArea {
 
 struct Pass {
     std::string name; ///< unique in the graph
-    PassTag tag = PassTag::none;
+    PassPurpose tag = PassPurpose::none;
     std::vector<ImageUse> images; ///< in order of declaration
     std::vector<BufferUse> buffers;
     std::uint32_t layer_count = 1; ///< layers rendered at once
@@ -176,7 +176,7 @@ struct GraphHistory {
 };
 
 /// The content hash of a part of a persistent image after this frame has written it.
-struct ContentRecord {
+struct ContentHashRecord {
     ImageHandle part;
     std::uint64_t content_hash = 0;
 };
@@ -208,8 +208,8 @@ public:
                                 std::optional<ResourceUse> arrives, ResourceUse leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
-    BufferHandle import_external(BufferDesc desc, const gpu::Buffer* outside);
-    PassBuilder add_pass(std::string name, PassTag tag = PassTag::none);
+    BufferHandle import_external(BufferDesc desc, const gpu::GpuBuffer* outside);
+    PassBuilder add_pass(std::string name, PassPurpose tag = PassPurpose::none);
 
     /// Returns a handle of the image's contents at the end of the last frame (black on the first).
     /// Costs a second copy of the image, whose memory is not shared.
@@ -221,25 +221,27 @@ public:
     void mark_output(ImageHandle image);
     void mark_output(BufferHandle buffer);
 
-    const std::vector<ImageDesc>& images() const { return images_; }
-    const std::vector<BufferDesc>& buffers() const { return buffers_; }
-    const std::deque<Pass>& passes() const { return passes_; }
-    const std::vector<ImageHandle>& output_images() const { return wanted_images_; }
-    const std::vector<BufferHandle>& output_buffers() const { return wanted_buffers_; }
-    const std::vector<ContentRecord>& content_records() const { return stamped_; }
-    ImageLifetime lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
+    const std::vector<ImageDesc>& list_images() const { return images_; }
+    const std::vector<BufferDesc>& list_buffers() const { return buffers_; }
+    const std::deque<Pass>& list_passes() const { return passes_; }
+    const std::vector<ImageHandle>& list_output_images() const { return wanted_images_; }
+    const std::vector<BufferHandle>& list_output_buffers() const { return wanted_buffers_; }
+    const std::vector<ContentHashRecord>& list_content_records() const { return stamped_; }
+    ImageLifetime image_lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
     /// Returns the use in whose layout an imported image arrives.
-    std::optional<ResourceUse> state_on_import(std::uint32_t image) const {
+    std::optional<ResourceUse> use_on_import(std::uint32_t image) const {
         return lives_[image].arrives;
     }
-    ResourceUse state_on_release(std::uint32_t image) const { return lives_[image].leaves; }
-    PhysicalImage* imported_image(std::uint32_t image) const { return lives_[image].outside; }
-    const gpu::Buffer* imported_image(BufferHandle buffer) const {
+    ResourceUse use_on_release(std::uint32_t image) const { return lives_[image].leaves; }
+    PhysicalImage* find_imported_resource(std::uint32_t image) const {
+        return lives_[image].outside;
+    }
+    const gpu::GpuBuffer* find_imported_resource(BufferHandle buffer) const {
         return outside_buffers_[buffer.id];
     }
     /// Returns the content hashes of a persistent image at the start of the frame.
-    const LayerHashes& content_hashes_at_start(std::uint32_t image) const {
+    const LayerHashes& list_content_hashes_at_start(std::uint32_t image) const {
         return lives_[image].held;
     }
     /// Returns the history for the next frame once this frame has run.
@@ -262,11 +264,11 @@ private:
     std::vector<ImportedImageState> lives_; // one per entry of `images_`
     std::vector<BufferDesc> buffers_;
     std::vector<char> imported_buffers_; // one per entry of `buffers_`
-    std::vector<const gpu::Buffer*> outside_buffers_;
+    std::vector<const gpu::GpuBuffer*> outside_buffers_;
     std::deque<Pass> passes_; // a deque, because builders hold references
     std::vector<ImageHandle> wanted_images_;
     std::vector<BufferHandle> wanted_buffers_;
-    std::vector<ContentRecord> stamped_;
+    std::vector<ContentHashRecord> stamped_;
 };
 
 } // namespace catoptric::graph

@@ -19,47 +19,50 @@ double elapsed_milliseconds(SteadyClock::time_point begin) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - begin).count();
 }
 
-gpu::UniqueSemaphore make_timeline_semaphore(const gpu::Device& device) {
+gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     const VkSemaphoreCreateInfo create{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateSemaphore(device.handle(), &create, nullptr, &semaphore),
-                  "create a semaphore");
-    return {device.handle(), semaphore};
+    gpu::throw_unless_vk_success(
+        vkCreateSemaphore(device.device_handle(), &create, nullptr, &semaphore),
+        "create a semaphore");
+    return {device.device_handle(), semaphore};
 }
 
-std::vector<std::string> list_pass_names(const CompiledGraph& shape) {
+std::vector<std::string> list_pass_names(const CompiledGraphShape& shape) {
     std::vector<std::string> names;
     for (const PlannedPass& planned : shape.plan.passes)
-        names.push_back(shape.outline.passes()[planned.pass].name);
+        names.push_back(shape.outline.list_passes()[planned.pass].name);
     return names;
 }
 
 /// Returns the number of the frame and the names of all its passes. A lost device does not tell
 /// which pass was running.
-std::string describe_frame(std::uint64_t frame, const CompiledGraph& shape) {
+std::string describe_submitted_frame(std::uint64_t frame, const CompiledGraphShape& shape) {
     std::string name = "frame " + std::to_string(frame) + " (passes";
     for (const PlannedPass& planned : shape.plan.passes)
-        name += " '" + shape.outline.passes()[planned.pass].name + "'";
+        name += " '" + shape.outline.list_passes()[planned.pass].name + "'";
     return name + ")";
 }
 
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_timestamps(gpu::Device& device, const FrameSlot& slot, GraphFrameTimes& times) {
-    const CompiledGraph& shape = *slot.shape;
+void read_timestamps(gpu::GpuDevice& device, const FrameInFlightSlot& slot,
+                     GraphFrameTimes& times) {
+    const CompiledGraphShape& shape = *slot.shape;
     std::vector<std::uint64_t> stamps(slot.next_query);
     const VkResult result = vkGetQueryPoolResults(
-        device.handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(), 8,
-        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+        device.device_handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(),
+        8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (result != VK_SUCCESS)
-        device.check_not_lost(result,
-                              "read the time stamps of " + describe_frame(slot.frame, shape));
+        device.check_not_lost(result, "read the time stamps of " +
+                                          describe_submitted_frame(slot.frame, shape));
     const std::vector<double> at = timestamps_to_milliseconds(
-        stamps, device.timestamp_bits(), static_cast<double>(device.limits().timestampPeriod));
+        stamps, device.valid_timestamp_bits(),
+        static_cast<double>(device.vulkan_limits().timestampPeriod));
     for (std::size_t i = 0; i < shape.plan.passes.size(); ++i) {
         const bool isolated = slot.timing == PassTiming::isolated;
-        times.passes.push_back({shape.outline.passes()[shape.plan.passes[i].pass].name,
+        times.passes.push_back({shape.outline.list_passes()[shape.plan.passes[i].pass].name,
                                 isolated ? at[i] : at[2 * i],
                                 isolated ? at[i + 1] : at[2 * i + 1]});
         times.span_ms = std::max(times.span_ms, times.passes.back().end_ms);
@@ -68,9 +71,10 @@ void read_timestamps(gpu::Device& device, const FrameSlot& slot, GraphFrameTimes
 
 } // namespace
 
-GraphRunner::GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight)
-    : device_(device), recorder_(device, pipelines), timeline_(make_timeline_semaphore(device)),
-      memory_(device), kept_(device) {
+GraphRunner::GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+                         std::uint32_t in_flight)
+    : runner_device_(device), frame_recorder_(device, pipelines),
+      timeline_(make_timeline_semaphore(device)), memory_(device), kept_(device) {
     check(in_flight >= 1 && in_flight <= kMaxFramesInFlight, Failure::usage,
           "frames in flight must be 1 to ", kMaxFramesInFlight, ", not ", in_flight);
     slots_.reserve(in_flight);
@@ -78,7 +82,7 @@ GraphRunner::GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::ui
 }
 
 GraphRunner::~GraphRunner() {
-    if (device_.abandoned()) return;
+    if (runner_device_.is_abandoned()) return;
     try {
         finish_all_slots();
     } catch (const std::exception&) {
@@ -89,7 +93,7 @@ GraphRunner::~GraphRunner() {
 /// Waits for all frames, and removes the references of ended frames to images that outlive frames.
 void GraphRunner::release_persistent() {
     finish_all_slots();
-    for (FrameSlot& slot : slots_)
+    for (FrameInFlightSlot& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
 }
 
@@ -109,20 +113,22 @@ void GraphRunner::resume(RetainedImages leavings) {
 }
 
 GraphLimits GraphRunner::limits() const {
-    const VkPhysicalDeviceLimits& limits = device_.limits();
-    return {limits.maxImageDimension2D,  limits.maxImageDimensionCube, limits.maxImageArrayLayers,
-            limits.maxFramebufferLayers, device_.memory_budget(),      device_.max_allocation()};
+    const VkPhysicalDeviceLimits& limits = runner_device_.vulkan_limits();
+    return {limits.maxImageDimension2D,     limits.maxImageDimensionCube,
+            limits.maxImageArrayLayers,     limits.maxFramebufferLayers,
+            runner_device_.memory_budget(), runner_device_.max_allocation_bytes()};
 }
 
-CompiledGraph& GraphRunner::compile_graph(const Graph& graph) {
+CompiledGraphShape& GraphRunner::compile_graph(const Graph& graph) {
     const SteadyClock::time_point begin = SteadyClock::now();
     const std::uint64_t hash = hash_graph_shape(graph);
-    auto found = std::ranges::find_if(shapes_, [&](const std::shared_ptr<CompiledGraph>& shape) {
-        return shape->hash == hash && have_equal_shapes(graph, shape->outline);
-    });
+    auto found = std::ranges::find_if(
+        shapes_, [&](const std::shared_ptr<CompiledGraphShape>& shape) {
+            return shape->hash == hash && have_equal_shapes(graph, shape->outline);
+        });
     if (found == shapes_.end()) {
-        auto made = std::make_shared<CompiledGraph>();
-        made->plan = plan_graph(graph, limits(), make_device_sizer(device_));
+        auto made = std::make_shared<CompiledGraphShape>();
+        made->plan = plan_graph(graph, limits(), make_device_requirement_queries(runner_device_));
         made->outline = graph.copy_without_recorders();
         made->hash = hash;
         ++plans_made_;
@@ -135,13 +141,14 @@ CompiledGraph& GraphRunner::compile_graph(const Graph& graph) {
     return *shapes_.front();
 }
 
-FrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
-                                      const ExternalSemaphores& outside, bool counts_work) {
-    device_.check_usable();
+SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
+                                               const ExternalSemaphores& outside,
+                                               bool counts_work) {
+    runner_device_.check_usable();
     const double waited_before = wait_ms_;
-    CompiledGraph& shape = compile_graph(graph);
-    const std::size_t index = index_of(frame_ + 1);
-    FrameSlot& slot = slots_[index];
+    CompiledGraphShape& shape = compile_graph(graph);
+    const std::size_t index = slot_index_of_frame(frame_ + 1);
+    FrameInFlightSlot& slot = slots_[index];
     finish_slot(slot);
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
@@ -155,9 +162,9 @@ FrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, boo
     compile_ms_ = 0;
 
     const SteadyClock::time_point record_begin = SteadyClock::now();
-    slot.work = counts_work ? std::make_unique<WorkCounter>(device_, list_pass_names(shape))
+    slot.work = counts_work ? std::make_unique<WorkCounter>(runner_device_, list_pass_names(shape))
                             : nullptr;
-    recorder_.record_frame(graph, shape, slot, index, timing, slot.work.get());
+    frame_recorder_.record_frame(graph, shape, slot, index, timing, slot.work.get());
     times.record_ms = elapsed_milliseconds(record_begin);
     slot.times = times;
     slot.timing = timing, slot.stays = stays;
@@ -168,7 +175,7 @@ FrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, boo
     return {frame_};
 }
 
-void GraphRunner::submit_frame(FrameSlot& slot, const CompiledGraph& shape,
+void GraphRunner::submit_frame(FrameInFlightSlot& slot, const CompiledGraphShape& shape,
                                const ExternalSemaphores& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
@@ -188,17 +195,18 @@ void GraphRunner::submit_frame(FrameSlot& slot, const CompiledGraph& shape,
     submit.pWaitSemaphoreInfos = &wait;
     submit.signalSemaphoreInfoCount = outside.signal ? 2 : 1;
     submit.pSignalSemaphoreInfos = signals.data();
-    device_.submit_uploads();
+    runner_device_.submit_uploads();
     slot.submitted = SteadyClock::now();
-    const VkResult result = vkQueueSubmit2(device_.queue(), 1, &submit, VK_NULL_HANDLE);
+    const VkResult result = vkQueueSubmit2(runner_device_.vulkan_queue(), 1, &submit,
+                                           VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        device_.check_not_lost(result, "run " + describe_frame(frame_ + 1, shape));
+        runner_device_.check_not_lost(result, "run " + describe_submitted_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
 
 /// Waits for the frame of the slot, unless it was waited for before.
-void GraphRunner::finish_slot(FrameSlot& slot) {
+void GraphRunner::finish_slot(FrameInFlightSlot& slot) {
     if (slot.ended) return;
     const SteadyClock::time_point begin = SteadyClock::now();
     const VkSemaphore semaphore = timeline_;
@@ -206,33 +214,35 @@ void GraphRunner::finish_slot(FrameSlot& slot) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &slot.frame;
-    const VkResult result = vkWaitSemaphores(device_.handle(), &wait, ~std::uint64_t{0});
+    const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait,
+                                             ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        device_.check_wait_result(result, "run " + describe_frame(slot.frame, *slot.shape));
+        runner_device_.check_wait_result(
+            result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     const double waited = elapsed_milliseconds(begin);
     slot.times.wall_ms = elapsed_milliseconds(slot.submitted);
     slot.times.wait_ms += waited;
     wait_ms_ += waited;
     slot.ended = true;
-    read_timestamps(device_, slot, slot.times);
+    read_timestamps(runner_device_, slot, slot.times);
 }
 
 void GraphRunner::finish_all_slots() {
-    for (FrameSlot& slot : slots_) finish_slot(slot);
+    for (FrameInFlightSlot& slot : slots_) finish_slot(slot);
 }
 
-FrameSlot& GraphRunner::slot_of_frame(FrameTicket ticket) {
+FrameInFlightSlot& GraphRunner::slot_of_frame(SubmittedFrameTicket ticket) {
     check(ticket.frame >= 1 && ticket.frame <= frame_, Failure::internal, "frame ", ticket.frame,
           " is asked for, but ", frame_, " were submitted");
-    FrameSlot& slot = slots_[index_of(ticket.frame)];
+    FrameInFlightSlot& slot = slots_[slot_index_of_frame(ticket.frame)];
     check(slot.frame == ticket.frame, Failure::internal, "frame ", ticket.frame,
           " is gone: its place was taken by frame ", slot.frame, ", with ", slots_.size(),
           " in flight");
     return slot;
 }
 
-bool GraphRunner::has_ended(FrameTicket ticket) {
-    const FrameSlot& slot = slots_[index_of(ticket.frame)];
+bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
+    const FrameInFlightSlot& slot = slots_[slot_index_of_frame(ticket.frame)];
     if (slot.frame != ticket.frame || slot.ended)
         return true; // a later frame has the slot, or the frame was waited for
     const VkSemaphore semaphore = timeline_;
@@ -240,20 +250,21 @@ bool GraphRunner::has_ended(FrameTicket ticket) {
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket.frame;
-    const VkResult result = vkWaitSemaphores(device_.handle(), &wait, 0);
+    const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        device_.check_wait_result(result, "run " + describe_frame(slot.frame, *slot.shape));
+        runner_device_.check_wait_result(
+            result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }
 
-std::vector<PassWork> GraphRunner::counted_work(FrameTicket ticket) {
-    FrameSlot& slot = slot_of_frame(ticket);
+std::vector<PassWork> GraphRunner::counted_work(SubmittedFrameTicket ticket) {
+    FrameInFlightSlot& slot = slot_of_frame(ticket);
     finish_slot(slot);
     return slot.work ? slot.work->read() : std::vector<PassWork>();
 }
 
-const GraphFrameTimes& GraphRunner::wait_for_frame(FrameTicket ticket) {
-    FrameSlot& slot = slot_of_frame(ticket);
+const GraphFrameTimes& GraphRunner::wait_for_frame(SubmittedFrameTicket ticket) {
+    FrameInFlightSlot& slot = slot_of_frame(ticket);
     finish_slot(slot);
     return slot.times;
 }

@@ -9,7 +9,7 @@
 namespace catoptric::graph {
 
 /// A submitted frame, by its number from 1. Valid with the runner that returned it.
-struct FrameTicket {
+struct SubmittedFrameTicket {
     std::uint64_t frame = 0;
 };
 
@@ -28,14 +28,14 @@ class GraphRunner {
 public:
     /// `in_flight`: frames that may be submitted before the first of them is waited for, 1 to
     /// kMaxFramesInFlight. Each has its own command buffer and its own copy of the outputs.
-    GraphRunner(gpu::Device& device, gpu::Pipelines& pipelines, std::uint32_t in_flight = 1);
+    GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines, std::uint32_t in_flight = 1);
     GraphRunner(const GraphRunner&) = delete;
     GraphRunner& operator=(const GraphRunner&) = delete;
     /// Waits for the frames in flight.
     ~GraphRunner();
 
     /// Returns the history to construct the next Graph with.
-    GraphHistory history() const { return kept_.history(); }
+    GraphHistory make_history() const { return kept_.make_history(); }
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
     void discard_contents();
@@ -48,65 +48,70 @@ public:
     GraphLimits limits() const;
     /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
     /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan_graph.
-    const GraphPlan& compiled(const Graph& graph) { return compile_graph(graph).plan; }
+    const GraphPlan& find_or_make_plan(const Graph& graph) { return compile_graph(graph).plan; }
     std::uint64_t planned_shape_count() const { return plans_made_; }
     /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
     /// largest of the last 8 shapes that ran, plus all images that outlive frames.
-    std::uint64_t memory_bytes() const { return memory_.memory_bytes() + kept_.memory_bytes(); }
+    std::uint64_t allocated_device_bytes() const {
+        return memory_.allocated_device_bytes() + kept_.allocated_device_bytes();
+    }
 
     /// Records and submits a frame. If `in_flight` frames are on the device, waits for the oldest.
     /// `stays`: the frame does not advance the history, so that the next frame sees the same last
     /// frame. `counts_work`: the frame counts its work, which makes it slower. Throws `exhausted`.
     /// Throws `device_lost` if a wait fails or the device refuses the frame.
-    FrameTicket submit_frame(const Graph& graph, PassTiming timing, bool stays = false,
-                             const ExternalSemaphores& outside = {}, bool counts_work = false);
+    SubmittedFrameTicket submit_frame(const Graph& graph, PassTiming timing, bool stays = false,
+                                      const ExternalSemaphores& outside = {},
+                                      bool counts_work = false);
     /// Waits until the frame has ended, and returns its times. Returns at once if it was waited for
     /// before. Throws `device_lost`, naming the frame's passes. Throws `internal` if a later frame
     /// has taken its slot.
-    const GraphFrameTimes& wait_for_frame(FrameTicket ticket);
+    const GraphFrameTimes& wait_for_frame(SubmittedFrameTicket ticket);
     /// Returns whether the frame has ended, without waiting. Throws `device_lost`.
-    bool has_ended(FrameTicket ticket);
+    bool has_ended(SubmittedFrameTicket ticket);
     GraphFrameTimes run_and_wait(const Graph& graph, PassTiming timing, bool stays = false) {
         return wait_for_frame(submit_frame(graph, timing, stays));
     }
 
     /// Waits for the frame and returns the work of its passes, in order of execution. Empty if the
     /// frame did not count its work.
-    std::vector<PassWork> counted_work(FrameTicket ticket);
+    std::vector<PassWork> counted_work(SubmittedFrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
     /// An image that outlives frames can be read until the next frame is submitted.
-    std::vector<std::byte> read_resource(FrameTicket ticket, ImageHandle image);
-    std::vector<std::byte> read_resource(FrameTicket ticket, BufferHandle buffer);
+    std::vector<std::byte> read_resource(SubmittedFrameTicket ticket, ImageHandle image);
+    std::vector<std::byte> read_resource(SubmittedFrameTicket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
     std::vector<std::byte> read_resource(ImageHandle image) {
-        return read_resource(FrameTicket{frame_}, image);
+        return read_resource(SubmittedFrameTicket{frame_}, image);
     }
     std::vector<std::byte> read_resource(BufferHandle buffer) {
-        return read_resource(FrameTicket{frame_}, buffer);
+        return read_resource(SubmittedFrameTicket{frame_}, buffer);
     }
     /// Returns the texels of all images with a `previous`, one after another: all that the next
     /// frame can see of the last one. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:
-    CompiledGraph& compile_graph(const Graph& graph);
-    FrameSlot& slot_of_frame(FrameTicket ticket);
-    std::size_t index_of(std::uint64_t frame) const { return (frame - 1) % slots_.size(); }
-    void submit_frame(FrameSlot& slot, const CompiledGraph& shape,
+    CompiledGraphShape& compile_graph(const Graph& graph);
+    FrameInFlightSlot& slot_of_frame(SubmittedFrameTicket ticket);
+    std::size_t slot_index_of_frame(std::uint64_t frame) const {
+        return (frame - 1) % slots_.size();
+    }
+    void submit_frame(FrameInFlightSlot& slot, const CompiledGraphShape& shape,
                       const ExternalSemaphores& outside);
-    void finish_slot(FrameSlot& slot);
+    void finish_slot(FrameInFlightSlot& slot);
     void finish_all_slots();
     void release_persistent();
 
-    gpu::Device& device_;
-    FrameRecorder recorder_;
+    gpu::GpuDevice& runner_device_;
+    FrameRecorder frame_recorder_;
     gpu::UniqueSemaphore timeline_;
-    FrameMemory memory_;
+    SharedFrameMemory memory_;
     PersistentImages kept_;
-    std::vector<std::shared_ptr<CompiledGraph>> shapes_; ///< most recently used first
-    std::vector<FrameSlot> slots_;
+    std::vector<std::shared_ptr<CompiledGraphShape>> shapes_; ///< most recently used first
+    std::vector<FrameInFlightSlot> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;
     double compile_ms_ = 0; ///< since the last submit

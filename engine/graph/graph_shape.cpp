@@ -7,58 +7,61 @@ namespace catoptric::graph {
 namespace {
 
 /// A hash of the added values and their order.
-class OrderedHash {
+class OrderDependentHash {
 public:
-    void add(std::uint64_t value) {
+    void add_value(std::uint64_t value) {
         constexpr std::uint64_t kHashMultiplier = 0x9e3779b97f4a7c15u;
         value_ = (value_ ^ value) * kHashMultiplier;
         value_ ^= value_ >> 29;
     }
-    void add(std::uint32_t high, std::uint32_t low) { add(std::uint64_t{high} << 32 | low); }
-    void add(std::string_view text) { add(std::hash<std::string_view>()(text)); }
-    std::uint64_t value() const { return value_; }
+    void add_value(std::uint32_t high, std::uint32_t low) {
+        add_value(std::uint64_t{high} << 32 | low);
+    }
+    void add_value(std::string_view text) { add_value(std::hash<std::string_view>()(text)); }
+    std::uint64_t hash_value() const { return value_; }
 
 private:
     std::uint64_t value_ = 0;
 };
 
 template <typename E>
-std::uint32_t to_hash_number(E value) {
+std::uint32_t enum_to_hash_number(E value) {
     return static_cast<std::uint32_t>(value);
 }
 
-void add_to_hash(OrderedHash& hash, const ImageDesc& desc) {
-    hash.add(desc.name);
-    hash.add(desc.width, desc.height);
-    hash.add(desc.layers, to_hash_number(desc.format) << 1 | desc.cube);
-    hash.add(desc.mips);
+void add_to_hash(OrderDependentHash& hash, const ImageDesc& desc) {
+    hash.add_value(desc.name);
+    hash.add_value(desc.width, desc.height);
+    hash.add_value(desc.layers, enum_to_hash_number(desc.format) << 1 | desc.cube);
+    hash.add_value(desc.mips);
 }
 
-void add_to_hash(OrderedHash& hash, const ImageHandle& image) {
-    hash.add(image.id << 1 | image.previous, image.first_layer);
-    hash.add(image.layer_count);
-    hash.add(image.first_mip, image.mip_count);
+void add_to_hash(OrderDependentHash& hash, const ImageHandle& image) {
+    hash.add_value(image.id << 1 | image.previous, image.first_layer);
+    hash.add_value(image.layer_count);
+    hash.add_value(image.first_mip, image.mip_count);
 }
 
-void add_to_hash(OrderedHash& hash, const Pass& pass) {
-    hash.add(pass.name);
-    hash.add(to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body), pass.layer_count);
-    hash.add(static_cast<std::uint32_t>(pass.images.size()),
-             static_cast<std::uint32_t>(pass.buffers.size()));
+void add_to_hash(OrderDependentHash& hash, const Pass& pass) {
+    hash.add_value(pass.name);
+    hash.add_value(enum_to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body),
+                   pass.layer_count);
+    hash.add_value(static_cast<std::uint32_t>(pass.images.size()),
+                   static_cast<std::uint32_t>(pass.buffers.size()));
     for (const ImageUse& use : pass.images) {
         add_to_hash(hash, use.image);
-        hash.add(to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
-                                              std::uint32_t{use.write} << 1 |
-                                              use.clear.has_value());
+        hash.add_value(enum_to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
+                                                         std::uint32_t{use.write} << 1 |
+                                                         use.clear.has_value());
     }
     for (const BufferUse& use : pass.buffers)
-        hash.add(use.buffer.id, to_hash_number(use.use) << 1 | use.write);
+        hash.add_value(use.buffer.id, enum_to_hash_number(use.use) << 1 | use.write);
 }
 
 /// Returns the ranges of a persistent image that have contents.
-std::vector<std::uint32_t> ranges_with_contents(const Graph& graph, std::uint32_t image) {
+std::vector<std::uint32_t> list_ranges_with_contents(const Graph& graph, std::uint32_t image) {
     std::vector<std::uint32_t> ranges;
-    graph.content_hashes_at_start(image).for_each_run(
+    graph.list_content_hashes_at_start(image).for_each_run(
         [&](std::uint32_t first, std::uint32_t end, const auto& content_hash) {
             if (!content_hash) return;
             const bool continues = !ranges.empty() && ranges.back() == first;
@@ -69,25 +72,25 @@ std::vector<std::uint32_t> ranges_with_contents(const Graph& graph, std::uint32_
     return ranges;
 }
 
-void add_lifetime_to_hash(OrderedHash& hash, const Graph& graph, std::uint32_t image) {
-    hash.add(to_hash_number(graph.lifetime(image)));
-    if (graph.lifetime(image) == ImageLifetime::imported) {
-        const std::optional<ResourceUse> arrives = graph.state_on_import(image);
-        hash.add(arrives ? 1 + to_hash_number(*arrives) : 0,
-                 to_hash_number(graph.state_on_release(image)));
+void add_lifetime_to_hash(OrderDependentHash& hash, const Graph& graph, std::uint32_t image) {
+    hash.add_value(enum_to_hash_number(graph.image_lifetime(image)));
+    if (graph.image_lifetime(image) == ImageLifetime::imported) {
+        const std::optional<ResourceUse> arrives = graph.use_on_import(image);
+        hash.add_value(arrives ? 1 + enum_to_hash_number(*arrives) : 0,
+                       enum_to_hash_number(graph.use_on_release(image)));
     }
-    if (graph.lifetime(image) == ImageLifetime::persistent)
-        for (const std::uint32_t end : ranges_with_contents(graph, image)) hash.add(end);
+    if (graph.image_lifetime(image) == ImageLifetime::persistent)
+        for (const std::uint32_t end : list_ranges_with_contents(graph, image)) hash.add_value(end);
 }
 
 bool have_equal_lifetimes(const Graph& a, const Graph& b, std::uint32_t image) {
-    const ImageLifetime lifetime = a.lifetime(image);
-    if (lifetime != b.lifetime(image)) return false;
+    const ImageLifetime lifetime = a.image_lifetime(image);
+    if (lifetime != b.image_lifetime(image)) return false;
     if (lifetime == ImageLifetime::imported)
-        return a.state_on_import(image) == b.state_on_import(image) &&
-               a.state_on_release(image) == b.state_on_release(image);
+        return a.use_on_import(image) == b.use_on_import(image) &&
+               a.use_on_release(image) == b.use_on_release(image);
     return lifetime != ImageLifetime::persistent ||
-           ranges_with_contents(a, image) == ranges_with_contents(b, image);
+           list_ranges_with_contents(a, image) == list_ranges_with_contents(b, image);
 }
 
 bool are_equal_declarations(const ImageUse& a, const ImageUse& b) {
@@ -106,38 +109,40 @@ bool are_equal_declarations(const Pass& a, const Pass& b) {
 } // namespace
 
 std::uint64_t hash_graph_shape(const Graph& graph) {
-    OrderedHash hash;
-    hash.add(graph.images().size());
-    for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
-        add_to_hash(hash, graph.images()[i]);
+    OrderDependentHash hash;
+    hash.add_value(graph.list_images().size());
+    for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
+        add_to_hash(hash, graph.list_images()[i]);
         add_lifetime_to_hash(hash, graph, i);
     }
-    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b) {
-        hash.add(graph.buffers()[b].name);
-        hash.add(graph.buffers()[b].bytes << 1 | graph.is_imported({b}));
+    for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b) {
+        hash.add_value(graph.list_buffers()[b].name);
+        hash.add_value(graph.list_buffers()[b].bytes << 1 | graph.is_imported({b}));
     }
-    for (const ContentRecord& stamped : graph.content_records()) add_to_hash(hash, stamped.part);
-    for (const Pass& pass : graph.passes()) add_to_hash(hash, pass);
-    for (const ImageHandle& image : graph.output_images()) add_to_hash(hash, image);
-    for (const BufferHandle& buffer : graph.output_buffers()) hash.add(buffer.id);
-    return hash.value();
+    for (const ContentHashRecord& stamped : graph.list_content_records())
+        add_to_hash(hash, stamped.part);
+    for (const Pass& pass : graph.list_passes()) add_to_hash(hash, pass);
+    for (const ImageHandle& image : graph.list_output_images()) add_to_hash(hash, image);
+    for (const BufferHandle& buffer : graph.list_output_buffers()) hash.add_value(buffer.id);
+    return hash.hash_value();
 }
 
 bool have_equal_shapes(const Graph& graph, const Graph& known) {
-    if (graph.images() != known.images() || graph.buffers() != known.buffers() ||
-        graph.output_images() != known.output_images() ||
-        graph.output_buffers() != known.output_buffers())
+    if (graph.list_images() != known.list_images() ||
+        graph.list_buffers() != known.list_buffers() ||
+        graph.list_output_images() != known.list_output_images() ||
+        graph.list_output_buffers() != known.list_output_buffers())
         return false;
-    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
+    for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
         if (!have_equal_lifetimes(graph, known, i)) return false;
-    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
+    for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
         if (graph.is_imported({b}) != known.is_imported({b})) return false;
-    if (!std::ranges::equal(graph.content_records(), known.content_records(), {},
-                            &ContentRecord::part, &ContentRecord::part))
+    if (!std::ranges::equal(graph.list_content_records(), known.list_content_records(), {},
+                            &ContentHashRecord::part, &ContentHashRecord::part))
         return false;
-    return std::ranges::equal(graph.passes(), known.passes(), [](const Pass& a, const Pass& b) {
-        return are_equal_declarations(a, b);
-    });
+    return std::ranges::equal(
+        graph.list_passes(), known.list_passes(),
+        [](const Pass& a, const Pass& b) { return are_equal_declarations(a, b); });
 }
 
 } // namespace catoptric::graph

@@ -7,82 +7,86 @@ namespace catoptric::graph {
 
 namespace {
 
-struct HeapItem {
+struct ResourceInHeap {
     MemoryPlacement* placement = nullptr;
     int rank = 0; ///< order in the heap: 0 shares, 1 is an output, 2 outlives the frame
 };
 
-std::uint64_t align_up(std::uint64_t value, std::uint64_t alignment) {
+std::uint64_t align_up_to_multiple(std::uint64_t value, std::uint64_t alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-std::uint64_t placement_end(const MemoryPlacement& p) { return p.offset + p.bytes; }
+std::uint64_t end_of_placement(const MemoryPlacement& p) { return p.offset + p.bytes; }
 
 /// The resources placed at one offset. They share memory, so no two are alive at once.
-struct HeapShelf {
-    struct PassInterval {
+struct SharedHeapOffset {
+    struct PassPositionInterval {
         std::uint32_t first, last;
         std::uint64_t end; ///< offset in the heap
     };
     std::uint64_t offset = 0;
-    std::vector<PassInterval> lives; ///< from the earliest
+    std::vector<PassPositionInterval> lives; ///< from the earliest
 
     /// Returns the end, in the heap, of the members that are alive with `placement`; 0 if there are
     /// none.
-    std::uint64_t reach(const MemoryPlacement& placement) const {
-        auto life = std::ranges::lower_bound(lives, placement.first, {}, &PassInterval::last);
+    std::uint64_t find_end_of_live_members(const MemoryPlacement& placement) const {
+        auto life = std::ranges::lower_bound(lives, placement.first, {},
+                                             &PassPositionInterval::last);
         std::uint64_t end = 0;
         for (; life != lives.end() && life->first <= placement.last; ++life)
             end = std::max(end, life->end);
         return end;
     }
 };
-using HeapShelves = std::vector<HeapShelf>; // shelves of one heap, from the lowest
+using HeapShelves = std::vector<SharedHeapOffset>; // shelves of one heap, from the lowest
 
 /// Returns the lowest aligned offset at which `item` overlaps nothing that is alive with it.
-std::uint64_t find_first_fit(const HeapItem& item, const HeapShelves& shelves) {
+std::uint64_t find_first_fitting_offset(const ResourceInHeap& item, const HeapShelves& shelves) {
     std::uint64_t offset = 0;
-    for (const HeapShelf& shelf : shelves) {
+    for (const SharedHeapOffset& shelf : shelves) {
         if (offset + item.placement->bytes <= shelf.offset) break;
-        const std::uint64_t end = shelf.reach(*item.placement);
-        if (end > 0) offset = std::max(offset, align_up(end, item.placement->alignment));
+        const std::uint64_t end = shelf.find_end_of_live_members(*item.placement);
+        if (end > 0)
+            offset = std::max(offset, align_up_to_multiple(end, item.placement->alignment));
     }
     return offset;
 }
 
-void add_to_shelf(HeapShelves& shelves, const MemoryPlacement& placement) {
-    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &HeapShelf::offset);
+void add_to_shared_offset(HeapShelves& shelves, const MemoryPlacement& placement) {
+    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &SharedHeapOffset::offset);
     if (shelf == shelves.end() || shelf->offset != placement.offset)
         shelf = shelves.insert(shelf, {placement.offset, {}});
-    const HeapShelf::PassInterval life{placement.first, placement.last, placement_end(placement)};
+    const SharedHeapOffset::PassPositionInterval life{placement.first, placement.last,
+                                                      end_of_placement(placement)};
     const auto after = std::ranges::upper_bound(shelf->lives, life.first, {},
-                                                &HeapShelf::PassInterval::first);
+                                                &SharedHeapOffset::PassPositionInterval::first);
     shelf->lives.insert(after, life);
 }
 
-HeapItem make_heap_item(MemoryPlacement& placement, const MemoryRequirements& wanted,
-                        ImageLifetime lifetime) {
+ResourceInHeap make_heap_item(MemoryPlacement& placement, const MemoryRequirements& wanted,
+                              ImageLifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
     placement.alignment = alignment;
-    placement.bytes = lifetime == ImageLifetime::previous ? 2 * align_up(wanted.bytes, alignment)
-                                                          : wanted.bytes;
+    placement.bytes = lifetime == ImageLifetime::previous
+                          ? 2 * align_up_to_multiple(wanted.bytes, alignment)
+                          : wanted.bytes;
     return {&placement, lifetime != ImageLifetime::frame ? 2 : placement.alone ? 1 : 0};
 }
 
 /// Returns the used resources by rank, then the largest first, so that small ones fill the gaps.
-std::vector<HeapItem> list_items_by_size(const Graph& graph, const MemorySizer& sizer,
-                                         GraphPlan& plan) {
-    std::vector<HeapItem> items;
+std::vector<ResourceInHeap>
+list_items_by_size(const Graph& graph, const MemoryRequirementQueries& sizer, GraphPlan& plan) {
+    std::vector<ResourceInHeap> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        if (plan.images[i].used && graph.lifetime(i) != ImageLifetime::imported)
-            items.push_back(
-                make_heap_item(plan.images[i], sizer.image(graph.images()[i]), graph.lifetime(i)));
+        if (plan.images[i].used && graph.image_lifetime(i) != ImageLifetime::imported)
+            items.push_back(make_heap_item(plan.images[i], sizer.image(graph.list_images()[i]),
+                                           graph.image_lifetime(i)));
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         if (plan.buffers[b].used && !graph.is_imported({b}))
-            items.push_back(make_heap_item(plan.buffers[b], sizer.buffer(graph.buffers()[b]),
+            items.push_back(make_heap_item(plan.buffers[b], sizer.buffer(graph.list_buffers()[b]),
                                            ImageLifetime::frame));
-    std::ranges::stable_sort(items, [](const HeapItem& a, const HeapItem& b) {
+    std::ranges::stable_sort(items, [](const ResourceInHeap& a, const ResourceInHeap& b) {
         return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
     });
     return items;
@@ -96,24 +100,27 @@ void extend_lifetime(MemoryPlacement& placement, std::uint32_t position) {
 
 } // namespace
 
-void find_lifetimes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
-    plan.images.assign(graph.images().size(), {});
-    plan.buffers.assign(graph.buffers().size(), {});
+void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
+    plan.images.assign(graph.list_images().size(), {});
+    plan.buffers.assign(graph.list_buffers().size(), {});
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position)
         for (const ResourceAccess& a : all.accesses_of_pass(plan.passes[position].pass))
             extend_lifetime(a.is_buffer ? plan.buffers[a.id] : plan.images[a.id], position);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-        plan.images[i].alone = plan.images[i].used && graph.lifetime(i) != ImageLifetime::frame;
+        plan.images[i].alone = plan.images[i].used &&
+                               graph.image_lifetime(i) != ImageLifetime::frame;
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         plan.buffers[b].alone = plan.buffers[b].used && graph.is_imported({b});
-    for (const ImageHandle& image : graph.output_images()) plan.images[image.id].alone = true;
-    for (const BufferHandle& buffer : graph.output_buffers()) plan.buffers[buffer.id].alone = true;
+    for (const ImageHandle& image : graph.list_output_images()) plan.images[image.id].alone = true;
+    for (const BufferHandle& buffer : graph.list_output_buffers())
+        plan.buffers[buffer.id].alone = true;
 }
 
-void place_in_memory(const Graph& graph, const MemorySizer& sizer, GraphPlan& plan) {
+void place_resources_in_memory(const Graph& graph, const MemoryRequirementQueries& sizer,
+                               GraphPlan& plan) {
     std::vector<std::uint64_t> unshared; // per heap
     std::vector<HeapShelves> shelves;    // per heap
-    for (const HeapItem& item : list_items_by_size(graph, sizer, plan)) {
+    for (const ResourceInHeap& item : list_items_by_size(graph, sizer, plan)) {
         MemoryPlacement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {
             unshared.resize(placement.heap + 1, 0);
@@ -121,12 +128,13 @@ void place_in_memory(const Graph& graph, const MemorySizer& sizer, GraphPlan& pl
             plan.heap_bytes.resize(placement.heap + 1, 0);
         }
         std::uint64_t& heap = plan.heap_bytes[placement.heap];
-        placement.offset = placement.alone ? align_up(heap, item.placement->alignment)
-                                           : find_first_fit(item, shelves[placement.heap]);
-        heap = std::max(heap, placement_end(placement));
+        placement.offset = placement.alone
+                               ? align_up_to_multiple(heap, item.placement->alignment)
+                               : find_first_fitting_offset(item, shelves[placement.heap]);
+        heap = std::max(heap, end_of_placement(placement));
         std::uint64_t& alone = unshared[placement.heap];
-        alone = align_up(alone, item.placement->alignment) + placement.bytes;
-        if (!placement.alone) add_to_shelf(shelves[placement.heap], placement);
+        alone = align_up_to_multiple(alone, item.placement->alignment) + placement.bytes;
+        if (!placement.alone) add_to_shared_offset(shelves[placement.heap], placement);
     }
     for (const std::uint64_t bytes : plan.heap_bytes) plan.bytes += bytes;
     for (const std::uint64_t bytes : unshared) plan.bytes_unshared += bytes;

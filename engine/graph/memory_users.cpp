@@ -23,24 +23,25 @@ SharedMemoryUsers::SharedMemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_b
     };
     add(plan.images);
     add(plan.buffers);
-    for (HeapTouches& heap : heaps_) heap.size();
+    for (HeapAccessTree& heap : heaps_) heap.resize_tree();
 }
 
-void SharedMemoryUsers::HeapTouches::size() {
+void SharedMemoryUsers::HeapAccessTree::resize_tree() {
     std::ranges::sort(ends);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     whole.assign(2 * std::bit_ceil(ends.size()), 0);
     below = whole;
 }
 
-std::size_t SharedMemoryUsers::HeapTouches::leaf(std::uint64_t offset) const {
+std::size_t SharedMemoryUsers::HeapAccessTree::leaf(std::uint64_t offset) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(ends, offset) - ends.begin()) +
            whole.size() / 2;
 }
 
-void SharedMemoryUsers::record_last_touches(const MemoryPlacement& placement, TouchSet touches) {
+void SharedMemoryUsers::record_last_touches(const MemoryPlacement& placement,
+                                            AccessStateSet touches) {
     if (!is_in_shared_memory(placement)) return;
-    HeapTouches& heap = heaps_[placement.heap];
+    HeapAccessTree& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
     for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
@@ -51,12 +52,12 @@ void SharedMemoryUsers::record_last_touches(const MemoryPlacement& placement, To
     for (std::size_t node = (end - 1) / 2; node > 0; node /= 2) heap.below[node] |= touches;
 }
 
-TouchSet SharedMemoryUsers::touches_left_in(const MemoryPlacement& placement) const {
+AccessStateSet SharedMemoryUsers::touches_left_in(const MemoryPlacement& placement) const {
     if (!is_in_shared_memory(placement)) return 0;
-    const HeapTouches& heap = heaps_[placement.heap];
+    const HeapAccessTree& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
-    TouchSet touches = 0;
+    AccessStateSet touches = 0;
     for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
         if (a % 2 == 1) touches |= heap.below[a++];
         if (b % 2 == 1) touches |= heap.below[--b];

@@ -11,21 +11,21 @@ public:
     explicit SharedMemoryUsers(const GraphPlan& plan);
     /// Records that the resource at this placement is not touched again. `touches` were its last
     /// touches.
-    void record_last_touches(const MemoryPlacement& placement, TouchSet touches);
+    void record_last_touches(const MemoryPlacement& placement, AccessStateSet touches);
     /// Returns all touches that earlier resources left in this memory.
-    TouchSet touches_left_in(const MemoryPlacement& placement) const;
+    AccessStateSet touches_left_in(const MemoryPlacement& placement) const;
 
 private:
     /// A segment tree over the pieces between the ends of all placements. Node n has the children
     /// 2n and 2n + 1.
-    struct HeapTouches {
-        std::vector<std::uint64_t> ends; // sorted, each once
-        std::vector<TouchSet> whole;     // touches left in all of the node
-        std::vector<TouchSet> below;     // touches left in some part of the node
+    struct HeapAccessTree {
+        std::vector<std::uint64_t> ends;   // sorted, each once
+        std::vector<AccessStateSet> whole; // touches left in all of the node
+        std::vector<AccessStateSet> below; // touches left in some part of the node
         std::size_t leaf(std::uint64_t offset) const;
-        void size();
+        void resize_tree();
     };
-    std::vector<HeapTouches> heaps_;
+    std::vector<HeapAccessTree> heaps_;
 };
 
 } // namespace catoptric::graph

@@ -10,7 +10,8 @@ namespace {
 
 void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) {
     const ImageDesc& desc = image.desc;
-    const VkImageSubresourceRange range{image_aspect(desc.format), 0, desc.mips, 0, desc.layers};
+    const VkImageSubresourceRange range{image_aspect_of_format(desc.format), 0, desc.mips, 0,
+                                        desc.layers};
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.image = image.image;
     barrier.subresourceRange = range;
@@ -18,7 +19,7 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     gpu::record_image_barrier(commands, barrier);
-    if (is_depth(desc.format)) {
+    if (is_depth_format(desc.format)) {
         const VkClearDepthStencilValue nothing{};
         vkCmdClearDepthStencilImage(commands, image.image, barrier.newLayout, &nothing, 1, &range);
     } else {
@@ -38,18 +39,19 @@ void clear_image_to_black(VkCommandBuffer commands, const PhysicalImage& image) 
 /// Creates the copies of the image, cleared to black and in the layout for sampling.
 void PersistentImages::create_image(const ImageDesc& desc, PersistentImage& kept) {
     const std::size_t copies = kept.lifetime == ImageLifetime::previous ? 2 : 1;
-    const MemoryRequirements needs = make_device_sizer(device_).image(desc);
+    const MemoryRequirements needs = make_device_requirement_queries(image_device_).image(desc);
     const std::uint64_t second = (needs.bytes + needs.alignment - 1) / needs.alignment *
                                  needs.alignment;
     kept.bytes = (copies - 1) * second + needs.bytes;
-    kept.memory = device_.allocate(kept.bytes, needs.heap, desc.name);
+    kept.memory = image_device_.allocate(kept.bytes, needs.heap, desc.name);
     for (std::size_t i = 0; i < copies; ++i) {
-        kept.copies.push_back(make_physical_image(device_, desc));
-        gpu::check_vk(
-            vkBindImageMemory(device_.handle(), kept.copies[i].image, kept.memory, i * second),
-            "place image '" + desc.name + "'");
+        kept.copies.push_back(make_physical_image(image_device_, desc));
+        gpu::throw_unless_vk_success(vkBindImageMemory(image_device_.device_handle(),
+                                                       kept.copies[i].image, kept.memory,
+                                                       i * second),
+                                     "place image '" + desc.name + "'");
     }
-    device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+    image_device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         for (const PhysicalImage& copy : kept.copies) clear_image_to_black(commands, copy);
     });
     kept.stamps = LayerHashes(desc.layers * desc.mips);
@@ -74,27 +76,27 @@ PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
     return found->second;
 }
 
-void PersistentImages::find_or_create_images(CompiledGraph& shape,
+void PersistentImages::find_or_create_images(CompiledGraphShape& shape,
                                              const std::function<void()>& wait) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
         if (shape.is_persistent(i))
-            shape.kept[i] = &find_or_create_images(shape.outline.images()[i],
-                                                   shape.outline.lifetime(i), wait);
+            shape.kept[i] = &find_or_create_images(shape.outline.list_images()[i],
+                                                   shape.outline.image_lifetime(i), wait);
 }
 
-void PersistentImages::write(const Graph& graph, const CompiledGraph& shape) {
-    for (const auto& [part, content_hash] : graph.content_records()) {
+void PersistentImages::write(const Graph& graph, const CompiledGraphShape& shape) {
+    for (const auto& [part, content_hash] : graph.list_content_records()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
-        for_each_layer_range(part, graph.images()[part.id].layers,
+        for_each_layer_range(part, graph.list_images()[part.id].layers,
                              [&](std::uint32_t first, std::uint32_t end) {
-                                 kept->stamps.fill_range(first, end, content_hash);
+                                 kept->stamps.fill_cell_range(first, end, content_hash);
                              });
     }
 }
 
-void PersistentImages::swap_previous_copies(const CompiledGraph& shape) {
+void PersistentImages::swap_previous_copies(const CompiledGraphShape& shape) {
     for (PersistentImage* const kept : shape.kept) {
         if (!kept || kept->lifetime != ImageLifetime::previous) continue;
         kept->last = 1 - kept->last;
@@ -102,13 +104,13 @@ void PersistentImages::swap_previous_copies(const CompiledGraph& shape) {
     }
 }
 
-std::uint64_t PersistentImages::memory_bytes() const {
+std::uint64_t PersistentImages::allocated_device_bytes() const {
     std::uint64_t sum = 0;
     for (const auto& [name, kept] : all_) sum += kept.bytes;
     return sum;
 }
 
-GraphHistory PersistentImages::history() const {
+GraphHistory PersistentImages::make_history() const {
     GraphHistory history;
     for (const auto& [name, kept] : all_) {
         if (kept.lifetime == ImageLifetime::persistent)

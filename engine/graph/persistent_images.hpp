@@ -16,30 +16,30 @@ using RetainedImages = std::map<std::string, PersistentImage>;
 /// The images of a runner that outlive frames, by name.
 class PersistentImages {
 public:
-    explicit PersistentImages(gpu::Device& device) : device_(device) {}
+    explicit PersistentImages(gpu::GpuDevice& device) : image_device_(device) {}
 
     /// Finds or makes the persistent images of the shape. Calls `wait` before it destroys anything
     /// that frames in flight may use.
-    void find_or_create_images(CompiledGraph& shape, const std::function<void()>& wait);
+    void find_or_create_images(CompiledGraphShape& shape, const std::function<void()>& wait);
     /// Stores the content hashes that the submitted frame sets.
-    void write(const Graph& graph, const CompiledGraph& shape);
+    void write(const Graph& graph, const CompiledGraphShape& shape);
     /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
     /// the last frame.
-    void swap_previous_copies(const CompiledGraph& shape);
+    void swap_previous_copies(const CompiledGraphShape& shape);
     /// Drops all images. Must not be called while frames are in flight.
     void release_all_images() { all_.clear(); }
     RetainedImages take_retained_images() { return std::exchange(all_, {}); }
     void restore_retained_images(RetainedImages all) { all_ = std::move(all); }
-    GraphHistory history() const;
+    GraphHistory make_history() const;
     /// Returns the bytes of device memory that are allocated.
-    std::uint64_t memory_bytes() const;
+    std::uint64_t allocated_device_bytes() const;
 
 private:
     void create_image(const ImageDesc& desc, PersistentImage& kept);
     PersistentImage& find_or_create_images(const ImageDesc& desc, ImageLifetime lifetime,
                                            const std::function<void()>& wait);
 
-    gpu::Device& device_;
+    gpu::GpuDevice& image_device_;
     RetainedImages all_;
 };
 

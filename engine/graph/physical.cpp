@@ -2,11 +2,11 @@
 
 namespace catoptric::graph {
 
-VkImageAspectFlags image_aspect(Format format) {
-    return is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
+    return is_depth_format(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-VkImageCreateInfo image_create_info(const ImageDesc& desc) {
+VkImageCreateInfo make_image_create_info(const ImageDesc& desc) {
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = desc.cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     create.imageType = VK_IMAGE_TYPE_2D;
@@ -17,25 +17,25 @@ VkImageCreateInfo image_create_info(const ImageDesc& desc) {
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                    VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    create.usage |= is_depth(desc.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                          : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    create.usage |= is_depth_format(desc.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                 : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     // Vulkan requires storage images only for these formats (table of mandatory formats).
-    if (desc.format == Format::rgba32f || desc.format == Format::rgba16f ||
-        desc.format == Format::r32f || desc.format == Format::r32ui ||
-        desc.format == Format::rgba8_unorm)
+    if (desc.format == TexelFormat::rgba32f || desc.format == TexelFormat::rgba16f ||
+        desc.format == TexelFormat::r32f || desc.format == TexelFormat::r32ui ||
+        desc.format == TexelFormat::rgba8_unorm)
         create.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
     return create;
 }
 
-PhysicalImage make_physical_image(const gpu::Device& device, const ImageDesc& desc) {
-    const VkImageCreateInfo create = image_create_info(desc);
+PhysicalImage make_physical_image(const gpu::GpuDevice& device, const ImageDesc& desc) {
+    const VkImageCreateInfo create = make_image_create_info(desc);
     VkImage image = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateImage(device.handle(), &create, nullptr, &image),
-                  "create image '" + desc.name + "'");
+    gpu::throw_unless_vk_success(vkCreateImage(device.device_handle(), &create, nullptr, &image),
+                                 "create image '" + desc.name + "'");
     device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), desc.name);
     PhysicalImage physical;
     physical.desc = desc;
-    physical.owned = {device.handle(), image};
+    physical.owned = {device.device_handle(), image};
     physical.image = image;
     return physical;
 }
@@ -49,15 +49,15 @@ PhysicalImage wrap_external_image(const ImageDesc& desc, VkImage image) {
 
 VkBufferImageCopy make_copy_region(const ImageDesc& desc, const ImageHandle& part) {
     VkBufferImageCopy region{};
-    region.imageSubresource = {image_aspect(desc.format), part.first_mip, part.first_layer,
-                               part.layer_count};
+    region.imageSubresource = {image_aspect_of_format(desc.format), part.first_mip,
+                               part.first_layer, part.layer_count};
     region.imageExtent = {size_at_mip(desc.width, part.first_mip),
                           size_at_mip(desc.height, part.first_mip), 1};
     return region;
 }
 
-VkImageView PhysicalImage::find_or_create_view(const gpu::Device& device, gpu::ImageViewType shape,
-                                               const ImageHandle& part) {
+VkImageView PhysicalImage::find_or_create_view(const gpu::GpuDevice& device,
+                                               gpu::ImageViewType shape, const ImageHandle& part) {
     using gpu::ImageViewType;
     const std::uint32_t layer_count = part.layer_count;
     const ImageViewKey key{shape, part.first_layer, layer_count, part.first_mip, part.mip_count};
@@ -81,13 +81,14 @@ VkImageView PhysicalImage::find_or_create_view(const gpu::Device& device, gpu::I
     }
     create.image = image;
     create.format = gpu::to_vk_format(desc.format);
-    create.subresourceRange = {image_aspect(desc.format), part.first_mip, part.mip_count,
+    create.subresourceRange = {image_aspect_of_format(desc.format), part.first_mip, part.mip_count,
                                part.first_layer, layer_count};
     VkImageView handle = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateImageView(device.handle(), &create, nullptr, &handle),
-                  "view image '" + desc.name + "'");
+    gpu::throw_unless_vk_success(
+        vkCreateImageView(device.device_handle(), &create, nullptr, &handle),
+        "view image '" + desc.name + "'");
     device.set_name(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(handle), desc.name);
-    return views_.emplace(key, gpu::UniqueImageView(device.handle(), handle)).first->second;
+    return views_.emplace(key, gpu::UniqueImageView(device.device_handle(), handle)).first->second;
 }
 
 } // namespace catoptric::graph

@@ -13,7 +13,7 @@ namespace catoptric::graph {
 namespace {
 
 void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
-    const std::vector<PassFate> fates = graph::decide_pass_fates(graph, all);
+    const std::vector<PassCullResult> fates = graph::decide_pass_culling(graph, all);
     plan.passes.reserve(fates.size());
     for (std::uint32_t p = 0; p < fates.size(); ++p) {
         if (!fates[p].survives) {
@@ -21,11 +21,11 @@ void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) 
             continue;
         }
         plan.passes.push_back({p, {}, fates[p].unread});
-        plan.scene_passes += graph.passes()[p].tag == PassTag::scene ? 1 : 0;
+        plan.scene_passes += graph.list_passes()[p].tag == PassPurpose::scene ? 1 : 0;
     }
 }
 
-bool outlives_frame(ImageLifetime lifetime) {
+bool lifetime_outlives_frame(ImageLifetime lifetime) {
     return lifetime == ImageLifetime::previous || lifetime == ImageLifetime::persistent;
 }
 
@@ -35,9 +35,10 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used)
-            bytes = std::max(bytes,
-                             plan.images[i].bytes +
-                                 (outlives_frame(graph.lifetime(i)) ? 0 : plan.images[i].offset));
+            bytes = std::max(
+                bytes,
+                plan.images[i].bytes +
+                    (lifetime_outlives_frame(graph.image_lifetime(i)) ? 0 : plan.images[i].offset));
     for (const MemoryPlacement& buffer : plan.buffers)
         if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
     return bytes;
@@ -55,9 +56,9 @@ void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphL
         name = candidate;
     };
     for (std::size_t i = 0; i < plan.images.size(); ++i)
-        look(plan.images[i], graph.images()[i].name);
+        look(plan.images[i], graph.list_images()[i].name);
     for (std::size_t b = 0; b < plan.buffers.size(); ++b)
-        look(plan.buffers[b], graph.buffers()[b].name);
+        look(plan.buffers[b], graph.list_buffers()[b].name);
     fail(Failure::exhausted, "the frame wants ", too_much ? plan.bytes : piece, " bytes of memory",
          too_much ? "" : " in one piece", ", device allows ",
          too_much ? "max_memory = " : "max_allocation = ",
@@ -67,12 +68,12 @@ void check_memory_limits(const Graph& graph, const GraphPlan& plan, const GraphL
 
 } // namespace
 
-MemorySizer make_default_sizer() {
-    constexpr std::uint64_t kDefaultAlignment = 256;
+MemoryRequirementQueries make_default_requirement_queries() {
+    constexpr std::uint64_t kDefaultMemoryAlignment = 256;
     const auto padded = [](std::uint64_t bytes) {
-        return MemoryRequirements{.bytes = (bytes + kDefaultAlignment - 1) / kDefaultAlignment *
-                                           kDefaultAlignment,
-                                  .alignment = kDefaultAlignment,
+        return MemoryRequirements{.bytes = (bytes + kDefaultMemoryAlignment - 1) /
+                                           kDefaultMemoryAlignment * kDefaultMemoryAlignment,
+                                  .alignment = kDefaultMemoryAlignment,
                                   .heap = 0};
     };
     return {.image =
@@ -86,13 +87,14 @@ MemorySizer make_default_sizer() {
             .buffer = [=](const BufferDesc& desc) { return padded(desc.bytes); }};
 }
 
-GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits, const MemorySizer& sizer) {
+GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits,
+                     const MemoryRequirementQueries& sizer) {
     const GraphAccesses all(graph);
     validate_graph(graph, all, limits);
     GraphPlan plan;
     cull_passes(graph, all, plan);
-    find_lifetimes(graph, all, plan);
-    place_in_memory(graph, sizer, plan);
+    find_resource_lifetimes(graph, all, plan);
+    place_resources_in_memory(graph, sizer, plan);
     check_memory_limits(graph, plan, limits);
     plan_barriers(graph, all, plan);
     return plan;

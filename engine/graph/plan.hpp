@@ -23,24 +23,24 @@ struct MemoryRequirements {
     std::uint64_t alignment = 1;
     std::uint32_t heap = 0;
 };
-struct MemorySizer {
+struct MemoryRequirementQueries {
     std::function<MemoryRequirements(const ImageDesc&)> image;
     std::function<MemoryRequirements(const BufferDesc&)> buffer;
 };
 /// Returns sizes without a device, for tests and for `graph`: texels times bytes, 256-byte aligned,
 /// one heap.
-MemorySizer make_default_sizer();
+MemoryRequirementQueries make_default_requirement_queries();
 
 /// The last or the next access to a resource. With `nothing` the contents of the resource do not
 /// matter.
-struct ResourceTouch {
+struct AccessState {
     bool nothing = true;
     ResourceUse use = ResourceUse::sampled;
     bool write = false;
     /// Whether a raster pass makes the access, and not a compute or copy pass. Selects shader
     /// stages of barriers.
     bool raster = false;
-    friend bool operator==(const ResourceTouch&, const ResourceTouch&) = default;
+    friend bool operator==(const AccessState&, const AccessState&) = default;
 };
 
 /// One dependency: the touches `before` and `shared` are complete and visible to `after`. The image
@@ -53,11 +53,11 @@ struct PlannedBarrier {
     std::uint32_t layer_count = 0;
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
-    ResourceTouch before; ///< `nothing`: the old contents are discarded
-    ResourceTouch after;
+    AccessState before; ///< `nothing`: the old contents are discarded
+    AccessState after;
     /// Further touches to wait for: other readers before a write or a change of layout. With
     /// `before.nothing` also the last touches of earlier users of the same memory in the frame.
-    std::vector<ResourceTouch> shared;
+    std::vector<AccessState> shared;
 };
 
 struct PlannedPass {
@@ -112,6 +112,7 @@ struct GraphPlan {
 /// declaration. Throws `internal` for an invalid graph, naming pass, image and both uses. Throws
 /// `exhausted` over a limit, naming the limit, the required and the allowed number. Costs O(n log
 /// n) in the uses of all passes, however many layers they have.
-GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits, const MemorySizer& sizer);
+GraphPlan plan_graph(const Graph& graph, const GraphLimits& limits,
+                     const MemoryRequirementQueries& sizer);
 
 } // namespace catoptric::graph

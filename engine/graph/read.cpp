@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-std::uint64_t image_part_bytes(const ImageDesc& desc, const ImageHandle& part) {
+std::uint64_t count_image_part_bytes(const ImageDesc& desc, const ImageHandle& part) {
     std::uint64_t texels = 0;
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
         texels += std::uint64_t{size_at_mip(desc.width, m)} * size_at_mip(desc.height, m);
@@ -21,8 +21,8 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
     barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT;
     barrier.oldLayout = is, barrier.newLayout = image_layout_of_use(ResourceUse::copy_from);
     barrier.image = source.image;
-    barrier.subresourceRange = {image_aspect(source.desc.format), part.first_mip, part.mip_count,
-                                part.first_layer, part.layer_count};
+    barrier.subresourceRange = {image_aspect_of_format(source.desc.format), part.first_mip,
+                                part.mip_count, part.first_layer, part.layer_count};
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
     dependency.imageMemoryBarrierCount = 1;
     dependency.pImageMemoryBarriers = &barrier;
@@ -30,9 +30,9 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
     if (moves) vkCmdPipelineBarrier2(commands, &dependency);
     std::uint64_t offset = 0;
     for (std::uint32_t m = 0; m < part.mip_count; ++m) {
-        VkBufferImageCopy region = make_copy_region(source.desc, part.mip(m));
+        VkBufferImageCopy region = make_copy_region(source.desc, part.select_mip(m));
         region.bufferOffset = offset;
-        offset += image_part_bytes(source.desc, part.mip(m));
+        offset += count_image_part_bytes(source.desc, part.select_mip(m));
         vkCmdCopyImageToBuffer(commands, source.image, image_layout_of_use(ResourceUse::copy_from),
                                target, 1, &region);
     }
@@ -42,11 +42,11 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
 
 } // namespace
 
-std::vector<std::byte> GraphRunner::read_resource(FrameTicket ticket, ImageHandle image) {
+std::vector<std::byte> GraphRunner::read_resource(SubmittedFrameTicket ticket, ImageHandle image) {
     wait_for_frame(ticket);
-    const FrameSlot& slot = slot_of_frame(ticket);
-    CompiledGraph& shape = *slot.shape;
-    const ImageDesc& desc = shape.outline.images()[image.id];
+    const FrameInFlightSlot& slot = slot_of_frame(ticket);
+    CompiledGraphShape& shape = *slot.shape;
+    const ImageDesc& desc = shape.outline.list_images()[image.id];
     const bool kept = shape.is_persistent(image.id);
     check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
           ticket.frame, " is read after frame ", frame_,
@@ -55,31 +55,34 @@ std::vector<std::byte> GraphRunner::read_resource(FrameTicket ticket, ImageHandl
           "' is read after it was forgotten");
     // A frame with `stays` does not advance the history: its own copy is not yet the last frame.
     image.previous = kept && !slot.stays;
-    const PhysicalImage& source = shape.physical(image, index_of(ticket.frame));
-    const std::uint64_t bytes = image_part_bytes(desc, image);
-    gpu::Buffer target(device_, "read-back of " + desc.name, bytes, gpu::BufferUsage::read_back);
-    device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+    const PhysicalImage& source = shape.device_image(image, slot_index_of_frame(ticket.frame));
+    const std::uint64_t bytes = count_image_part_bytes(desc, image);
+    gpu::GpuBuffer target(runner_device_, "read-back of " + desc.name, bytes,
+                          gpu::BufferUsage::read_back);
+    runner_device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
         record_copy_to_buffer(
             commands, source, image,
             image_layout_of_use(kept ? ResourceUse::sampled : ResourceUse::copy_from),
-            target.handle());
+            target.buffer_handle());
     });
-    std::vector<std::byte> data = target.read();
+    std::vector<std::byte> data = target.read_contents();
     data.resize(bytes);
     return data;
 }
 
-std::vector<std::byte> GraphRunner::read_resource(FrameTicket ticket, BufferHandle buffer) {
+std::vector<std::byte> GraphRunner::read_resource(SubmittedFrameTicket ticket,
+                                                  BufferHandle buffer) {
     wait_for_frame(ticket);
-    const CompiledGraph& shape = *slot_of_frame(ticket).shape;
-    const auto& [name, bytes] = shape.outline.buffers()[buffer.id];
-    const VkBuffer source = shape.buffer(buffer, index_of(ticket.frame));
-    gpu::Buffer target(device_, "read-back of " + name, bytes, gpu::BufferUsage::read_back);
-    device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
+    const CompiledGraphShape& shape = *slot_of_frame(ticket).shape;
+    const auto& [name, bytes] = shape.outline.list_buffers()[buffer.id];
+    const VkBuffer source = shape.vulkan_buffer(buffer, slot_index_of_frame(ticket.frame));
+    gpu::GpuBuffer target(runner_device_, "read-back of " + name, bytes,
+                          gpu::BufferUsage::read_back);
+    runner_device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
-        vkCmdCopyBuffer(commands, source, target.handle(), 1, &region);
+        vkCmdCopyBuffer(commands, source, target.buffer_handle(), 1, &region);
     });
-    std::vector<std::byte> data = target.read();
+    std::vector<std::byte> data = target.read_contents();
     data.resize(bytes);
     return data;
 }
@@ -87,11 +90,11 @@ std::vector<std::byte> GraphRunner::read_resource(FrameTicket ticket, BufferHand
 std::vector<std::byte> GraphRunner::read_history() {
     std::vector<std::byte> history;
     if (frame_ == 0) return history;
-    const CompiledGraph& shape = *slot_of_frame({frame_}).shape;
-    for (std::uint32_t id = 0; id < shape.outline.images().size(); ++id) {
-        if (!shape.is_persistent(id) || shape.outline.lifetime(id) != ImageLifetime::previous)
+    const CompiledGraphShape& shape = *slot_of_frame({frame_}).shape;
+    for (std::uint32_t id = 0; id < shape.outline.list_images().size(); ++id) {
+        if (!shape.is_persistent(id) || shape.outline.image_lifetime(id) != ImageLifetime::previous)
             continue;
-        const ImageDesc& desc = shape.outline.images()[id];
+        const ImageDesc& desc = shape.outline.list_images()[id];
         const std::vector<std::byte> image = read_resource(
             ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
         history.insert(history.end(), image.begin(), image.end());

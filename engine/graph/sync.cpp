@@ -9,7 +9,7 @@ constexpr VkPipelineStageFlags2 kDepthTestStages = VK_PIPELINE_STAGE_2_EARLY_FRA
 
 } // namespace
 
-SyncScope sync_scope_of_touch(const ResourceTouch& touch) {
+SyncScope sync_scope_of_access(const AccessState& touch) {
     if (touch.nothing) return {};
     const VkPipelineStageFlags2 shaders = touch.raster ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
                                                              VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT

@@ -10,7 +10,7 @@ struct SyncScope {
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
-SyncScope sync_scope_of_touch(const ResourceTouch& touch);
+SyncScope sync_scope_of_access(const AccessState& touch);
 
 /// Returns the layout that an image has during this use.
 VkImageLayout image_layout_of_use(ResourceUse use);

@@ -20,22 +20,22 @@ std::string describe_missing_layers(const Graph& graph, const SubresourceMap<cha
         if (!is_there && !missing) missing = {first, end};
     });
     if (access.is_buffer) return "it";
-    return format_layer_range(graph.images()[access.id], missing->first, missing->second);
+    return format_layer_range(graph.list_images()[access.id], missing->first, missing->second);
 }
 
 void check_resource_names(const Graph& graph) {
     std::unordered_set<std::string_view> seen;
-    seen.reserve(graph.images().size() + graph.buffers().size());
+    seen.reserve(graph.list_images().size() + graph.list_buffers().size());
     const auto resource = [&](const std::string& name, std::string_view kind) {
         check(!name.empty(), kInvalidGraphFailure, kind, " number ", seen.size(), " has no name");
         check(seen.insert(name).second, kInvalidGraphFailure, kind, " '", name,
               "': another image or buffer has the same name");
     };
-    for (const ImageDesc& desc : graph.images()) resource(desc.name, "image");
-    for (const BufferDesc& desc : graph.buffers()) resource(desc.name, "buffer");
+    for (const ImageDesc& desc : graph.list_images()) resource(desc.name, "image");
+    for (const BufferDesc& desc : graph.list_buffers()) resource(desc.name, "buffer");
     seen.clear();
-    seen.reserve(graph.passes().size());
-    for (const Pass& pass : graph.passes()) {
+    seen.reserve(graph.list_passes().size());
+    for (const Pass& pass : graph.list_passes()) {
         check(!pass.name.empty(), kInvalidGraphFailure, "pass number ", seen.size(),
               " has no name");
         check(seen.insert(pass.name).second, kInvalidGraphFailure, "pass '", pass.name,
@@ -70,48 +70,48 @@ void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
                        : a.clears                      ? "updates "
                                                        : "loads (has no clear for) ";
     fail(kInvalidGraphFailure, "pass '", pass.name, "' ", verb, describe_access(graph, a), " as ",
-         name_of(a.use), " before any pass writes ", missing);
+         resource_use_name(a.use), " before any pass writes ", missing);
 }
 
 /// Returns the contents that exist before the first pass: those of persistent and of imported
 /// resources.
-SubresourceMap<char> mark_contents_at_start(const Graph& graph) {
+SubresourceMap<char> mark_contents_at_frame_start(const Graph& graph) {
     SubresourceMap<char> there(graph, false);
-    for (std::uint32_t i = 0; i < graph.images().size(); ++i) {
+    for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
         const ResourceAccess all = access_to_whole_image(graph, i);
-        if (graph.lifetime(i) == ImageLifetime::imported && graph.state_on_import(i))
-            there.set_value(all, true);
-        if (graph.lifetime(i) != ImageLifetime::persistent) continue;
-        graph.content_hashes_at_start(i).for_each_run(
+        if (graph.image_lifetime(i) == ImageLifetime::imported && graph.use_on_import(i))
+            there.set_value_of_access(all, true);
+        if (graph.image_lifetime(i) != ImageLifetime::persistent) continue;
+        graph.list_content_hashes_at_start(i).for_each_run(
             [&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
-                if (stamp) there.of(all).fill_range(first, end, true);
+                if (stamp) there.runs_of_resource(all).fill_cell_range(first, end, true);
             });
     }
-    for (std::uint32_t b = 0; b < graph.buffers().size(); ++b)
-        if (graph.is_imported({b})) there.set_value({.is_buffer = true, .id = b}, true);
+    for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
+        if (graph.is_imported({b})) there.set_value_of_access({.is_buffer = true, .id = b}, true);
     return there;
 }
 
 /// Checks that every layer is written before it is read, by an earlier pass of this frame or before
 /// the frame. Returns the contents that exist after the last pass.
 SubresourceMap<char> check_writes_before_reads(const Graph& graph, const GraphAccesses& all) {
-    SubresourceMap<char> written = mark_contents_at_start(graph);
-    for (std::size_t p = 0; p < graph.passes().size(); ++p) {
+    SubresourceMap<char> written = mark_contents_at_frame_start(graph);
+    for (std::size_t p = 0; p < graph.list_passes().size(); ++p) {
         for (const ResourceAccess& a : all.accesses_of_pass(p))
             if (a.needs && !a.previous && written.contains_value(a, false))
-                fail_read_before_write(graph, graph.passes()[p], a,
+                fail_read_before_write(graph, graph.list_passes()[p], a,
                                        describe_missing_layers(graph, written, a));
         for (const ResourceAccess& a : all.accesses_of_pass(p))
-            if (a.write) written.set_value(a, true);
+            if (a.write) written.set_value_of_access(a, true);
     }
     return written;
 }
 
-void check_hashes_for_writes(const Graph& graph, const ContentRecord& stamped) {
+void check_hashes_for_writes(const Graph& graph, const ContentHashRecord& stamped) {
     const ResourceAccess part = access_to_image_part(stamped.part);
-    const ImageDesc& desc = graph.images()[part.id];
-    if (part.layer_count == 0 || part.end_layer() > desc.layers || part.mip_count == 0 ||
-        part.end_mip() > desc.mips)
+    const ImageDesc& desc = graph.list_images()[part.id];
+    if (part.layer_count == 0 || part.end_of_layers() > desc.layers || part.mip_count == 0 ||
+        part.end_of_mips() > desc.mips)
         fail(kInvalidGraphFailure, describe_access(graph, part),
              " is said to be made from something, but the image has "
              "layers [0,",
@@ -122,69 +122,69 @@ void check_hashes_for_writes(const Graph& graph, const ContentRecord& stamped) {
 /// set.
 void check_content_hash_parts(const Graph& graph, const GraphAccesses& all) {
     SubresourceMap<char> stamped(graph, false), written(graph, false);
-    for (const ContentRecord& s : graph.content_records()) {
+    for (const ContentHashRecord& s : graph.list_content_records()) {
         check_hashes_for_writes(graph, s);
-        stamped.set_value(access_to_image_part(s.part), true);
+        stamped.set_value_of_access(access_to_image_part(s.part), true);
     }
-    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+    for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
         for (const ResourceAccess& a : all.accesses_of_pass(p)) {
-            if (!a.write || a.is_buffer || graph.lifetime(a.id) != ImageLifetime::persistent)
+            if (!a.write || a.is_buffer || graph.image_lifetime(a.id) != ImageLifetime::persistent)
                 continue;
             if (stamped.contains_value(a, false))
-                fail(kInvalidGraphFailure, "pass '", graph.passes()[p].name, "' writes ",
+                fail(kInvalidGraphFailure, "pass '", graph.list_passes()[p].name, "' writes ",
                      describe_access(graph, a), ", which is kept, but nobody says what ",
                      describe_missing_layers(graph, stamped, a), " are made from");
-            written.set_value(a, true);
+            written.set_value_of_access(a, true);
         }
-    for (const ContentRecord& s : graph.content_records())
+    for (const ContentHashRecord& s : graph.list_content_records())
         if (const ResourceAccess a = access_to_image_part(s.part); written.contains_value(a, false))
             fail(kInvalidGraphFailure, describe_access(graph, a),
                  " is said to be made from something, but no pass writes ",
                  describe_missing_layers(graph, written, a));
 }
 
-[[noreturn]] void fail_read_of_previous(const Graph& graph, const Pass& pass,
-                                        const ResourceAccess& a,
-                                        const SubresourceMap<char>& written) {
+[[noreturn]] void fail_read_of_previous_contents(const Graph& graph, const Pass& pass,
+                                                 const ResourceAccess& a,
+                                                 const SubresourceMap<char>& written) {
     const std::string name = quote_resource_name(graph, a);
     check(written.contains_value(access_to_whole_image(graph, a.id), true), kInvalidGraphFailure,
-          "pass '", pass.name, "' reads previous(", name, ") as ", name_of(a.use),
+          "pass '", pass.name, "' reads previous(", name, ") as ", resource_use_name(a.use),
           " but no pass writes ", name);
     fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
-         name_of(a.use), " but no pass writes ", describe_missing_layers(graph, written, a), " of ",
-         name);
+         resource_use_name(a.use), " but no pass writes ",
+         describe_missing_layers(graph, written, a), " of ", name);
 }
 
 void check_reads_of_previous(const Graph& graph, const GraphAccesses& all,
                              const SubresourceMap<char>& written) {
-    for (std::size_t p = 0; p < graph.passes().size(); ++p)
+    for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
         for (const ResourceAccess& a : all.accesses_of_pass(p))
             if (a.previous && written.contains_value(a, false))
-                fail_read_of_previous(graph, graph.passes()[p], a, written);
+                fail_read_of_previous_contents(graph, graph.list_passes()[p], a, written);
 }
 
 void check_outputs_are_written(const Graph& graph, const SubresourceMap<char>& written) {
-    for (const ImageHandle& image : graph.output_images()) {
-        check(image.id < graph.images().size(), kInvalidGraphFailure, "image number ", image.id,
-              " is wanted, but the graph has ", graph.images().size());
+    for (const ImageHandle& image : graph.list_output_images()) {
+        check(image.id < graph.list_images().size(), kInvalidGraphFailure, "image number ",
+              image.id, " is wanted, but the graph has ", graph.list_images().size());
         const ResourceAccess a = access_to_image_part(image);
         const std::string what = describe_access(graph, a);
         check(!image.previous, kInvalidGraphFailure, what,
               " is wanted: only this frame's contents can be");
-        const ImageDesc& desc = graph.images()[image.id];
-        check(a.layer_count > 0 && a.end_layer() <= desc.layers, kInvalidGraphFailure, what,
+        const ImageDesc& desc = graph.list_images()[image.id];
+        check(a.layer_count > 0 && a.end_of_layers() <= desc.layers, kInvalidGraphFailure, what,
               " is wanted, but the image has layers [0,", desc.layers, ")");
-        check(a.mip_count > 0 && a.end_mip() <= desc.mips, kInvalidGraphFailure, what,
+        check(a.mip_count > 0 && a.end_of_mips() <= desc.mips, kInvalidGraphFailure, what,
               " is wanted, but the image has mips [0,", desc.mips, ")");
-        check(graph.lifetime(a.id) != ImageLifetime::imported, kInvalidGraphFailure, what,
+        check(graph.image_lifetime(a.id) != ImageLifetime::imported, kInvalidGraphFailure, what,
               " is wanted, but imported: read it where it comes from");
         const std::string missing = describe_missing_layers(graph, written, a);
         check(missing.empty(), kInvalidGraphFailure, what, " is wanted, but no pass writes ",
               missing);
     }
-    for (const BufferHandle& buffer : graph.output_buffers()) {
-        check(buffer.id < graph.buffers().size(), kInvalidGraphFailure, "buffer number ", buffer.id,
-              " is wanted, but the graph has ", graph.buffers().size());
+    for (const BufferHandle& buffer : graph.list_output_buffers()) {
+        check(buffer.id < graph.list_buffers().size(), kInvalidGraphFailure, "buffer number ",
+              buffer.id, " is wanted, but the graph has ", graph.list_buffers().size());
         const ResourceAccess a{.is_buffer = true, .id = buffer.id};
         check(!graph.is_imported(buffer), kInvalidGraphFailure, describe_access(graph, a),
               " is wanted, but imported: read it where it comes from");
@@ -197,16 +197,16 @@ void check_outputs_are_written(const Graph& graph, const SubresourceMap<char>& w
 
 void validate_graph(const Graph& graph, const GraphAccesses& all, const GraphLimits& limits) {
     check_resource_names(graph);
-    for (const ImageDesc& desc : graph.images()) check_image_limits(desc, limits);
-    for (const BufferDesc& desc : graph.buffers())
+    for (const ImageDesc& desc : graph.list_images()) check_image_limits(desc, limits);
+    for (const BufferDesc& desc : graph.list_buffers())
         check(desc.bytes > 0, kInvalidGraphFailure, "buffer '", desc.name, "' is empty: 0 bytes");
-    for (std::size_t p = 0; p < graph.passes().size(); ++p)
-        validate_pass(graph, graph.passes()[p], all.accesses_of_pass(p), limits);
+    for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
+        validate_pass(graph, graph.list_passes()[p], all.accesses_of_pass(p), limits);
     const SubresourceMap<char> written = check_writes_before_reads(graph, all);
     check_reads_of_previous(graph, all, written);
     check_outputs_are_written(graph, written);
-    for (std::uint32_t i = 0; i < graph.images().size(); ++i)
-        if (graph.lifetime(i) == ImageLifetime::persistent)
+    for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
+        if (graph.image_lifetime(i) == ImageLifetime::persistent)
             return check_content_hash_parts(graph, all);
 }
 

@@ -32,59 +32,62 @@ bool is_writing_use(ResourceUse use, bool is_buffer) {
 }
 
 void check_image_handle(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
-    const std::size_t count = a.is_buffer ? graph.buffers().size() : graph.images().size();
+    const std::size_t count = a.is_buffer ? graph.list_buffers().size()
+                                          : graph.list_images().size();
     check(a.id < count, kInvalidGraphFailure, "pass '", pass.name, "' names ",
           a.is_buffer ? "buffer" : "image", " number ", a.id, ", but the graph has ", count);
     if (a.is_buffer) return;
-    const auto& [layers, mips] = std::pair(graph.images()[a.id].layers, graph.images()[a.id].mips);
+    const auto& [layers, mips] = std::pair(graph.list_images()[a.id].layers,
+                                           graph.list_images()[a.id].mips);
     if (a.layer_count == 0)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' names no layer of ",
-             quote_resource_name(graph, a), " as ", name_of(a.use));
-    if (a.end_layer() > layers)
+             quote_resource_name(graph, a), " as ", resource_use_name(a.use));
+    if (a.end_of_layers() > layers)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
-             " as ", name_of(a.use), ", but the image has layers [0,", layers, ")");
-    if (a.mip_count == 0 || a.end_mip() > mips)
+             " as ", resource_use_name(a.use), ", but the image has layers [0,", layers, ")");
+    if (a.mip_count == 0 || a.end_of_mips() > mips)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
-             " as ", name_of(a.use), ", but the image has mips [0,", mips, ")");
+             " as ", resource_use_name(a.use), ", but the image has mips [0,", mips, ")");
     if (a.mip_count > 1 && a.use != ResourceUse::sampled)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
-             " as ", name_of(a.use), ": one mip at a time");
+             " as ", resource_use_name(a.use), ": one mip at a time");
 }
 
 void check_attachment_access(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
-    const Format format = graph.images()[a.id].format;
-    if (is_depth(format) == (a.use == ResourceUse::depth)) return;
+    const TexelFormat format = graph.list_images()[a.id].format;
+    if (is_depth_format(format) == (a.use == ResourceUse::depth)) return;
     fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a), " as ",
-         name_of(a.use), ", but its format ", name_of(format), " is a ",
-         is_depth(format) ? "depth" : "colour", " format");
+         resource_use_name(a.use), ", but its format ", texel_format_name(format), " is a ",
+         is_depth_format(format) ? "depth" : "colour", " format");
 }
 
 /// Texts are built only on failure, because most passes are valid.
 void check_use_is_allowed(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     if (a.write && a.previous)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
-             " as ", name_of(a.use), ": last frame's contents are only read");
+             " as ", resource_use_name(a.use), ": last frame's contents are only read");
     if (!(a.write ? is_writing_use(a.use, a.is_buffer) : is_reading_use(a.use, a.is_buffer)))
         fail(kInvalidGraphFailure, "pass '", pass.name, "' ", a.write ? "writes " : "reads ",
-             describe_access(graph, a), " as ", name_of(a.use), ", which is not a way to ",
-             a.write ? "write " : "read ", a.is_buffer ? "a buffer" : "an image");
+             describe_access(graph, a), " as ", resource_use_name(a.use),
+             ", which is not a way to ", a.write ? "write " : "read ",
+             a.is_buffer ? "a buffer" : "an image");
     if (a.clears && !is_attachment(a.use))
         fail(kInvalidGraphFailure, "pass '", pass.name, "' clears ", describe_access(graph, a),
-             " as ", name_of(a.use), ", but only attachments are cleared");
+             " as ", resource_use_name(a.use), ", but only attachments are cleared");
     if (a.clears && a.needs && !pass.area)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' updates ", describe_access(graph, a),
-             " as ", name_of(a.use), ", but has no area to do it in");
+             " as ", resource_use_name(a.use), ", but has no area to do it in");
     if (pass.is_raster() && (a.use == ResourceUse::copy_from || a.use == ResourceUse::copy_to))
         fail(kInvalidGraphFailure, "pass '", pass.name, "' has attachments and uses ",
-             describe_access(graph, a), " as ", name_of(a.use),
+             describe_access(graph, a), " as ", resource_use_name(a.use),
              ": copies need a pass of their own");
     if (!a.is_buffer && is_attachment(a.use)) check_attachment_access(graph, pass, a);
 }
 
 void check_equal_sizes(const Graph& graph, const Pass& pass, const ResourceAccess& a,
                        const ResourceAccess& b) {
-    const ImageDesc& x = graph.images()[a.id];
-    const ImageDesc& y = graph.images()[b.id];
+    const ImageDesc& x = graph.list_images()[a.id];
+    const ImageDesc& y = graph.list_images()[b.id];
     const auto size = [](const ImageDesc& desc, const ResourceAccess& at) {
         return std::pair(size_at_mip(desc.width, at.first_mip),
                          size_at_mip(desc.height, at.first_mip));
@@ -93,8 +96,9 @@ void check_equal_sizes(const Graph& graph, const Pass& pass, const ResourceAcces
     const auto [width2, height2] = size(y, b);
     if (width == width2 && height == height2) return;
     fail(kInvalidGraphFailure, "pass '", pass.name, "' attaches ", describe_access(graph, a),
-         " as ", name_of(a.use), " (", width, "x", height, ") and ", describe_access(graph, b),
-         " as ", name_of(b.use), " (", width2, "x", height2, "): attachments have one size");
+         " as ", resource_use_name(a.use), " (", width, "x", height, ") and ",
+         describe_access(graph, b), " as ", resource_use_name(b.use), " (", width2, "x", height2,
+         "): attachments have one size");
 }
 
 void check_attachments(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all) {
@@ -104,8 +108,8 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Res
         if (a.is_buffer || !is_attachment(a.use)) continue;
         if (a.layer_count != pass.layer_count)
             fail(kInvalidGraphFailure, "pass '", pass.name, "' renders ", pass.layer_count,
-                 " layer(s), but attaches ", describe_access(graph, a), " as ", name_of(a.use),
-                 ", which are ", a.layer_count);
+                 " layer(s), but attaches ", describe_access(graph, a), " as ",
+                 resource_use_name(a.use), ", which are ", a.layer_count);
         if (a.use == ResourceUse::depth && depth)
             fail(kInvalidGraphFailure, "pass '", pass.name, "' attaches both ",
                  describe_access(graph, *depth), " and ", describe_access(graph, a), " as depth");
@@ -119,30 +123,30 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Res
 void check_access_pair(const Graph& graph, const Pass& pass, const ResourceAccess& a,
                        const ResourceAccess& b) {
     const std::uint64_t first = std::max(a.first_layer, b.first_layer);
-    const std::uint64_t end = std::min(a.end_layer(), b.end_layer());
+    const std::uint64_t end = std::min(a.end_of_layers(), b.end_of_layers());
     const std::uint64_t mip = std::max(a.first_mip, b.first_mip);
-    if (first >= end || mip >= std::min(a.end_mip(), b.end_mip())) return;
+    if (first >= end || mip >= std::min(a.end_of_mips(), b.end_of_mips())) return;
     const auto where = [&]() -> std::string {
         if (a.is_buffer) return "";
-        const ImageDesc& desc = graph.images()[a.id];
+        const ImageDesc& desc = graph.list_images()[a.id];
         const auto base = static_cast<std::uint32_t>(mip * desc.layers);
         return ", in " + format_layer_range(desc, base + static_cast<std::uint32_t>(first),
                                             base + static_cast<std::uint32_t>(end));
     };
     if (a.write && b.write)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
-             " as ", name_of(a.use), " and ", describe_access(graph, b), " as ", name_of(b.use),
-             ": written twice", where());
+             " as ", resource_use_name(a.use), " and ", describe_access(graph, b), " as ",
+             resource_use_name(b.use), ": written twice", where());
     const ResourceAccess& read = a.write ? b : a;
     const ResourceAccess& other = a.write ? a : b;
     if (other.write)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, read),
-             " as ", name_of(read.use), " while it writes ", describe_access(graph, other), " as ",
-             name_of(other.use), where());
+             " as ", resource_use_name(read.use), " while it writes ",
+             describe_access(graph, other), " as ", resource_use_name(other.use), where());
     if (!a.is_buffer && a.use != b.use)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a),
-             " as ", name_of(a.use), " and ", describe_access(graph, b), " as ", name_of(b.use),
-             ": one image cannot be in two layouts at once", where());
+             " as ", resource_use_name(a.use), " and ", describe_access(graph, b), " as ",
+             resource_use_name(b.use), ": one image cannot be in two layouts at once", where());
 }
 
 /// Checks all pairs of uses of one resource.

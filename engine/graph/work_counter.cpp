@@ -12,44 +12,45 @@ constexpr VkQueryPipelineStatisticFlags kPipelineStatisticFlags =
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
-constexpr WorkKind kCountedByQuery[] = {WorkKind::vertices, WorkKind::primitives,
-                                        WorkKind::fragments, WorkKind::invocations};
-constexpr std::size_t kStatisticCount = std::size(kCountedByQuery);
+constexpr WorkKind kQueriedWorkKinds[] = {WorkKind::vertices, WorkKind::primitives,
+                                          WorkKind::fragments, WorkKind::invocations};
+constexpr std::size_t kPipelineStatisticCount = std::size(kQueriedWorkKinds);
 constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
                                               sizeof(std::uint32_t);
 
 } // namespace
 
-WorkCounter::WorkCounter(gpu::Device& device, std::vector<std::string> passes) : device_(device) {
+WorkCounter::WorkCounter(gpu::GpuDevice& device, std::vector<std::string> passes)
+    : graph_device_(device) {
     for (std::string& name : passes) passes_.push_back({std::move(name), {}});
-    const std::uint64_t alignment = device.limits().minStorageBufferOffsetAlignment;
+    const std::uint64_t alignment = device.vulkan_limits().minStorageBufferOffsetAlignment;
     stride_ = (kShaderCounterBytes + alignment - 1) / alignment * alignment;
-    buffer_ = gpu::Buffer(device, "counted work", stride_ * passes_.size(),
-                          gpu::BufferUsage::read_back);
+    buffer_ = gpu::GpuBuffer(device, "counted work", stride_ * passes_.size(),
+                             gpu::BufferUsage::read_back);
     if (!device.has_pipeline_statistics() || passes_.empty()) return;
     VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     create.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
     create.queryCount = static_cast<std::uint32_t>(passes_.size());
     create.pipelineStatistics = kPipelineStatisticFlags;
     VkQueryPool pool = VK_NULL_HANDLE;
-    gpu::check_vk(vkCreateQueryPool(device.handle(), &create, nullptr, &pool),
-                  "create pipeline statistics");
-    statistics_ = {device.handle(), pool};
-    vkResetQueryPool(device.handle(), pool, 0, create.queryCount);
+    gpu::throw_unless_vk_success(vkCreateQueryPool(device.device_handle(), &create, nullptr, &pool),
+                                 "create pipeline statistics");
+    statistics_ = {device.device_handle(), pool};
+    vkResetQueryPool(device.device_handle(), pool, 0, create.queryCount);
 }
 
 void WorkCounter::begin_pass(VkCommandBuffer commands) {
     if (pass_ == 0) {
-        vkCmdFillBuffer(commands, buffer_.handle(), 0, VK_WHOLE_SIZE, 0);
+        vkCmdFillBuffer(commands, buffer_.buffer_handle(), 0, VK_WHOLE_SIZE, 0);
         gpu::record_memory_barrier(
-            commands, gpu::kTransferWrite,
+            commands, gpu::kTransferWriteScope,
             {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     }
     for (const WorkKind kind : {WorkKind::draws, WorkKind::dispatches, WorkKind::bytes})
-        add(kind, 0);
-    add(WorkKind::frames, pass_ == 0 ? 1 : 0);
-    add(WorkKind::passes, 1);
+        add_count(kind, 0);
+    add_count(WorkKind::frames, pass_ == 0 ? 1 : 0);
+    add_count(WorkKind::passes, 1);
     if (statistics_) vkCmdBeginQuery(commands, statistics_, static_cast<std::uint32_t>(pass_), 0);
 }
 
@@ -65,27 +66,28 @@ void WorkCounter::end_pass(VkCommandBuffer commands) {
 }
 
 VkDescriptorBufferInfo WorkCounter::shader_counts() const {
-    return {buffer_.handle(), pass_ * stride_, kShaderCounterBytes};
+    return {buffer_.buffer_handle(), pass_ * stride_, kShaderCounterBytes};
 }
 
 std::vector<PassWork> WorkCounter::read() {
-    const std::vector<std::byte> bytes = buffer_.read();
-    std::vector<std::uint64_t> results(kStatisticCount * passes_.size());
+    const std::vector<std::byte> bytes = buffer_.read_contents();
+    std::vector<std::uint64_t> results(kPipelineStatisticCount * passes_.size());
     if (statistics_)
-        gpu::check_vk(vkGetQueryPoolResults(device_.handle(), statistics_, 0,
-                                            static_cast<std::uint32_t>(passes_.size()),
-                                            results.size() * sizeof results[0], results.data(),
-                                            kStatisticCount * sizeof results[0],
-                                            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                      "read pipeline statistics");
+        gpu::throw_unless_vk_success(
+            vkGetQueryPoolResults(graph_device_.device_handle(), statistics_, 0,
+                                  static_cast<std::uint32_t>(passes_.size()),
+                                  results.size() * sizeof results[0], results.data(),
+                                  kPipelineStatisticCount * sizeof results[0],
+                                  VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+            "read pipeline statistics");
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         WorkCounts& counts = passes_[i].counts;
         std::uint32_t words[shared::kShaderWorkKindCount][2]; // the low word comes first
         std::memcpy(words, bytes.data() + i * stride_, kShaderCounterBytes);
         for (std::size_t kind = 0; kind < shared::kShaderWorkKindCount; ++kind)
             counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];
-        for (std::size_t k = 0; statistics_ && k < kStatisticCount; ++k)
-            counts[kCountedByQuery[k]] = results[kStatisticCount * i + k];
+        for (std::size_t k = 0; statistics_ && k < kPipelineStatisticCount; ++k)
+            counts[kQueriedWorkKinds[k]] = results[kPipelineStatisticCount * i + k];
     }
     return passes_;
 }

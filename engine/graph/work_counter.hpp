@@ -17,24 +17,26 @@ namespace catoptric::graph {
 class WorkCounter {
 public:
     /// `passes`: names of the frame's passes, in order of execution.
-    WorkCounter(gpu::Device& device, std::vector<std::string> passes);
+    WorkCounter(gpu::GpuDevice& device, std::vector<std::string> passes);
 
     /// Records the begin and the end of the next pass, outside of rendering.
     void begin_pass(VkCommandBuffer commands);
     void end_pass(VkCommandBuffer commands);
     /// Adds to a count of the pass that is being recorded.
-    void add(WorkKind kind, std::uint64_t count) { passes_[pass_].counts.add(kind, count); }
+    void add_count(WorkKind kind, std::uint64_t count) {
+        passes_[pass_].counts.add_count(kind, count);
+    }
     /// Returns the buffer and the part of it in which the shaders of this pass count.
     VkDescriptorBufferInfo shader_counts() const;
     /// Returns the counts of all passes. The frame must have ended.
     std::vector<PassWork> read();
 
 private:
-    gpu::Device& device_;
+    gpu::GpuDevice& graph_device_;
     std::vector<PassWork> passes_;
     std::size_t pass_ = 0;
     std::uint64_t stride_ = 0; ///< bytes between the parts of two passes
-    gpu::Buffer buffer_;
+    gpu::GpuBuffer buffer_;
     gpu::UniqueQueryPool statistics_; ///< null if the device has no pipeline statistics
 };
 

@@ -56,7 +56,8 @@ namespace {
 
 /// Sets the proxy from which the picture is read. The JPEG reader of OpenImageIO 2.4 accepts only
 /// OpenImageIO's own proxies, so it gets a copy of all bytes.
-void set_proxy(ImageCodecs::Picture& picture, const ByteSource& bytes, const std::string& format) {
+void set_byte_source_proxy(ImageCodecs::Picture& picture, const ByteSource& bytes,
+                           const std::string& format) {
     if (format != "jpeg") {
         picture.proxy = std::make_unique<ByteSourceProxy>(bytes);
         return;
@@ -67,47 +68,47 @@ void set_proxy(ImageCodecs::Picture& picture, const ByteSource& bytes, const std
     picture.proxy = std::make_unique<OIIO::Filesystem::IOMemReader>(copy.data(), copy.size());
 }
 
-OIIO::TypeDesc to_oiio_type(CodecValue type) {
-    return type == CodecValue::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
+OIIO::TypeDesc to_oiio_type(ImageCodecValueType type) {
+    return type == ImageCodecValueType::float32 ? OIIO::TypeFloat : OIIO::TypeUInt8;
 }
 
 /// Returns OpenImageIO's error message, in one line.
 template <typename Codec>
-CodecResult last_oiio_error(const Codec& codec) {
+ImageCodecResult read_last_oiio_error(const Codec& codec) {
     std::string text = codec.geterror();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return {CodecStatus::refused, std::move(text)};
+    return {ImageCodecStatus::refused, std::move(text)};
 }
 
 /// Returns the result of `work`, with exceptions turned into results.
 template <typename Work>
-CodecResult catch_codec_exceptions(const Work& work) noexcept {
+ImageCodecResult catch_codec_exceptions(const Work& work) noexcept {
     try {
         return work();
     } catch (const std::bad_alloc&) {
-        return {CodecStatus::out_of_memory};
+        return {ImageCodecStatus::out_of_memory};
     } catch (const std::exception& error) {
-        return {CodecStatus::broken, error.what()};
+        return {ImageCodecStatus::broken, error.what()};
     } catch (...) {
-        return {CodecStatus::broken, "with an exception of its own"};
+        return {ImageCodecStatus::broken, "with an exception of its own"};
     }
 }
 
 constexpr const char* kDescription = "ImageDescription";
 
-CodecResult open_picture(const ByteSource& bytes, const std::string& format,
-                         const std::string& name, ImageCodecs::Picture*& picture,
-                         ImageCodecs::PictureHeader& header) noexcept {
+ImageCodecResult open_codec_picture(const ByteSource& bytes, const std::string& format,
+                                    const std::string& name, ImageCodecs::Picture*& picture,
+                                    ImageCodecs::PictureHeader& header) noexcept {
     picture = nullptr;
-    return catch_codec_exceptions([&]() -> CodecResult {
+    return catch_codec_exceptions([&]() -> ImageCodecResult {
         auto opened = std::make_unique<ImageCodecs::Picture>();
-        set_proxy(*opened, bytes, format);
+        set_byte_source_proxy(*opened, bytes, format);
         opened->input = OIIO::ImageInput::create(format);
-        if (!opened->input) return {CodecStatus::no_codec};
+        if (!opened->input) return {ImageCodecStatus::no_codec};
         OIIO::ImageSpec hints, spec;
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
         opened->input->set_ioproxy(opened->proxy.get());
-        if (!opened->input->open(name, spec, hints)) return last_oiio_error(*opened->input);
+        if (!opened->input->open(name, spec, hints)) return read_last_oiio_error(*opened->input);
         header = {{spec.width, spec.height},
                   spec.nchannels,
                   spec.deep,
@@ -136,9 +137,10 @@ bool read_tile_rows(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t 
     return true;
 }
 
-CodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t first,
-                              std::uint32_t row_count, CodecValue type, void* values) noexcept {
-    return catch_codec_exceptions([&]() -> CodecResult {
+ImageCodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t first,
+                                   std::uint32_t row_count, ImageCodecValueType type,
+                                   void* values) noexcept {
+    return catch_codec_exceptions([&]() -> ImageCodecResult {
         OIIO::ImageInput& input = *picture.input;
         const OIIO::ImageSpec& spec = input.spec();
         const int from = spec.y + static_cast<int>(first);
@@ -148,18 +150,19 @@ CodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t first
                                  : input.read_scanlines(
                                        0, 0, from, from + static_cast<int>(row_count), 0, 0,
                                        picture.channel_count, to_oiio_type(type), values);
-        if (!is_read) return last_oiio_error(input);
+        if (!is_read) return read_last_oiio_error(input);
         return {};
     });
 }
 
-void close_picture(ImageCodecs::Picture* picture) noexcept { delete picture; }
+void close_codec_picture(ImageCodecs::Picture* picture) noexcept { delete picture; }
 
 /// Encodes to memory, because OpenImageIO's writers report success on a full disk. PNG is supported
 /// to test core/png.cpp against.
-CodecResult encode_picture(const std::string& format, const ImageCodecs::PixelValueBuffer& picture,
-                           std::string& bytes) noexcept {
-    return catch_codec_exceptions([&]() -> CodecResult {
+ImageCodecResult encode_picture(const std::string& format,
+                                const ImageCodecs::PixelValueBuffer& picture,
+                                std::string& bytes) noexcept {
+    return catch_codec_exceptions([&]() -> ImageCodecResult {
         const OIIO::TypeDesc type = to_oiio_type(picture.type);
         OIIO::ImageSpec spec(static_cast<int>(picture.size.x), static_cast<int>(picture.size.y),
                              static_cast<int>(picture.channel_count), type);
@@ -171,19 +174,19 @@ CodecResult encode_picture(const std::string& format, const ImageCodecs::PixelVa
         if (!picture.description.empty()) spec.attribute(kDescription, picture.description);
         OIIO::Filesystem::IOVecOutput memory;
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-        if (!output) return {CodecStatus::no_codec};
+        if (!output) return {ImageCodecStatus::no_codec};
         output->set_ioproxy(&memory);
         if (!output->open("memory." + format, spec) || !output->write_image(type, picture.values) ||
             !output->close())
-            return last_oiio_error(*output);
+            return read_last_oiio_error(*output);
         bytes.assign(memory.buffer().begin(), memory.buffer().end());
         return {};
     });
 }
 
-constexpr ImageCodecs kOpenImageIoCodecs{.open = open_picture,
+constexpr ImageCodecs kOpenImageIoCodecs{.open = open_codec_picture,
                                          .read = read_picture_rows,
-                                         .close = close_picture,
+                                         .close = close_codec_picture,
                                          .encode = encode_picture};
 
 } // namespace

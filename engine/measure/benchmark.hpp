@@ -23,7 +23,7 @@ struct BenchmarkRound {
     std::map<std::string, double> counters; ///< further values of the benchmark, by name
 };
 
-struct Benchmark {
+struct BenchmarkResult {
     std::string name;
     std::vector<BenchmarkRound> rounds;
 };
@@ -38,27 +38,27 @@ struct BenchmarkRun {
     double load = 0;       ///< the machine's runnable threads at the start; NaN if unknown
     /// Whether the run's threads waited for processors that other programs used.
     std::optional<bool> noisy;
-    std::vector<Benchmark> benchmarks;
+    std::vector<BenchmarkResult> benchmarks;
 };
 
 /// The cost by which benchmarks are compared.
 enum class CostKind { cycles, instructions, cpu_time, real_time };
 /// Returns "cycles", "instructions", "processor time" or "time".
-std::string name_of(CostKind cost);
+std::string cost_kind_name(CostKind cost);
 
 /// Returns a round's cost in cycles, instructions or milliseconds. Returns NaN if the round has no
 /// cycles or no instructions.
-double round_cost(const BenchmarkRound& round, CostKind cost);
+double cost_of_round(const BenchmarkRound& round, CostKind cost);
 /// Returns the costs of all rounds, in order.
-std::vector<double> list_round_costs(const Benchmark& benchmark, CostKind cost);
+std::vector<double> list_round_costs(const BenchmarkResult& benchmark, CostKind cost);
 
 /// Ratio of costs that were measured in rounds: the median of the rounds' ratios, and its
 /// confidence interval.
 struct CostRatio {
     double median = 0;
     Interval ci95; ///< 95 % confidence; unknown for fewer than `kMinIntervalSamples` rounds
-    bool is_above_one() const { return ci95.low > 1; }
-    bool is_below_one() const { return ci95.high < 1; }
+    bool is_interval_above_one() const { return ci95.low > 1; }
+    bool is_interval_below_one() const { return ci95.high < 1; }
 };
 /// Returns the ratio a[i] / b[i] over as many pairs as the shorter list has. Throws `internal`
 /// without a pair.
@@ -68,12 +68,12 @@ CostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<dou
 inline constexpr const char* kWorkCounterPrefix = "work/";
 
 /// Counted work of a benchmark that differs before and after a change.
-struct CountChange {
+struct CountedWorkChange {
     std::string name; ///< name of the counter
     double before = 0, after = 0;
     /// Returns whether the work has grown by more than a hundredth. Counts have no noise, so no
     /// clock is needed to tell.
-    bool is_growth() const { return after > 1.01 * before; }
+    bool is_work_growth() const { return after > 1.01 * before; }
 };
 
 /// Costs of one benchmark before and after a change.
@@ -81,18 +81,18 @@ struct BenchmarkChange {
     /// Result of the comparison. `slower` and `faster`: the cost says so and the elapsed time does
     /// not say the opposite. `mixed`: the elapsed time says the opposite. `same`: the two cannot be
     /// told apart. `unknown`: there are too few rounds.
-    enum class ChangeOutcome { slower, faster, mixed, same, unknown };
+    enum class BenchmarkChangeOutcome { slower, faster, mixed, same, unknown };
     std::string name;
     CostKind cost = CostKind::real_time;
-    std::array<double, 2> medians{}; ///< medians of the cost, before and after
-    CostRatio ratio;                 ///< cost after, divided by cost before
-    CostRatio real_ratio;            ///< the same for the elapsed time
-    std::size_t compared_counts = 0; ///< number of counts of work that both have
-    std::vector<CountChange> counts; ///< those that differ
-    ChangeOutcome outcome() const;
+    std::array<double, 2> medians{};       ///< medians of the cost, before and after
+    CostRatio ratio;                       ///< cost after, divided by cost before
+    CostRatio real_ratio;                  ///< the same for the elapsed time
+    std::size_t compared_counts = 0;       ///< number of counts of work that both have
+    std::vector<CountedWorkChange> counts; ///< those that differ
+    BenchmarkChangeOutcome outcome() const;
 };
 /// Returns "slower", "faster", "mixed", "same" or "unknown".
-std::string name_of(BenchmarkChange::ChangeOutcome outcome);
+std::string benchmark_outcome_name(BenchmarkChange::BenchmarkChangeOutcome outcome);
 
 struct BenchmarkChanges {
     std::vector<BenchmarkChange>

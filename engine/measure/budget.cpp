@@ -11,54 +11,56 @@ namespace {
 
 /// Returns the row with the least value, or null if there are no rows.
 template <typename Value>
-const Row* find_least(const std::vector<const Row*>& rows, Value&& value) {
+const Row* find_row_with_least_value(const std::vector<const Row*>& rows, Value&& value) {
     const auto least = std::ranges::min_element(rows, {},
                                                 [&](const Row* row) { return value(*row); });
     return least == rows.end() ? nullptr : *least;
 }
 
-double flip_of_row(const Row& row) { return row.error.flip; }
-double median_ms(const Row& row) { return row.time_ms().median; }
+double flip_over_mirrors(const Row& row) { return row.error.flip; }
+double median_frame_ms(const Row& row) { return row.time_ms().median; }
 
 } // namespace
 
-bool has_budget(const Comparison& comparison) {
+bool has_time_or_flip_budget(const Comparison& comparison) {
     return !std::isnan(comparison.max_ms) || !std::isnan(comparison.max_flip);
 }
 
-bool keeps_time_budget(const Comparison& comparison, const Row& row) {
+bool is_within_time_budget(const Comparison& comparison, const Row& row) {
     if (std::isnan(comparison.max_ms)) return true;
     const SampleSummary& time = row.time_ms();
     return (time.ci95.is_known() ? time.ci95.high : time.median) <= comparison.max_ms;
 }
 
-bool keeps_flip_budget(const Comparison& comparison, const Row& row) {
+bool is_within_flip_budget(const Comparison& comparison, const Row& row) {
     return std::isnan(comparison.max_flip) || row.error.flip <= comparison.max_flip;
 }
 
-BudgetAnswer find_row_within_budget(const Comparison& comparison) {
+BudgetedRows find_row_within_budget(const Comparison& comparison) {
     std::vector<const Row*> judged, in_time, fitting;
-    BudgetAnswer answer;
+    BudgetedRows answer;
     for (const Row& row : comparison.rows) {
-        if (!is_ranking_candidate(row) || std::isnan(row.error.flip) || !(median_ms(row) > 0))
+        if (!is_ranking_candidate(row) || std::isnan(row.error.flip) || !(median_frame_ms(row) > 0))
             continue;
         judged.push_back(&row);
-        const bool is_in_time = keeps_time_budget(comparison, row),
-                   is_close = keeps_flip_budget(comparison, row);
+        const bool is_in_time = is_within_time_budget(comparison, row),
+                   is_close = is_within_flip_budget(comparison, row);
         if (is_in_time) in_time.push_back(&row);
         if (is_in_time && is_close) fitting.push_back(&row);
-        if (!is_in_time && is_close && median_ms(row) <= comparison.max_ms)
+        if (!is_in_time && is_close && median_frame_ms(row) <= comparison.max_ms)
             answer.undecided.push_back(&row);
     }
     const bool by_flip = std::isnan(comparison.max_flip);
-    answer.row = by_flip ? find_least(fitting, flip_of_row) : find_least(fitting, median_ms);
+    answer.row = by_flip ? find_row_with_least_value(fitting, flip_over_mirrors)
+                         : find_row_with_least_value(fitting, median_frame_ms);
     if (answer.row == nullptr) {
-        answer.nearest = in_time.empty() ? find_least(judged, median_ms)
-                                         : find_least(in_time, flip_of_row);
+        answer.nearest = in_time.empty() ? find_row_with_least_value(judged, median_frame_ms)
+                                         : find_row_with_least_value(in_time, flip_over_mirrors);
         return answer;
     }
     for (const Row* row : fitting) {
-        const bool ties = by_flip ? !has_less_flip(*answer.row, *row) : is_tie(*answer.row, *row);
+        const bool ties = by_flip ? !has_less_flip(*answer.row, *row)
+                                  : is_time_tie(*answer.row, *row);
         if (row != answer.row && ties) answer.ties.push_back(row);
     }
     return answer;

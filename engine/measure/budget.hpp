@@ -7,16 +7,16 @@
 // The row that a user should take who may spend a given time, or accept a given error.
 namespace catoptric::measure {
 
-bool has_budget(const Comparison& comparison);
+bool has_time_or_flip_budget(const Comparison& comparison);
 
 /// Returns whether the row's time is within Comparison::max_ms with 95 % confidence: the upper end
 /// of its interval, or its median if the interval is unknown. True without such a budget.
-bool keeps_time_budget(const Comparison& comparison, const Row& row);
+bool is_within_time_budget(const Comparison& comparison, const Row& row);
 /// Returns whether the row's FLIP over the mirrors is at most Comparison::max_flip.
-bool keeps_flip_budget(const Comparison& comparison, const Row& row);
+bool is_within_flip_budget(const Comparison& comparison, const Row& row);
 
 /// Answer to a budget. Only rows that take part in fastest, closest and front count.
-struct BudgetAnswer {
+struct BudgetedRows {
     /// Row that keeps the budgets. With a budget of time alone it has the least FLIP, else the
     /// least median time. Null if no row keeps them.
     const Row* row = nullptr;
@@ -29,6 +29,6 @@ struct BudgetAnswer {
     /// fastest row if no row is. Null if no row could be judged.
     const Row* nearest = nullptr;
 };
-BudgetAnswer find_row_within_budget(const Comparison& comparison);
+BudgetedRows find_row_within_budget(const Comparison& comparison);
 
 } // namespace catoptric::measure

@@ -9,17 +9,17 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrorRowTable = "mirrors";
+constexpr std::string_view kMirrorTableName = "mirrors";
 
 template <double Causes::*Figure>
-MetricValue cause_metric_value(const Row& row) {
+MetricValue error_cause_metric_value(const Row& row) {
     return row.causes ? (*row.causes).*Figure : NAN;
 }
 
 MetricValue list_cause_shares(const Row& row) {
-    std::vector<ValueParts> list;
+    std::vector<MetricValueParts> list;
     if (!row.causes) return list;
-    for (const Cause& cause : row.causes->list)
+    for (const ErrorCauseShare& cause : row.causes->list)
         list.push_back({"cause",
                         cause.name,
                         {{"share", cause.share},
@@ -35,13 +35,13 @@ MetricValue list_cause_shares(const Row& row) {
 const RegisteredMetric kSquaredErrorMetric{
     {.name = "causes/squared_error",
      .help = "mean square difference of the row's picture, which the causes add up to",
-     .mask = kMirrorRowTable,
+     .mask = kMirrorTableName,
      .better = BetterDirection::less,
      .order = 270,
-     .get = cause_metric_value<&Causes::squared_error>}};
+     .get = error_cause_metric_value<&Causes::squared_error>}};
 const RegisteredMetric kErrorPerMirrorMetric{{.name = "causes/squared_error_per_mirror",
                                               .help = "causes of the error of each mirror",
-                                              .mask = kMirrorRowTable,
+                                              .mask = kMirrorTableName,
                                               .better = BetterDirection::less,
                                               .order = 271,
                                               .get = [](const Row& row) -> MetricValue {
@@ -52,13 +52,13 @@ const RegisteredMetric kErrorPerMirrorMetric{{.name = "causes/squared_error_per_
 const RegisteredMetric kUnexplainedErrorMetric{
     {.name = "causes/rest_rmse",
      .help = "rmse when all causes are removed: near 0 if no cause is missing",
-     .mask = kMirrorRowTable,
+     .mask = kMirrorTableName,
      .order = 272,
-     .get = cause_metric_value<&Causes::rest_rmse>}};
+     .get = error_cause_metric_value<&Causes::rest_rmse>}};
 const RegisteredMetric kErrorAtLightEdgesMetric{
     {.name = "causes/at_light_edges",
      .help = "share of the squared error in pixels that looked within a texel of a light's outline",
-     .mask = kMirrorRowTable,
+     .mask = kMirrorTableName,
      .order = 273,
      .get = [](const Row& row) -> MetricValue {
          return row.causes && row.light_edges ? row.light_edges->share : NAN;
@@ -68,7 +68,7 @@ const RegisteredMetric kCauseSharesMetric{
      .help =
          "each cause's share of the squared error (Shapley values for five of them, 1 in sum), and "
          "the decrease of the error when only this cause is removed",
-     .mask = kMirrorRowTable,
+     .mask = kMirrorTableName,
      .order = 274,
      .get = list_cause_shares}};
 

@@ -259,7 +259,7 @@ struct Comparison {
     std::vector<View> views;
     std::vector<Row> rows;
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
-    /// measure::find_front.
+    /// measure::find_front_of_rows.
     std::vector<std::size_t> pareto;
     double max_ms = NAN, max_flip = NAN; ///< budgets (measure/budget.hpp); NaN: none
     std::shared_ptr<LagResults> lag;     ///< see CompareRequest::studies; may be null

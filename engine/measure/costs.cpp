@@ -22,7 +22,7 @@ struct NormalEquations {
 
     explicit NormalEquations(std::size_t kinds) : matrix(kinds, KindVector(kinds)), right(kinds) {}
     /// Adds a sample `sign` times. `row` has the sample's counts divided by its time.
-    void add(const KindVector& row, double sign) {
+    void add_sample(const KindVector& row, double sign) {
         for (std::size_t i = 0; i < right.size(); ++i) {
             right[i] += sign * row[i];
             for (std::size_t j = 0; j < right.size(); ++j) matrix[i][j] += sign * row[i] * row[j];
@@ -33,7 +33,7 @@ struct NormalEquations {
 /// Solves by coordinate descent: each step sets one unknown to the best value that is not negative.
 KindVector solve_non_negative(const NormalEquations& equations) {
     constexpr int kMaxSolverSweeps = 200'000;
-    constexpr double kConvergenceLimit = 1e-12;
+    constexpr double kFitConvergenceLimit = 1e-12;
     const std::size_t count = equations.right.size();
     KindVector found(count);
     for (int sweep = 0; sweep < kMaxSolverSweeps; ++sweep) {
@@ -50,12 +50,12 @@ KindVector solve_non_negative(const NormalEquations& equations) {
             size = std::max(size, next * std::sqrt(diagonal));
             found[i] = next;
         }
-        if (change <= kConvergenceLimit * size) break;
+        if (change <= kFitConvergenceLimit * size) break;
     }
     return found;
 }
 
-double count_of(const WorkCounts& counts, WorkKind kind) {
+double count_of_work_kind(const WorkCounts& counts, WorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
 }
 
@@ -63,20 +63,20 @@ bool is_work_of_rays(WorkKind kind) { return kind <= WorkKind::triangle_lanes; }
 
 /// Returns the time with each unit at an end of its range: rays at the low end and other work at
 /// the high end, or the other way round.
-double predict_time_at_ends(const DeviceCosts& costs, const WorkCounts& counts,
-                            bool rays_are_cheap) {
+double predict_time_at_range_ends(const DeviceCosts& costs, const WorkCounts& counts,
+                                  bool rays_are_cheap) {
     double ms = 0;
-    for (const UnitCost& unit : costs.units) {
+    for (const WorkUnitCost& unit : costs.units) {
         const bool low = is_work_of_rays(unit.kind) == rays_are_cheap;
         const double ns = !unit.range.is_known() ? unit.ns : low ? unit.range.low : unit.range.high;
-        ms += count_of(counts, unit.kind) * ns * 1e-6;
+        ms += count_of_work_kind(counts, unit.kind) * ns * 1e-6;
     }
     return ms;
 }
 
 /// Returns the rows that no other row beats, fastest first. A row without a time takes no part.
-std::vector<std::size_t> find_front_of_times(const std::vector<Row>& rows,
-                                             const std::vector<double>& ms) {
+std::vector<std::size_t> find_front_of_predicted_times(const std::vector<Row>& rows,
+                                                       const std::vector<double>& ms) {
     const auto beats = [&](std::size_t a, std::size_t b) {
         const double flip_a = rows[a].error.flip, flip_b = rows[b].error.flip;
         return ms[a] <= ms[b] && flip_a <= flip_b && (ms[a] < ms[b] || flip_a < flip_b);
@@ -94,12 +94,12 @@ std::vector<std::size_t> find_front_of_times(const std::vector<Row>& rows,
 
 } // namespace
 
-std::string_view name_of(CostOrigin origin) {
+std::string_view cost_origin_name(CostOrigin origin) {
     constexpr std::string_view kCostOriginNames[] = {"fitted", "literature", "given"};
     return kCostOriginNames[static_cast<std::size_t>(origin)];
 }
 
-double CostFit::fraction_within(double factor) const {
+double CostFitQuality::fraction_within(double factor) const {
     std::size_t within = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
         within += left_out_ms[i] <= samples[i].ms * factor &&
@@ -109,8 +109,8 @@ double CostFit::fraction_within(double factor) const {
 
 PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
     PredictedTime time;
-    for (const UnitCost& unit : costs.units) {
-        const double millions = count_of(counts, unit.kind) * 1e-6; // ns to ms
+    for (const WorkUnitCost& unit : costs.units) {
+        const double millions = count_of_work_kind(counts, unit.kind) * 1e-6; // ns to ms
         time.ms += millions * unit.ns;
         time.low += millions * (unit.range.is_known() ? unit.range.low : unit.ns);
         time.high += millions * (unit.range.is_known() ? unit.range.high : unit.ns);
@@ -119,47 +119,51 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
 }
 
 PredictedFront find_predicted_front(const DeviceCosts& costs, const std::vector<Row>& rows) {
-    constexpr double kUnknownTime = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kUnknownFrameTime = std::numeric_limits<double>::quiet_NaN();
     PredictedFront front;
     std::vector<double> ms, cheap, dear;
     for (const Row& row : rows) {
-        const WorkCounts counts = work_of_row(row);
-        const bool is_known = has_work(row);
-        front.times.push_back(is_known ? predict_time(costs, counts)
-                                       : PredictedTime{kUnknownTime, kUnknownTime, kUnknownTime});
+        const WorkCounts counts = total_work_of_row(row);
+        const bool is_known = has_counted_work(row);
+        front.times.push_back(
+            is_known ? predict_time(costs, counts)
+                     : PredictedTime{kUnknownFrameTime, kUnknownFrameTime, kUnknownFrameTime});
         const bool takes_part = is_known && is_ranking_candidate(row);
-        ms.push_back(takes_part ? front.times.back().ms : kUnknownTime);
-        cheap.push_back(takes_part ? predict_time_at_ends(costs, counts, true) : kUnknownTime);
-        dear.push_back(takes_part ? predict_time_at_ends(costs, counts, false) : kUnknownTime);
+        ms.push_back(takes_part ? front.times.back().ms : kUnknownFrameTime);
+        cheap.push_back(takes_part ? predict_time_at_range_ends(costs, counts, true)
+                                   : kUnknownFrameTime);
+        dear.push_back(takes_part ? predict_time_at_range_ends(costs, counts, false)
+                                  : kUnknownFrameTime);
     }
-    front.rows = find_front_of_times(rows, ms);
-    front.rows_if_rays_are_cheap = find_front_of_times(rows, cheap);
-    front.rows_if_rays_are_dear = find_front_of_times(rows, dear);
+    front.rows = find_front_of_predicted_times(rows, ms);
+    front.rows_if_rays_are_cheap = find_front_of_predicted_times(rows, cheap);
+    front.rows_if_rays_are_dear = find_front_of_predicted_times(rows, dear);
     return front;
 }
 
-DeviceCosts fit_costs(std::string device, std::vector<CostSample> samples,
-                      std::span<const WorkKind> kinds) {
+DeviceCosts fit_unit_costs(std::string device, std::vector<TimedRowSample> samples,
+                           std::span<const WorkKind> kinds) {
     check(samples.size() >= kinds.size() && !kinds.empty(), Failure::usage, "fitting the costs of ",
           kinds.size(), " kinds of work: wanted at least as many measured rows, found ",
           samples.size());
     std::vector<KindVector> rows;
     NormalEquations all(kinds.size());
-    for (const CostSample& sample : samples) {
+    for (const TimedRowSample& sample : samples) {
         check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
               "': wanted a time above 0 ms, found ", sample.ms);
         KindVector& row = rows.emplace_back();
-        for (const WorkKind kind : kinds) row.push_back(count_of(sample.counts, kind) / sample.ms);
-        all.add(row, 1);
+        for (const WorkKind kind : kinds)
+            row.push_back(count_of_work_kind(sample.counts, kind) / sample.ms);
+        all.add_sample(row, 1);
     }
     DeviceCosts costs{.device = std::move(device), .origin = CostOrigin::fitted};
     const KindVector found = solve_non_negative(all);
     for (std::size_t i = 0; i < kinds.size(); ++i)
         if (found[i] > 0) costs.units.push_back({kinds[i], found[i] * 1e6, {}, "fit"});
-    CostFit& fit = costs.fit.emplace();
+    CostFitQuality& fit = costs.fit.emplace();
     for (const KindVector& row : rows) {
         NormalEquations others = all;
-        others.add(row, -1);
+        others.add_sample(row, -1);
         const KindVector without = solve_non_negative(others);
         double relative = 0;
         for (std::size_t k = 0; k < row.size(); ++k) relative += without[k] * row[k];

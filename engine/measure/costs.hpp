@@ -18,10 +18,10 @@ namespace catoptric::measure {
 /// figures. given: from the user.
 enum class CostOrigin : std::uint8_t { fitted, literature, given };
 /// Returns "fitted", "literature" or "given".
-std::string_view name_of(CostOrigin origin);
+std::string_view cost_origin_name(CostOrigin origin);
 
 /// Cost of one unit of a kind of work, nanoseconds.
-struct UnitCost {
+struct WorkUnitCost {
     WorkKind kind = WorkKind::fragments;
     double ns = 0;
     Interval range; ///< smallest and largest value that the source supports; unknown if it has none
@@ -29,7 +29,7 @@ struct UnitCost {
 };
 
 /// A row whose time was measured, for a fit.
-struct CostSample {
+struct TimedRowSample {
     std::string name;
     WorkCounts counts;
     double ms = 0;
@@ -37,8 +37,8 @@ struct CostSample {
 
 /// How well fitted costs predict times. Each row is predicted by costs that were fitted to the
 /// other rows.
-struct CostFit {
-    std::vector<CostSample> samples;
+struct CostFitQuality {
+    std::vector<TimedRowSample> samples;
     std::vector<double> left_out_ms; ///< prediction of each sample, fitted without it
     /// Returns the share of samples, 0..1, whose prediction lies within a factor `factor` of the
     /// measured time.
@@ -49,8 +49,8 @@ struct DeviceCosts {
     std::string device; ///< name of the device
     CostOrigin origin = CostOrigin::given;
     std::string note; ///< what the reader must know of the figures; may be empty
-    std::vector<UnitCost> units;
-    std::optional<CostFit> fit; ///< only if fitted by this program
+    std::vector<WorkUnitCost> units;
+    std::optional<CostFitQuality> fit; ///< only if fitted by this program
 };
 
 /// Time that costs predict for a frame, milliseconds, with the smallest and largest costs of their
@@ -76,9 +76,9 @@ PredictedFront find_predicted_front(const DeviceCosts& costs, const std::vector<
 /// and no cost is negative (non-negative least squares by coordinate descent: Franc, Hlavac,
 /// Navara, Sequential Coordinate-Wise Algorithm for the Non-negative Least Squares Problem, 2005).
 /// Kinds with a cost of 0 are left out of the result. Fits once more without each sample, for
-/// CostFit::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time that is not
-/// positive. Costs O(samples kinds^2) and little more.
-DeviceCosts fit_costs(std::string device, std::vector<CostSample> samples,
-                      std::span<const WorkKind> kinds);
+/// CostFitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time that is
+/// not positive. Costs O(samples kinds^2) and little more.
+DeviceCosts fit_unit_costs(std::string device, std::vector<TimedRowSample> samples,
+                           std::span<const WorkKind> kinds);
 
 } // namespace catoptric::measure

@@ -49,7 +49,7 @@ const RegisteredMetric kShareOffMetric{
      .help = "share of the pixels whose largest channel difference exceeds .02",
      .better = BetterDirection::less,
      .order = 102,
-     .columns = {{"off, %", ValueFormat::percent, 2}},
+     .columns = {{"off, %", MetricValueFormat::percent, 2}},
      .get = [](const Difference& error) -> MetricValue { return error.off; }}};
 const RegisteredMetric kMaeMetric{
     {.name = "mae",
@@ -72,7 +72,7 @@ const RegisteredMetric kPsnrMetric{{.name = "psnr",
                                     .help = "-20 log10 rmse; none for equal pictures",
                                     .better = BetterDirection::more,
                                     .order = 106,
-                                    .columns = {{"PSNR dB", ValueFormat::fixed, 1}},
+                                    .columns = {{"PSNR dB", MetricValueFormat::fixed, 1}},
                                     .get = [](const Difference& error) -> MetricValue {
                                         return error.psnr.value_or(Difference::kNone);
                                     }}};
@@ -120,14 +120,14 @@ const RegisteredMetric kMeanClampedMetric{
      .get = [](const Row& row) -> MetricValue { return row.mean_clamped.rgb; }}};
 
 /// Differences of the pixels of a short run. `largest` is NaN where a pixel is not finite.
-struct PixelBlock {
-    static constexpr std::size_t kComparedPixelsMetric = 256;
-    std::array<double, kComparedPixelsMetric> largest, square, absolute;
+struct PixelDifferenceBlock {
+    static constexpr std::size_t kBlockPixels = 256;
+    std::array<double, kBlockPixels> largest, square, absolute;
 };
 
 /// Fills `run` with the differences of `count` pixels of three values each.
 CATOPTRIC_WIDE void compute_block_differences(const float* __restrict a, const float* __restrict b,
-                                              std::size_t count, PixelBlock& run) {
+                                              std::size_t count, PixelDifferenceBlock& run) {
     double* __restrict const largest = run.largest.data();
     double* __restrict const square = run.square.data();
     double* __restrict const absolute = run.absolute.data();
@@ -151,10 +151,11 @@ CATOPTRIC_WIDE void compute_block_differences(const float* __restrict a, const f
 
 } // namespace
 
-void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
-                        std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    for (std::size_t first = 0; first < a.size(); first += PixelBlock::kComparedPixelsMetric) {
-        const std::size_t count = std::min(PixelBlock::kComparedPixelsMetric, a.size() - first);
+void PictureDifferenceSum::add_rows(std::span<const vec3> a, std::span<const vec3> b,
+                                    std::span<const std::uint8_t> mask,
+                                    std::span<const float> flip_map) {
+    for (std::size_t first = 0; first < a.size(); first += PixelDifferenceBlock::kBlockPixels) {
+        const std::size_t count = std::min(PixelDifferenceBlock::kBlockPixels, a.size() - first);
         const auto part = [&](auto values) {
             return values.empty() ? values : values.subspan(first, count);
         };
@@ -162,9 +163,10 @@ void DifferenceSum::add(std::span<const vec3> a, std::span<const vec3> b,
     }
 }
 
-void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
-                            std::span<const std::uint8_t> mask, std::span<const float> flip_map) {
-    PixelBlock run;
+void PictureDifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
+                                   std::span<const std::uint8_t> mask,
+                                   std::span<const float> flip_map) {
+    PixelDifferenceBlock run;
     compute_block_differences(&a[0].x, &b[0].x, a.size(), run);
     const std::size_t first = off_.size();
     off_.resize(first + a.size());
@@ -191,7 +193,7 @@ void DifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3> b,
     }
 }
 
-Difference DifferenceSum::finish_difference() {
+Difference PictureDifferenceSum::finish_difference() {
     Difference result = std::exchange(result_, {});
     const Mask off = std::exchange(off_, {});
     std::vector<double> largest = std::exchange(largest_, {});
@@ -210,25 +212,25 @@ Difference DifferenceSum::finish_difference() {
 Difference difference(const Picture& a, const Picture& b, const Mask& mask,
                       std::span<const float> flip_map) {
     check_equal_sizes(a, b, mask, flip_map.size());
-    DifferenceSum sum(a.width, a.pixels.size());
-    sum.add(a.pixels, b.pixels, mask, flip_map);
+    PictureDifferenceSum sum(a.width, a.pixels.size());
+    sum.add_rows(a.pixels, b.pixels, mask, flip_map);
     Difference result = sum.finish_difference();
     result.others = compute_picture_metrics({a, b, mask, flip_map});
     return result;
 }
 
-void MeanSum::add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
+void PictureMeanSum::add_rows(std::span<const vec3> pixels, std::span<const std::uint8_t> mask) {
     dvec3 sum = sum_, clamped_sum = clamped_sum_; // local copies stay in registers
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         if (!mask.empty() && mask[i] == 0) continue;
         sum += dvec3(pixels[i]);
-        clamped_sum += clamp_pixel(pixels[i]);
+        clamped_sum += clamp_pixel_to_unit_range(pixels[i]);
         ++count_;
     }
     sum_ = sum, clamped_sum_ = clamped_sum;
 }
 
-Mean MeanSum::mean(ValueRange range) const {
+Mean PictureMeanSum::mean(ValueRange range) const {
     const dvec3 rgb = (range == ValueRange::clamped ? clamped_sum_ : sum_) /
                       static_cast<double>(count_); // 0/0 is NaN
     return {rgb, (rgb.x + rgb.y + rgb.z) / 3};
@@ -237,8 +239,8 @@ Mean MeanSum::mean(ValueRange range) const {
 Mean mean_of(const Picture& picture, ValueRange range, const Mask& mask) {
     check(mask.empty() || mask.size() == picture.pixels.size(), Failure::bad_data, "a mean of ",
           picture.pixels.size(), " pixels wants a mask of as many, found ", mask.size());
-    MeanSum sum;
-    sum.add(picture.pixels, mask);
+    PictureMeanSum sum;
+    sum.add_rows(picture.pixels, mask);
     return sum.mean(range);
 }
 

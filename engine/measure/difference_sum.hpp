@@ -9,18 +9,18 @@ namespace catoptric::measure {
 
 /// Sums the difference of two pictures row by row, so that neither picture needs to be in memory as
 /// a whole. Keeps 9 bytes a pixel. The result does not depend on how many rows each call adds.
-class DifferenceSum {
+class PictureDifferenceSum {
 public:
     /// Reserves memory for all pixels at once, because growing step by step would take twice as
     /// much.
-    DifferenceSum(int width, std::size_t pixel_count) : width_(width) {
+    PictureDifferenceSum(int width, std::size_t pixel_count) : width_(width) {
         off_.reserve(pixel_count), largest_.reserve(pixel_count);
     }
 
     /// Adds the next rows, in linear RGB after exposure, with their FLIP. `mask` has as many
     /// entries as there are pixels; if it is empty, all pixels count.
-    void add(std::span<const vec3> a, std::span<const vec3> b, std::span<const std::uint8_t> mask,
-             std::span<const float> flip_map);
+    void add_rows(std::span<const vec3> a, std::span<const vec3> b,
+                  std::span<const std::uint8_t> mask, std::span<const float> flip_map);
 
     /// Returns the difference over all rows, without the metrics that are computed from pictures.
     /// Resets the sum.
@@ -41,11 +41,11 @@ private:
 
 /// Sums the mean of a picture row by row, both of the values as they are and of the values clamped
 /// to [0,1].
-class MeanSum {
+class PictureMeanSum {
 public:
     /// Adds the next rows. `mask` has as many entries as there are pixels; if it is empty, all
     /// pixels count.
-    void add(std::span<const vec3> pixels, std::span<const std::uint8_t> mask);
+    void add_rows(std::span<const vec3> pixels, std::span<const std::uint8_t> mask);
     Mean mean(ValueRange range) const;
 
 private:

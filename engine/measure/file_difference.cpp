@@ -15,16 +15,16 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr int kBandPixels = 1 << 20; // pixels of a band; a band has at least one row
+constexpr int kPixelsPerBand = 1 << 20; // pixels of a band; a band has at least one row
 
 /// Window on a picture: the rows that one band and its surroundings need.
-class RowWindow {
+class PictureRowWindow {
 public:
-    explicit RowWindow(PictureReader reader) : reader_(std::move(reader)) {}
+    explicit PictureRowWindow(PictureReader reader) : reader_(std::move(reader)) {}
 
     /// Returns the rows [first, end). Rows that the window already holds are not read again.
-    const Picture& show(int first, int end) {
-        const auto width = static_cast<std::size_t>(reader_.width());
+    const Picture& read_rows_into_window(int first, int end) {
+        const auto width = static_cast<std::size_t>(reader_.picture_width());
         std::vector<vec3>& pixels = rows_.pixels;
         const auto gone = static_cast<std::size_t>(first - first_) * width;
         pixels.erase(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(gone));
@@ -32,7 +32,7 @@ public:
         pixels.resize(static_cast<std::size_t>(end - first) * width);
         reader_.read_rows(end_, std::span(pixels).subspan(kept));
         first_ = first, end_ = end;
-        rows_.width = reader_.width(), rows_.height = end - first;
+        rows_.width = reader_.picture_width(), rows_.height = end - first;
         return rows_;
     }
 
@@ -43,27 +43,29 @@ private:
 };
 
 /// Computes FLIP of parts of two pictures, one after the other in the same memory.
-class BandFlip {
+class BandFlipComputer {
 public:
     /// `is_light_of_bytes`: both pictures are linear light that was decoded from 8 bits and gets no
     /// exposure. A screen shows exactly this light, so no conversion is needed.
-    BandFlip(double exposure_stops, bool is_of_bytes, bool is_light_of_bytes)
-        : exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes),
+    BandFlipComputer(double exposure_stops, bool is_of_bytes, bool is_light_of_bytes)
+        : flip_exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes),
           is_light_of_bytes_(is_light_of_bytes) {}
 
     /// Returns FLIP of the rows [first, end). Equal pictures give 0 without computation.
-    std::vector<float> of_rows(const Picture& a, const Picture& b, int first, int end) {
+    std::vector<float> compute_flip_of_band(const Picture& a, const Picture& b, int first,
+                                            int end) {
         if (a.pixels == b.pixels)
             return std::vector<float>(static_cast<std::size_t>(end - first) *
                                       static_cast<std::size_t>(a.width));
-        if (is_light_of_bytes_) return flip_of_rows(a, b, first, end, PixelEncoding::linear);
-        convert_to_display(a, exposure_stops_, is_of_bytes_, display_a_);
-        convert_to_display(b, exposure_stops_, is_of_bytes_, display_b_);
-        return flip_of_rows(display_a_, display_b_, first, end, PixelEncoding::srgb);
+        if (is_light_of_bytes_)
+            return compute_flip_of_rows(a, b, first, end, PixelEncoding::linear);
+        convert_to_display(a, flip_exposure_stops_, is_of_bytes_, display_a_);
+        convert_to_display(b, flip_exposure_stops_, is_of_bytes_, display_b_);
+        return compute_flip_of_rows(display_a_, display_b_, first, end, PixelEncoding::srgb);
     }
 
 private:
-    double exposure_stops_;
+    double flip_exposure_stops_;
     bool is_of_bytes_, is_light_of_bytes_;
     Picture display_a_, display_b_;
 };
@@ -78,7 +80,8 @@ std::vector<vec3> apply_exposure_to_rows(std::span<const vec3> rows, double expo
 }
 
 template <typename Value>
-std::span<const Value> row_span(const std::vector<Value>& values, int width, int first, int end) {
+std::span<const Value> span_of_rows(const std::vector<Value>& values, int width, int first,
+                                    int end) {
     if (values.empty()) return {};
     return std::span(values).subspan(static_cast<std::size_t>(first) * std::size_t(width),
                                      static_cast<std::size_t>(end - first) * std::size_t(width));
@@ -86,12 +89,13 @@ std::span<const Value> row_span(const std::vector<Value>& values, int width, int
 
 } // namespace
 
-FileDifference compare_picture_files(const std::filesystem::path& a, const std::filesystem::path& b,
-                                     const std::filesystem::path& mask_file,
-                                     double exposure_stops) {
+PictureFileDifference compare_picture_files(const std::filesystem::path& a,
+                                            const std::filesystem::path& b,
+                                            const std::filesystem::path& mask_file,
+                                            double exposure_stops) {
     PictureReader of_a(a);
-    const int width = of_a.width(), height = of_a.height();
-    PictureReader of_b(b, [&](int columns, int rows) {
+    const int width = of_a.picture_width(), height = of_a.height();
+    PictureReader reader_of_b(b, [&](int columns, int rows) {
         check(columns == width && rows == height, Failure::bad_data, a.string(), " is ", width, "x",
               height, ", ", b.string(), " is ", columns, "x", rows,
               ": wanted two pictures of one size");
@@ -100,27 +104,30 @@ FileDifference compare_picture_files(const std::filesystem::path& a, const std::
     if (!mask_file.empty()) mask = read_mask(mask_file, width, height);
 
     const bool is_of_bytes = is_png(a) || is_png(b);
-    const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bits() && of_b.has_8_bits();
-    RowWindow window_a(std::move(of_a)), window_b(std::move(of_b));
-    DifferenceSum sum(width, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    MeanSum a_mean, b_mean;
-    BandFlip flip(exposure_stops, is_of_bytes, is_light_of_bytes);
-    const int band = std::max(1, kBandPixels / width), reach = flip_filter_radius();
+    const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bits() &&
+                                   reader_of_b.has_8_bits();
+    PictureRowWindow window_a(std::move(of_a)), window_b(std::move(reader_of_b));
+    PictureDifferenceSum sum(width,
+                             static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    PictureMeanSum a_mean, b_mean;
+    BandFlipComputer band_flip_computer(exposure_stops, is_of_bytes, is_light_of_bytes);
+    const int band = std::max(1, kPixelsPerBand / width), reach = flip_filter_radius();
     for (int first = 0; first < height; first += band) {
         const int end = std::min(first + band, height), above = std::max(0, first - reach),
                   below = std::min(height, end + reach);
-        const Picture& part_a = window_a.show(above, below);
-        const Picture& part_b = window_b.show(above, below);
-        const std::vector<float> map = flip.of_rows(part_a, part_b, first - above, end - above);
-        const auto counted = row_span(mask, width, first, end);
-        const auto rows_a = row_span(part_a.pixels, width, first - above, end - above);
-        const auto rows_b = row_span(part_b.pixels, width, first - above, end - above);
-        a_mean.add(rows_a, counted);
-        b_mean.add(rows_b, counted);
+        const Picture& part_a = window_a.read_rows_into_window(above, below);
+        const Picture& part_b = window_b.read_rows_into_window(above, below);
+        const std::vector<float> map = band_flip_computer.compute_flip_of_band(
+            part_a, part_b, first - above, end - above);
+        const auto counted = span_of_rows(mask, width, first, end);
+        const auto rows_a = span_of_rows(part_a.pixels, width, first - above, end - above);
+        const auto rows_b = span_of_rows(part_b.pixels, width, first - above, end - above);
+        a_mean.add_rows(rows_a, counted);
+        b_mean.add_rows(rows_b, counted);
         const std::vector<vec3> exposed_a = apply_exposure_to_rows(rows_a, exposure_stops),
                                 exposed_b = apply_exposure_to_rows(rows_b, exposure_stops);
-        sum.add(exposed_a.empty() ? rows_a : exposed_a, exposed_b.empty() ? rows_b : exposed_b,
-                counted, map);
+        sum.add_rows(exposed_a.empty() ? rows_a : exposed_a, exposed_b.empty() ? rows_b : exposed_b,
+                     counted, map);
     }
     return {width,
             height,

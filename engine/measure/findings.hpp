@@ -26,7 +26,7 @@ std::optional<UndrawnReflectionFinding> find_undrawn_dielectrics(const Compariso
 /// Answer to whether clearing cubes explains why part one without inter-reflections, which renders
 /// and clears no cube, is slower than part two.
 struct ClearCostFinding {
-    enum class ClearVerdict {
+    enum class ClearCostVerdict {
         slower_without, ///< part one is slower even without a clear
         too_little, ///< part one is not slower than part two even with the time of the clear added
         explains
@@ -35,11 +35,11 @@ struct ClearCostFinding {
     bool one_is_slower = false;
     /// Time to clear all mirrors' cubes; empty if not measured, and then `verdict` says nothing.
     std::optional<double> clear_ms;
-    ClearVerdict verdict = ClearVerdict::explains;
+    ClearCostVerdict verdict = ClearCostVerdict::explains;
     /// Excess of part one with a clear over part two, as a share of part two's time.
     double gap = 0;
 };
-std::optional<ClearCostFinding> find_clear_cost(const Comparison& comparison);
+std::optional<ClearCostFinding> find_clear_cost_finding(const Comparison& comparison);
 
 /// Cost of storing distances in 8 bits. Missing rows are null, but at least one of `near` and `far`
 /// is there.
@@ -48,7 +48,7 @@ struct StoredDistanceFinding {
     const Row *near, *far;      ///< rows with 8-bit distances up to 200 and up to 1000 units
     bool near_is_worse = false; ///< whether `near` has a larger error than no correction at all
 };
-std::optional<StoredDistanceFinding> find_stored_distance(const Comparison& comparison);
+std::optional<StoredDistanceFinding> find_stored_distance_finding(const Comparison& comparison);
 
 /// Answer to the question whether more bounces bring the technique `naive` closer to the reference.
 struct BounceFinding {
@@ -59,7 +59,7 @@ struct BounceFinding {
     /// step. Null otherwise.
     const Row* dominated_by = nullptr;
 };
-std::optional<BounceFinding> find_bounces(const Comparison& comparison);
+std::optional<BounceFinding> find_bounce_finding(const Comparison& comparison);
 
 /// Additional cost of the seed report's part three (parallax correction) over its part two (last
 /// frame's captures).
@@ -72,7 +72,7 @@ struct CorrectionPriceFinding {
     double more = 0;
     std::uint64_t more_bytes = 0; ///< additional bytes of images; 0 if part three needs no more
 };
-std::optional<CorrectionPriceFinding> find_correction_price(const Comparison& comparison);
+std::optional<CorrectionPriceFinding> find_parallax_correction_price(const Comparison& comparison);
 
 /// Time of ray tracing, compared with the seed report's part three (parallax correction).
 struct TracingTimeFinding {
@@ -81,6 +81,6 @@ struct TracingTimeFinding {
     Interval ratio_ci95;
     double ratio = 1; ///< median time of ray tracing divided by that of part three
 };
-std::optional<TracingTimeFinding> find_tracing_time(const Comparison& comparison);
+std::optional<TracingTimeFinding> find_tracing_time_finding(const Comparison& comparison);
 
 } // namespace catoptric::measure

@@ -31,7 +31,7 @@ const dmat3 kXyzFromRgb = {{10135552.0 / 24577794, 2613072.0 / 12288897, 1425312
 const dvec3 kWhiteXyz = kXyzFromRgb * dvec3(1);
 
 /// Returns `matrix * v`. It is written out so that compilers vectorise loops over it.
-inline dvec3 multiply_matrix(const dmat3& matrix, const dvec3& v) {
+inline dvec3 multiply_matrix_by_vector(const dmat3& matrix, const dvec3& v) {
     return {matrix[0].x * v.x + matrix[1].x * v.y + matrix[2].x * v.z,
             matrix[0].y * v.x + matrix[1].y * v.y + matrix[2].y * v.z,
             matrix[0].z * v.x + matrix[1].z * v.y + matrix[2].z * v.z};
@@ -44,14 +44,14 @@ const dmat3 kRgbFromRelativeXyz = glm::inverse(kRelativeXyzFromRgb);
 
 /// Returns a colour in opponent space: x achromatic, y red-green, z blue-yellow.
 inline dvec3 ycxcz_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
-    const dvec3 n = multiply_matrix(relative_from_rgb, rgb);
+    const dvec3 n = multiply_matrix_by_vector(relative_from_rgb, rgb);
     return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
 }
 
 inline dvec3 rgb_from_ycxcz(const dvec3& ycxcz, const dmat3& rgb_from_relative) {
     const double y = (ycxcz.x + 16) * (1.0 / 116);
-    return multiply_matrix(rgb_from_relative,
-                           {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
+    return multiply_matrix_by_vector(rgb_from_relative,
+                                     {y + ycxcz.y * (1.0 / 500), y, y - ycxcz.z * (1.0 / 200)});
 }
 
 inline double clamp_to_gamut(double value) { return std::min(std::max(value, 0.0), 1.0); }
@@ -75,21 +75,22 @@ inline double cube_root(double t) {
 inline dvec3 hunt_lab_from_rgb(const dvec3& rgb, const dmat3& relative_from_rgb) {
     // CIELAB's linear part meets the cube root with equal value and slope, so no branch is needed.
     const auto f = [](double t) {
-        constexpr double kLabDelta = 6.0 / 29, kLabLinearEnd = kLabDelta * kLabDelta * kLabDelta;
+        constexpr double kCieLabDelta = 6.0 / 29,
+                         kLabLinearEnd = kCieLabDelta * kCieLabDelta * kCieLabDelta;
         return cube_root(std::max(t, kLabLinearEnd)) +
-               std::min(t - kLabLinearEnd, 0.0) * (1 / (3 * kLabDelta * kLabDelta));
+               std::min(t - kLabLinearEnd, 0.0) * (1 / (3 * kCieLabDelta * kCieLabDelta));
     };
-    const dvec3 n = multiply_matrix(relative_from_rgb, rgb);
+    const dvec3 n = multiply_matrix_by_vector(relative_from_rgb, rgb);
     const double l = 116 * f(n.y) - 16;
     return {l, 0.01 * l * 500 * (f(n.x) - f(n.y)), 0.01 * l * 200 * (f(n.y) - f(n.z))};
 }
 
 /// Returns the length of (x, y). Unlike std::hypot, it assumes that squares neither overflow nor
 /// underflow.
-inline double length(double x, double y) { return std::sqrt(x * x + y * y); }
+inline double vector_length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-double hyab_distance(const dvec3& a, const dvec3& b) {
-    return std::abs(a.x - b.x) + length(a.y - b.y, a.z - b.z);
+double hyab_colour_distance(const dvec3& a, const dvec3& b) {
+    return std::abs(a.x - b.x) + vector_length(a.y - b.y, a.z - b.z);
 }
 
 // --- section 4.1: colour pipeline ----------------------------------------------------------------
@@ -97,16 +98,17 @@ double hyab_distance(const dvec3& a, const dvec3& b) {
 /// Returns a Gaussian of the contrast sensitivity functions, a * sqrt(pi / b) * exp(-pi^2 x^2 / b),
 /// with x in degrees. It is one factor of a separable two-dimensional kernel, so its amplitude is
 /// the square root. The kernel ends where weights become negligible, and at most at `radius`.
-FilterKernel contrast_sensitivity_kernel(double a, double b, int radius, double pixels_per_degree) {
+FilterKernel make_contrast_sensitivity_kernel(double a, double b, int radius,
+                                              double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
     const double amplitude = std::sqrt(a * std::sqrt(kPi / b));
     // Share of the middle weight that is below float's rounding.
-    constexpr double kNegligibleWeight = 1e-10;
+    constexpr double kNegligibleKernelWeight = 1e-10;
     const auto weight = [&](int i) {
         const double degrees = i / pixels_per_degree;
         return amplitude * std::exp(-kPi * kPi * degrees * degrees / b);
     };
-    while (radius > 0 && weight(radius) < kNegligibleWeight * amplitude) --radius;
+    while (radius > 0 && weight(radius) < kNegligibleKernelWeight * amplitude) --radius;
     FilterKernel kernel(radius);
     for (int i = -radius; i <= radius; ++i) kernel[i] = weight(i);
     return kernel;
@@ -114,9 +116,9 @@ FilterKernel contrast_sensitivity_kernel(double a, double b, int radius, double 
 
 int colour_kernel_radius(double pixels_per_degree) {
     constexpr double kPi = std::numbers::pi;
-    constexpr double kWidestGaussian = 0.04; // the largest b below
+    constexpr double kWidestGaussianParameter = 0.04; // the largest b below
     return static_cast<int>(
-        std::ceil(3 * std::sqrt(kWidestGaussian / (2 * kPi * kPi)) * pixels_per_degree));
+        std::ceil(3 * std::sqrt(kWidestGaussianParameter / (2 * kPi * kPi)) * pixels_per_degree));
 }
 
 /// Picture by channel, in opponent colours or another space.
@@ -140,7 +142,7 @@ CATOPTRIC_WIDE void convert_to_opponent(double* __restrict x, double* __restrict
 /// Writes the pixels, three values each, as linear RGB.
 void decode_pixels(const vec3* pixels, std::size_t count, PixelEncoding encoding,
                    double* __restrict red, double* __restrict green, double* __restrict blue) {
-    const auto decode = [&](const auto& curve) {
+    const auto decode_all_pixels = [&](const auto& curve) {
         for (std::size_t i = 0; i < count; ++i) {
             red[i] = curve(pixels[i].x);
             green[i] = curve(pixels[i].y);
@@ -148,22 +150,23 @@ void decode_pixels(const vec3* pixels, std::size_t count, PixelEncoding encoding
         }
     };
     if (encoding == PixelEncoding::srgb)
-        decode(LinearTable());
+        decode_all_pixels(SrgbDecodeTable());
     else
-        decode([](float light) { return static_cast<double>(light); });
+        decode_all_pixels([](float light) { return static_cast<double>(light); });
 }
 
 /// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
 /// Beyond the picture, its outermost pixels are repeated.
-void convert_part_to_opponent(const Picture& display, PixelEncoding encoding,
-                              const PixelRegion& part, int reach, ChannelPlanes& result) {
+void convert_part_to_opponent_space(const Picture& display, PixelEncoding encoding,
+                                    const PixelRegion& part, int reach, ChannelPlanes& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
-    for (ChannelPlane& plane : result) plane.resize(size.x, size.y);
+    for (ChannelPlane& plane : result) plane.resize_plane(size.x, size.y);
     const auto count = static_cast<std::size_t>(end - first);
     for (int y = 0; y < size.y; ++y) {
         const vec3* const pixels = &display.at(0, std::clamp(low.y + y, 0, display.height - 1));
-        const std::array<double*, 3> rows = {result[0].row(y), result[1].row(y), result[2].row(y)};
+        const std::array<double*, 3> rows = {result[0].row_values(y), result[1].row_values(y),
+                                             result[2].row_values(y)};
         decode_pixels(pixels + low.x + first, count, encoding, rows[0] + first, rows[1] + first,
                       rows[2] + first);
         convert_to_opponent(rows[0] + first, rows[1] + first, rows[2] + first, count);
@@ -192,23 +195,23 @@ CATOPTRIC_WIDE void convert_to_uniform_space(double* __restrict x, double* __res
 /// a sum of separable Gaussians with a total weight of 1.
 struct ColourKernels {
     explicit ColourKernels(double pixels_per_degree)
-        : achromatic(colour_gaussian(1, 0.0047, pixels_per_degree)),
-          red_green(colour_gaussian(1, 0.0053, pixels_per_degree)),
-          blue_yellow(colour_gaussian(34.1, 0.04, pixels_per_degree)),
-          blue_yellow_2(colour_gaussian(13.5, 0.025, pixels_per_degree)) {
-        scale({&achromatic});
-        scale({&red_green});
-        scale({&blue_yellow, &blue_yellow_2});
+        : achromatic_kernel(make_colour_kernel(1, 0.0047, pixels_per_degree)),
+          red_green(make_colour_kernel(1, 0.0053, pixels_per_degree)),
+          blue_yellow(make_colour_kernel(34.1, 0.04, pixels_per_degree)),
+          blue_yellow_2(make_colour_kernel(13.5, 0.025, pixels_per_degree)) {
+        normalise_kernel_sum({&achromatic_kernel});
+        normalise_kernel_sum({&red_green});
+        normalise_kernel_sum({&blue_yellow, &blue_yellow_2});
     }
 
-    FilterKernel achromatic, red_green, blue_yellow, blue_yellow_2;
+    FilterKernel achromatic_kernel, red_green, blue_yellow, blue_yellow_2;
 
 private:
-    static FilterKernel colour_gaussian(double a, double b, double pixels_per_degree) {
-        return contrast_sensitivity_kernel(a, b, colour_kernel_radius(pixels_per_degree),
-                                           pixels_per_degree);
+    static FilterKernel make_colour_kernel(double a, double b, double pixels_per_degree) {
+        return make_contrast_sensitivity_kernel(a, b, colour_kernel_radius(pixels_per_degree),
+                                                pixels_per_degree);
     }
-    static void scale(std::initializer_list<FilterKernel*> kernels) {
+    static void normalise_kernel_sum(std::initializer_list<FilterKernel*> kernels) {
         double total = 0;
         for (const FilterKernel* kernel : kernels) {
             double line = 0;
@@ -223,7 +226,7 @@ private:
 /// Maps a colour distance to [0,1] (eqs. 5 and 6). Small distances get most of the range.
 class ColourDistanceMap {
 public:
-    /// Returns the mapped difference. `distance` is that of two colours by `hyab_distance`.
+    /// Returns the mapped difference. `distance` is that of two colours by `hyab_colour_distance`.
     float operator()(float distance) const {
         const float error = std::pow(distance, kColourErrorExponent);
         const float knee = kErrorKneeInput * largest_;
@@ -233,14 +236,18 @@ public:
     }
 
 private:
-    static dvec3 lab(const dvec3& rgb) { return hunt_lab_from_rgb(rgb, kRelativeXyzFromRgb); }
+    static dvec3 hunt_lab_from_linear_rgb(const dvec3& rgb) {
+        return hunt_lab_from_rgb(rgb, kRelativeXyzFromRgb);
+    }
 
     static constexpr float kColourErrorExponent = 0.7F; // q_c
     static constexpr float kErrorKneeInput = 0.4F;      // p_c
     static constexpr float kErrorKneeOutput = 0.95F;    // p_t
     // Green against blue is the largest difference in the sRGB gamut.
-    float largest_ = std::pow(static_cast<float>(hyab_distance(lab({0, 1, 0}), lab({0, 0, 1}))),
-                              kColourErrorExponent);
+    float largest_ = std::pow(
+        static_cast<float>(hyab_colour_distance(hunt_lab_from_linear_rgb({0, 1, 0}),
+                                                hunt_lab_from_linear_rgb({0, 0, 1}))),
+        kColourErrorExponent);
 };
 
 // --- section 4.2: feature pipeline ---------------------------------------------------------------
@@ -264,31 +271,32 @@ int feature_kernel_radius(double pixels_per_degree) {
 /// degrees, and its first two derivatives.
 struct FeatureKernels {
     explicit FeatureKernels(double pixels_per_degree)
-        : smooth(feature_kernel_radius(pixels_per_degree)), first(smooth.radius),
-          second(smooth.radius) {
+        : smooth_kernel(feature_kernel_radius(pixels_per_degree)),
+          first(smooth_kernel.kernel_radius), second(smooth_kernel.kernel_radius) {
         const double deviation = feature_kernel_deviation(pixels_per_degree);
-        for (int i = -smooth.radius; i <= smooth.radius; ++i) {
+        for (int i = -smooth_kernel.kernel_radius; i <= smooth_kernel.kernel_radius; ++i) {
             const double squared = i * i / (deviation * deviation);
-            smooth[i] = std::exp(-squared / 2);
-            first[i] = -i * smooth[i];
-            second[i] = (squared - 1) * smooth[i];
+            smooth_kernel[i] = std::exp(-squared / 2);
+            first[i] = -i * smooth_kernel[i];
+            second[i] = (squared - 1) * smooth_kernel[i];
         }
-        normalise_kernel(smooth), normalise_kernel(first), normalise_kernel(second);
+        normalise_kernel(smooth_kernel), normalise_kernel(first), normalise_kernel(second);
         // Luminance is (achromatic + 16) / 116, and the constant 16 vanishes in derivatives.
         for (FilterKernel* derivative : {&first, &second})
             for (double& weight : derivative->weights) weight /= 116;
     }
 
-    FilterKernel smooth, first, second;
+    FilterKernel smooth_kernel, first, second;
 };
 
-CATOPTRIC_WIDE void compute_lengths(double* __restrict x, const double* __restrict y,
-                                    std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) x[i] = length(x[i], y[i]);
+CATOPTRIC_WIDE void compute_vector_lengths(double* __restrict x, const double* __restrict y,
+                                           std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) x[i] = vector_length(x[i], y[i]);
 }
 
 /// Returns the feature difference in [0,1] (eq. 7).
-inline double feature_difference(double edge_a, double edge_b, double point_a, double point_b) {
+inline double flip_feature_difference(double edge_a, double edge_b, double point_a,
+                                      double point_b) {
     const double largest = std::max(std::abs(edge_a - edge_b), std::abs(point_a - point_b));
     return std::sqrt(largest / std::numbers::sqrt2); // q_f = 1/2
 }
@@ -318,9 +326,9 @@ CATOPTRIC_WIDE void compare_flip_inputs(const FlipInput& a, const FlipInput& b,
     const double *point_a = a.point.values.data(), *point_b = b.point.values.data();
     for (std::size_t i = 0; i < count; ++i) {
         colours[i] = static_cast<float>(std::abs(a_x[i] - b_x[i]) +
-                                        length(a_y[i] - b_y[i], a_z[i] - b_z[i]));
+                                        vector_length(a_y[i] - b_y[i], a_z[i] - b_z[i]));
         features[i] = static_cast<float>(
-            feature_difference(edge_a[i], edge_b[i], point_a[i], point_b[i]));
+            flip_feature_difference(edge_a[i], edge_b[i], point_a[i], point_b[i]));
     }
 }
 
@@ -328,13 +336,13 @@ CATOPTRIC_WIDE void compare_flip_inputs(const FlipInput& a, const FlipInput& b,
 class FlipMapPart {
 public:
     FlipMapPart(const FlipKernels& kernels, PixelEncoding encoding)
-        : kernels_(kernels), encoding_(encoding) {}
+        : flip_kernels_(kernels), encoding_(encoding) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
-    void write(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
-               std::ptrdiff_t stride) {
-        see(a, part, a_);
-        see(b, part, b_);
+    void write_map(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
+                   std::ptrdiff_t stride) {
+        prepare_flip_input(a, part, a_);
+        prepare_flip_input(b, part, b_);
         colours_.resize(a_.edge.values.size()), features_.resize(a_.edge.values.size());
         compare_flip_inputs(a_, b_, colours_.data(), features_.data());
         std::size_t i = 0;
@@ -344,35 +352,39 @@ public:
     }
 
 private:
-    void see(const Picture& display, const PixelRegion& part, FlipInput& seen) {
-        convert_part_to_opponent(display, encoding_, part, kernels_.reach, opponent_);
+    void prepare_flip_input(const Picture& display, const PixelRegion& part, FlipInput& seen) {
+        convert_part_to_opponent_space(display, encoding_, part, flip_kernels_.reach, opponent_);
         const auto& [achromatic, red_green, blue_yellow] = opponent_;
-        const ColourKernels& colour = kernels_.colour;
-        convolve_along_x(achromatic, colour.achromatic, kernels_.reach, part_);
-        sum_convolutions_along_y({{part_, colour.achromatic}}, kernels_.reach, seen.colour[0]);
-        convolve_along_x(red_green, colour.red_green, kernels_.reach, part_);
-        sum_convolutions_along_y({{part_, colour.red_green}}, kernels_.reach, seen.colour[1]);
-        convolve_along_x(blue_yellow, colour.blue_yellow, kernels_.reach, part_);
-        convolve_along_x(blue_yellow, colour.blue_yellow_2, kernels_.reach, part_2_);
+        const ColourKernels& colour = flip_kernels_.colour;
+        convolve_along_x(achromatic, colour.achromatic_kernel, flip_kernels_.reach, part_);
+        sum_convolutions_along_y({{part_, colour.achromatic_kernel}}, flip_kernels_.reach,
+                                 seen.colour[0]);
+        convolve_along_x(red_green, colour.red_green, flip_kernels_.reach, part_);
+        sum_convolutions_along_y({{part_, colour.red_green}}, flip_kernels_.reach, seen.colour[1]);
+        convolve_along_x(blue_yellow, colour.blue_yellow, flip_kernels_.reach, part_);
+        convolve_along_x(blue_yellow, colour.blue_yellow_2, flip_kernels_.reach, part_2_);
         sum_convolutions_along_y({{part_, colour.blue_yellow}, {part_2_, colour.blue_yellow_2}},
-                                 kernels_.reach, seen.colour[2]);
+                                 flip_kernels_.reach, seen.colour[2]);
         convert_to_uniform_space(seen.colour[0].values.data(), seen.colour[1].values.data(),
                                  seen.colour[2].values.data(), seen.colour[0].values.size());
 
-        convolve_along_x(achromatic, kernels_.feature.smooth, kernels_.reach, smooth_x_);
-        find_gradient(kernels_.feature.first, seen.edge);
-        find_gradient(kernels_.feature.second, seen.point);
+        convolve_along_x(achromatic, flip_kernels_.feature.smooth_kernel, flip_kernels_.reach,
+                         smooth_x_);
+        compute_luminance_gradient(flip_kernels_.feature.first, seen.edge);
+        compute_luminance_gradient(flip_kernels_.feature.second, seen.point);
     }
 
     /// Writes the magnitude of the luminance's gradient by a derivative of a Gaussian.
-    void find_gradient(const FilterKernel& derivative, ChannelPlane& magnitude) {
-        convolve_along_x(opponent_[0], derivative, kernels_.reach, part_);
-        sum_convolutions_along_y({{part_, kernels_.feature.smooth}}, kernels_.reach, magnitude);
-        sum_convolutions_along_y({{smooth_x_, derivative}}, kernels_.reach, part_2_);
-        compute_lengths(magnitude.values.data(), part_2_.values.data(), magnitude.values.size());
+    void compute_luminance_gradient(const FilterKernel& derivative, ChannelPlane& magnitude) {
+        convolve_along_x(opponent_[0], derivative, flip_kernels_.reach, part_);
+        sum_convolutions_along_y({{part_, flip_kernels_.feature.smooth_kernel}},
+                                 flip_kernels_.reach, magnitude);
+        sum_convolutions_along_y({{smooth_x_, derivative}}, flip_kernels_.reach, part_2_);
+        compute_vector_lengths(magnitude.values.data(), part_2_.values.data(),
+                               magnitude.values.size());
     }
 
-    const FlipKernels& kernels_;
+    const FlipKernels& flip_kernels_;
     PixelEncoding encoding_;
     ChannelPlanes opponent_;
     ChannelPlane part_, part_2_, smooth_x_;
@@ -384,11 +396,11 @@ private:
 } // namespace
 
 std::vector<float> flip(const Picture& a, const Picture& b, double pixels_per_degree) {
-    return flip_of_rows(a, b, 0, a.height, PixelEncoding::srgb, pixels_per_degree);
+    return compute_flip_of_rows(a, b, 0, a.height, PixelEncoding::srgb, pixels_per_degree);
 }
 
-std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, int end,
-                                PixelEncoding encoding, double pixels_per_degree) {
+std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int first, int end,
+                                        PixelEncoding encoding, double pixels_per_degree) {
     check(a.width == b.width && a.height == b.height, Failure::bad_data,
           "FLIP wants two pictures "
           "of the same size, found ",
@@ -414,8 +426,8 @@ std::vector<float> flip_of_rows(const Picture& a, const Picture& b, int first, i
         for (int tile = next++; tile < tile_count; tile = next++) {
             const ivec2 low = kFlipTileEdge * ivec2(tile % tiles.x, tile / tiles.x);
             const ivec2 high = min(low + kFlipTileEdge, size), from(0, first);
-            part_of_map.write(a, b, {low + from, high + from},
-                              map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
+            part_of_map.write_map(a, b, {low + from, high + from},
+                                  map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
         }
     };
     const unsigned threads = std::min(hardware_thread_count(), static_cast<unsigned>(tile_count));

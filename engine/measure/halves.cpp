@@ -14,36 +14,36 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr int kResamples = 1000;
-constexpr std::uint64_t kResamplingSeed = 1;
+constexpr int kBootstrapResampleCount = 1000;
+constexpr std::uint64_t kBootstrapSeed = 1;
 
 /// Sum over the finite pixels of one tile.
-struct TileSum {
+struct TileProductSum {
     double products = 0, pixels = 0;
 };
 
 /// Returns the product of both differences, summed over the channels.
-double product_of_differences(const dvec3& x, const dvec3& a, const dvec3& b) {
+double product_of_channel_differences(const dvec3& x, const dvec3& a, const dvec3& b) {
     return glm::dot(x - a, x - b);
 }
 
-bool crosses_one(const vec3& a, const vec3& b) {
+bool has_channel_across_one(const vec3& a, const vec3& b) {
     for (int channel = 0; channel < 3; ++channel)
         if ((a[channel] > 1) != (b[channel] > 1)) return true;
     return false;
 }
 
 /// Returns the interval of the mean product over tiles that are drawn with replacement.
-Interval bootstrap_interval(std::vector<TileSum> tiles) {
-    std::erase_if(tiles, [](const TileSum& tile) { return tile.pixels == 0; });
-    if (tiles.size() < kFewestTiles) return {};
-    std::mt19937_64 random(kResamplingSeed);
+Interval compute_bootstrap_interval(std::vector<TileProductSum> tiles) {
+    std::erase_if(tiles, [](const TileProductSum& tile) { return tile.pixels == 0; });
+    if (tiles.size() < kMinTilesForInterval) return {};
+    std::mt19937_64 random(kBootstrapSeed);
     std::vector<double> means;
-    means.reserve(kResamples);
-    for (int k = 0; k < kResamples; ++k) {
-        TileSum sum;
+    means.reserve(kBootstrapResampleCount);
+    for (int k = 0; k < kBootstrapResampleCount; ++k) {
+        TileProductSum sum;
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const TileSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
+            const TileProductSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
             sum.products += drawn.products, sum.pixels += drawn.pixels;
         }
         means.push_back(sum.products / (3 * sum.pixels));
@@ -51,35 +51,41 @@ Interval bootstrap_interval(std::vector<TileSum> tiles) {
     return {compute_percentile(means, .025), compute_percentile(std::move(means), .975)};
 }
 
-double signed_root(double square) { return square < 0 ? -std::sqrt(-square) : std::sqrt(square); }
+double root_keeping_sign(double square) {
+    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
+}
 
 /// Sums of one mask.
-struct HalvesSum {
-    std::vector<TileSum> tiles;
+struct HalvesEstimateSum {
+    std::vector<TileProductSum> tiles;
     double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
     double variance = 0; ///< of `products`
 };
 
-HalvesSum sum_over_mask(const Picture& picture, const ReferenceHalves& halves, const Mask& mask,
-                        std::span<const float> flip_map) {
+HalvesEstimateSum sum_estimate_over_mask(const Picture& picture, const ReferenceHalves& halves,
+                                         const Mask& mask, std::span<const float> flip_map) {
     const auto width = static_cast<std::size_t>(picture.width);
-    const std::size_t across = (width + kTileEdge - 1) / kTileEdge;
-    HalvesSum sum;
-    sum.tiles.resize(across * ((picture.pixels.size() / width + kTileEdge - 1) / kTileEdge));
+    const std::size_t across = (width + kBootstrapTileEdge - 1) / kBootstrapTileEdge;
+    HalvesEstimateSum sum;
+    sum.tiles.resize(
+        across * ((picture.pixels.size() / width + kBootstrapTileEdge - 1) / kBootstrapTileEdge));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
         const vec3 &x = picture.pixels[i], &a = halves.a.pixels[i], &b = halves.b.pixels[i];
         if (!mask.empty() && mask[i] == 0) continue;
-        if (!is_finite(x) || !is_finite(a) || !is_finite(b)) continue;
-        const dvec3 low_a = clamp_pixel(a), low_b = clamp_pixel(b);
-        const double product = product_of_differences(clamp_pixel(x), low_a, low_b);
-        TileSum& tile = sum.tiles[i / width / kTileEdge * across + i % width / kTileEdge];
+        if (!is_finite_pixel(x) || !is_finite_pixel(a) || !is_finite_pixel(b)) continue;
+        const dvec3 low_a = clamp_pixel_to_unit_range(a), low_b = clamp_pixel_to_unit_range(b);
+        const double product = product_of_channel_differences(clamp_pixel_to_unit_range(x), low_a,
+                                                              low_b);
+        TileProductSum& tile =
+            sum.tiles[i / width / kBootstrapTileEdge * across + i % width / kBootstrapTileEdge];
         tile.products += product, ++tile.pixels;
         sum.products += product, ++sum.pixels;
-        const double swapped = glm::dot(clamp_pixel(x) - (low_a + low_b) / 2., low_a - low_b);
+        const double swapped = glm::dot(clamp_pixel_to_unit_range(x) - (low_a + low_b) / 2.,
+                                        low_a - low_b);
         sum.variance += swapped * swapped;
-        sum.unclamped += product_of_differences(dvec3(x), dvec3(a), dvec3(b));
+        sum.unclamped += product_of_channel_differences(dvec3(x), dvec3(a), dvec3(b));
         sum.between += glm::dot(low_a - low_b, low_a - low_b);
-        sum.crossing += crosses_one(a, b);
+        sum.crossing += has_channel_across_one(a, b);
         sum.flip += static_cast<double>(flip_map[i]);
         sum.floor += static_cast<double>(halves.floor_map[i]);
     }
@@ -100,23 +106,23 @@ void check_halves_match(const Picture& picture, const ReferenceHalves& halves, c
           halves.floor_map.size());
 }
 
-MetricValue interval_value(const Interval& interval) {
+MetricValue interval_to_metric_value(const Interval& interval) {
     return interval.is_known() ? MetricValue(std::vector{interval.low, interval.high})
                                : MetricValue();
 }
 
 const RegisteredMetric kNoiseMetric{
-    {.name = kNoise,
+    {.name = kNoiseMetricName,
      .help =
          "errors against a reference with noise, for each mask: the unbiased squared error, its "
          "95 % interval, the same without clamping, the share of pixels in which one half of "
          "the reference crosses 1, and FLIP with its floor",
      .order = 290,
-     .study = kNoise}};
+     .study = kNoiseMetricName}};
 
 } // namespace
 
-ReferenceHalves make_halves(const Picture& a, const Picture& b, double exposure) {
+ReferenceHalves make_reference_halves(const Picture& a, const Picture& b, double exposure) {
     ReferenceHalves halves{apply_exposure(a, exposure), apply_exposure(b, exposure), {}, {}};
     halves.mean = Picture(a.width, a.height);
     for (std::size_t i = 0; i < halves.mean.pixels.size(); ++i)
@@ -125,8 +131,8 @@ ReferenceHalves make_halves(const Picture& a, const Picture& b, double exposure)
     return halves;
 }
 
-std::vector<float> flip_against_halves(const Picture& picture, const ReferenceHalves& halves,
-                                       double exposure) {
+std::vector<float> compute_flip_against_halves(const Picture& picture,
+                                               const ReferenceHalves& halves, double exposure) {
     const Picture shown = to_unrounded_display(picture, exposure);
     std::vector<float> map = flip(shown, to_unrounded_display(halves.a));
     const std::vector<float> second = flip(shown, to_unrounded_display(halves.b));
@@ -134,27 +140,27 @@ std::vector<float> flip_against_halves(const Picture& picture, const ReferenceHa
     return map;
 }
 
-Difference difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
-                                  const Mask& mask, std::span<const float> flip_map) {
+Difference compute_difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
+                                          const Mask& mask, std::span<const float> flip_map) {
     check_halves_match(picture, halves, mask, flip_map.size());
     Difference result = difference(picture, halves.mean, mask, flip_map);
-    const HalvesSum sum = sum_over_mask(picture, halves, mask, flip_map);
+    const HalvesEstimateSum sum = sum_estimate_over_mask(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return result;
-    result.rmse = signed_root(sum.products / (3 * sum.pixels));
+    result.rmse = root_keeping_sign(sum.products / (3 * sum.pixels));
     result.psnr.reset();
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.flip_floor = sum.floor / sum.pixels;
     return result;
 }
 
-HalvesEstimate estimate_by_halves(const Picture& picture, const ReferenceHalves& halves,
-                                  const Mask& mask, std::span<const float> flip_map) {
+HalvesEstimate estimate_error_by_halves(const Picture& picture, const ReferenceHalves& halves,
+                                        const Mask& mask, std::span<const float> flip_map) {
     check_halves_match(picture, halves, mask, flip_map.size());
-    HalvesSum sum = sum_over_mask(picture, halves, mask, flip_map);
+    HalvesEstimateSum sum = sum_estimate_over_mask(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return {};
     const double values = 3 * sum.pixels;
     return {.squared_error = sum.products / values,
-            .ci95 = bootstrap_interval(std::move(sum.tiles)),
+            .ci95 = compute_bootstrap_interval(std::move(sum.tiles)),
             .deviation = std::sqrt(sum.variance) / values,
             .unclamped = sum.unclamped / values,
             .crossing = sum.crossing / sum.pixels,
@@ -171,8 +177,8 @@ double find_flip_floor(const Difference& a, const Difference& b) {
     return std::max(a.flip_floor, b.flip_floor);
 }
 
-double choose_wanted_floor(const std::vector<const Row*>& rows) {
-    constexpr double kShare = .2;
+double choose_target_noise_floor(const std::vector<const Row*>& rows) {
+    constexpr double kNoiseShareOfFlip = .2;
     double captures = INFINITY, others = INFINITY;
     for (const Row* row : rows) {
         if (row->is_reference || !std::isfinite(row->error.flip)) continue;
@@ -181,18 +187,18 @@ double choose_wanted_floor(const std::vector<const Row*>& rows) {
         least = std::min(least, row->error.flip);
     }
     const double least = std::isfinite(captures) ? captures : others;
-    return std::isfinite(least) ? kShare * least : 0;
+    return std::isfinite(least) ? kNoiseShareOfFlip * least : 0;
 }
 
-void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates) {
-    std::vector<ValueParts> list;
+void set_noise_of_row(Row& row, const std::vector<HalvesEstimate>& estimates) {
+    std::vector<MetricValueParts> list;
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         const HalvesEstimate& estimate = estimates[i];
         if (std::isnan(estimate.squared_error)) continue; // the mask has no pixel
         list.push_back({"mask",
                         std::string(list_row_masks()[i].name),
                         {{"squared_error", estimate.squared_error},
-                         {"ci95", interval_value(estimate.ci95)},
+                         {"ci95", interval_to_metric_value(estimate.ci95)},
                          {"deviation", estimate.deviation},
                          {"squared_error_unclamped", estimate.unclamped},
                          {"crossing", estimate.crossing},
@@ -200,7 +206,7 @@ void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates) {
                          {"flip", estimate.flip},
                          {"flip_floor", estimate.flip_floor}}});
     }
-    set_studied(row, std::string(kNoise), std::move(list));
+    set_study_metric(row, std::string(kNoiseMetricName), std::move(list));
 }
 
 } // namespace catoptric::measure

@@ -22,24 +22,24 @@ struct ReferenceHalves {
     std::vector<float> floor_map; ///< FLIP map of `a` and `b`
 };
 /// Returns halves with these pictures. `exposure`: stops, by which the pictures are multiplied.
-ReferenceHalves make_halves(const Picture& a, const Picture& b, double exposure);
+ReferenceHalves make_reference_halves(const Picture& a, const Picture& b, double exposure);
 
 /// Returns a picture's mean FLIP map against the two halves. `picture` is linear, before exposure.
-std::vector<float> flip_against_halves(const Picture& picture, const ReferenceHalves& halves,
-                                       double exposure);
+std::vector<float> compute_flip_against_halves(const Picture& picture,
+                                               const ReferenceHalves& halves, double exposure);
 
 /// Returns the difference of a picture, after exposure, and the halves. `rmse` is the root of the
 /// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below
 /// the noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map`
-/// (see flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other figures
-/// are those against the mean of both halves, whose noise they include.
-Difference difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
-                                  const Mask& mask, std::span<const float> flip_map);
+/// (see compute_flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other
+/// figures are those against the mean of both halves, whose noise they include.
+Difference compute_difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
+                                          const Mask& mask, std::span<const float> flip_map);
 
 /// Edge of the tiles that the bootstrap draws, pixels.
-inline constexpr int kTileEdge = 16;
+inline constexpr int kBootstrapTileEdge = 16;
 /// Fewest tiles with pixels of the mask for which there is an interval.
-inline constexpr std::size_t kFewestTiles = 10;
+inline constexpr std::size_t kMinTilesForInterval = 10;
 
 /// The estimate of a picture's squared error over the pixels of a mask, and its noise. All squared
 /// errors are means over pixels and channels.
@@ -48,7 +48,7 @@ struct HalvesEstimate {
     double squared_error = Difference::kNone;
     /// 95 % interval of the squared error, by the percentile bootstrap over tiles of 16x16 pixels
     /// (Efron and Tibshirani 1993, 13). Neighbouring pixels share errors, and tiles keep them
-    /// together. Unknown for fewer than kFewestTiles tiles.
+    /// together. Unknown for fewer than kMinTilesForInterval tiles.
     Interval ci95;
     /// Standard deviation of the estimate by the noise of this picture's halves alone. With M =
     /// (A + B) / 2, the product (x - M)(A - B) has the variance of (x - A)(x - B) if the noise of
@@ -64,8 +64,8 @@ struct HalvesEstimate {
     double flip = Difference::kNone;        ///< as in Difference
     double flip_floor = Difference::kNone;  ///< as in Difference
 };
-HalvesEstimate estimate_by_halves(const Picture& picture, const ReferenceHalves& halves,
-                                  const Mask& mask, std::span<const float> flip_map);
+HalvesEstimate estimate_error_by_halves(const Picture& picture, const ReferenceHalves& halves,
+                                        const Mask& mask, std::span<const float> flip_map);
 
 /// Returns whether a row's FLIP over these pixels is no larger than that between the halves of its
 /// reference. False for a reference without noise.
@@ -77,13 +77,13 @@ double find_flip_floor(const Difference& a, const Difference& b);
 /// Returns the FLIP between the halves at which a reference need not be refined further: a fifth of
 /// the least FLIP over the mirrors of a row that looks into captures. If there is no such row, all
 /// rows but the reference count; 0 without any.
-double choose_wanted_floor(const std::vector<const Row*>& rows);
+double choose_target_noise_floor(const std::vector<const Row*>& rows);
 
 /// Name of the metric that lists a row's HalvesEstimate for each mask, and of the study that shows
 /// it.
-inline constexpr std::string_view kNoise = "noise";
-/// Sets the row's metric kNoise. `estimates` has one entry for each of list_row_masks().
-void set_noise(Row& row, const std::vector<HalvesEstimate>& estimates);
+inline constexpr std::string_view kNoiseMetricName = "noise";
+/// Sets the row's metric kNoiseMetricName. `estimates` has one entry for each of list_row_masks().
+void set_noise_of_row(Row& row, const std::vector<HalvesEstimate>& estimates);
 
 /// The noise of a comparison's reference.
 struct ReferenceNoise {
@@ -97,7 +97,7 @@ struct ReferenceNoise {
     /// and not clamped; NaN for fewer than two frames a half.
     double predicted_rmse = Difference::kNone;
 
-    bool is_reached() const { return flip_floor <= wanted_floor; }
+    bool is_noise_target_reached() const { return flip_floor <= wanted_floor; }
 };
 
 } // namespace catoptric::measure

@@ -16,11 +16,11 @@ inline constexpr std::size_t kMinIntervalSamples = 6;
 /// largest value. k is the largest rank for which P(Binomial(n, 1/2) < k) <= 2.5 % (David and
 /// Nagaraja, Order Statistics, 7.1). For 6 to 8 values it is their range (96.9 % for 6). It is
 /// unknown for fewer than `kMinIntervalSamples` values or if a value is NaN. Costs O(n log n).
-Interval median_interval(std::span<const double> values);
+Interval median_confidence_interval(std::span<const double> values);
 
 /// Return the interval of the median of a[i]/b[i], and of a[i]-b[i]. If the lists differ in length,
 /// only as many pairs count as the shorter list has.
-Interval ratio_interval(std::span<const double> a, std::span<const double> b);
-Interval difference_interval(std::span<const double> a, std::span<const double> b);
+Interval median_ratio_interval(std::span<const double> a, std::span<const double> b);
+Interval median_difference_interval(std::span<const double> a, std::span<const double> b);
 
 } // namespace catoptric::measure

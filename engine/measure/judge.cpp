@@ -16,7 +16,7 @@ namespace {
 /// Returns the first row on the front that beats this row, or null if none does.
 const Row* find_row_that_beats(const std::vector<const Row*>& front, const Row& loser) {
     const auto found = std::ranges::find_if(
-        front, [&](const Row* row) { return is_better_choice(*row, loser); });
+        front, [&](const Row* row) { return is_better_variant_choice(*row, loser); });
     return found == front.end() ? nullptr : *found;
 }
 
@@ -52,40 +52,45 @@ bool is_ranking_candidate(const Row& row) { return has_known_error(&row) && !row
 
 bool has_known_time(const Row& row) { return !std::isnan(row.time_ms().median); }
 
-Interval time_ratio(const Row& a, const Row& b) {
-    return ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
+Interval time_ratio_interval(const Row& a, const Row& b) {
+    return median_ratio_interval(a.time_ms().rounds, b.time_ms().rounds);
 }
 
-bool is_faster(const Row& a, const Row& b) { return time_ratio(a, b).high < 1; }
+bool is_confidently_faster(const Row& a, const Row& b) {
+    return time_ratio_interval(a, b).high < 1;
+}
 
-bool is_tie(const Row& a, const Row& b) { return !is_faster(a, b) && !is_faster(b, a); }
+bool is_time_tie(const Row& a, const Row& b) {
+    return !is_confidently_faster(a, b) && !is_confidently_faster(b, a);
+}
 
 bool has_less_flip(const Row& a, const Row& b) { return is_metric_less(a, b, "flip"); }
 
-bool is_better_choice(const Row& a, const Row& b) {
+bool is_better_variant_choice(const Row& a, const Row& b) {
     if (!has_time_and_flip(a) || !has_time_and_flip(b)) return false;
-    return (is_faster(a, b) && !has_less_flip(b, a)) || (has_less_flip(a, b) && !is_faster(b, a));
+    return (is_confidently_faster(a, b) && !has_less_flip(b, a)) ||
+           (has_less_flip(a, b) && !is_confidently_faster(b, a));
 }
 
-std::vector<std::size_t> find_front(const std::vector<Row>& rows) {
+std::vector<std::size_t> find_front_of_rows(const std::vector<Row>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (has_time_and_flip(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
-                return is_better_choice(other, rows[i]);
+                return is_better_variant_choice(other, rows[i]);
             }))
             front.push_back(i);
     std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
     return front;
 }
 
-RankRange find_time_places(const Comparison& comparison, const Row& row) {
+TimeRankRange find_time_places(const Comparison& comparison, const Row& row) {
     if (!has_known_time(row)) return {0, 0};
-    RankRange places{1, 0};
+    TimeRankRange places{1, 0};
     for (const Row& other : comparison.rows) {
         if (!has_known_time(other)) continue;
         ++places.last;
-        places.first += is_faster(other, row);
-        places.last -= is_faster(row, other);
+        places.first += is_confidently_faster(other, row);
+        places.last -= is_confidently_faster(row, other);
     }
     return places;
 }
@@ -108,7 +113,7 @@ std::vector<const Row*> find_fastest_rows(const Comparison& comparison) {
     for (const Row& row : comparison.rows)
         if (is_ranking_candidate(row) && has_known_time(row) &&
             std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ranking_candidate(other) && is_faster(other, row);
+                return is_ranking_candidate(other) && is_confidently_faster(other, row);
             }))
             fastest.push_back(&row);
     return fastest;
@@ -135,12 +140,12 @@ std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison)
     return ties;
 }
 
-Ranking rank_rows(const Comparison& comparison) {
-    Ranking result;
+TimeRanking rank_rows_by_time(const Comparison& comparison) {
+    TimeRanking result;
     for (const std::size_t index : comparison.pareto)
         if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
     for (const Row* winner : result.front) {
-        Ranking::RowWin win{winner, {}};
+        TimeRanking::RowComparisonWin win{winner, {}};
         for (const Row& row : comparison.rows)
             if (!is_on_front(comparison, row) && find_row_that_beats(result.front, row) == winner)
                 win.losers.push_back(&row);
@@ -159,14 +164,14 @@ Ranking rank_rows(const Comparison& comparison) {
     return result;
 }
 
-RayTracingVerdict judge_ray_tracing(const Comparison& comparison) {
+RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison) {
     RayTracingVerdict verdict;
     verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced_row);
     for (const Row& row : comparison.rows) {
         if (is_ray_traced_row(row) || !is_ranking_candidate(row) || !has_known_time(row)) continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced_row(other) && is_better_choice(other, row);
+                return is_ray_traced_row(other) && is_better_variant_choice(other, row);
             }))
             verdict.unbeaten.push_back(&row);
     }

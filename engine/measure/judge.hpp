@@ -21,30 +21,30 @@ bool is_ranking_candidate(const Row& row);
 bool has_known_time(const Row& row);
 /// Returns the interval of a's time divided by b's, round by round. The two times can be told apart
 /// if the interval excludes 1. The interval is unknown if the rows have too few rounds in common.
-Interval time_ratio(const Row& a, const Row& b);
+Interval time_ratio_interval(const Row& a, const Row& b);
 /// Returns whether a takes less time than b with 95 % confidence.
-bool is_faster(const Row& a, const Row& b);
+bool is_confidently_faster(const Row& a, const Row& b);
 /// Returns whether neither row is faster than the other.
-bool is_tie(const Row& a, const Row& b);
+bool is_time_tie(const Row& a, const Row& b);
 /// Returns whether a has less FLIP over the mirrors than b. If errors over drawn views are known,
 /// the confidence interval of the difference decides. A difference below the noise of the reference
 /// (find_flip_floor) is a tie.
 bool has_less_flip(const Row& a, const Row& b);
 /// Returns whether a is the better choice: faster and not farther from the reference, or closer and
 /// not slower. A row that is no candidate or took no time neither beats a row nor is beaten.
-bool is_better_choice(const Row& a, const Row& b);
+bool is_better_variant_choice(const Row& a, const Row& b);
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.
 /// This list is Comparison::pareto. Rows that tie may all be on the front. Costs O(n^2).
-std::vector<std::size_t> find_front(const std::vector<Row>& rows);
+std::vector<std::size_t> find_front_of_rows(const std::vector<Row>& rows);
 
 /// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
 /// are faster. `last` is the number of rows less those that this row is faster than. Rows that tie
 /// share places. Both are 0 for a row without a known time, which takes no place from others.
-struct RankRange {
+struct TimeRankRange {
     std::size_t first = 1, last = 1;
 };
-RankRange find_time_places(const Comparison& comparison, const Row& row);
+TimeRankRange find_time_places(const Comparison& comparison, const Row& row);
 
 /// Returns the rows whose threads waited for processors that other programs used.
 std::vector<const Row*> find_noisy_rows(const Comparison& comparison);
@@ -62,22 +62,22 @@ const Row* find_closest_row(const Comparison& comparison);
 std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison);
 
 /// Ranking of the rows: which row beats which.
-struct Ranking {
-    struct RowWin {
+struct TimeRanking {
+    struct RowComparisonWin {
         const Row* winner; ///< a row on the front
         std::vector<const Row*> losers;
     };
     std::vector<const Row*> front; ///< rows on the front, in order of time
     /// Pairs of rows in which the first row beats the second. Each beaten row is listed once, with
     /// the first row on the front that beats it.
-    std::vector<RowWin> wins;
+    std::vector<RowComparisonWin> wins;
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
     /// Judged rows that are no candidates because their mirrors are black.
     std::vector<const Row*> black;
     std::vector<const Row*> untimed; ///< judged rows without a known time
 };
-Ranking rank_rows(const Comparison& comparison);
+TimeRanking rank_rows_by_time(const Comparison& comparison);
 
 /// Answer to the question whether ray tracing beats all other rows.
 struct RayTracingVerdict {
@@ -85,6 +85,6 @@ struct RayTracingVerdict {
     std::size_t others = 0;           ///< number of candidates that are not ray traced
     std::vector<const Row*> unbeaten; ///< the candidates that no ray-traced row beats
 };
-RayTracingVerdict judge_ray_tracing(const Comparison& comparison);
+RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison);
 
 } // namespace catoptric::measure

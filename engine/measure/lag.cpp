@@ -26,20 +26,21 @@ std::vector<double> list_metric_values(const std::vector<Difference>& errors,
     return figures;
 }
 
-double mean_of(const std::vector<Difference>& errors, double Difference::*figure) {
+double mean_over_instants(const std::vector<Difference>& errors, double Difference::*figure) {
     const std::vector<double> known = list_finite_values(errors, figure);
     return std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
 }
 
-double metric_percentile(const std::vector<Difference>& errors, double Difference::*figure,
-                         double fraction) {
+double percentile_over_instants(const std::vector<Difference>& errors, double Difference::*figure,
+                                double fraction) {
     std::vector<double> known = list_finite_values(errors, figure);
     return known.empty() ? Difference::kNone : compute_percentile(std::move(known), fraction);
 }
 
 double find_worst_instant(const LagResults& lag, const LagAtSpeed& at) {
     const std::vector<double> flips = list_metric_values(at.errors, &Difference::flip);
-    const auto found = std::ranges::find(flips, metric_percentile(at.errors, &Difference::flip, 1));
+    const auto found = std::ranges::find(flips,
+                                         percentile_over_instants(at.errors, &Difference::flip, 1));
     if (found == flips.end()) return NAN;
     return lag.seconds[static_cast<std::size_t>(found - flips.begin())];
 }

@@ -10,7 +10,7 @@
 namespace catoptric::measure {
 
 /// Largest difference that counts as settled: one step of 8 bits, linear.
-inline constexpr double kLagErrorLimit = 1.0 / 255;
+inline constexpr double kSettledErrorLimit = 1.0 / 255;
 
 /// Errors along the whole path at one speed.
 struct LagAtSpeed {
@@ -24,8 +24,8 @@ struct LagAtSpeed {
 struct SettlingAfterCut {
     std::vector<double> rmse;
     std::vector<double> max; ///< the largest channel difference of any mirror pixel
-    /// First frame from which on the rmse, or each pixel, is within kLagErrorLimit. Empty if that
-    /// does not happen in these frames.
+    /// First frame from which on the rmse, or each pixel, is within kSettledErrorLimit. Empty if
+    /// that does not happen in these frames.
     std::optional<int> rmse_settled, max_settled;
 };
 
@@ -61,9 +61,9 @@ std::vector<double> list_metric_values(const std::vector<Difference>& errors,
                                        double Difference::*figure);
 /// Return the mean and a percentile of a metric over the instants that see a mirror, or NaN if none
 /// does. `fraction` is 0..1.
-double mean_of(const std::vector<Difference>& errors, double Difference::*figure);
-double metric_percentile(const std::vector<Difference>& errors, double Difference::*figure,
-                         double fraction);
+double mean_over_instants(const std::vector<Difference>& errors, double Difference::*figure);
+double percentile_over_instants(const std::vector<Difference>& errors, double Difference::*figure,
+                                double fraction);
 /// Returns the instant of the largest FLIP in seconds, or NaN if there is none.
 double find_worst_instant(const LagResults& lag, const LagAtSpeed& at);
 

@@ -11,7 +11,7 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::array kSuffixes{".R", ".G", ".B"};
+constexpr std::array kChannelSuffixes{".R", ".G", ".B"};
 
 /// Returns the index of a channel. Throws `bad_data` if the file lacks it.
 std::size_t find_channel(const ImageShape& shape, const std::string& channel,
@@ -24,7 +24,7 @@ std::size_t find_channel(const ImageShape& shape, const std::string& channel,
 
 } // namespace
 
-void write_layers(const LayeredFile& file, const std::filesystem::path& path) {
+void write_picture_layers(const LayeredPictureFile& file, const std::filesystem::path& path) {
     check(!file.layers.empty(), Failure::internal, "a file of layers wants a layer, found none");
     const Picture& first = file.layers.front().picture;
     ImageShape shape{
@@ -38,7 +38,7 @@ void write_layers(const LayeredFile& file, const std::filesystem::path& path) {
             const PictureLayer& part = file.layers[layer];
             check(part.picture.pixels.size() == first.pixels.size(), Failure::internal,
                   "layers of one file want one size");
-            shape.channels.push_back(part.name + kSuffixes[channel]);
+            shape.channels.push_back(part.name + kChannelSuffixes[channel]);
             for (std::size_t i = 0; i < first.pixels.size(); ++i)
                 values[i * shape.channel_count + 3 * layer + channel] =
                     part.picture.pixels[i][static_cast<int>(channel)];
@@ -46,23 +46,24 @@ void write_layers(const LayeredFile& file, const std::filesystem::path& path) {
     write_file(path, encode_openexr(shape, values));
 }
 
-LayeredFile read_layers(const std::filesystem::path& path, std::span<const std::string> names) {
+LayeredPictureFile read_picture_layers(const std::filesystem::path& path,
+                                       std::span<const std::string> names) {
     const std::unique_ptr<ByteSource> bytes = open_file_bytes(path);
     std::array<char, 16> start{};
     const std::size_t count = bytes->read(0, start);
     check(detect_image_format({start.data(), count}) == "openexr", Failure::bad_data, path.string(),
           ": wanted an OpenEXR file, found something else");
-    ImageReader reader(*bytes, "openexr", path.string());
-    const ImageShape& shape = reader.shape();
-    LayeredFile file{.description = shape.description};
+    ImageReader exr_reader(*bytes, "openexr", path.string());
+    const ImageShape& shape = exr_reader.image_shape();
+    LayeredPictureFile file{.description = shape.description};
     std::vector<std::size_t> channels;
     for (const std::string& name : names) {
         file.layers.push_back(
             {name, Picture(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y))});
-        for (const char* suffix : kSuffixes)
+        for (const char* suffix : kChannelSuffixes)
             channels.push_back(find_channel(shape, name + suffix, path.string()));
     }
-    const std::vector<float> values = reader.floats();
+    const std::vector<float> values = exr_reader.floats();
     for (std::size_t k = 0; k < channels.size(); ++k) {
         std::vector<vec3>& pixels = file.layers[k / 3].picture.pixels;
         for (std::size_t i = 0; i < pixels.size(); ++i)

@@ -9,7 +9,7 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kMirrorMask = "mirrors";
+constexpr std::string_view kMirrorMaskName = "mirrors";
 constexpr int kColumnOrderBesideRmse = 104; // order of columns that stand beside rmse
 
 template <double LightEdgeErrors::*Figure>
@@ -21,7 +21,7 @@ const RegisteredMetric kLightEdgeRmseMetric{
     {.name = "light_edges/rmse",
      .help = "part of the rmse from pixels that looked within a texel of a light's outline; the "
              "squares of this part and of rest_rmse add up to that of rmse",
-     .mask = kMirrorMask,
+     .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 255,
      .columns = {{.title = "rmse, light edges", .order = kColumnOrderBesideRmse}},
@@ -29,7 +29,7 @@ const RegisteredMetric kLightEdgeRmseMetric{
 const RegisteredMetric kRemainingRmseMetric{
     {.name = "light_edges/rest_rmse",
      .help = "part of the rmse from all other pixels",
-     .mask = kMirrorMask,
+     .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 256,
      .columns = {{.title = "rmse, rest", .order = kColumnOrderBesideRmse}},
@@ -38,40 +38,40 @@ const RegisteredMetric kLightEdgeShareMetric{
     {.name = "light_edges/share",
      .help = "share of the squared error in pixels that looked within a texel "
              "of a light's outline",
-     .mask = kMirrorMask,
+     .mask = kMirrorMaskName,
      .order = 257,
      .get = light_edge_metric_value<&LightEdgeErrors::share>}};
 const RegisteredMetric kLightEdgePixelsMetric{
     {.name = "light_edges/pixels",
      .help = "share of the pixels that looked within a texel of a light's outline",
-     .mask = kMirrorMask,
+     .mask = kMirrorMaskName,
      .order = 258,
      .get = light_edge_metric_value<&LightEdgeErrors::pixels>}};
 
-struct ErrorSum {
+struct SquaredErrorSum {
     /// Finite pixels, and the mean square of a channel times their number. An estimate against a
     /// reference with noise may be negative.
     double pixels = 0, squares = 0;
 };
 
-ErrorSum make_error_sum(const Difference& error) {
+SquaredErrorSum make_error_sum(const Difference& error) {
     const auto judged = static_cast<double>(error.pixels - error.nonfinite);
     return {judged, judged > 0 ? error.rmse * std::abs(error.rmse) * judged : 0};
 }
 
 /// Returns the root with the sign of the square, as Difference::rmse has it.
-double root_with_sign(double square) {
+double signed_square_root(double square) {
     return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
 
 } // namespace
 
 LightEdgeErrors split_error_by_light_edges(const Difference& there, const Difference& elsewhere) {
-    const ErrorSum edges = make_error_sum(there), rest = make_error_sum(elsewhere);
+    const SquaredErrorSum edges = make_error_sum(there), rest = make_error_sum(elsewhere);
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
     return {edges.pixels / pixels, squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,
-            root_with_sign(edges.squares / pixels), root_with_sign(rest.squares / pixels)};
+            signed_square_root(edges.squares / pixels), signed_square_root(rest.squares / pixels)};
 }
 
 } // namespace catoptric::measure

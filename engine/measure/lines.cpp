@@ -12,27 +12,27 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr int kPatchEdge = 4; ///< edge of the square that makes a patch
+constexpr int kPatchEdgePixels = 4; ///< edge of the square that makes a patch
 /// Pixels dilated by 1 touch if their columns and rows differ by at most this.
-constexpr int kPixelBorder = 3;
+constexpr int kTouchingPixelDistance = 3;
 
-/// Returns a mask of the lower right corners of squares of kPatchEdge x kPatchEdge pixels that all
-/// count.
+/// Returns a mask of the lower right corners of squares of kPatchEdgePixels x kPatchEdgePixels
+/// pixels that all count.
 Mask mask_patch_corners(const Mask& mask, std::size_t width) {
     Mask corners(mask.size());
     const std::size_t height = mask.size() / width;
-    if (width < kPatchEdge || height < kPatchEdge) return corners;
-    // For each of the last kPatchEdge rows: whether kPatchEdge adjacent pixels count, the last of
-    // them at x.
-    std::array<Mask, kPatchEdge> runs;
+    if (width < kPatchEdgePixels || height < kPatchEdgePixels) return corners;
+    // For each of the last kPatchEdgePixels rows: whether kPatchEdgePixels adjacent pixels count,
+    // the last of them at x.
+    std::array<Mask, kPatchEdgePixels> runs;
     runs.fill(Mask(width));
     for (std::size_t y = 0; y < height; ++y) {
         const std::uint8_t* const row = mask.data() + y * width;
-        std::uint8_t* const run = runs[y % kPatchEdge].data();
-        for (std::size_t x = kPatchEdge - 1; x < width; ++x)
+        std::uint8_t* const run = runs[y % kPatchEdgePixels].data();
+        for (std::size_t x = kPatchEdgePixels - 1; x < width; ++x)
             run[x] = (row[x] != 0) & (row[x - 1] != 0) & (row[x - 2] != 0) & (row[x - 3] != 0);
         std::uint8_t* const corner = corners.data() + y * width;
-        if (y + 1 >= kPatchEdge)
+        if (y + 1 >= kPatchEdgePixels)
             for (std::size_t x = 0; x < width; ++x)
                 corner[x] = runs[0][x] & runs[1][x] & runs[2][x] & runs[3][x];
     }
@@ -40,28 +40,28 @@ Mask mask_patch_corners(const Mask& mask, std::size_t width) {
 }
 
 /// Set of connected pixels: its bounding box, and its parent in a forest of merged sets.
-struct PixelSet {
+struct ConnectedPixelSet {
     int parent;
     int low_x, high_x, low_y, high_y;
     bool is_patch;
 
-    int length() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
+    int longest_side() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
 };
 
 /// Disjoint sets of pixels, numbered from 0.
-class PixelSets {
+class ConnectedPixelSets {
 public:
     /// Adds a set of pixels of row `y` and returns its number.
-    int add(int low_x, int high_x, int y, bool is_patch) {
+    int add_set(int low_x, int high_x, int y, bool is_patch) {
         const int number = static_cast<int>(sets_.size());
         sets_.push_back({number, low_x, high_x, y, y, is_patch});
         return number;
     }
 
-    void merge(int one, int other) {
-        one = root(one), other = root(other);
+    void merge_sets(int one, int other) {
+        one = find_root_set(one), other = find_root_set(other);
         if (one == other) return;
-        PixelSet &to = at(one), &from = at(other);
+        ConnectedPixelSet &to = set_by_number(one), &from = set_by_number(other);
         to.low_x = std::min(to.low_x, from.low_x), to.high_x = std::max(to.high_x, from.high_x);
         to.low_y = std::min(to.low_y, from.low_y), to.high_y = std::max(to.high_y, from.high_y);
         to.is_patch = to.is_patch || from.is_patch;
@@ -69,55 +69,57 @@ public:
     }
 
     /// Returns the length of the longest set that is no patch, or 0.
-    int longest_line() const {
+    int find_longest_line() const {
         int longest = 0;
         for (std::size_t i = 0; i < sets_.size(); ++i)
             if (sets_[i].parent == static_cast<int>(i) && !sets_[i].is_patch)
-                longest = std::max(longest, sets_[i].length());
+                longest = std::max(longest, sets_[i].longest_side());
         return longest;
     }
 
 private:
-    PixelSet& at(int number) { return sets_[static_cast<std::size_t>(number)]; }
+    ConnectedPixelSet& set_by_number(int number) { return sets_[static_cast<std::size_t>(number)]; }
     /// Returns the set into which `number` was merged. Shortens the path for the next call.
-    int root(int number) {
-        while (at(number).parent != number)
-            number = at(number).parent = at(at(number).parent).parent;
+    int find_root_set(int number) {
+        while (set_by_number(number).parent != number)
+            number = set_by_number(number).parent =
+                set_by_number(set_by_number(number).parent).parent;
         return number;
     }
 
-    std::vector<PixelSet> sets_;
+    std::vector<ConnectedPixelSet> sets_;
 };
 
 /// Pixels of a row, each of which touches the next.
-struct PixelRun {
+struct TouchingPixelRun {
     int low, high;
     int set;
 };
 
 /// Appends the runs of row `y` to `runs`, each as a set of its own.
-void find_runs(const std::uint8_t* row, const std::uint8_t* corners, int width, int y,
-               PixelSets& sets, std::vector<PixelRun>& runs) {
+void find_pixel_runs(const std::uint8_t* row, const std::uint8_t* corners, int width, int y,
+                     ConnectedPixelSets& sets, std::vector<TouchingPixelRun>& runs) {
     for (int x = 0; x < width; ++x) {
         if (row[x] == 0) continue;
         int high = x;
-        for (int next = x + 1; next < width && next - high <= kPixelBorder; ++next)
+        for (int next = x + 1; next < width && next - high <= kTouchingPixelDistance; ++next)
             if (row[next] != 0) high = next;
         const bool is_patch = std::memchr(corners + x, 1, static_cast<std::size_t>(high - x + 1));
-        runs.push_back({x, high, sets.add(x, high, y, is_patch)});
+        runs.push_back({x, high, sets.add_set(x, high, y, is_patch)});
         x = high;
     }
 }
 
 /// Merges the sets of runs that touch. `one` and `other` are runs of two rows that are at most
-/// kPixelBorder apart, from left to right.
-void merge_touching_runs(const std::vector<PixelRun>& one, const std::vector<PixelRun>& other,
-                         PixelSets& sets) {
+/// kTouchingPixelDistance apart, from left to right.
+void merge_touching_runs(const std::vector<TouchingPixelRun>& one,
+                         const std::vector<TouchingPixelRun>& other, ConnectedPixelSets& sets) {
     for (auto a = one.begin(), b = other.begin(); a != one.end() && b != other.end();) {
-        // Pixels of a run are at most kPixelBorder apart, so no gap of a run holds a pixel of
-        // another row that touches none of it.
-        if (a->low <= b->high + kPixelBorder && b->low <= a->high + kPixelBorder)
-            sets.merge(a->set, b->set);
+        // Pixels of a run are at most kTouchingPixelDistance apart, so no gap of a run holds a
+        // pixel of another row that touches none of it.
+        if (a->low <= b->high + kTouchingPixelDistance &&
+            b->low <= a->high + kTouchingPixelDistance)
+            sets.merge_sets(a->set, b->set);
         if (a->high < b->high)
             ++a;
         else
@@ -132,7 +134,7 @@ const RegisteredMetric kLongestLineMetric{
              "square do not count",
      .better = BetterDirection::less,
      .order = 105,
-     .columns = {{"Longest line", ValueFormat::fixed, 0}},
+     .columns = {{"Longest line", MetricValueFormat::fixed, 0}},
      .get = [](const Difference& error) -> MetricValue { return error.longest_line; }}};
 
 } // namespace
@@ -142,17 +144,17 @@ int longest_line_length(const Mask& off, int width) {
     const auto columns = static_cast<std::size_t>(width);
     const std::size_t height = off.size() / columns;
     const Mask corners = mask_patch_corners(off, columns);
-    PixelSets sets;
-    std::array<std::vector<PixelRun>, kPixelBorder + 1> last_rows;
+    ConnectedPixelSets sets;
+    std::array<std::vector<TouchingPixelRun>, kTouchingPixelDistance + 1> last_rows;
     for (std::size_t y = 0; y < height; ++y) {
-        std::vector<PixelRun>& runs = last_rows[y % last_rows.size()];
+        std::vector<TouchingPixelRun>& runs = last_rows[y % last_rows.size()];
         runs.clear();
-        find_runs(off.data() + y * columns, corners.data() + y * columns, width,
-                  static_cast<int>(y), sets, runs);
-        for (const std::vector<PixelRun>& above : last_rows)
+        find_pixel_runs(off.data() + y * columns, corners.data() + y * columns, width,
+                        static_cast<int>(y), sets, runs);
+        for (const std::vector<TouchingPixelRun>& above : last_rows)
             if (&above != &runs) merge_touching_runs(above, runs, sets);
     }
-    return sets.longest_line();
+    return sets.find_longest_line();
 }
 
 } // namespace catoptric::measure

@@ -12,7 +12,7 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kFirstOrderMask = "first_order";
+constexpr std::string_view kFirstOrderMaskName = "first_order";
 
 template <double LookupErrorSummary::*Figure>
 MetricValue lookup_metric_value(const Row& row) {
@@ -23,9 +23,9 @@ const RegisteredMetric kLookupPixelsMetric{
     {.name = "lookup/pixels",
      .unit = "pixels",
      .help = "number of mirror pixels whose reflected ray meets no second mirror",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .order = 260,
-     .columns = {{"Pixels", ValueFormat::fixed, 0, MetricTable::lookup}},
+     .columns = {{"Pixels", MetricValueFormat::fixed, 0, MetricTableKind::lookup}},
      .get = [](const Row& row) -> MetricValue {
          return row.lookup ? static_cast<double>(row.lookup->pixels) : NAN;
      }}};
@@ -33,57 +33,57 @@ const RegisteredMetric kMeanAngleMetric{
     {.name = "lookup/mean_degrees",
      .unit = "degrees",
      .help = "mean angle between the looked-up and the true direction",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 261,
-     .columns = {{"Mean, degrees", ValueFormat::fixed, 3, MetricTable::lookup}},
+     .columns = {{"Mean, degrees", MetricValueFormat::fixed, 3, MetricTableKind::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::mean_degrees>}};
 const RegisteredMetric kAnglePercentile95Metric{
     {.name = "lookup/p95_degrees",
      .unit = "degrees",
      .help = "95th percentile of the angle between the looked-up and the true direction",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 262,
-     .columns = {{"95 %", ValueFormat::fixed, 2, MetricTable::lookup}},
+     .columns = {{"95 %", MetricValueFormat::fixed, 2, MetricTableKind::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::p95_degrees>}};
 const RegisteredMetric kAnglePercentile99Metric{
     {.name = "lookup/p99_degrees",
      .unit = "degrees",
      .help = "99th percentile of the angle between the looked-up and the true direction",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 263,
-     .columns = {{"99 %", ValueFormat::fixed, 2, MetricTable::lookup}},
+     .columns = {{"99 %", MetricValueFormat::fixed, 2, MetricTableKind::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::p99_degrees>}};
 const RegisteredMetric kWrongObjectMetric{
     {.name = "lookup/wrong_object",
      .help = "share of the pixels whose look-up finds another object than the true one",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 264,
-     .columns = {{"Wrong object, %", ValueFormat::percent, 2, MetricTable::lookup}},
+     .columns = {{"Wrong object, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::wrong_object>}};
 const RegisteredMetric kUnknownLookupsMetric{
     {.name = "lookup/unknown",
      .help = "share of the pixels whose search answers unknown",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 265,
-     .columns = {{"Unknown, %", ValueFormat::percent, 2, MetricTable::lookup}},
+     .columns = {{"Unknown, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::unknown>}};
 const RegisteredMetric kMissedLookupsMetric{
     {.name = "lookup/miss",
      .help = "share of the pixels whose search answers miss",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .order = 266,
-     .columns = {{"Miss, %", ValueFormat::percent, 2, MetricTable::lookup}},
+     .columns = {{"Miss, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
      .get = lookup_metric_value<&LookupErrorSummary::miss>}};
 const RegisteredMetric kLookupResidualMetric{
     {.name = "lookup/p95_residual",
      .help = "95th percentile, over hits, of the relative distance between the point found and the "
              "captured surface",
-     .mask = kFirstOrderMask,
+     .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 267,
      .get = lookup_metric_value<&LookupErrorSummary::p95_residual>}};
@@ -114,7 +114,7 @@ LookupErrorSummary summarise_lookup_errors(std::span<const LookupDirectionError>
     return error;
 }
 
-double angle_degrees(const dvec3& a, const dvec3& b) {
+double angle_between_degrees(const dvec3& a, const dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 

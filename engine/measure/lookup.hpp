@@ -22,6 +22,6 @@ LookupErrorSummary summarise_lookup_errors(std::span<const LookupDirectionError>
 
 /// Returns the angle between two directions in degrees. Small angles are exact too, because the
 /// acos of a cosine near 1 is avoided.
-double angle_degrees(const dvec3& a, const dvec3& b);
+double angle_between_degrees(const dvec3& a, const dvec3& b);
 
 } // namespace catoptric::measure

@@ -23,43 +23,45 @@ Mask mask_all_pixels(std::span<const std::uint32_t> hits) {
 
 Mask mask_mirror_pixels(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits,
-                             [](std::uint32_t hit) { return bool(first_mirror_of_hit(hit)); });
+                             [](std::uint32_t hit) { return bool(first_mirror_of_hit_word(hit)); });
 }
 
 Mask mask_first_order_pixels(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return first_mirror_of_hit(hit) && !second_mirror_of_hit(hit);
+        return first_mirror_of_hit_word(hit) && !second_mirror_of_hit_word(hit);
     });
 }
 
 Mask mask_mirror_in_mirror(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return first_mirror_of_hit(hit) && second_mirror_of_hit(hit);
+        return first_mirror_of_hit_word(hit) && second_mirror_of_hit_word(hit);
     });
 }
 
 Mask mask_one_mirror(std::span<const std::uint32_t> hits, MirrorId mirror) {
-    return mask_pixels_where(
-        hits, [mirror](std::uint32_t hit) { return mirror && first_mirror_of_hit(hit) == mirror; });
+    return mask_pixels_where(hits, [mirror](std::uint32_t hit) {
+        return mirror && first_mirror_of_hit_word(hit) == mirror;
+    });
 }
 
 Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits) {
-    return mask_pixels_where(hits, [](std::uint32_t hit) { return !first_mirror_of_hit(hit); });
+    return mask_pixels_where(hits,
+                             [](std::uint32_t hit) { return !first_mirror_of_hit_word(hit); });
 }
 
 Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return !first_mirror_of_hit(hit) && hit >> 16 == shared::kHitSmoothSurface;
+        return !first_mirror_of_hit_word(hit) && hit >> 16 == shared::kHitSmoothSurface;
     });
 }
 
 Mask mask_rough_surfaces(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return !first_mirror_of_hit(hit) && hit >> 16 == shared::kHitRoughSurface;
+        return !first_mirror_of_hit_word(hit) && hit >> 16 == shared::kHitRoughSurface;
     });
 }
 
-std::vector<Mask> list_masks_of_rows(std::span<const std::uint32_t> hits) {
+std::vector<Mask> list_row_mask_names(std::span<const std::uint32_t> hits) {
     return {mask_mirror_pixels(hits),    mask_first_order_pixels(hits),
             mask_mirror_in_mirror(hits), mask_non_mirror_pixels(hits),
             mask_all_pixels(hits),       mask_smooth_dielectrics(hits),

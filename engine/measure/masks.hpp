@@ -14,8 +14,8 @@
 // mirror. The high bits are then shared::kHitSmoothSurface or shared::kHitRoughSurface.
 namespace catoptric::measure {
 
-constexpr MirrorId first_mirror_of_hit(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
-constexpr MirrorId second_mirror_of_hit(std::uint32_t hit) { return MirrorId(hit >> 16); }
+constexpr MirrorId first_mirror_of_hit_word(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
+constexpr MirrorId second_mirror_of_hit_word(std::uint32_t hit) { return MirrorId(hit >> 16); }
 
 /// Returns a mask of all pixels. Each mask here has one entry (0 or 255) per hit. A mask without
 /// any pixel is all 0, which differs from the empty mask: that means "all pixels".
@@ -38,7 +38,7 @@ Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits);
 Mask mask_rough_surfaces(std::span<const std::uint32_t> hits);
 
 /// Returns the masks of list_row_masks(), in the same order.
-std::vector<Mask> list_masks_of_rows(std::span<const std::uint32_t> hits);
+std::vector<Mask> list_row_mask_names(std::span<const std::uint32_t> hits);
 
 /// Returns how many pixels of a mask count.
 std::size_t count_mask_pixels(const Mask& mask);

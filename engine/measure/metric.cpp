@@ -16,7 +16,7 @@ bool is_row_metric(const Metric& quantity) {
            std::holds_alternative<Metric::IsStudyMetric>(quantity.get);
 }
 
-std::vector<Metric> metrics_in_order() {
+std::vector<Metric> list_metrics_in_order() {
     std::vector<Metric> rows = sort_registered_rows<Metric>();
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
@@ -49,11 +49,11 @@ constexpr RowMask kRowMasks[] = {
 
 RegisteredMetric::RegisteredMetric(Metric quantity) {
     if (!is_row_metric(quantity)) quantity.mask = "each";
-    registered_rows<Metric>().push_back(std::move(quantity));
+    get_registered_rows<Metric>().push_back(std::move(quantity));
 }
 
 const std::vector<Metric>& list_metrics() {
-    static const std::vector<Metric> kRows = metrics_in_order();
+    static const std::vector<Metric> kRows = list_metrics_in_order();
     return kRows;
 }
 
@@ -66,12 +66,12 @@ const std::vector<Metric>& list_difference_metrics() {
     return kRows;
 }
 
-void set_studied(Row& row, const std::string& metric, MetricValue value) {
+void set_study_metric(Row& row, const std::string& metric, MetricValue value) {
     if (!row.studied) row.studied = std::make_shared<Studied>();
     row.studied->values[metric] = std::move(value);
 }
 
-MetricValue studied_value(const Row& row, std::string_view metric) {
+MetricValue find_study_metric(const Row& row, std::string_view metric) {
     if (!row.studied) return {};
     const auto found = row.studied->values.find(metric);
     return found == row.studied->values.end() ? MetricValue() : found->second;
@@ -81,7 +81,7 @@ MetricValue metric_value(const Metric& quantity, const Row& row) {
     check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a row");
     if (const auto* get = std::get_if<Metric::RowFunction>(&quantity.get)) return (*get)(row);
-    return studied_value(row, quantity.name);
+    return find_study_metric(row, quantity.name);
 }
 
 MetricValue metric_value(const Metric& quantity, const Difference& difference) {
@@ -93,7 +93,7 @@ MetricValue metric_value(const Metric& quantity, const Difference& difference) {
     return index < difference.others.size() ? difference.others[index] : NAN;
 }
 
-bool is_shown(const Metric& quantity, const Comparison& comparison) {
+bool is_metric_shown(const Metric& quantity, const Comparison& comparison) {
     return quantity.study.empty() ||
            std::ranges::find(comparison.studies, quantity.study) != comparison.studies.end();
 }
@@ -109,7 +109,7 @@ bool is_missing_value(const MetricValue& value) {
         bool operator()(const PixelPosition& place) const { return place.x < 0; }
         bool operator()(const SampleSummary& times) const { return times.n == 0; }
         bool operator()(const std::vector<double>& list) const { return list.empty(); }
-        bool operator()(const std::vector<ValueParts>& list) const { return list.empty(); }
+        bool operator()(const std::vector<MetricValueParts>& list) const { return list.empty(); }
     };
     return std::visit(MissingValueVisitor{}, value);
 }
@@ -124,7 +124,7 @@ std::vector<double> compute_picture_metrics(const PicturePair& compared) {
 
 std::span<const RowMask> list_row_masks() { return kRowMasks; }
 
-bool has_columns(const RowMask& mask, const Comparison& comparison) {
+bool has_table_columns(const RowMask& mask, const Comparison& comparison) {
     return !mask.only_where_some || std::ranges::any_of(comparison.rows, [&](const Row& row) {
         return (row.*mask.error).pixels > 0;
     });

@@ -22,15 +22,15 @@ struct PixelPosition {
     int x = -1, y = -1;
 };
 
-struct ValueParts;
+struct MetricValueParts;
 
 /// Value of a metric. A double that is not finite, a time that was never measured and an invalid
 /// place count as no value (see is_missing_value).
 using MetricValue = std::variant<std::monostate, bool, double, dvec3, PixelPosition, SampleSummary,
-                                 std::vector<double>, std::vector<ValueParts>>;
+                                 std::vector<double>, std::vector<MetricValueParts>>;
 
 /// An entry of a list of values, such as the times of passes or the shares of causes.
-struct ValueParts {
+struct MetricValueParts {
     std::string_view kind; ///< the field that holds the entry's name, such as "name"
     std::string name;
     std::vector<std::pair<std::string_view, MetricValue>> values;
@@ -41,14 +41,14 @@ struct Studied {
     std::map<std::string, MetricValue, std::less<>> values;
 };
 /// Sets the row's value of a metric of a study.
-void set_studied(Row& row, const std::string& metric, MetricValue value);
+void set_study_metric(Row& row, const std::string& metric, MetricValue value);
 /// Returns the row's value of a metric of a study; no value if the study has not set it.
-MetricValue studied_value(const Row& row, std::string_view metric);
+MetricValue find_study_metric(const Row& row, std::string_view metric);
 
 enum class BetterDirection : std::uint8_t { neither, less, more };
 
 /// Format of a value in a table cell.
-enum class ValueFormat : std::uint8_t {
+enum class MetricValueFormat : std::uint8_t {
     fixed,         ///< a fixed number of decimals
     error,         ///< error: four decimals, or a power of ten if all four are 0
     times,         ///< the median, with the decimals of the whole table
@@ -57,14 +57,14 @@ enum class ValueFormat : std::uint8_t {
     percent,       ///< a share in percent, with a fixed number of decimals
     mebibytes,
 };
-enum class MetricTable : std::uint8_t { rows, lookup };
+enum class MetricTableKind : std::uint8_t { rows, lookup };
 
 /// Column of the report's tables.
 struct MetricColumn {
     std::string_view title;
-    ValueFormat style = ValueFormat::error;
+    MetricValueFormat style = MetricValueFormat::error;
     int decimals = 0;
-    MetricTable table = MetricTable::rows;
+    MetricTableKind table = MetricTableKind::rows;
     int order = 0; ///< place among the table's columns; 0 means the metric's order
 };
 
@@ -112,7 +112,7 @@ struct RegisteredMetric {
 };
 
 /// Upper limit of Metric::order for metrics of differences, which use orders from 100 on.
-inline constexpr int kAfterDifferences = 200;
+inline constexpr int kFirstOrderAfterDifferences = 200;
 
 /// Returns all metrics sorted by `order`, then name. Throws `internal` if two have the same name.
 const std::vector<Metric>& list_metrics();
@@ -124,7 +124,7 @@ const std::vector<Metric>& list_difference_metrics();
 MetricValue metric_value(const Metric& quantity, const Row& row);
 MetricValue metric_value(const Metric& quantity, const Difference& difference);
 /// Returns whether reports on the comparison show the metric (see Metric::study).
-bool is_shown(const Metric& quantity, const Comparison& comparison);
+bool is_metric_shown(const Metric& quantity, const Comparison& comparison);
 /// Returns whether a value counts as none (see MetricValue).
 bool is_missing_value(const MetricValue& value);
 
@@ -145,6 +145,6 @@ struct RowMask {
 };
 std::span<const RowMask> list_row_masks();
 /// Returns whether tables have columns of this mask.
-bool has_columns(const RowMask& mask, const Comparison& comparison);
+bool has_table_columns(const RowMask& mask, const Comparison& comparison);
 
 } // namespace catoptric::measure

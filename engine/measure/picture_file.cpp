@@ -51,27 +51,30 @@ ImageReader::ImageShapeCheck make_shape_check(const std::string& name,
 
 /// Decodes the stored values of a PNG to linear light. Most PNGs have 8 bits, whose light is in a
 /// table.
-class LinearDecoder {
+class PngLightDecoder {
 public:
-    LinearDecoder() {
-        for (std::size_t i = 0; i < table_.size(); ++i) table_[i] = curve(stored(i));
+    PngLightDecoder() {
+        for (std::size_t i = 0; i < table_.size(); ++i)
+            table_[i] = decode_srgb_value(stored_value_to_unit(i));
     }
     float operator()(float value) const {
         // Not negative, so the cast rounds down as floor does.
         const float above = value * 255 + .5F;
         const auto i = static_cast<std::size_t>(static_cast<int>(above));
-        return stored(i) == value ? table_[i] : curve(value);
+        return stored_value_to_unit(i) == value ? table_[i] : decode_srgb_value(value);
     }
 
 private:
-    static float stored(std::size_t i) { return static_cast<float>(i) * (1.0F / 255); }
-    static float curve(float value) {
+    static float stored_value_to_unit(std::size_t i) {
+        return static_cast<float>(i) * (1.0F / 255);
+    }
+    static float decode_srgb_value(float value) {
         return static_cast<float>(linear_from_srgb(static_cast<double>(value)));
     }
     std::array<float, 256> table_{};
 };
 
-ImageShape picture_shape(const Picture& picture) {
+ImageShape rgb_float_image_shape(const Picture& picture) {
     return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
              static_cast<std::uint32_t>(std::max(picture.height, 0))},
             3,
@@ -82,49 +85,57 @@ ImageShape picture_shape(const Picture& picture) {
 
 struct PictureReader::PictureReadState {
     PictureReadState(const std::filesystem::path& path, const PictureSizeCheck& judge)
-        : name(path.string()), bytes(open_file_bytes(path)),
-          format(detect_picture_format(*bytes, name)),
-          reader(*bytes, format, name, make_shape_check(name, judge)),
-          rgb(find_rgb_channels(reader.shape().channels)) {}
+        : file_name(path.string()), bytes(open_file_bytes(path)),
+          format(detect_picture_format(*bytes, file_name)),
+          image_reader(*bytes, format, file_name, make_shape_check(file_name, judge)),
+          rgb(find_rgb_channels(image_reader.image_shape().channels)) {}
 
-    std::string name;
+    std::string file_name;
     std::unique_ptr<ByteSource> bytes;
     std::string format; ///< "openexr", "hdr" or "png"
-    ImageReader reader;
+    ImageReader image_reader;
     /// Indices of the channels; the same index three times for grey.
     std::array<std::size_t, 3> rgb;
     std::vector<float> values;
 };
 
 PictureReader::PictureReader(const std::filesystem::path& path, const PictureSizeCheck& judge)
-    : open_(std::make_unique<PictureReadState>(path, judge)) {}
+    : open_picture_(std::make_unique<PictureReadState>(path, judge)) {}
 PictureReader::~PictureReader() = default;
 PictureReader::PictureReader(PictureReader&&) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
 
-int PictureReader::width() const { return static_cast<int>(open_->reader.shape().size.x); }
-int PictureReader::height() const { return static_cast<int>(open_->reader.shape().size.y); }
+int PictureReader::picture_width() const {
+    return static_cast<int>(open_picture_->image_reader.image_shape().size.x);
+}
+int PictureReader::height() const {
+    return static_cast<int>(open_picture_->image_reader.image_shape().size.y);
+}
 std::string PictureReader::format() const {
-    return open_->format == "png" ? "PNG" : open_->format == "hdr" ? "Radiance" : "OpenEXR";
+    return open_picture_->format == "png"   ? "PNG"
+           : open_picture_->format == "hdr" ? "Radiance"
+                                            : "OpenEXR";
 }
 
-bool PictureReader::has_8_bits() const { return open_->reader.shape().has_8_bits; }
+bool PictureReader::has_8_bits() const {
+    return open_picture_->image_reader.image_shape().has_8_bits;
+}
 
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
-    static const LinearDecoder kDecoded;
+    static const PngLightDecoder kDecoded;
     // Pixels that are read at once; at least a row.
     constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 15;
-    const bool is_stored = open_->format == "png"; // PNGs store sRGB values
-    const std::size_t channel_count = open_->reader.shape().channel_count;
-    const auto columns = static_cast<std::size_t>(width());
+    const bool is_stored = open_picture_->format == "png"; // PNGs store sRGB values
+    const std::size_t channel_count = open_picture_->image_reader.image_shape().channel_count;
+    const auto columns = static_cast<std::size_t>(picture_width());
     const std::size_t most = std::max<std::size_t>(1, kPixelsPerBlock / columns) * columns;
     auto row = static_cast<std::uint32_t>(first);
     while (!pixels.empty()) {
         const std::size_t count = std::min(most, pixels.size());
-        open_->values.resize(count * channel_count);
-        open_->reader.read_rows(row, open_->values);
-        const auto [red, green, blue] = open_->rgb;
-        const float* value = open_->values.data();
+        open_picture_->values.resize(count * channel_count);
+        open_picture_->image_reader.read_image_rows(row, open_picture_->values);
+        const auto [red, green, blue] = open_picture_->rgb;
+        const float* value = open_picture_->values.data();
         if (is_stored)
             for (std::size_t i = 0; i < count; ++i, value += channel_count)
                 pixels[i] = {kDecoded(value[red]), kDecoded(value[green]), kDecoded(value[blue])};
@@ -140,9 +151,9 @@ Picture read_picture(const std::filesystem::path& path) { return read_picture(pa
 
 Picture read_picture(const std::filesystem::path& path,
                      const PictureReader::PictureSizeCheck& judge) {
-    PictureReader reader(path, judge);
-    Picture picture(reader.width(), reader.height());
-    reader.read_rows(0, picture.pixels);
+    PictureReader picture_reader(path, judge);
+    Picture picture(picture_reader.picture_width(), picture_reader.height());
+    picture_reader.read_rows(0, picture.pixels);
     return picture;
 }
 
@@ -153,17 +164,17 @@ bool is_png(const std::filesystem::path& path) {
 }
 
 Mask read_mask(const std::filesystem::path& path, int width, int height) {
-    PictureReader reader(path, [&](int columns, int rows) {
+    PictureReader picture_reader(path, [&](int columns, int rows) {
         check(columns == width && rows == height, Failure::bad_data, path.string(),
               ": wanted a mask of ", width, "x", height, " as the pictures, found ", columns, "x",
               rows);
     });
-    check(reader.format() == "PNG", Failure::bad_data, path.string(),
-          ": wanted a PNG as mask, found ", reader.format());
+    check(picture_reader.format() == "PNG", Failure::bad_data, path.string(),
+          ": wanted a PNG as mask, found ", picture_reader.format());
     Mask mask(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     std::vector<vec3> row(static_cast<std::size_t>(width));
     for (int y = 0; y < height; ++y) {
-        reader.read_rows(y, row);
+        picture_reader.read_rows(y, row);
         std::uint8_t* const counts = mask.data() + static_cast<std::size_t>(y) * row.size();
         for (std::size_t x = 0; x < row.size(); ++x) counts[x] = row[x] == vec3(0) ? 0 : 255;
     }
@@ -175,7 +186,7 @@ std::string encode_exr(const Picture& picture) {
     values.reserve(3 * picture.pixels.size());
     for (const vec3& pixel : picture.pixels)
         values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
-    return encode_openexr(picture_shape(picture), values);
+    return encode_openexr(rgb_float_image_shape(picture), values);
 }
 
 std::string encode_picture_png(const Picture& display) {
@@ -187,7 +198,7 @@ std::string encode_picture_png(const Picture& display) {
     values.reserve(3 * display.pixels.size());
     for (const vec3& pixel : display.pixels)
         values.insert(values.end(), {byte(pixel.x), byte(pixel.y), byte(pixel.z)});
-    return catoptric::encode_png(picture_shape(display), values);
+    return catoptric::encode_png(rgb_float_image_shape(display), values);
 }
 
 void write_exr(const Picture& picture, const std::filesystem::path& path) {

@@ -29,7 +29,7 @@ public:
     PictureReader(PictureReader&&) noexcept;
     PictureReader& operator=(PictureReader&&) noexcept;
 
-    int width() const;
+    int picture_width() const;
     int height() const;
     std::string format() const; ///< "OpenEXR", "Radiance" or "PNG"
     bool has_8_bits() const;    ///< whether it is a PNG of at most 8 bits a value
@@ -39,7 +39,7 @@ public:
 
 private:
     struct PictureReadState;
-    std::unique_ptr<PictureReadState> open_;
+    std::unique_ptr<PictureReadState> open_picture_;
 };
 
 /// Reads a whole picture. `judge` may refuse it by its size.

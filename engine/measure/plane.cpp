@@ -7,23 +7,23 @@ namespace {
 
 /// Four adjacent values of a row.
 using FourValues [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-constexpr int kRegisterSums = 8; // sums that stay in registers
-constexpr int kConvolutionBlock = 4 * kRegisterSums;
+constexpr int kSumsInRegisters = 8; // sums that stay in registers
+constexpr int kConvolutionBlockColumns = 4 * kSumsInRegisters;
 
 /// Writes the weighted sum of `taps` rows to `to`. Each row has `width` values.
 CATOPTRIC_WIDE void sum_weighted_rows(const double* const* rows, const double* weights,
                                       std::size_t taps, int width, double* to) {
     int x = 0;
-    for (; x + kConvolutionBlock <= width; x += kConvolutionBlock) {
-        FourValues sums[kRegisterSums] = {};
+    for (; x + kConvolutionBlockColumns <= width; x += kConvolutionBlockColumns) {
+        FourValues sums[kSumsInRegisters] = {};
         for (std::size_t tap = 0; tap < taps; ++tap) {
             const FourValues* row = reinterpret_cast<const FourValues*>(rows[tap] + x);
 #pragma GCC unroll 8 // -O2 alone would keep the sums in memory
-            for (int i = 0; i < kRegisterSums; ++i) sums[i] += weights[tap] * row[i];
+            for (int i = 0; i < kSumsInRegisters; ++i) sums[i] += weights[tap] * row[i];
         }
         FourValues* const there = reinterpret_cast<FourValues*>(to + x);
 #pragma GCC unroll 8
-        for (int i = 0; i < kRegisterSums; ++i) there[i] = sums[i];
+        for (int i = 0; i < kSumsInRegisters; ++i) there[i] = sums[i];
     }
     for (; x < width; ++x) {
         double sum = 0;
@@ -36,20 +36,20 @@ CATOPTRIC_WIDE void sum_weighted_rows(const double* const* rows, const double* w
 
 void convolve_along_x(const ChannelPlane& in, const FilterKernel& kernel, int border,
                       ChannelPlane& out) {
-    out.resize(in.width - 2 * border, in.height);
+    out.resize_plane(in.width - 2 * border, in.height);
     std::vector<const double*> shifted(kernel.weights.size());
     for (int y = 0; y < in.height; ++y) {
-        const double* const first = in.row(y) + border - kernel.radius;
+        const double* const first = in.row_values(y) + border - kernel.kernel_radius;
         for (std::size_t tap = 0; tap < shifted.size(); ++tap) shifted[tap] = first + tap;
         sum_weighted_rows(shifted.data(), kernel.weights.data(), shifted.size(), out.width,
-                          out.row(y));
+                          out.row_values(y));
     }
 }
 
 void sum_convolutions_along_y(std::initializer_list<FilteredPlane> parts, int border,
                               ChannelPlane& out) {
     const ChannelPlane& one = parts.begin()->plane;
-    out.resize(one.width, one.height - 2 * border);
+    out.resize_plane(one.width, one.height - 2 * border);
     std::vector<const double*> rows;
     std::vector<double> weights;
     for (const FilteredPlane& part : parts)
@@ -57,9 +57,10 @@ void sum_convolutions_along_y(std::initializer_list<FilteredPlane> parts, int bo
     for (int y = 0; y < out.height; ++y) {
         rows.clear();
         for (const FilteredPlane& part : parts)
-            for (int offset = -part.kernel.radius; offset <= part.kernel.radius; ++offset)
-                rows.push_back(part.plane.row(y + border + offset));
-        sum_weighted_rows(rows.data(), weights.data(), rows.size(), out.width, out.row(y));
+            for (int offset = -part.kernel.kernel_radius; offset <= part.kernel.kernel_radius;
+                 ++offset)
+                rows.push_back(part.plane.row_values(y + border + offset));
+        sum_weighted_rows(rows.data(), weights.data(), rows.size(), out.width, out.row_values(y));
     }
 }
 

@@ -13,26 +13,28 @@ struct ChannelPlane {
     std::vector<double> values;
 
     /// Sets the size. Keeps the memory and leaves the values undefined.
-    void resize(int columns, int rows) {
+    void resize_plane(int columns, int rows) {
         width = columns, height = rows;
         values.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     }
-    double* row(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
-    const double* row(int y) const {
+    double* row_values(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
+    const double* row_values(int y) const {
         return values.data() + static_cast<std::ptrdiff_t>(y) * width;
     }
 };
 
 /// Filter kernel: weights for the offsets -radius .. radius.
 struct FilterKernel {
-    int radius = 0;
+    int kernel_radius = 0;
     std::vector<double> weights;
 
     explicit FilterKernel(int reach)
-        : radius(reach), weights(2 * static_cast<std::size_t>(reach) + 1) {}
-    double& operator[](int offset) { return weights[static_cast<std::size_t>(offset + radius)]; }
+        : kernel_radius(reach), weights(2 * static_cast<std::size_t>(reach) + 1) {}
+    double& operator[](int offset) {
+        return weights[static_cast<std::size_t>(offset + kernel_radius)];
+    }
     double operator[](int offset) const {
-        return weights[static_cast<std::size_t>(offset + radius)];
+        return weights[static_cast<std::size_t>(offset + kernel_radius)];
     }
 };
 

@@ -17,28 +17,29 @@ struct SeedReportRow {
     double ms;
 };
 
-inline constexpr int kSeedMirrors = 4;
+inline constexpr int kSeedReportMirrorCount = 4;
 
-inline constexpr SeedReportRow kSeedPartOne{"Part one", "naive", 0, 2, 93, 10.8};
-inline constexpr SeedReportRow kSeedPartTwo{"Part two", "reuse", -1, 6, 136, 7.4};
-inline constexpr SeedReportRow kSeedPartThree{"Part three", "parallax", -1, 6, 134, 7.5};
-inline constexpr SeedReportRow kSeedRayTrace{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
+inline constexpr SeedReportRow kSeedReportPartOne{"Part one", "naive", 0, 2, 93, 10.8};
+inline constexpr SeedReportRow kSeedReportPartTwo{"Part two", "reuse", -1, 6, 136, 7.4};
+inline constexpr SeedReportRow kSeedReportPartThree{"Part three", "parallax", -1, 6, 134, 7.5};
+inline constexpr SeedReportRow kSeedReportRayTracing{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
 
-inline constexpr SeedReportRow kSeedTable[] = {
-    kSeedPartOne,
+inline constexpr SeedReportRow kSeedReportTable[] = {
+    kSeedReportPartOne,
     {"Part one", "naive", 1, 6, 88, 11.4},
     {"Part one", "naive", 2, 10, 68, 14.7},
     {"Part one", "naive", 3, 14, 48, 20.8},
     {"Part one", "naive", 4, 18, 37, 27.0},
-    kSeedPartTwo,
-    kSeedPartThree,
-    kSeedRayTrace,
+    kSeedReportPartTwo,
+    kSeedReportPartThree,
+    kSeedReportRayTracing,
 };
 
 /// Time that the seed report attributes to clearing, milliseconds.
-inline constexpr double kSeedClearMs = kSeedPartOne.ms - kSeedPartTwo.ms;
+inline constexpr double kSeedReportClearMs = kSeedReportPartOne.ms - kSeedReportPartTwo.ms;
 /// Excess of its part one without inter-reflections over part two, as a share of part two's time.
-inline constexpr double kSeedClearGap = kSeedClearMs / kSeedPartTwo.ms;
-inline constexpr double kSeedRayTraceRatio = kSeedRayTrace.ms / kSeedPartThree.ms;
+inline constexpr double kSeedReportClearCostShare = kSeedReportClearMs / kSeedReportPartTwo.ms;
+inline constexpr double kSeedReportRayTracingRatio = kSeedReportRayTracing.ms /
+                                                     kSeedReportPartThree.ms;
 
 } // namespace catoptric::measure

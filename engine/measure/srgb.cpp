@@ -12,7 +12,7 @@ int srgb_code_by_formula(double linear) {
 
 /// Returns the least value in [0,1] with this code. Bisects the bits: the curve is increasing, and
 /// the bits of positive numbers are ordered as the numbers are.
-double least_value_with_code(int code) {
+double least_light_with_srgb_code(int code) {
     std::uint64_t below = 0, there = std::bit_cast<std::uint64_t>(1.0);
     while (there - below > 1) {
         const std::uint64_t middle = below + (there - below) / 2;
@@ -23,21 +23,21 @@ double least_value_with_code(int code) {
 
 } // namespace
 
-LinearTable::StoredCodeTable::StoredCodeTable() {
+SrgbDecodeTable::StoredCodeTable::StoredCodeTable() {
     for (std::size_t code = 0; code < srgb.size(); ++code) {
         srgb[code] = static_cast<float>(static_cast<double>(code) / 255);
         linear[code] = linear_from_srgb(static_cast<double>(srgb[code]));
     }
 }
-const LinearTable::StoredCodeTable LinearTable::kStored;
+const SrgbDecodeTable::StoredCodeTable SrgbDecodeTable::kStored;
 
-EightBitCurve::EightBitCurve() {
+SrgbEightBitEncoder::SrgbEightBitEncoder() {
     for (std::size_t code = 1; code <= 255; ++code)
-        least_[code] = least_value_with_code(static_cast<int>(code));
+        least_[code] = least_light_with_srgb_code(static_cast<int>(code));
     least_.back() = 2;
     std::size_t code = 0;
     for (std::size_t i = 0; i < guesses_.size(); ++i) {
-        const auto bits = static_cast<std::uint32_t>(i << kDroppedMantissaBits);
+        const auto bits = static_cast<std::uint32_t>(i << kDroppedFloatMantissaBits);
         const auto value = static_cast<double>(std::bit_cast<float>(bits));
         while (value >= least_[code + 1]) ++code;
         guesses_[i] = static_cast<std::uint8_t>(code);
@@ -46,8 +46,8 @@ EightBitCurve::EightBitCurve() {
         values_[i] = static_cast<float>(static_cast<double>(i) / 255);
 }
 
-const EightBitCurve& EightBitCurve::instance() {
-    static const EightBitCurve kCurve;
+const SrgbEightBitEncoder& SrgbEightBitEncoder::instance() {
+    static const SrgbEightBitEncoder kCurve;
     return kCurve;
 }
 

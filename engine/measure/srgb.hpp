@@ -17,7 +17,7 @@ inline double linear_from_srgb(double srgb) {
 }
 
 /// Evaluates `linear_from_srgb` with a table of the 256 values that 8 bits store.
-class LinearTable {
+class SrgbDecodeTable {
 public:
     /// Returns exactly the result of the formula. `srgb` is in [0,1].
     double operator()(float srgb) const {
@@ -39,15 +39,15 @@ private:
 
 /// Encodes light in [0,1] with the sRGB curve and rounds it to the nearest of the 256 values of 8
 /// bits.
-class EightBitCurve {
+class SrgbEightBitEncoder {
 public:
     /// Returns the shared table, which the first call creates.
-    static const EightBitCurve& instance();
+    static const SrgbEightBitEncoder& instance();
 
     /// Returns exactly round(srgb_from_linear(linear) * 255) / 255. Costs a nanosecond.
     float operator()(double linear) const {
         const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(linear));
-        std::size_t code = guesses_[bits >> kDroppedMantissaBits];
+        std::size_t code = guesses_[bits >> kDroppedFloatMantissaBits];
         // At most one code begins among floats with the same first bits. So one step up is enough,
         // or one step down if the float was rounded up. Conditions are summed because the processor
         // would mispredict branches.
@@ -57,18 +57,20 @@ public:
     }
 
 private:
-    EightBitCurve();
+    SrgbEightBitEncoder();
 
-    static constexpr int kDroppedMantissaBits = 16;
+    static constexpr int kDroppedFloatMantissaBits = 16;
     /// Least linear value that is encoded as each 8-bit code, indexed by the code. Entry 256 is
     /// above 1, so no value in [0,1] reaches it.
     std::array<double, 257> least_{};
     /// Codes indexed by the first bits of a float.
-    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDroppedMantissaBits) + 1>
+    std::array<std::uint8_t, (std::bit_cast<std::uint32_t>(1.0F) >> kDroppedFloatMantissaBits) + 1>
         guesses_{};
     std::array<float, 256> values_{};
 };
 
-inline float srgb_in_8_bits(double linear) { return EightBitCurve::instance()(linear); }
+inline float srgb_rounded_to_8_bits(double linear) {
+    return SrgbEightBitEncoder::instance()(linear);
+}
 
 } // namespace catoptric::measure

@@ -49,7 +49,7 @@ SampleSummary summarise_samples(std::span<const std::vector<double>> rounds) {
     }
     SampleSummary summary = summarise_samples(samples);
     summary.median = compute_percentile(medians, 0.5);
-    summary.ci95 = median_interval(medians);
+    summary.ci95 = median_confidence_interval(medians);
     summary.rounds = std::move(medians);
     return summary;
 }

@@ -10,7 +10,7 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the measured value as a share of the limit. Above 1 the case does not hold.
-double share_of_limit(const StressCase& one) {
+double measured_share_of_limit(const StressCase& one) {
     if (std::isnan(one.measured)) return std::numeric_limits<double>::infinity();
     if (one.limit > 0) return one.measured / one.limit;
     return one.is_within_limit() ? 0 : std::numeric_limits<double>::infinity();
@@ -18,7 +18,7 @@ double share_of_limit(const StressCase& one) {
 
 } // namespace
 
-std::string name_of(StressVerdict verdict) {
+std::string stress_verdict_name(StressVerdict verdict) {
     switch (verdict) {
     case StressVerdict::pass: return "pass";
     case StressVerdict::fail: return "fail";
@@ -31,7 +31,7 @@ std::string name_of(StressVerdict verdict) {
 
 const StressCase* StressRow::worst_case() const {
     const auto found = std::ranges::max_element(cases, {}, [](const StressCase& one) {
-        return std::pair(!one.is_within_limit() && !one.is_quality, share_of_limit(one));
+        return std::pair(!one.is_within_limit() && !one.is_quality, measured_share_of_limit(one));
     });
     return found == cases.end() ? nullptr : &*found;
 }

@@ -13,7 +13,7 @@ namespace catoptric::measure {
 /// Verdict on a property. `unsupported` means not judged, because the device does not allow
 /// something the property needs; the remark names it.
 enum class StressVerdict { pass, fail, quality_warning, unsupported, waived };
-std::string name_of(StressVerdict verdict);
+std::string stress_verdict_name(StressVerdict verdict);
 
 /// Part of a property that could not be run, and the reason. It has no measured value.
 struct SkippedStressPart {

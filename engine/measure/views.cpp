@@ -13,9 +13,9 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::string_view kOrderingMetrics[] = {"flip", "off", "mae"};
+constexpr std::string_view kRowOrderingMetrics[] = {"flip", "off", "mae"};
 
-const RowMask& mirror_row_mask() { return list_row_masks().front(); }
+const RowMask& find_mirror_row_mask() { return list_row_masks().front(); }
 
 const Metric& find_metric_by_name(std::string_view name) {
     const std::vector<Metric>& figures = list_difference_metrics();
@@ -25,7 +25,7 @@ const Metric& find_metric_by_name(std::string_view name) {
     return *found;
 }
 
-double metric_number(const Metric& figure, const Difference& error) {
+double metric_number_of_difference(const Metric& figure, const Difference& error) {
     const MetricValue value = metric_value(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
@@ -42,18 +42,21 @@ double compute_median(std::vector<double> values) {
 
 /// Returns the row's score in one figure, such as FLIP: the number of rows that have a larger value
 /// than this row, minus the number of rows that have a smaller value.
-int rank_score(const Row& row, const std::vector<const Row*>& rows, std::string_view figure) {
+int count_rows_with_larger_value(const Row& row, const std::vector<const Row*>& rows,
+                                 std::string_view figure) {
     int standing = 0;
     for (const Row* other : rows)
         standing += is_metric_less(row, *other, figure) - is_metric_less(*other, row, figure);
     return standing;
 }
 
-RowOrder order_rows_by_metric(std::string_view name, const std::vector<const Row*>& rows) {
-    RowOrder order{&find_metric_by_name(name), rows, {}, {}};
+MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<const Row*>& rows) {
+    MetricRowOrder order{&find_metric_by_name(name), rows, {}, {}};
     std::ranges::stable_sort(order.rows, {}, [&](const Row* row) {
-        const double median = metric_over_views(*row, mirror_row_mask(), *order.figure).median;
-        return std::pair(-rank_score(*row, rows, name), std::isnan(median) ? INFINITY : median);
+        const double median =
+            compute_metric_over_views(*row, find_mirror_row_mask(), *order.figure).median;
+        return std::pair(-count_rows_with_larger_value(*row, rows, name),
+                         std::isnan(median) ? INFINITY : median);
     });
     for (std::size_t i = 0; i < order.rows.size(); ++i)
         for (std::size_t k = i + 1; k < order.rows.size(); ++k) {
@@ -71,53 +74,56 @@ bool is_single_number(const Metric& figure) {
            std::holds_alternative<double>(metric_value(figure, Difference{}));
 }
 
-MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure) {
+MetricOverViews compute_metric_over_views(const Row& row, const RowMask& mask,
+                                          const Metric& figure) {
     MetricOverViews over;
     for (const Errors& errors : row.views)
-        over.values.push_back(metric_number(figure, errors.*mask.error));
+        over.values.push_back(metric_number_of_difference(figure, errors.*mask.error));
     std::vector<double> known = over.values;
     std::erase_if(known, [](double value) { return !std::isfinite(value); });
-    over.ci95 = median_interval(known);
+    over.ci95 = median_confidence_interval(known);
     over.median = compute_median(std::move(known));
     return over;
 }
 
-Interval metric_difference_over_views(const Row& a, const Row& b, std::string_view figure) {
+Interval metric_difference_interval_over_views(const Row& a, const Row& b,
+                                               std::string_view figure) {
     const Metric& quantity = find_metric_by_name(figure);
     std::vector<double> of_a, of_b;
     for (std::size_t i = 0; i < std::min(a.views.size(), b.views.size()); ++i) {
-        const double in_a = metric_number(quantity, a.views[i].error),
-                     in_b = metric_number(quantity, b.views[i].error);
+        const double in_a = metric_number_of_difference(quantity, a.views[i].error),
+                     in_b = metric_number_of_difference(quantity, b.views[i].error);
         if (!std::isfinite(in_a) || !std::isfinite(in_b)) continue;
         const bool is_noise = std::abs(in_a - in_b) <
                               find_noise_floor(quantity, a.views[i].error, b.views[i].error);
         of_a.push_back(is_noise ? in_b : in_a);
         of_b.push_back(in_b);
     }
-    return difference_interval(of_a, of_b);
+    return median_difference_interval(of_a, of_b);
 }
 
 bool is_metric_less(const Row& a, const Row& b, std::string_view figure) {
     if (!a.views.empty() || !b.views.empty())
         // False if the interval is not known.
-        return metric_difference_over_views(a, b, figure).high < 0;
+        return metric_difference_interval_over_views(a, b, figure).high < 0;
     const Metric& quantity = find_metric_by_name(figure);
-    return metric_number(quantity, a.error) + find_noise_floor(quantity, a.error, b.error) <
-           metric_number(quantity, b.error);
+    return metric_number_of_difference(quantity, a.error) +
+               find_noise_floor(quantity, a.error, b.error) <
+           metric_number_of_difference(quantity, b.error);
 }
 
 bool differ_over_views(const Row& a, const Row& b, std::string_view figure) {
     return is_metric_less(a, b, figure) || is_metric_less(b, a, figure);
 }
 
-std::vector<RowOrder> order_rows_over_views(const Comparison& comparison) {
+std::vector<MetricRowOrder> order_rows_over_views(const Comparison& comparison) {
     std::vector<const Row*> rows;
     for (const Row& row : comparison.rows)
         if (!row.is_reference && !has_nonfinite_pixels(row) && !row.views.empty())
             rows.push_back(&row);
-    std::vector<RowOrder> orders;
+    std::vector<MetricRowOrder> orders;
     if (rows.size() > 1)
-        for (const std::string_view name : kOrderingMetrics)
+        for (const std::string_view name : kRowOrderingMetrics)
             orders.push_back(order_rows_by_metric(name, rows));
     return orders;
 }

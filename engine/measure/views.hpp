@@ -16,7 +16,8 @@ struct MetricOverViews {
 
 /// Returns a metric of a row over its views. `figure` must be a metric of a difference that is one
 /// number.
-MetricOverViews metric_over_views(const Row& row, const RowMask& mask, const Metric& figure);
+MetricOverViews compute_metric_over_views(const Row& row, const RowMask& mask,
+                                          const Metric& figure);
 /// Returns whether the value of a metric is one number. Only such metrics have a median over views.
 bool is_single_number(const Metric& figure);
 
@@ -24,7 +25,7 @@ bool is_single_number(const Metric& figure);
 /// `figure` is a name such as "flip", "off" or "mae". Views in which either is not finite are left
 /// out. FLIP differences below the noise of the reference count as 0. Throws `internal` if no
 /// metric of differences that is a number has this name.
-Interval metric_difference_over_views(const Row& a, const Row& b, std::string_view figure);
+Interval metric_difference_interval_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Returns whether a metric of `a` over the mirrors is less than that of `b`: the interval of their
 /// difference over the views lies below 0. Without drawn views, the metrics of the picture are
@@ -36,7 +37,7 @@ bool is_metric_less(const Row& a, const Row& b, std::string_view figure);
 bool differ_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Rows in order of a metric over the mirrors for which less is better, with the pairs that tie.
-struct RowOrder {
+struct MetricRowOrder {
     /// Pairs of rows that tie, in the order of `rows`.
     using RowPairs = std::vector<std::pair<const Row*, const Row*>>;
     const Metric* figure;
@@ -49,6 +50,6 @@ struct RowOrder {
 };
 /// Returns the orders by FLIP, share off and MAE. Empty if no views were drawn or fewer than two
 /// rows have views.
-std::vector<RowOrder> order_rows_over_views(const Comparison& comparison);
+std::vector<MetricRowOrder> order_rows_over_views(const Comparison& comparison);
 
 } // namespace catoptric::measure

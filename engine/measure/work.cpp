@@ -20,7 +20,7 @@ const std::array<std::string, kWorkKindCount>& list_metric_names() {
     return kWorkMetricNames;
 }
 
-MetricValue to_metric_value(const std::optional<std::uint64_t>& count) {
+MetricValue count_to_metric_value(const std::optional<std::uint64_t>& count) {
     return count ? MetricValue(static_cast<double>(*count)) : MetricValue();
 }
 
@@ -42,32 +42,32 @@ std::vector<Metric> list_work_metrics() {
 }
 
 void set_row_work(Row& row, const std::vector<PassWork>& passes) {
-    const WorkCounts sum = sum_work(passes);
+    const WorkCounts sum = sum_work_of_passes(passes);
     for (std::size_t i = 0; i < kWorkKindCount; ++i)
-        set_studied(row, list_metric_names()[i], to_metric_value(sum.values[i]));
-    std::vector<ValueParts> list;
+        set_study_metric(row, list_metric_names()[i], count_to_metric_value(sum.values[i]));
+    std::vector<MetricValueParts> list;
     for (const PassWork& pass : passes) {
         list.push_back({"pass", pass.name, {}});
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (pass.counts.values[i].value_or(0) > 0)
                 list.back().values.emplace_back(kWorkKinds[i].name,
-                                                to_metric_value(pass.counts.values[i]));
+                                                count_to_metric_value(pass.counts.values[i]));
     }
-    set_studied(row, kWorkByPassMetric, std::move(list));
+    set_study_metric(row, kWorkByPassMetric, std::move(list));
 }
 
-WorkCounts work_of_row(const Row& row) {
+WorkCounts total_work_of_row(const Row& row) {
     WorkCounts counts;
     for (std::size_t i = 0; i < kWorkKindCount; ++i) {
-        const MetricValue value = studied_value(row, list_metric_names()[i]);
+        const MetricValue value = find_study_metric(row, list_metric_names()[i]);
         if (const double* number = std::get_if<double>(&value))
             counts.values[i] = static_cast<std::uint64_t>(*number);
     }
     return counts;
 }
 
-bool has_work(const Row& row) {
-    return !is_missing_value(studied_value(row, "work/" + std::string(kWorkKinds[0].name)));
+bool has_counted_work(const Row& row) {
+    return !is_missing_value(find_study_metric(row, "work/" + std::string(kWorkKinds[0].name)));
 }
 
 } // namespace catoptric::measure

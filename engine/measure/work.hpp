@@ -16,8 +16,8 @@ std::vector<Metric> list_work_metrics();
 /// Sets the metrics of a row from the work of its passes.
 void set_row_work(Row& row, const std::vector<PassWork>& passes);
 /// Returns the row's counts over all passes. Kinds that were not counted have no value.
-WorkCounts work_of_row(const Row& row);
+WorkCounts total_work_of_row(const Row& row);
 /// Returns whether the row's work was counted.
-bool has_work(const Row& row);
+bool has_counted_work(const Row& row);
 
 } // namespace catoptric::measure

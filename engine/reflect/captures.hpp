@@ -9,18 +9,18 @@
 /// shared passes.
 namespace catoptric::reflect {
 
-inline constexpr std::array<std::string_view, 3> kDistanceChoices{"r32f", "r16f", "unorm8"};
-inline constexpr std::array<std::string_view, 2> kColourChoices{"half", "float"};
+inline constexpr std::array<std::string_view, 3> kCaptureDistanceChoices{"r32f", "r16f", "unorm8"};
+inline constexpr std::array<std::string_view, 2> kCaptureColourChoices{"half", "float"};
 inline constexpr std::array<std::string_view, 2> kShadowChoices{"map", "none"};
 
-inline constexpr Knob kFaceKnob{
+inline constexpr TechniqueKnob kCaptureFaceKnob{
     .name = "face",
     .help = "edge of a capture's face in texels; auto: as fine as the picture's pixels",
     .low = 1,
     .high = 16384,
     .value = 256,
     .special = "auto"};
-inline constexpr Knob kCaptureKnob{
+inline constexpr TechniqueKnob kCaptureContentKnob{
     .name = "capture",
     .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
             "mirrors show this mirror; none: black in other mirrors",
@@ -28,36 +28,38 @@ inline constexpr Knob kCaptureKnob{
     .high = 16384,
     .value = 256,
     .special = "none"};
-inline constexpr Knob kColourKnob{.name = "colour",
-                                  .help = "format of captured colour: half (up to 65504) or float",
-                                  .high = 1,
-                                  .choices = kColourChoices};
-inline constexpr Knob kShadowKnob{.name = "shadow",
-                                  .help = "shadows: from shadow maps or none",
-                                  .high = 1,
-                                  .choices = kShadowChoices};
+inline constexpr TechniqueKnob kCaptureColourKnob{
+    .name = "colour",
+    .help = "format of captured colour: half (up to 65504) or float",
+    .high = 1,
+    .choices = kCaptureColourChoices};
+inline constexpr TechniqueKnob kShadowKnob{.name = "shadow",
+                                           .help = "shadows: from shadow maps or none",
+                                           .high = 1,
+                                           .choices = kShadowChoices};
 inline constexpr std::array<std::string_view, 3> kTracedShadowChoices{"ray", "map", "none"};
-inline constexpr Knob kTracedShadowKnob{.name = "shadow",
-                                        .help = "shadows: from rays, from shadow maps, or none",
-                                        .high = 2,
-                                        .choices = kTracedShadowChoices};
-inline constexpr Knob kShadowMapEdgeKnob{.name = "shadow_map",
-                                         .help = "edge of a shadow map's face in texels",
-                                         .low = 1,
-                                         .high = 16384,
-                                         .value = 1024};
-inline constexpr Knob kDistanceKnob{.name = "distance",
-                                    .help = "format of captured distances",
-                                    .high = 2,
-                                    .choices = kDistanceChoices};
-inline constexpr Knob kDistanceRangeKnob{
+inline constexpr TechniqueKnob kTracedShadowKnob{
+    .name = "shadow",
+    .help = "shadows: from rays, from shadow maps, or none",
+    .high = 2,
+    .choices = kTracedShadowChoices};
+inline constexpr TechniqueKnob kShadowMapEdgeKnob{.name = "shadow_map",
+                                                  .help = "edge of a shadow map's face in texels",
+                                                  .low = 1,
+                                                  .high = 16384,
+                                                  .value = 1024};
+inline constexpr TechniqueKnob kCaptureDistanceKnob{.name = "distance",
+                                                    .help = "format of captured distances",
+                                                    .high = 2,
+                                                    .choices = kCaptureDistanceChoices};
+inline constexpr TechniqueKnob kDistanceRangeKnob{
     .name = "range",
     .help = "largest distance that distance=unorm8 can store, in world units",
     .low = 1,
     .high = 1000000,
     .value = 200};
 
-inline constexpr Knob kContinueKnob{
+inline constexpr TechniqueKnob kContinuedSearchesKnob{
     .name = "continue",
     .help =
         "number of further mirrors through which a reflected ray is followed before the look-up",
@@ -66,42 +68,43 @@ inline constexpr Knob kContinueKnob{
     .value = 4};
 
 inline constexpr std::array<std::string_view, 2> kLookupChoices{"bilinear", "object"};
-inline constexpr std::array<std::string_view, 2> kCapturesChoices{"own", "all"};
-inline constexpr std::array<std::string_view, 2> kMirrorsChoices{"captured", "left_out"};
-inline constexpr std::array<std::string_view, 3> kShowChoices{"colour", "state", "residual"};
+inline constexpr std::array<std::string_view, 2> kLookedUpCapturesChoices{"own", "all"};
+inline constexpr std::array<std::string_view, 2> kMirrorsInCapturesChoices{"captured", "left_out"};
+inline constexpr std::array<std::string_view, 3> kShownPictureChoices{"colour", "state",
+                                                                      "residual"};
 
-inline constexpr Knob kLookupKnob{
+inline constexpr TechniqueKnob kLookupKnob{
     .name = "lookup",
     .help = "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
             "show the same object",
     .high = 1,
     .value = 1,
     .choices = kLookupChoices};
-inline constexpr Knob kCapturesKnob{
+inline constexpr TechniqueKnob kLookedUpCapturesKnob{
     .name = "captures",
     .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
             "answers unknown)",
     .high = 1,
-    .choices = kCapturesChoices};
-inline constexpr Knob kMirrorsKnob{
+    .choices = kLookedUpCapturesChoices};
+inline constexpr TechniqueKnob kMirrorsInCapturesKnob{
     .name = "mirrors",
     .help = "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
             "are followed)",
     .high = 1,
-    .choices = kMirrorsChoices};
-inline constexpr Knob kShowKnob{
+    .choices = kMirrorsInCapturesChoices};
+inline constexpr TechniqueKnob kShownPictureKnob{
     .name = "show",
     .help = "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
             "(blue); residual of the search",
     .high = 2,
-    .choices = kShowChoices};
+    .choices = kShownPictureChoices};
 
 /// In the order of SharedKnobs::Rough and of SharedKnobs::Law.
 inline constexpr std::array<std::string_view, 5> kRoughChoices{"none", "mips", "prefilter", "rays",
                                                                "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
                                                                  "cone", "exact"};
-inline constexpr Knob kRoughKnob{
+inline constexpr TechniqueKnob kRoughKnob{
     .name = "rough",
     .help = "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
             "prefilter (level filtered by the GGX lobe), fast (the same with fewer samples in fine "
@@ -109,13 +112,13 @@ inline constexpr Knob kRoughKnob{
     .high = 4,
     .value = 2,
     .choices = kRoughChoices};
-inline constexpr Knob kTapsKnob{
+inline constexpr TechniqueKnob kFilterTapsKnob{
     .name = "taps",
     .help = "samples of each texel for rough=prefilter, and most for fast",
     .low = 1,
     .high = 2048,
     .value = 32};
-inline constexpr Knob kRoughRaysKnob{
+inline constexpr TechniqueKnob kRoughRaysKnob{
     .name = "rays",
     .help =
         "directions of each rough pixel: searches for rough=rays, rays where a tracer completes "
@@ -123,7 +126,7 @@ inline constexpr Knob kRoughRaysKnob{
     .low = 1,
     .high = 1024,
     .value = 16};
-inline constexpr Knob kBlurLawKnob{
+inline constexpr TechniqueKnob kBlurLawKnob{
     .name = "law",
     .help =
         "how the blur of rough=mips, prefilter and fast depends on the distance of the reflected "
@@ -133,16 +136,17 @@ inline constexpr Knob kBlurLawKnob{
     .choices = kBlurLawChoices};
 
 /// Knobs that every search has, in lists after the search's own knobs.
-inline constexpr std::array kSearchKnobs{
-    kFaceKnob,    kColourKnob,   kDistanceKnob,  kDistanceRangeKnob, kContinueKnob,
-    kLookupKnob,  kCapturesKnob, kMirrorsKnob,   kShowKnob,          kRoughKnob,
-    kBlurLawKnob, kTapsKnob,     kRoughRaysKnob, kShadowKnob,        kShadowMapEdgeKnob};
+inline constexpr std::array kCommonSearchKnobs{
+    kCaptureFaceKnob,       kCaptureColourKnob, kCaptureDistanceKnob,  kDistanceRangeKnob,
+    kContinuedSearchesKnob, kLookupKnob,        kLookedUpCapturesKnob, kMirrorsInCapturesKnob,
+    kShownPictureKnob,      kRoughKnob,         kBlurLawKnob,          kFilterTapsKnob,
+    kRoughRaysKnob,         kShadowKnob,        kShadowMapEdgeKnob};
 
 template <std::size_t N>
-constexpr std::array<Knob, N + kSearchKnobs.size()>
-list_search_knobs(const std::array<Knob, N>& own) {
-    std::array<Knob, N + kSearchKnobs.size()> knobs{};
-    std::ranges::copy(kSearchKnobs, std::ranges::copy(own, knobs.begin()).out);
+constexpr std::array<TechniqueKnob, N + kCommonSearchKnobs.size()>
+list_search_knobs(const std::array<TechniqueKnob, N>& own) {
+    std::array<TechniqueKnob, N + kCommonSearchKnobs.size()> knobs{};
+    std::ranges::copy(kCommonSearchKnobs, std::ranges::copy(own, knobs.begin()).out);
     return knobs;
 }
 
@@ -163,34 +167,35 @@ inline bool reads_other_captures(const SharedKnobs& knobs) {
 
 /// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
 /// knobs `continue`, `lookup`, `captures` and `show`, where they exist, become shader constants.
-render::MirrorShader make_capture_shader(const MirrorInputs& around, std::string fragment,
+render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
                                          const KnobSettings& settings);
 
 /// Returns the mirror shading of a technique with Technique::search. The technique's own knobs
 /// become shader constants of the same names.
-render::MirrorShader make_search_shader(const Technique& technique, const MirrorInputs& around,
+render::MirrorShader make_search_shader(const Technique& technique,
+                                        const MirrorShadingInputs& around,
                                         const KnobSettings& settings);
 
 /// Consecutive layers of an array of cubes.
-struct LayerRange {
+struct CubeLayerRange {
     std::uint32_t first = 0, count = 0;
 };
 /// Returns the cubes of captures in array `array` for which `derived`, an image that passes compute
 /// from captures, is out of date, as runs of layers. Sets their content hash to `hash` of the
 /// mirror. If captures are not kept from frame to frame, all cubes are out of date.
 template <typename Hash>
-std::vector<LayerRange> find_outdated_cubes(graph::Graph& graph, const render::Captures& captures,
-                                            std::uint32_t array, graph::ImageHandle derived,
-                                            Hash&& hash) {
-    std::vector<LayerRange> runs;
+std::vector<CubeLayerRange>
+find_outdated_cubes(graph::Graph& graph, const render::MirrorCaptures& captures,
+                    std::uint32_t array, graph::ImageHandle derived, Hash&& hash) {
+    std::vector<CubeLayerRange> runs;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
-        const render::CapturePlace& place = captures.places[mirror];
+        const render::CaptureArraySlot& place = captures.places[mirror];
         if (place.array != array) continue;
         const std::uint32_t first = 6 * place.cube;
         if (!captures.drawings.empty()) {
             const std::uint64_t content_hash = hash(mirror);
-            if (graph.holds_content(derived.layers(first, 6), content_hash)) continue;
-            graph.set_content_hash(derived.layers(first, 6), content_hash);
+            if (graph.holds_content(derived.select_layers(first, 6), content_hash)) continue;
+            graph.set_content_hash(derived.select_layers(first, 6), content_hash);
         }
         if (runs.empty() || runs.back().first + runs.back().count != first)
             runs.push_back({first, 0});

@@ -12,7 +12,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-std::optional<std::uint32_t> shadow_map_edge(const SharedKnobs& knobs) {
+std::optional<std::uint32_t> choose_shadow_map_edge(const SharedKnobs& knobs) {
     if (knobs.shadow != SharedKnobs::ShadowMethod::map) return std::nullopt;
     return knobs.shadow_map;
 }
@@ -20,26 +20,28 @@ std::optional<std::uint32_t> shadow_map_edge(const SharedKnobs& knobs) {
 /// Shadow maps by edge in texels. Each is added to the graph once.
 class ShadowMaps {
 public:
-    ShadowMaps(graph::Graph& graph, const render::FrameInputs& inputs, const require::Model& model)
-        : graph_(graph), inputs_(inputs), model_(model) {}
+    ShadowMaps(graph::Graph& graph, const render::FrameInputs& inputs,
+               const require::RequiredWorkModel& model)
+        : frame_graph_(graph), shadow_frame_inputs_(inputs), model_(model) {}
 
-    render::Lighting find_or_add_map(std::optional<std::uint32_t> edge) {
+    render::ShadingLights find_or_add_shadow_map(std::optional<std::uint32_t> edge) {
         if (!edge) return {};
         const auto found = made_.find(*edge);
         if (found != made_.end()) return found->second;
         const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
-        return made_[*edge] = {render::add_shadow_passes(graph_, inputs_, *edge, model_, suffix)};
+        return made_[*edge] = {render::add_shadow_passes(frame_graph_, shadow_frame_inputs_, *edge,
+                                                         model_, suffix)};
     }
 
 private:
-    graph::Graph& graph_;
-    const render::FrameInputs& inputs_;
-    const require::Model& model_;
-    std::map<std::uint32_t, render::Lighting> made_;
+    graph::Graph& frame_graph_;
+    const render::FrameInputs& shadow_frame_inputs_;
+    const require::RequiredWorkModel& model_;
+    std::map<std::uint32_t, render::ShadingLights> made_;
 };
 
 /// Returns whether a tracer completes the whole view (Technique::completes_view).
-bool is_completed(const std::vector<TechniqueChoice>& choices) {
+bool is_view_completed_by_tracer(const std::vector<TechniqueChoice>& choices) {
     const TechniqueChoice& choice = choices.front();
     const Technique& technique = *choice.technique;
     return choices.size() == 1 && technique.completes_view &&
@@ -48,10 +50,10 @@ bool is_completed(const std::vector<TechniqueChoice>& choices) {
 
 /// Returns the shadow map edge for the view, in texels; none: no map. `is_drawn`: the view is
 /// rasterised although a technique traces shadow rays, so that it needs a map even for them.
-std::optional<std::uint32_t> shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices,
-                                                      bool is_drawn) {
+std::optional<std::uint32_t>
+choose_shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices, bool is_drawn) {
     std::optional<std::uint32_t> finest;
-    if (!is_drawn) return shadow_map_edge(choices.front().shared);
+    if (!is_drawn) return choose_shadow_map_edge(choices.front().shared);
     for (const TechniqueChoice& choice : choices)
         if (choice.shared.shadow != SharedKnobs::ShadowMethod::none)
             finest = std::max(finest.value_or(1), choice.shared.shadow_map);
@@ -60,10 +62,9 @@ std::optional<std::uint32_t> shadow_map_edge_for_view(const std::vector<Techniqu
 
 /// Returns the capture options of each mirror: those of its technique, extended by the data that
 /// searches need which read captures of other mirrors.
-std::vector<render::CaptureOptions> choose_capture_options(const render::FrameInputs& inputs,
-                                                           const MirrorAssignment& assignment,
-                                                           ShadowMaps& maps,
-                                                           const render::Lighting& view_lighting) {
+std::vector<render::CaptureOptions>
+choose_capture_options(const render::FrameInputs& inputs, const MirrorAssignment& assignment,
+                       ShadowMaps& maps, const render::ShadingLights& view_lighting) {
     std::vector<render::CaptureOptions> of_choice;
     render::CaptureOptions shared;
     for (const TechniqueChoice& choice : assignment.choices) {
@@ -71,15 +72,15 @@ std::vector<render::CaptureOptions> choose_capture_options(const render::FrameIn
         render::CaptureOptions options{.face = 0, .lighting = view_lighting};
         if (technique->capture) {
             options = technique->capture(inputs, choice.settings);
-            options.lighting = maps.find_or_add_map(shadow_map_edge(choice.shared));
+            options.lighting = maps.find_or_add_shadow_map(choose_shadow_map_edge(choice.shared));
             if (reads_other_captures(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
-                shared.distance = Format::r32f;
+                shared.distance = TexelFormat::r32f;
             }
         } else if (choice.shared.capture) {
             options.face = *choice.shared.capture;
-            options.distance = Format::r32f; // one-step parallax correction reads distance
+            options.distance = TexelFormat::r32f; // one-step parallax correction reads distance
         }
         of_choice.push_back(options);
     }
@@ -97,7 +98,7 @@ std::vector<render::CaptureOptions> choose_capture_options(const render::FrameIn
 /// Returns the mirror shading of all mirrors inside captures: lookups in the captures of the last
 /// frame.
 render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
-                                                 const render::CaptureUpdate& feeding,
+                                                 const render::FrameCaptureUpdate& feeding,
                                                  const MirrorAssignment& assignment,
                                                  const RoughLevels& levels) {
     render::MirrorShaders looks;
@@ -106,7 +107,7 @@ render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
         const Technique& technique = *choice.technique;
         render::MirrorShader look; // no fragment shader: black
         const bool is_kept = feeding.kept != nullptr;
-        if (feeding.last && feeding.last->places[i].is_captured() &&
+        if (feeding.last && feeding.last->places[i].has_capture() &&
             (feeding.was_there[i] || !is_kept)) {
             look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
             look.captures = feeding.last;
@@ -125,13 +126,13 @@ render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
     return looks;
 }
 
-bool uses_mirrored_views(const TechniqueChoice& choice) {
+bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
     return choice.technique->mirrored_bounces != nullptr;
 }
 
 /// Captures that mirrors of this frame look into, and their filtered levels.
 struct FeedbackCaptures {
-    render::CaptureUpdate update;
+    render::FrameCaptureUpdate update;
     RoughLevels levels;
 };
 
@@ -139,11 +140,11 @@ struct FeedbackCaptures {
 /// of the frame before. Returns an empty update if no technique needs captures.
 FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInputs& inputs,
                                      const MirrorAssignment& assignment,
-                                     const CaptureHistory& keeping, ShadowMaps& maps,
-                                     const render::Lighting& view_lighting) {
+                                     const PreviousCaptureHistory& keeping, ShadowMaps& maps,
+                                     const render::ShadingLights& view_lighting) {
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
-                           std::ranges::any_of(assignment.choices, uses_mirrored_views);
+                           std::ranges::any_of(assignment.choices, is_drawn_by_mirrored_views);
     const auto captures_any = [](const TechniqueChoice& choice) {
         return choice.technique->capture != nullptr;
     };
@@ -152,12 +153,11 @@ FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInp
         return {{}, RoughLevels(graph, inputs, nullptr, {})};
     std::vector<render::CaptureOptions> options = choose_capture_options(inputs, assignment, maps,
                                                                          view_lighting);
-    render::CaptureUpdate feeding = keeping.model.is_everything
-                                        ? render::update_all_captures(graph, inputs, "capture",
-                                                                      std::move(options))
-                                        : render::update_required_captures(
-                                              graph, inputs, "capture", options, keeping.model,
-                                              {keeping.before, keeping.comparisons, keeping.most});
+    render::FrameCaptureUpdate feeding =
+        keeping.model.is_everything
+            ? render::update_all_captures(graph, inputs, "capture", std::move(options))
+            : render::update_required_captures(graph, inputs, "capture", options, keeping.model,
+                                               {keeping.before, keeping.comparisons, keeping.most});
     std::vector<SharedKnobs> knobs;
     for (const std::uint32_t choice : assignment.of_mirror)
         knobs.push_back(assignment.choices[choice].shared);
@@ -165,7 +165,7 @@ FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInp
     render::add_capture_passes(graph, inputs, *feeding.captures,
                                choose_shaders_in_captures(graph, feeding, assignment, levels),
                                feeding.work);
-    render::add_capture_comparison(graph, inputs, feeding);
+    render::add_capture_comparison_pass(graph, inputs, feeding);
     levels.add_passes(graph);
     return {std::move(feeding), std::move(levels)};
 }
@@ -188,7 +188,7 @@ render::MirrorShaders choose_shaders_in_mirrored_views(const TechniqueOutputs& o
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
         const Technique& technique = *assignment.choices[i].technique;
-        if (uses_mirrored_views(assignment.choices[i])) look = {};
+        if (is_drawn_by_mirrored_views(assignment.choices[i])) look = {};
         if (technique.capture || !technique.picture) continue;
         look = {};
         if (assignment.choices[i].shared.is_black_in_others || !outputs.captures) continue;
@@ -202,13 +202,13 @@ render::MirrorShaders choose_shaders_in_mirrored_views(const TechniqueOutputs& o
 
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
                                   const MirrorAssignment& assignment,
-                                  const CaptureHistory& keeping) {
+                                  const PreviousCaptureHistory& keeping) {
     const std::vector<TechniqueChoice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
     ShadowMaps maps(graph, inputs, keeping.model);
-    const bool completes = is_completed(choices);
-    const render::Lighting lighting = maps.find_or_add_map(
-        shadow_map_edge_for_view(choices, is_mixed || completes));
+    const bool completes = is_view_completed_by_tracer(choices);
+    const render::ShadingLights lighting = maps.find_or_add_shadow_map(
+        choose_shadow_map_edge_for_view(choices, is_mixed || completes));
     if (!is_mixed && !completes && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
@@ -225,9 +225,10 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         if (is_mixed) own.prefix += choices[i].file_name() + "/";
         const KnobSettings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
-        const MirrorInputs around{
+        const MirrorShadingInputs around{
             outputs.captures,
-            completes ? lighting : maps.find_or_add_map(shadow_map_edge(choices[i].shared)),
+            completes ? lighting
+                      : maps.find_or_add_shadow_map(choose_shadow_map_edge(choices[i].shared)),
             list_mirrors_of_choice(i, assignment)};
         MirrorShading look = technique.search
                                  ? MirrorShading{make_search_shader(technique, around, settings),
@@ -244,19 +245,19 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         looks.looks.push_back(std::move(look.mirror));
     }
     if (outputs.captures) outputs.notes = outputs.captures->notes;
-    if (std::ranges::any_of(choices, uses_mirrored_views) && !assignment.of_mirror.empty())
+    if (std::ranges::any_of(choices, is_drawn_by_mirrored_views) && !assignment.of_mirror.empty())
         std::ranges::move(
             add_mirrored_views(graph, inputs, assignment, lighting,
                                choose_shaders_in_mirrored_views(outputs, assignment, looks), looks),
             std::back_inserter(outputs.notes));
-    const render::CameraOutputs view = render::add_camera_view(
+    const render::CameraPassOutputs view = render::add_camera_view(
         graph, inputs, lighting, std::move(looks), !tracers.empty(),
-        completes ? render::CompletingTracer{1, tracers.front().rays > 0}
-                  : render::CompletingTracer{});
+        completes ? render::ShadingTracer{1, tracers.front().rays > 0} : render::ShadingTracer{});
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)
-        outputs.counters.push_back(add_list_tracing(graph, inputs, tracers[i], i + 1, view));
+        outputs.counters.push_back(
+            add_tracing_of_pixel_list(graph, inputs, tracers[i], i + 1, view));
     return outputs;
 }
 

@@ -8,8 +8,8 @@ namespace catoptric::reflect {
 
 /// Input of add_frame_passes: the work that the frame may skip, and the captures that the frame
 /// before left.
-struct CaptureHistory {
-    const require::Model& model;
+struct PreviousCaptureHistory {
+    const require::RequiredWorkModel& model;
     /// TechniqueOutputs::kept of the frame before; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
     /// Buffers in which captures are compared with those of the frame before; may be null.
@@ -17,7 +17,7 @@ struct CaptureHistory {
     std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };
 /// The model that culls no work, so that all captures are drawn.
-inline const require::Model kEverything;
+inline const require::RequiredWorkModel kEverything;
 
 /// Declares the passes of one frame: all that the mirrors' techniques need. If all mirrors share
 /// one technique, the passes are those of this technique.
@@ -28,6 +28,6 @@ inline const require::Model kEverything;
 /// no passes.
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
                                   const MirrorAssignment& assignment,
-                                  const CaptureHistory& keeping = {.model = kEverything});
+                                  const PreviousCaptureHistory& keeping = {.model = kEverything});
 
 } // namespace catoptric::reflect

@@ -8,28 +8,30 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kForcedLookupChoices{"search", "unknown"};
-enum class ForcedLookup { search, unknown };
-constexpr Knob kForceKnob{
+enum class ForcedLookupResult { search, unknown };
+constexpr TechniqueKnob kForcedLookupKnob{
     .name = "force",
     .help = "pixels to trace: those for which the search answers unknown, or all",
     .high = 1,
     .choices = kForcedLookupChoices};
-constexpr auto kHybridKnobs = list_search_knobs(std::array{kForceKnob});
+constexpr auto kHybridKnobs = list_search_knobs(std::array{kForcedLookupKnob});
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
 MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                  const KnobSettings& settings, const MirrorInputs& around) {
+                                  const KnobSettings& settings, const MirrorShadingInputs& around) {
     MirrorShading look = make_pyramid_shading(graph, inputs, settings, around);
-    const bool traces_all = settings.enum_value<ForcedLookup>(kForceKnob) == ForcedLookup::unknown;
+    const bool traces_all = settings.knob_value_as_enum<ForcedLookupResult>(kForcedLookupKnob) ==
+                            ForcedLookupResult::unknown;
     if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
     const bool is_rough = std::ranges::any_of(
         around.mirrors, [&](std::uint32_t mirror) { return inputs.scene.is_rough_mirror(mirror); });
-    const SharedKnobs knobs = shared_knobs(settings);
-    if (is_rough && knobs.rough != SharedKnobs::Rough::none) look.tracer->rays = knobs.lobe_rays;
+    const SharedKnobs knobs = read_shared_knobs(settings);
+    if (is_rough && knobs.rough != SharedKnobs::RoughLookup::none)
+        look.tracer->rays = knobs.lobe_rays;
     // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
-    if (traces_all && inputs.scene.device().supports_primitive_ids()) {
+    if (traces_all && inputs.scene.scene_device().supports_primitive_ids()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }

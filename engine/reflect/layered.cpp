@@ -6,12 +6,13 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kStepsKnob{.name = "steps",
-                          .help = "number of steps of equal angle along the reflected ray",
-                          .low = 1,
-                          .high = 256,
-                          .value = 16};
-constexpr auto kLayeredKnobs = list_search_knobs(std::array{kStepsKnob});
+constexpr TechniqueKnob kSearchStepsKnob{
+    .name = "steps",
+    .help = "number of steps of equal angle along the reflected ray",
+    .low = 1,
+    .high = 256,
+    .value = 16};
+constexpr auto kLayeredKnobs = list_search_knobs(std::array{kSearchStepsKnob});
 
 render::CaptureOptions choose_layered_capture_options(const render::FrameInputs& inputs,
                                                       const KnobSettings& settings) {
@@ -21,21 +22,26 @@ render::CaptureOptions choose_layered_capture_options(const render::FrameInputs&
 }
 
 MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
-                                   const KnobSettings& settings, const MirrorInputs& around) {
+                                   const KnobSettings& settings,
+                                   const MirrorShadingInputs& around) {
     MirrorShading look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back(
-        "steps", static_cast<std::uint32_t>(settings.integer_value(kStepsKnob)));
+        "steps", static_cast<std::uint32_t>(settings.knob_value_as_integer(kSearchStepsKnob)));
     // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
     // binding.
-    const auto images = [&](const char* name, auto&& image) {
+    const auto bind_layer_images = [&](const char* name, auto&& image) {
         std::vector<graph::ImageHandle> list;
-        for (const render::CubeArray& cubes : around.captures->arrays) list.push_back(image(cubes));
+        for (const render::CubeCaptureArray& cubes : around.captures->arrays)
+            list.push_back(image(cubes));
         look.mirror.images.emplace_back(name, std::move(list));
     };
-    images("distance1", [](const auto& cubes) { return cubes.distance.value_or(cubes.colour); });
-    images("distance2", [](const auto& cubes) { return cubes.distance2.value_or(cubes.colour); });
-    images("colour1", [](const auto& cubes) { return cubes.colour; });
-    images("colour2", [](const auto& cubes) { return cubes.colour2.value_or(cubes.colour); });
+    bind_layer_images("distance1",
+                      [](const auto& cubes) { return cubes.distance.value_or(cubes.colour); });
+    bind_layer_images("distance2",
+                      [](const auto& cubes) { return cubes.distance2.value_or(cubes.colour); });
+    bind_layer_images("colour1", [](const auto& cubes) { return cubes.colour; });
+    bind_layer_images("colour2",
+                      [](const auto& cubes) { return cubes.colour2.value_or(cubes.colour); });
     return look;
 }
 

@@ -13,7 +13,7 @@ using render::MirroredView;
 struct MirroredFace {
     std::uint32_t mirror = 0;
     std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
-    std::vector<scene::TriangleRun> triangles;
+    std::vector<scene::TriangleIndexRun> triangles;
 };
 
 /// All mirrors that are drawn by mirrored views.
@@ -21,7 +21,7 @@ struct MirroredFaces {
     std::vector<MirroredFace> faces;
     std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
     /// Mirrors with several faces, and their triangles that belong to no flat face.
-    std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleRun>>> bodies;
+    std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleIndexRun>>> bodies;
 };
 
 MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
@@ -30,12 +30,12 @@ MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         if (!choice.technique->mirrored_bounces) continue;
-        const scene::FlatFaces& flats = scene.flat_mirrors()[i];
+        const scene::FlatFaces& flats = scene.list_flat_mirror_faces()[i];
         const int bounces = choice.technique->mirrored_bounces(choice.settings);
         if (!flats.is_single_plane()) all.bodies.emplace_back(i, flats.bent);
         for (std::size_t k = 0; k < flats.faces.size(); ++k) {
             const scene::FlatFace& face = flats.faces[k];
-            if (face.off > scene.flat_tolerance()) {
+            if (face.off > scene.flat_mirror_tolerance()) {
                 std::ranges::copy(face.triangles, std::back_inserter(all.bodies.back().second));
                 continue;
             }
@@ -48,11 +48,11 @@ MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
 
 /// Returns the name of a view. "mirrored/2/1" is the view of mirror 1 inside mirror 2.
 /// "mirrored/2.3" is the view of face 3 of mirror 2.
-std::string name_mirrored_view(const MirroredFaces& all, const std::vector<MirroredView>& views,
+std::string mirrored_view_name(const MirroredFaces& all, const std::vector<MirroredView>& views,
                                std::size_t view) {
     const auto& within = views[view].within;
     const MirroredFace& face = all.faces[views[view].mirror];
-    return (within ? name_mirrored_view(all, views, *within) : "mirrored") + "/" +
+    return (within ? mirrored_view_name(all, views, *within) : "mirrored") + "/" +
            std::to_string(face.mirror + 1) +
            (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
@@ -77,7 +77,7 @@ render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const
                                .buffers = {}});
     }
     for (const auto& [mirror, bent] : all.bodies) {
-        looks.of_mirror[mirror] = render::MirrorShaders::kShadedByParts;
+        looks.of_mirror[mirror] = render::MirrorShaders::kShaderChosenByPart;
         if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
@@ -95,7 +95,7 @@ render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const
 
 std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
                                             const MirrorAssignment& assignment,
-                                            const render::Lighting& lighting,
+                                            const render::ShadingLights& lighting,
                                             const render::MirrorShaders& others,
                                             render::MirrorShaders& looks) {
     const MirroredFaces all = list_mirrored_faces(inputs.scene, assignment);
@@ -112,7 +112,7 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;
         made[i] = render::add_mirrored_view(
-            graph, inputs, name_mirrored_view(all, views, i), views[i], number, lighting,
+            graph, inputs, mirrored_view_name(all, views, i), views[i], number, lighting,
             add_shaders_within_view(others, all, views, made, i), whole);
     }
     looks = add_shaders_within_view(std::move(looks), all, views, made, {});

@@ -13,7 +13,7 @@ namespace catoptric::reflect {
 /// views. Returns notes, one sentence each, on views that differ from the request.
 std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
                                             const MirrorAssignment& assignment,
-                                            const render::Lighting& lighting,
+                                            const render::ShadingLights& lighting,
                                             const render::MirrorShaders& others,
                                             render::MirrorShaders& looks);
 

@@ -8,31 +8,33 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kBouncesKnob{.name = "bounces",
-                            .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
-                            .low = 0,
-                            .high = 8,
-                            .value = 3};
-constexpr Knob kNaiveKnobs[] = {kBouncesKnob, kFaceKnob,          kColourKnob,
-                                kShadowKnob,  kShadowMapEdgeKnob, kCaptureKnob};
+constexpr TechniqueKnob kBouncesKnob{
+    .name = "bounces",
+    .help = "mirror bounces rendered in each frame; 0 leaves mirrors black",
+    .low = 0,
+    .high = 8,
+    .value = 3};
+constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob, kCaptureFaceKnob,   kCaptureColourKnob,
+                                         kShadowKnob,  kShadowMapEdgeKnob, kCaptureContentKnob};
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.
 MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                 const KnobSettings& settings, const MirrorInputs& around) {
+                                 const KnobSettings& settings, const MirrorShadingInputs& around) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // no fragment shader: black
-    const int bounces = settings.integer_value(kBouncesKnob);
+    const int bounces = settings.knob_value_as_integer(kBouncesKnob);
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;
         if (bounce == bounces) of_others.face = 0;
         std::vector of_mirrors(inputs.scene.mirror_count(), of_others);
         for (const std::uint32_t mirror : around.mirrors) of_mirrors[mirror] = options;
-        const auto captures = std::make_shared<const render::Captures>(render::declare_captures(
-            graph, inputs, "bounce" + std::to_string(bounce), std::move(of_mirrors)));
+        const auto captures = std::make_shared<const render::MirrorCaptures>(
+            render::declare_captures(graph, inputs, "bounce" + std::to_string(bounce),
+                                     std::move(of_mirrors)));
         render::add_capture_passes(graph, inputs, *captures,
-                                   render::use_one_shader(inputs.scene, look));
+                                   render::use_same_shader_for_mirrors(inputs.scene, look));
         look = make_capture_shader({captures, around.lighting, around.mirrors},
                                    "reflect/naive.frag", settings);
     }
@@ -52,7 +54,7 @@ constexpr Technique kNaiveTechnique{
     .compared = kNaiveDefaultRows,
     .scene_passes =
         [](int mirrors, int lights, const KnobSettings& settings) {
-            return mirrors * settings.integer_value(kBouncesKnob) +
+            return mirrors * settings.knob_value_as_integer(kBouncesKnob) +
                    count_shadow_passes(lights, settings) + 1;
         },
     .look = make_naive_shading};

@@ -8,21 +8,24 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kParallaxShader = "reflect/parallax.frag";
-constexpr std::array<std::string_view, 3> kDroppedRuleChoices{"none", "saturation", "void_test"};
-enum class DroppedRule { none, saturation, void_test };
-constexpr Knob kWithoutRuleKnob{.name = "without",
-                                .help = "rule of robustness to leave out, to measure its cost",
-                                .high = 2,
-                                .choices = kDroppedRuleChoices};
-constexpr Knob kParallaxKnobs[] = {
-    kFaceKnob, kColourKnob,    kDistanceKnob, kDistanceRangeKnob, kRoughKnob,      kBlurLawKnob,
-    kTapsKnob, kRoughRaysKnob, kShadowKnob,   kShadowMapEdgeKnob, kWithoutRuleKnob};
+constexpr std::array<std::string_view, 3> kDroppedParallaxRuleChoices{"none", "saturation",
+                                                                      "void_test"};
+enum class DroppedParallaxRule { none, saturation, void_test };
+constexpr TechniqueKnob kWithoutParallaxRuleKnob{
+    .name = "without",
+    .help = "rule of robustness to leave out, to measure its cost",
+    .high = 2,
+    .choices = kDroppedParallaxRuleChoices};
+constexpr TechniqueKnob kParallaxKnobs[] = {
+    kCaptureFaceKnob, kCaptureColourKnob, kCaptureDistanceKnob,    kDistanceRangeKnob,
+    kRoughKnob,       kBlurLawKnob,       kFilterTapsKnob,         kRoughRaysKnob,
+    kShadowKnob,      kShadowMapEdgeKnob, kWithoutParallaxRuleKnob};
 
-render::CaptureOptions parallax_capture_options(const render::FrameInputs& inputs,
-                                                const KnobSettings& settings) {
+render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
+                                                     const KnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
-    options.saturates = settings.enum_value<DroppedRule>(kWithoutRuleKnob) !=
-                        DroppedRule::saturation;
+    options.saturates = settings.knob_value_as_enum<DroppedParallaxRule>(
+                            kWithoutParallaxRuleKnob) != DroppedParallaxRule::saturation;
     return options;
 }
 
@@ -35,12 +38,13 @@ constexpr Technique kParallaxTechnique{
     .knobs = kParallaxKnobs,
     .compared = kParallaxDefaultRows,
     .scene_passes = count_feedback_passes,
-    .capture = parallax_capture_options,
+    .capture = make_parallax_capture_options,
     .in_captures = kParallaxShader,
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings& settings,
-               const MirrorInputs& around) {
+               const MirrorShadingInputs& around) {
         MirrorShading look{make_capture_shader(around, kParallaxShader, settings), {}};
-        if (settings.enum_value<DroppedRule>(kWithoutRuleKnob) == DroppedRule::void_test)
+        if (settings.knob_value_as_enum<DroppedParallaxRule>(kWithoutParallaxRuleKnob) ==
+            DroppedParallaxRule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;
     }};

@@ -22,7 +22,7 @@ constexpr std::size_t kMaxFileNameLength = 80;
 constexpr double kMinReportedBentShare =
     .001; // smallest share of area outside all flat faces that is reported
 
-std::string parse_percent(double share) {
+std::string format_share_as_percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
     return text;
@@ -32,7 +32,7 @@ std::string parse_percent(double share) {
 enum PatternPrecision { kNumber, kName, kRest, kNone };
 
 /// Returns the item as a number, or none if it is not a number.
-std::optional<std::size_t> parse_item_number(const std::string& item) {
+std::optional<std::size_t> parse_mirror_number_item(const std::string& item) {
     std::size_t number = 0;
     const char* end = item.data() + item.size();
     const auto [stop, error] = std::from_chars(item.data(), end, number);
@@ -40,18 +40,19 @@ std::optional<std::size_t> parse_item_number(const std::string& item) {
 }
 
 /// Returns how precisely the item names mirror `index`, from 0.
-PatternPrecision pattern_precision(const std::string& item, std::size_t index,
-                                   const std::string& name) {
+PatternPrecision find_pattern_precision(const std::string& item, std::size_t index,
+                                        const std::string& name) {
     if (item == "*") return kRest;
-    if (const auto number = parse_item_number(item)) return *number == index + 1 ? kNumber : kNone;
+    if (const auto number = parse_mirror_number_item(item))
+        return *number == index + 1 ? kNumber : kNone;
     return fnmatch(item.c_str(), name.c_str(), 0) == 0 ? kName : kNone;
 }
 
-std::string quote_names(const std::vector<std::string>& names) {
+std::string quote_technique_names(const std::vector<std::string>& names) {
     constexpr std::size_t kMaxListedMirrors = 20;
     std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
     for (std::size_t i = 0; i < std::min(names.size(), kMaxListedMirrors); ++i)
-        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_printable(names[i]);
+        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_as_printable_text(names[i]);
     return list + (names.size() > kMaxListedMirrors ? ", ..." : "");
 }
 
@@ -71,17 +72,17 @@ PlanRule parse_plan_rule(const std::string& text, std::string_view plan) {
 std::uint32_t find_choice_index(const TechniqueChoice& choice,
                                 std::vector<TechniqueChoice>& choices) {
     const auto found = std::ranges::find_if(
-        choices, [&](const TechniqueChoice& known) { return known.same_as(choice); });
+        choices, [&](const TechniqueChoice& known) { return known.is_same_choice_as(choice); });
     if (found != choices.end()) return static_cast<std::uint32_t>(found - choices.begin());
     choices.push_back(choice);
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
 /// Returns the technique of unfit mirrors, with the shadow settings of `choice`.
-TechniqueChoice fallback_choice(const TechniqueChoice& choice) {
+TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
     const KnobSettings defaults(choice.technique->knobs);
-    for (const Knob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob}) {
+    for (const TechniqueKnob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob}) {
         const std::string value = choice.settings.format_value(*knob);
         if (value == defaults.format_value(*knob)) continue;
         rest.settings.set_knob(rest.technique->name, knob->name, value);
@@ -107,9 +108,9 @@ std::string TechniquePlan::file_name() const {
     return name.substr(0, kMaxFileNameLength - 7) + "-" + std::to_string(mark % 1000000);
 }
 
-bool TechniquePlan::same_as(const TechniquePlan& other) const {
+bool TechniquePlan::is_same_plan_as(const TechniquePlan& other) const {
     return std::ranges::equal(rules, other.rules, [](const PlanRule& a, const PlanRule& b) {
-        return a.pattern == b.pattern && a.choice.same_as(b.choice);
+        return a.pattern == b.pattern && a.choice.is_same_choice_as(b.choice);
     });
 }
 
@@ -132,7 +133,8 @@ TechniquePlan parse_plan(std::string_view text) {
     return plan;
 }
 
-MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std::string>& names) {
+MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
+                                              const std::vector<std::string>& names) {
     MirrorAssignment assignment;
     if (plan.is_technique) {
         assignment.choices = {plan.rules.front().choice};
@@ -151,18 +153,18 @@ MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std
         for (const std::string& item : split_text(rule.pattern, ",")) {
             bool matches = false;
             for (std::size_t i = 0; i < names.size(); ++i) {
-                const PatternPrecision rank = pattern_precision(item, i, names[i]);
+                const PatternPrecision rank = find_pattern_precision(item, i, names[i]);
                 matches = matches || rank != kNone;
                 if (rank < best[i].rank) best[i] = {rank, &rule};
             }
             check(matches, Failure::usage, "plan '", plan.label, "': pattern '", item,
-                  "' matches no mirror; the scene has ", quote_names(names),
-                  suggest_name(item, names));
+                  "' matches no mirror; the scene has ", quote_technique_names(names),
+                  suggest_nearest_name(item, names));
         }
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
         check(best[i].rule != nullptr, Failure::usage, "plan '", plan.label,
-              "': no rule for mirror ", i + 1, " ", quote_printable(names[i]),
+              "': no rule for mirror ", i + 1, " ", quote_as_printable_text(names[i]),
               "; '*=TECHNIQUE' takes the rest");
         assignment.of_mirror.push_back(find_choice_index(best[i].rule->choice, assignment.choices));
         assignment.patterns.push_back(best[i].rule->pattern);
@@ -172,7 +174,8 @@ MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std
     return assignment;
 }
 
-void add_plan_demands(require::ModelInput& question, const std::vector<TechniquePlan>& plans) {
+void add_demands_of_plan(require::RequiredWorkModelInput& question,
+                         const std::vector<TechniquePlan>& plans) {
     std::optional<std::uint32_t> coarsest;
     for (const TechniquePlan& plan : plans)
         for (const auto& [pattern, choice] : plan.rules) {
@@ -199,14 +202,14 @@ MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
                                      : "";
         if (!lack.empty()) {
             const std::string asked(choice.technique->name);
-            choice = fallback_choice(choice);
+            choice = choose_fallback_technique(choice);
             assignment.reasons[i] = asked + " draws flat mirrors, and this is " + lack +
                                     ": rest=" + choice.label;
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
         } else if (choice.technique->mirrored_bounces) {
             const double bent = 1 - flats[i].flat_area_share(tolerance);
             if (bent >= kMinReportedBentShare)
-                assignment.lacks[i] = parse_percent(bent) +
+                assignment.lacks[i] = format_share_as_percent(bent) +
                                       " of its surface is not flat, black there";
         }
         assignment.of_mirror[i] = find_choice_index(choice, choices);

@@ -30,10 +30,11 @@ struct TechniquePlan {
     std::string file_name() const;
     /// Returns whether both plans have the same patterns with the same techniques and settings. The
     /// spelling of the labels does not matter.
-    bool same_as(const TechniquePlan& other) const;
+    bool is_same_plan_as(const TechniquePlan& other) const;
 };
 
-/// Name of the technique `auto`, which chooses a plan for each scene (require::suggest_plan).
+/// Name of the technique `auto`, which chooses a plan for each scene
+/// (require::suggest_technique_plan).
 inline constexpr std::string_view kAutoPlanName = "auto";
 
 /// Reads "name[:knob=value,...]", or rules "PATTERN=name[:knob=value,...] ..." separated by blanks,
@@ -60,11 +61,13 @@ struct MirrorAssignment {
 /// wins over a name and a name over `*`. Between equals the first rule wins. Throws
 /// `Failure::usage` for a pattern without a match and for a mirror without a rule. O(rules *
 /// mirrors).
-MirrorAssignment assign_mirrors(const TechniquePlan& plan, const std::vector<std::string>& names);
+MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
+                                              const std::vector<std::string>& names);
 
 /// Adds to the question the needs of the plans' techniques that do not depend on visibility: whole
 /// cubes, captures of all mirrors, and the edge of the coarsest shadow map.
-void add_plan_demands(require::ModelInput& question, const std::vector<TechniquePlan>& plans);
+void add_demands_of_plan(require::RequiredWorkModelInput& question,
+                         const std::vector<TechniquePlan>& plans);
 
 /// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The
 /// knob `rest` names the replacement, which keeps the shadow settings.

@@ -10,20 +10,20 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kRestChoices{
+constexpr std::array<std::string_view, 9> kUnfitMirrorsChoices{
     "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
-constexpr Knob kBouncesKnob{
+constexpr TechniqueKnob kBouncesKnob{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
     .low = 0,
     .high = 16,
     .value = 2};
-constexpr Knob kRestKnob{.name = "rest",
-                         .help = "technique of mirrors that are not flat",
-                         .high = kRestChoices.size() - 1,
-                         .choices = kRestChoices};
-constexpr Knob kPlanarKnobs[] = {kBouncesKnob, kRestKnob, kShadowKnob, kShadowMapEdgeKnob,
-                                 kCaptureKnob};
+constexpr TechniqueKnob kUnfitMirrorsKnob{.name = "rest",
+                                          .help = "technique of mirrors that are not flat",
+                                          .high = kUnfitMirrorsChoices.size() - 1,
+                                          .choices = kUnfitMirrorsChoices};
+constexpr TechniqueKnob kPlanarKnobs[] = {kBouncesKnob, kUnfitMirrorsKnob, kShadowKnob,
+                                          kShadowMapEdgeKnob, kCaptureContentKnob};
 
 std::string describe_planar_misfit(const scene::FlatFaces& flats, double tolerance) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);
@@ -48,11 +48,11 @@ constexpr Technique kPlanarTechnique{
             return count_shadow_passes(lights, settings) + 1;
         },
     .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
-               const MirrorInputs&) { return MirrorShading{}; },
+               const MirrorShadingInputs&) { return MirrorShading{}; },
     .mirrored_bounces =
-        [](const KnobSettings& settings) { return settings.integer_value(kBouncesKnob); },
+        [](const KnobSettings& settings) { return settings.knob_value_as_integer(kBouncesKnob); },
     .unfit = describe_planar_misfit,
-    .rest = &kRestKnob};
+    .rest = &kUnfitMirrorsKnob};
 const RegisteredTechnique kPlanarRegistration{kPlanarTechnique};
 
 } // namespace

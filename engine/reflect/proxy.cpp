@@ -8,27 +8,27 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr std::array<std::string_view, 2> kProxyShapeChoices{"box", "sphere"};
-constexpr Knob kProxyShapeKnob{.name = "shape",
-                               .help = "shape that approximates the surroundings",
-                               .high = 1,
-                               .choices = kProxyShapeChoices};
+constexpr TechniqueKnob kProxyShapeKnob{.name = "shape",
+                                        .help = "shape that approximates the surroundings",
+                                        .high = 1,
+                                        .choices = kProxyShapeChoices};
 constexpr auto kProxyKnobs = [] {
     auto knobs = list_search_knobs(std::array{kProxyShapeKnob});
-    std::ranges::find(knobs, kContinueKnob.name, &Knob::name)->value =
+    std::ranges::find(knobs, kContinuedSearchesKnob.name, &TechniqueKnob::name)->value =
         0; // as published, without following rays through other mirrors
     return knobs;
 }();
-constexpr std::uint64_t kProxyBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
+constexpr std::uint64_t kProxyStructBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
 /// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
 graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const std::shared_ptr<const render::Captures>& captures) {
+                                   const std::shared_ptr<const render::MirrorCaptures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::BufferHandle proxies = graph.add_buffer(
-        {inputs.prefix + "proxies", kProxyBytes * mirrors});
+        {inputs.prefix + "proxies", kProxyStructBytes * mirrors});
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "proxies");
     std::vector<graph::ImageHandle> faces;
-    for (const render::CubeArray& cubes : captures->arrays) {
+    for (const render::CubeCaptureArray& cubes : captures->arrays) {
         faces.push_back(
             cubes.distance.value_or(cubes.colour)); // placeholder: never read without distance
         pass.reads(faces.back(), graph::ResourceUse::sampled);
@@ -42,26 +42,26 @@ graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInput
         pass.reads(*captures->table, graph::ResourceUse::sampled);
     } else {
         state.constants = {{"stored_unit", options.stored_unit},
-                           {"range_ends", options.distance == Format::r8_unorm ? 1u : 0u}};
+                           {"range_ends", options.distance == TexelFormat::r8_unorm ? 1u : 0u}};
     }
     pass.writes(proxies, graph::ResourceUse::storage_write)
         .record([=, table = captures->table](graph::PassCommands& commands) {
             commands.bind_pipeline(state);
-            commands.bind("distance_faces", faces);
-            commands.bind("Proxies", proxies);
-            commands.bind("nearest_texels", graph::TextureFilter::nearest);
-            if (table) commands.bind("Captures", *table);
+            commands.bind_resource("distance_faces", faces);
+            commands.bind_resource("Proxies", proxies);
+            commands.bind_resource("nearest_texels", graph::TextureFilter::nearest);
+            if (table) commands.bind_resource("Captures", *table);
             commands.dispatch(mirrors, 1);
         });
     return proxies;
 }
 
 MirrorShading make_proxy_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                 const KnobSettings& settings, const MirrorInputs& around) {
+                                 const KnobSettings& settings, const MirrorShadingInputs& around) {
     MirrorShading look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies", add_proxy_pass(graph, inputs, around.captures));
     look.mirror.constants.emplace_back(
-        "shape", static_cast<std::uint32_t>(settings.integer_value(kProxyShapeKnob)));
+        "shape", static_cast<std::uint32_t>(settings.knob_value_as_integer(kProxyShapeKnob)));
     return look;
 }
 

@@ -13,49 +13,51 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr auto kPyramidKnobs = list_search_knobs(std::array<Knob, 0>{});
+constexpr auto kPyramidKnobs = list_search_knobs(std::array<TechniqueKnob, 0>{});
 
-/// Returns the topmost level, which has one cell per face. Must match pyramid_level_edge and
-/// top_pyramid_level in shaders/reflect/pyramid.glsl.
-std::uint32_t top_pyramid_level(std::uint32_t face) {
+/// Returns the topmost level, which has one cell per face. Must match edge_of_pyramid_level and
+/// top_level_of_pyramid in shaders/reflect/pyramid.glsl.
+std::uint32_t top_level_of_pyramid(std::uint32_t face) {
     return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1));
 }
-std::uint32_t pyramid_level_edge(std::uint32_t face, std::uint32_t level) {
+std::uint32_t edge_of_pyramid_level(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
 /// Consecutive cubes of one array.
-struct CubeRange {
+struct PyramidCubeRange {
     graph::ImageHandle distances, bounds;
     std::uint32_t face = 0;
 };
 
 /// Returns the content hash of the distance bounds of a mirror's cube. It covers the whole cube,
 /// because cells at the edge of a face read the neighbouring faces.
-std::uint64_t distance_bounds_hash(const render::Captures& captures, std::size_t mirror) {
+std::uint64_t hash_distance_bounds(const render::MirrorCaptures& captures, std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
     return ContentHash()
-        .add(captures.drawings[mirror])
-        .add(options.distance.value_or(options.colour))
-        .add(options.stored_unit)
-        .add(options.leaves_out_spheres)
-        .hash_value();
+        .add_value(captures.drawings[mirror])
+        .add_value(options.distance.value_or(options.colour))
+        .add_value(options.stored_unit)
+        .add_value(options.leaves_out_spheres)
+        .current_hash();
 }
 
 /// Returns the cubes of the array whose stored bounds are out of date, as runs.
-std::vector<CubeRange> find_outdated_pyramids(graph::Graph& graph, const render::Captures& captures,
-                                              std::uint32_t array, graph::ImageHandle bounds) {
-    const render::CubeArray& cubes = captures.arrays[array];
+std::vector<PyramidCubeRange> find_outdated_pyramids(graph::Graph& graph,
+                                                     const render::MirrorCaptures& captures,
+                                                     std::uint32_t array,
+                                                     graph::ImageHandle bounds) {
+    const render::CubeCaptureArray& cubes = captures.arrays[array];
     // Captures that no search reads have no distance. Their colour is a placeholder that is never
     // read.
     const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
-    std::vector<CubeRange> runs;
-    for (const LayerRange& run :
+    std::vector<PyramidCubeRange> runs;
+    for (const CubeLayerRange& run :
          find_outdated_cubes(graph, captures, array, bounds, [&](std::uint32_t mirror) {
-             return distance_bounds_hash(captures, mirror);
+             return hash_distance_bounds(captures, mirror);
          }))
-        runs.push_back({distances.layers(run.first, run.count), bounds.layers(run.first, run.count),
-                        cubes.face});
+        runs.push_back({distances.select_layers(run.first, run.count),
+                        bounds.select_layers(run.first, run.count), cubes.face});
     return runs;
 }
 
@@ -64,16 +66,16 @@ std::vector<CubeRange> find_outdated_pyramids(graph::Graph& graph, const render:
 /// kept as well.
 std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
                                                    const render::FrameInputs& inputs,
-                                                   const render::Captures& captures) {
+                                                   const render::MirrorCaptures& captures) {
     std::vector<graph::ImageHandle> pyramids;
-    std::vector<CubeRange> runs;
+    std::vector<PyramidCubeRange> runs;
     std::uint32_t top_of_all = 0;
     for (std::uint32_t array = 0; array < captures.arrays.size(); ++array) {
-        const render::CubeArray& cubes = captures.arrays[array];
-        const std::uint32_t top = top_pyramid_level(cubes.face);
+        const render::CubeCaptureArray& cubes = captures.arrays[array];
+        const std::uint32_t top = top_level_of_pyramid(cubes.face);
         top_of_all = std::max(top_of_all, top);
         graph::ImageDesc desc{inputs.prefix + "pyramid" + (array ? std::to_string(array + 1) : ""),
-                              Format::r32ui, 1u << top, pyramid_level_edge(cubes.face, 1),
+                              TexelFormat::r32ui, 1u << top, edge_of_pyramid_level(cubes.face, 1),
                               cubes.colour.layer_count};
         pyramids.push_back(captures.drawings.empty() ? graph.add_image(std::move(desc))
                                                      : graph.add_persistent_image(std::move(desc)));
@@ -82,7 +84,7 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
     }
     if (runs.empty()) return pyramids;
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "pyramid");
-    for (const CubeRange& run : runs)
+    for (const PyramidCubeRange& run : runs)
         pass.reads(run.distances, graph::ResourceUse::sampled)
             .writes(run.bounds, graph::ResourceUse::storage_write);
     pass.record([top_of_all, runs = std::move(runs)](graph::PassCommands& commands) {
@@ -91,11 +93,11 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
             commands.bind_pipeline(
                 gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push_constants(static_cast<std::int32_t>(level));
-            for (const CubeRange& run : runs) {
-                if (level > top_pyramid_level(run.face)) continue;
-                commands.bind("distances", run.distances);
-                commands.bind("bounds", run.bounds);
-                const std::uint32_t groups = (pyramid_level_edge(run.face, level) + 7) / 8;
+            for (const PyramidCubeRange& run : runs) {
+                if (level > top_level_of_pyramid(run.face)) continue;
+                commands.bind_resource("distances", run.distances);
+                commands.bind_resource("bounds", run.bounds);
+                const std::uint32_t groups = (edge_of_pyramid_level(run.face, level) + 7) / 8;
                 commands.dispatch(groups, groups, run.bounds.layer_count);
             }
         }
@@ -106,7 +108,8 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
 } // namespace
 
 MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const KnobSettings& settings, const MirrorInputs& around) {
+                                   const KnobSettings& settings,
+                                   const MirrorShadingInputs& around) {
     MirrorShading look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
     look.mirror.images.emplace_back("bounds", add_pyramid_passes(graph, inputs, *around.captures));
     return look;

@@ -6,6 +6,6 @@
 namespace catoptric::reflect {
 
 MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const KnobSettings& settings, const MirrorInputs& around);
+                                   const KnobSettings& settings, const MirrorShadingInputs& around);
 
 } // namespace catoptric::reflect

@@ -5,31 +5,32 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kLampChoices{"sampled", "met"};
+constexpr std::array<std::string_view, 2> kLampSamplingChoices{"sampled", "met"};
 constexpr std::array<std::string_view, 2> kIndirectChoices{"none", "paths"};
-constexpr std::array<std::string_view, 2> kSphereChoices{"mesh", "exact"};
+constexpr std::array<std::string_view, 2> kExactSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
 /// Numbered as in shaders/lib/plain.glsl.
-constexpr std::array<std::string_view, 6> kDroppedRuleChoices{
+constexpr std::array<std::string_view, 6> kDroppedTracerRuleChoices{
     "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
-enum class LampMethod { sampled, met };
+enum class LampSamplingMethod { sampled, met };
 enum class IndirectLight { none, paths };
-enum class SphereShape { mesh, exact };
+enum class TracedSphereShape { mesh, exact };
 enum class FirstHitMethod { ray, raster };
-enum class HitPrecision { f32, f64 };
-constexpr Knob kDepthKnob{.name = "depth",
-                          .help = "largest number of mirror bounces; longer paths end black",
-                          .low = 0,
-                          .high = 64,
-                          .value = 8};
-constexpr Knob kSamplesKnob{
+enum class RayHitPrecision { f32, f64 };
+constexpr TechniqueKnob kRayDepthKnob{
+    .name = "depth",
+    .help = "largest number of mirror bounces; longer paths end black",
+    .low = 0,
+    .high = 64,
+    .value = 8};
+constexpr TechniqueKnob kSamplesPerPixelKnob{
     .name = "samples",
     .help = "rays per pixel: 1 = the centre, n*n = a regular grid, other numbers = stratified",
     .low = 1,
     .high = 65536,
     .value = 1};
-constexpr Knob kLobeRaysKnob{
+constexpr TechniqueKnob kLobeRaysKnob{
     .name = "rays",
     .help =
         "rays of each sample, whose directions are drawn from the lobes of rough surfaces (GGX, "
@@ -37,21 +38,21 @@ constexpr Knob kLobeRaysKnob{
     .low = 0,
     .high = 65536,
     .value = 0};
-constexpr Knob kLobeSeedKnob{
+constexpr TechniqueKnob kLobeSeedKnob{
     .name = "seed",
     .help = "seed of the directions drawn for rays=N, in addition to --seed; pictures of two seeds "
             "are independent draws",
     .low = 0,
     .high = 999'999'999,
     .value = 0};
-constexpr Knob kLampsKnob{
+constexpr TechniqueKnob kLampSamplingKnob{
     .name = "lamps",
     .help =
         "how rays of rough surfaces find lamps: sampled = beside each ray, one to a point drawn "
         "on a lamp (next-event estimation; not with sphere=exact or hit=f64); met = by chance",
     .high = 1,
-    .choices = kLampChoices};
-constexpr Knob kIndirectKnob{
+    .choices = kLampSamplingChoices};
+constexpr TechniqueKnob kIndirectKnob{
     .name = "indirect",
     .help = "light between surfaces: none = lamps are points, and ambient light stands in; paths = "
             "path tracing, for which rays also leave diffuse surfaces (needs rays=1 or more; depth "
@@ -59,100 +60,110 @@ constexpr Knob kIndirectKnob{
     .high = 1,
     .choices = kIndirectChoices};
 constexpr std::int64_t kMaxPathsPerPixel = 65536; // of a pixel: samples times rays
-constexpr Knob kSphereKnob{.name = "sphere",
-                           .help = "shape of balls: triangles or exact spheres",
-                           .high = 1,
-                           .choices = kSphereChoices};
-constexpr Knob kFirstHitKnob{
+constexpr TechniqueKnob kExactSphereKnob{.name = "sphere",
+                                         .help = "shape of balls: triangles or exact spheres",
+                                         .high = 1,
+                                         .choices = kExactSphereChoices};
+constexpr TechniqueKnob kFirstHitKnob{
     .name = "first",
     .help = "how the surface that the camera sees is found: by a ray, or by the rasteriser",
     .high = 1,
     .choices = kFirstHitChoices};
-constexpr Knob kHitPrecisionKnob{.name = "hit",
-                                 .help = "precision of hit points: single or double",
-                                 .high = 1,
-                                 .choices = kHitPrecisionChoices};
-constexpr Knob kWithoutRuleKnob{.name = "without",
-                                .help = "rule of robustness to leave out, to measure its cost",
-                                .high = 5,
-                                .choices = kDroppedRuleChoices};
-constexpr Knob kRaytraceKnobs[] = {
-    kDepthKnob,       kSamplesKnob,       kLobeRaysKnob, kLobeSeedKnob, kLampsKnob,
-    kIndirectKnob,    kTracedShadowKnob,  kSphereKnob,   kFirstHitKnob, kHitPrecisionKnob,
-    kWithoutRuleKnob, kShadowMapEdgeKnob, kCaptureKnob};
+constexpr TechniqueKnob kHitPrecisionKnob{.name = "hit",
+                                          .help = "precision of hit points: single or double",
+                                          .high = 1,
+                                          .choices = kHitPrecisionChoices};
+constexpr TechniqueKnob kWithoutTracerRuleKnob{
+    .name = "without",
+    .help = "rule of robustness to leave out, to measure its cost",
+    .high = 5,
+    .choices = kDroppedTracerRuleChoices};
+constexpr TechniqueKnob kRaytraceKnobs[] = {
+    kRayDepthKnob,      kSamplesPerPixelKnob, kLobeRaysKnob,          kLobeSeedKnob,
+    kLampSamplingKnob,  kIndirectKnob,        kTracedShadowKnob,      kExactSphereKnob,
+    kFirstHitKnob,      kHitPrecisionKnob,    kWithoutTracerRuleKnob, kShadowMapEdgeKnob,
+    kCaptureContentKnob};
 
-bool is_first_raster(const KnobSettings& settings) {
-    return settings.enum_value<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
+bool are_first_hits_rasterised(const KnobSettings& settings) {
+    return settings.knob_value_as_enum<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
 }
 
 bool is_path_traced(const KnobSettings& settings) {
-    return settings.enum_value<IndirectLight>(kIndirectKnob) == IndirectLight::paths;
+    return settings.knob_value_as_enum<IndirectLight>(kIndirectKnob) == IndirectLight::paths;
 }
 
-TracerSettings make_tracer(const KnobSettings& settings, const render::Lighting& lighting) {
-    const SharedKnobs::ShadowMethod shadow = shared_knobs(settings).shadow;
-    return {.depth = static_cast<std::uint32_t>(settings.integer_value(kDepthKnob)),
-            .samples = settings.integer_value(kSamplesKnob),
-            .rays = static_cast<std::uint32_t>(settings.integer_value(kLobeRaysKnob)),
-            .samples_lamps = settings.enum_value<LampMethod>(kLampsKnob) == LampMethod::sampled,
+TracerSettings make_tracer_settings(const KnobSettings& settings,
+                                    const render::ShadingLights& lighting) {
+    const SharedKnobs::ShadowMethod shadow = read_shared_knobs(settings).shadow;
+    return {.depth = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRayDepthKnob)),
+            .samples = settings.knob_value_as_integer(kSamplesPerPixelKnob),
+            .rays = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeRaysKnob)),
+            .samples_lamps = settings.knob_value_as_enum<LampSamplingMethod>(kLampSamplingKnob) ==
+                             LampSamplingMethod::sampled,
             .paths = is_path_traced(settings),
-            .seed = static_cast<std::uint32_t>(settings.integer_value(kLobeSeedKnob)),
+            .seed = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeSeedKnob)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
             .shadow = shadow == SharedKnobs::ShadowMethod::none ? TracerSettings::TracedShadow::none
                       : shadow == SharedKnobs::ShadowMethod::map && lighting.shadow_map
                           ? TracerSettings::TracedShadow::map
                           : TracerSettings::TracedShadow::ray,
             .lighting = lighting,
-            .exact_spheres = settings.enum_value<SphereShape>(kSphereKnob) == SphereShape::exact,
-            .first_raster = is_first_raster(settings),
-            .doubles = settings.enum_value<HitPrecision>(kHitPrecisionKnob) == HitPrecision::f64,
-            .without = static_cast<std::uint32_t>(settings.integer_value(kWithoutRuleKnob))};
+            .exact_spheres = settings.knob_value_as_enum<TracedSphereShape>(kExactSphereKnob) ==
+                             TracedSphereShape::exact,
+            .first_raster = are_first_hits_rasterised(settings),
+            .doubles = settings.knob_value_as_enum<RayHitPrecision>(kHitPrecisionKnob) ==
+                       RayHitPrecision::f64,
+            .without = static_cast<std::uint32_t>(
+                settings.knob_value_as_integer(kWithoutTracerRuleKnob))};
 }
 
 std::string describe_knob_conflict(const KnobSettings& settings) {
-    if (settings.integer_value(kLobeRaysKnob) * std::int64_t{settings.integer_value(kSamplesKnob)} >
+    if (settings.knob_value_as_integer(kLobeRaysKnob) *
+            std::int64_t{settings.knob_value_as_integer(kSamplesPerPixelKnob)} >
         kMaxPathsPerPixel)
         return "rays=" + settings.format_value(kLobeRaysKnob) +
-               " for each of samples=" + settings.format_value(kSamplesKnob) +
+               " for each of samples=" + settings.format_value(kSamplesPerPixelKnob) +
                ": wanted at most 65536 in all";
     if (is_path_traced(settings)) {
-        if (settings.integer_value(kLobeRaysKnob) == 0)
+        if (settings.knob_value_as_integer(kLobeRaysKnob) == 0)
             return "indirect=paths draws directions; wanted rays=1 or more, found rays=0";
-        if (is_first_raster(settings))
+        if (are_first_hits_rasterised(settings))
             return "indirect=paths lights the first surface by rays; wanted first=ray, found "
                    "first=raster";
-        if (settings.enum_value<HitPrecision>(kHitPrecisionKnob) == HitPrecision::f64)
+        if (settings.knob_value_as_enum<RayHitPrecision>(kHitPrecisionKnob) == RayHitPrecision::f64)
             return "indirect=paths computes points in single precision; wanted hit=f32, found "
                    "hit=f64";
     }
-    if (!is_first_raster(settings)) return {};
-    if (settings.integer_value(kSamplesKnob) > 1)
+    if (!are_first_hits_rasterised(settings)) return {};
+    if (settings.knob_value_as_integer(kSamplesPerPixelKnob) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
-               settings.format_value(kSamplesKnob);
-    if (settings.enum_value<SphereShape>(kSphereKnob) == SphereShape::exact)
+               settings.format_value(kSamplesPerPixelKnob);
+    if (settings.knob_value_as_enum<TracedSphereShape>(kExactSphereKnob) ==
+        TracedSphereShape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
     return {};
 }
 
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
-int scene_passes(int, int lights, const KnobSettings& settings) {
-    if (!is_first_raster(settings)) return count_shadow_passes(lights, settings);
-    return 1 + (shared_knobs(settings).shadow == SharedKnobs::ShadowMethod::none ? 0 : lights);
+int count_scene_passes(int, int lights, const KnobSettings& settings) {
+    if (!are_first_hits_rasterised(settings)) return count_shadow_passes(lights, settings);
+    return 1 + (read_shared_knobs(settings).shadow == SharedKnobs::ShadowMethod::none ? 0 : lights);
 }
 
 TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
                                         const KnobSettings& settings,
-                                        const render::Lighting& lighting) {
+                                        const render::ShadingLights& lighting) {
     const TracedPicture traced = add_picture_tracing(graph, inputs,
-                                                     make_tracer(settings, lighting));
+                                                     make_tracer_settings(settings, lighting));
     return {traced.hdr, true, {traced.counters}, {}, {}};
 }
 
 MirrorShading make_ray_traced_shading(graph::Graph&, const render::FrameInputs&,
-                                      const KnobSettings& settings, const MirrorInputs& around) {
+                                      const KnobSettings& settings,
+                                      const MirrorShadingInputs& around) {
     MirrorShading look;
-    look.tracer = make_tracer(settings, around.lighting);
+    look.tracer = make_tracer_settings(settings, around.lighting);
     look.mirror.fragment = "reflect/traced.frag";
     if (look.tracer->first_raster) look.mirror.variant = "#first";
     return look;
@@ -170,10 +181,10 @@ constexpr Technique kRaytraceTechnique{
     .order = 100,
     .knobs = kRaytraceKnobs,
     .compared = kRaytraceDefaultRows,
-    .scene_passes = scene_passes,
+    .scene_passes = count_scene_passes,
     .look = make_ray_traced_shading,
     .conflict = describe_knob_conflict,
-    .completes_view = is_first_raster,
+    .completes_view = are_first_hits_rasterised,
     .picture = add_ray_traced_picture};
 const RegisteredTechnique kRaytraceRegistration{kRaytraceTechnique};
 

@@ -7,8 +7,9 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
-constexpr Knob kReuseKnobs[] = {kFaceKnob,      kColourKnob, kRoughKnob,        kTapsKnob,
-                                kRoughRaysKnob, kShadowKnob, kShadowMapEdgeKnob};
+constexpr TechniqueKnob kReuseKnobs[] = {kCaptureFaceKnob,  kCaptureColourKnob, kRoughKnob,
+                                         kFilterTapsKnob,   kRoughRaysKnob,     kShadowKnob,
+                                         kShadowMapEdgeKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 

@@ -17,72 +17,73 @@ namespace {
 
 using graph::ImageHandle;
 using graph::ResourceUse;
-using Rough = SharedKnobs::Rough;
+using RoughLookup = SharedKnobs::RoughLookup;
 
 /// Returns the face edge of a level, from 1, in texels.
-std::uint32_t edge_of_level(Rough rough, std::uint32_t face, std::uint32_t level) {
-    return graph::size_at_mip(face, rough == Rough::mips ? level : level + 1);
+std::uint32_t face_edge_of_level(RoughLookup rough, std::uint32_t face, std::uint32_t level) {
+    return graph::size_at_mip(face, rough == RoughLookup::mips ? level : level + 1);
 }
 
 /// Returns the number of levels above the capture: the box-filtered chain ends with one texel a
 /// face, and the prefiltered levels with the first whose lobe has a width alpha of at least 1.
-std::uint32_t count_levels(Rough rough, std::uint32_t face) {
+std::uint32_t count_capture_levels(RoughLookup rough, std::uint32_t face) {
     std::uint32_t level = 1;
-    while (edge_of_level(rough, face, level) > 1 &&
-           (rough == Rough::mips ||
+    while (face_edge_of_level(rough, face, level) > 1 &&
+           (rough == RoughLookup::mips ||
             f32::alpha_of_capture_level(static_cast<float>(level), static_cast<float>(face)) < 1))
         ++level;
     return level;
 }
 
 /// Consecutive cubes of one array, and the levels that are computed from them.
-struct FilteredCubes {
+struct CubeLevelRange {
     ImageHandle captured, boxes, levels;
     std::uint32_t face = 0;
 };
 
 /// Returns an image for the levels of an array of captures.
-graph::ImageDesc describe_levels(std::string name, const render::CubeArray& cubes, Rough rough) {
-    const std::uint32_t edge = edge_of_level(rough, cubes.face, 1);
+graph::ImageDesc make_level_image_desc(std::string name, const render::CubeCaptureArray& cubes,
+                                       RoughLookup rough) {
+    const std::uint32_t edge = face_edge_of_level(rough, cubes.face, 1);
     return {std::move(name),
-            Format::rgba16f,
+            TexelFormat::rgba16f,
             edge,
             edge,
             cubes.colour.layer_count,
             true,
-            count_levels(rough, cubes.face)};
+            count_capture_levels(rough, cubes.face)};
 }
 
 /// Returns the work groups along an edge of a level's faces.
-std::uint32_t count_groups(std::uint32_t edge) { return (edge + 7) / 8; }
+std::uint32_t count_work_groups_along_edge(std::uint32_t edge) { return (edge + 7) / 8; }
 
 /// Declares that the pass writes all levels. A storage image has one mip.
 void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
     for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
-        pass.writes(levels.mip(mip), ResourceUse::storage_write);
+        pass.writes(levels.select_mip(mip), ResourceUse::storage_write);
 }
 
-void add_box_pass(graph::Graph& graph, const std::string& name,
-                  const std::vector<FilteredCubes>& runs) {
+void add_box_filter_pass(graph::Graph& graph, const std::string& name,
+                         const std::vector<CubeLevelRange>& runs) {
     graph::PassBuilder pass = graph.add_pass(name);
-    for (const FilteredCubes& run : runs) {
+    for (const CubeLevelRange& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled);
         declare_level_writes(pass, run.boxes);
     }
     pass.record([runs](graph::PassCommands& commands) {
         const auto deepest = std::ranges::max(
-            runs, {}, [](const FilteredCubes& run) { return run.boxes.mip_count; });
+            runs, {}, [](const CubeLevelRange& run) { return run.boxes.mip_count; });
         for (std::uint32_t level = 1; level <= deepest.boxes.mip_count; ++level) {
             if (level > 1) commands.storage_barrier();
             commands.bind_pipeline(
                 gpu::ComputeState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
-            for (const FilteredCubes& run : runs) {
+            for (const CubeLevelRange& run : runs) {
                 if (level > run.boxes.mip_count) continue;
-                commands.bind("captured", run.captured);
-                commands.bind("below", run.boxes.mip(std::max(level, 2u) - 2));
-                commands.bind("level", run.boxes.mip(level - 1));
-                const std::uint32_t groups = count_groups(
-                    edge_of_level(Rough::mips, run.face, level));
+                commands.bind_resource("captured", run.captured);
+                commands.bind_resource("below", run.boxes.select_mip(std::max(level, 2u) - 2));
+                commands.bind_resource("level", run.boxes.select_mip(level - 1));
+                const std::uint32_t groups = count_work_groups_along_edge(
+                    face_edge_of_level(RoughLookup::mips, run.face, level));
                 commands.dispatch(groups, groups, run.boxes.layer_count);
             }
         }
@@ -96,31 +97,33 @@ struct PrefilterParameters {
 };
 
 /// Returns the samples of a texel of a level. A level of `fast` has twice those of the level below.
-std::uint32_t count_samples(Rough rough, std::uint32_t taps, std::uint32_t level) {
+std::uint32_t count_samples_per_texel(RoughLookup rough, std::uint32_t taps, std::uint32_t level) {
     constexpr std::uint32_t kSamplesOfFirstLevel = 4;
-    if (rough != Rough::fast || level > 16) return taps;
+    if (rough != RoughLookup::fast || level > 16) return taps;
     return std::min(taps, kSamplesOfFirstLevel << (level - 1));
 }
 
 void add_prefilter_pass(graph::Graph& graph, const std::string& name,
-                        const std::vector<FilteredCubes>& runs, Rough rough, std::uint32_t taps) {
+                        const std::vector<CubeLevelRange>& runs, RoughLookup rough,
+                        std::uint32_t taps) {
     graph::PassBuilder pass = graph.add_pass(name);
-    for (const FilteredCubes& run : runs) {
+    for (const CubeLevelRange& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
         declare_level_writes(pass, run.levels);
     }
     pass.record([runs, rough, taps](graph::PassCommands& commands) {
         commands.bind_pipeline(gpu::ComputeState{"rough/prefilter.comp", {}});
-        for (const FilteredCubes& run : runs) {
-            commands.bind("captured", run.captured, graph::TextureFilter::linear);
-            commands.bind("boxes", run.boxes, graph::TextureFilter::mipmapped);
+        for (const CubeLevelRange& run : runs) {
+            commands.bind_resource("captured", run.captured, graph::TextureFilter::linear);
+            commands.bind_resource("boxes", run.boxes, graph::TextureFilter::mipmapped);
             for (std::uint32_t level = 1; level <= run.levels.mip_count; ++level) {
-                commands.bind("level", run.levels.mip(level - 1));
+                commands.bind_resource("level", run.levels.select_mip(level - 1));
                 commands.push_constants(
                     PrefilterParameters{f32::alpha_of_capture_level(static_cast<float>(level),
                                                                     static_cast<float>(run.face)),
-                                        (count_samples(rough, taps, level) + 3) / 4});
-                const std::uint32_t groups = count_groups(edge_of_level(rough, run.face, level));
+                                        (count_samples_per_texel(rough, taps, level) + 3) / 4});
+                const std::uint32_t groups = count_work_groups_along_edge(
+                    face_edge_of_level(rough, run.face, level));
                 commands.dispatch(groups, groups, run.levels.layer_count);
             }
         }
@@ -128,29 +131,32 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
 }
 
 /// Returns the name of the levels and passes of a way of filtering.
-std::string name_of_levels(const render::FrameInputs& inputs, Rough rough, std::uint32_t taps) {
+std::string filtered_levels_name(const render::FrameInputs& inputs, RoughLookup rough,
+                                 std::uint32_t taps) {
     return inputs.prefix + "rough/" +
-           (rough == Rough::mips ? std::string("mips")
-                                 : std::string(kRoughChoices[static_cast<std::size_t>(rough)]) +
-                                       std::to_string(taps));
+           (rough == RoughLookup::mips
+                ? std::string("mips")
+                : std::string(kRoughChoices[static_cast<std::size_t>(rough)]) +
+                      std::to_string(taps));
 }
 
-std::string suffix_of_array(std::size_t array) {
+std::string name_suffix_of_array(std::size_t array) {
     return array ? "." + std::to_string(array + 1) : "";
 }
 
 } // namespace
 
-RoughLevels::Filter RoughLevels::filter_of_knobs(const SharedKnobs& knobs) {
-    return {knobs.rough, knobs.filters_by_lobe() ? knobs.taps : 0};
+RoughLevels::LevelFilterKind RoughLevels::filter_of_knobs(const SharedKnobs& knobs) {
+    return {knobs.rough, knobs.are_levels_filtered_by_lobe() ? knobs.taps : 0};
 }
 
 RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
-                         std::shared_ptr<const render::Captures> captures,
+                         std::shared_ptr<const render::MirrorCaptures> captures,
                          const std::vector<SharedKnobs>& knobs)
-    : inputs_(inputs), captures_(std::move(captures)) {
+    : level_frame_inputs_(inputs), captures_(std::move(captures)) {
     for (std::uint32_t mirror = 0; captures_ && mirror < knobs.size(); ++mirror) {
-        if (!knobs[mirror].looks_up_levels() || !inputs.scene.is_rough_mirror(mirror)) continue;
+        if (!knobs[mirror].uses_filtered_levels() || !inputs.scene.is_rough_mirror(mirror))
+            continue;
         FilteredCaptures& filtered = filtered_[filter_of_knobs(knobs[mirror])];
         filtered.is_read.resize(knobs.size());
         filtered.is_read[mirror] = true;
@@ -158,10 +164,11 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
     }
     for (auto& [filter, filtered] : filtered_)
         for (std::size_t array = 0; array < captures_->arrays.size(); ++array) {
-            const render::CubeArray& cubes = captures_->arrays[array];
-            graph::ImageDesc desc = describe_levels(
-                name_of_levels(inputs, filter.rough, filter.taps) + suffix_of_array(array), cubes,
-                filter.rough);
+            const render::CubeCaptureArray& cubes = captures_->arrays[array];
+            graph::ImageDesc desc = make_level_image_desc(
+                filtered_levels_name(inputs, filter.rough, filter.taps) +
+                    name_suffix_of_array(array),
+                cubes, filter.rough);
             filtered.levels.push_back(captures_->drawings.empty()
                                           ? graph.add_image(std::move(desc))
                                           : graph.add_persistent_image(std::move(desc)));
@@ -172,13 +179,15 @@ void RoughLevels::add_lookups(graph::Graph& graph, std::span<const std::uint32_t
                               const SharedKnobs& knobs, render::MirrorShader& look,
                               bool before) const {
     const auto is_rough = [&](std::uint32_t mirror) {
-        return inputs_.scene.is_rough_mirror(mirror);
+        return level_frame_inputs_.scene.is_rough_mirror(mirror);
     };
-    if (knobs.rough == Rough::none || !look.captures || !std::ranges::any_of(mirrors, is_rough))
+    if (knobs.rough == RoughLookup::none || !look.captures ||
+        !std::ranges::any_of(mirrors, is_rough))
         return;
-    const Rough shown = knobs.rough == Rough::fast ? Rough::prefilter : knobs.rough;
+    const RoughLookup shown = knobs.rough == RoughLookup::fast ? RoughLookup::prefilter
+                                                               : knobs.rough;
     look.constants.emplace_back("rough", static_cast<std::uint32_t>(shown));
-    if (knobs.rough == Rough::rays) {
+    if (knobs.rough == RoughLookup::rays) {
         look.constants.emplace_back("lobe_rays", knobs.lobe_rays);
         return;
     }
@@ -193,35 +202,36 @@ void RoughLevels::add_passes(graph::Graph& graph) const {
     for (const auto& [filter, filtered] : filtered_) add_passes_of(graph, filter, filtered);
 }
 
-void RoughLevels::add_passes_of(graph::Graph& graph, const Filter& filter,
+void RoughLevels::add_passes_of(graph::Graph& graph, const LevelFilterKind& filter,
                                 const FilteredCaptures& filtered) const {
     const auto hash_of = [&](std::uint32_t mirror) {
-        if (!filtered.is_read[mirror]) return ContentHash().add(std::uint64_t{0}).hash_value();
+        if (!filtered.is_read[mirror])
+            return ContentHash().add_value(std::uint64_t{0}).current_hash();
         return ContentHash()
-            .add(captures_->drawings[mirror])
-            .add(captures_->options[mirror].colour)
-            .hash_value();
+            .add_value(captures_->drawings[mirror])
+            .add_value(captures_->options[mirror].colour)
+            .current_hash();
     };
-    const std::string name = name_of_levels(inputs_, filter.rough, filter.taps);
-    std::vector<FilteredCubes> runs;
+    const std::string name = filtered_levels_name(level_frame_inputs_, filter.rough, filter.taps);
+    std::vector<CubeLevelRange> runs;
     for (std::uint32_t array = 0; array < captures_->arrays.size(); ++array) {
-        const render::CubeArray& cubes = captures_->arrays[array];
+        const render::CubeCaptureArray& cubes = captures_->arrays[array];
         const ImageHandle levels = filtered.levels[array];
-        const std::vector<LayerRange> outdated = find_outdated_cubes(graph, *captures_, array,
-                                                                     levels, hash_of);
+        const std::vector<CubeLayerRange> outdated = find_outdated_cubes(graph, *captures_, array,
+                                                                         levels, hash_of);
         if (outdated.empty()) continue;
         ImageHandle boxes = levels;
-        if (filter.rough != Rough::mips)
-            boxes = graph.add_image(
-                describe_levels(name + "/boxes" + suffix_of_array(array), cubes, Rough::mips));
-        for (const LayerRange& run : outdated)
-            runs.push_back({cubes.colour.layers(run.first, run.count),
-                            boxes.layers(run.first, run.count), levels.layers(run.first, run.count),
-                            cubes.face});
+        if (filter.rough != RoughLookup::mips)
+            boxes = graph.add_image(make_level_image_desc(
+                name + "/boxes" + name_suffix_of_array(array), cubes, RoughLookup::mips));
+        for (const CubeLayerRange& run : outdated)
+            runs.push_back({cubes.colour.select_layers(run.first, run.count),
+                            boxes.select_layers(run.first, run.count),
+                            levels.select_layers(run.first, run.count), cubes.face});
     }
     if (runs.empty()) return;
-    add_box_pass(graph, name + "/boxes", runs);
-    if (filter.rough != Rough::mips)
+    add_box_filter_pass(graph, name + "/boxes", runs);
+    if (filter.rough != RoughLookup::mips)
         add_prefilter_pass(graph, name, runs, filter.rough, filter.taps);
 }
 

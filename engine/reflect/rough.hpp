@@ -15,7 +15,7 @@ public:
     /// Declares the images of the levels. `knobs`: of each mirror, from 0. Declares nothing if no
     /// mirror is rough, or `captures` is null.
     RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
-                std::shared_ptr<const render::Captures> captures,
+                std::shared_ptr<const render::MirrorCaptures> captures,
                 const std::vector<SharedKnobs>& knobs);
 
     /// Makes the shader `look` of these mirrors look rough surfaces up in the captures, as the
@@ -32,22 +32,22 @@ public:
 
 private:
     /// A way of filtering: SharedKnobs::rough, and SharedKnobs::taps if that filters by the lobe.
-    struct Filter {
-        SharedKnobs::Rough rough = SharedKnobs::Rough::none;
+    struct LevelFilterKind {
+        SharedKnobs::RoughLookup rough = SharedKnobs::RoughLookup::none;
         std::uint32_t taps = 0;
-        auto operator<=>(const Filter&) const = default;
+        auto operator<=>(const LevelFilterKind&) const = default;
     };
     struct FilteredCaptures {
         std::vector<graph::ImageHandle> levels; ///< one image for each array of captures
         std::vector<bool> is_read; ///< by mirror: whether a rough surface may look into its capture
     };
-    static Filter filter_of_knobs(const SharedKnobs& knobs);
-    void add_passes_of(graph::Graph& graph, const Filter& filter,
+    static LevelFilterKind filter_of_knobs(const SharedKnobs& knobs);
+    void add_passes_of(graph::Graph& graph, const LevelFilterKind& filter,
                        const FilteredCaptures& filtered) const;
 
-    const render::FrameInputs& inputs_;
-    std::shared_ptr<const render::Captures> captures_;
-    std::map<Filter, FilteredCaptures> filtered_;
+    const render::FrameInputs& level_frame_inputs_;
+    std::shared_ptr<const render::MirrorCaptures> captures_;
+    std::map<LevelFilterKind, FilteredCaptures> filtered_;
 };
 
 } // namespace catoptric::reflect

@@ -6,16 +6,17 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr Knob kStepsKnob{.name = "steps",
-                          .help = "number of secant steps after the first; 0 equals parallax",
-                          .low = 0,
-                          .high = 8,
-                          .value = 2};
-constexpr auto kSecantKnobs = list_search_knobs(std::array{kStepsKnob});
+constexpr TechniqueKnob kSearchStepsKnob{
+    .name = "steps",
+    .help = "number of secant steps after the first; 0 equals parallax",
+    .low = 0,
+    .high = 8,
+    .value = 2};
+constexpr auto kSecantKnobs = list_search_knobs(std::array{kSearchStepsKnob});
 
 MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
-                                  const KnobSettings& settings, const MirrorInputs& around) {
-    const int steps = settings.integer_value(kStepsKnob);
+                                  const KnobSettings& settings, const MirrorShadingInputs& around) {
+    const int steps = settings.knob_value_as_integer(kSearchStepsKnob);
     if (steps == 0) // without the knobs of a search, which `parallax` does not have
         return {make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})), {}};
     MirrorShading look{make_capture_shader(around, "reflect/secant.frag", settings), {}};

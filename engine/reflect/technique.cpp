@@ -8,7 +8,7 @@
 namespace catoptric::reflect {
 
 RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
-    registered_rows<const Technique*>().push_back(&technique);
+    get_registered_rows<const Technique*>().push_back(&technique);
 }
 
 std::vector<const Technique*> list_techniques() {
@@ -24,8 +24,8 @@ const Technique& find_technique(std::string_view name) {
     }
     std::string all;
     for (const std::string& known : names) all += (all.empty() ? "" : ", ") + known;
-    fail(Failure::usage, "no technique '", name, "'", suggest_name(name, names), "; there are ",
-         all);
+    fail(Failure::usage, "no technique '", name, "'", suggest_nearest_name(name, names),
+         "; there are ", all);
 }
 
 std::string TechniqueChoice::file_name() const {
@@ -37,7 +37,7 @@ std::string TechniqueChoice::file_name() const {
 }
 
 void TechniqueChoice::update_from_settings() {
-    shared = shared_knobs(settings);
+    shared = read_shared_knobs(settings);
     rest = technique->rest ? std::make_shared<const TechniqueChoice>(
                                  parse_technique_choice(settings.choice_name(*technique->rest)))
                            : nullptr;

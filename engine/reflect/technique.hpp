@@ -25,17 +25,18 @@ struct TechniqueOutputs {
     /// Image with the direction in which each mirror pixel looked into a capture
     /// (shaders/lib/mirror.glsl), rgba32f; only if the inputs ask for this image.
     std::optional<graph::ImageHandle> lookup;
-    std::shared_ptr<const render::Captures> captures; ///< captures that the view reads; may be null
+    std::shared_ptr<const render::MirrorCaptures>
+        captures;                   ///< captures that the view reads; may be null
     std::vector<std::string> notes; ///< differences from the request, one sentence each
     /// Captures for the next frame, if captures are kept.
     std::shared_ptr<render::CaptureCache> kept;
 };
 
 /// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.
-struct MirrorInputs {
-    std::shared_ptr<const render::Captures>
+struct MirrorShadingInputs {
+    std::shared_ptr<const render::MirrorCaptures>
         captures;                       ///< of all mirrors; null if no technique asks for captures
-    render::Lighting lighting;          ///< as the settings ask for
+    render::ShadingLights lighting;     ///< as the settings ask for
     std::vector<std::uint32_t> mirrors; ///< the mirrors that share the technique, from 0
 };
 
@@ -53,27 +54,31 @@ struct SharedKnobs {
     std::uint32_t shadow_map = 1; ///< edge of a shadow map's face in texels
     /// Edge of a capture's face in texels; none: `auto`, or the technique has no such knob.
     std::optional<std::uint32_t> face;
-    bool chooses_face = false;       ///< face=auto
-    bool stores_floats = false;      ///< colour=float
-    std::optional<Format> distance;  ///< none: the technique has no such knob
-    double range = 0;                ///< largest distance for `distance=unorm8`, in world units
-    std::uint32_t continues = 0;     ///< further mirrors through which a ray is followed
-    bool by_object = false;          ///< lookup=object
-    bool asks_all = false;           ///< captures=all
-    bool leaves_out_spheres = false; ///< mirrors=left_out
+    bool chooses_face = false;           ///< face=auto
+    bool stores_floats = false;          ///< colour=float
+    std::optional<TexelFormat> distance; ///< none: the technique has no such knob
+    double range = 0;                    ///< largest distance for `distance=unorm8`, in world units
+    std::uint32_t continues = 0;         ///< further mirrors through which a ray is followed
+    bool by_object = false;              ///< lookup=object
+    bool asks_all = false;               ///< captures=all
+    bool leaves_out_spheres = false;     ///< mirrors=left_out
     /// Look-up for rough surfaces; numbered as kRough... in shaders/lib/rough.glsl. Shaders look up
     /// `fast` as `prefilter`.
-    enum class Rough : std::uint32_t { none, mips, prefilter, rays, fast };
+    enum class RoughLookup : std::uint32_t { none, mips, prefilter, rays, fast };
     /// Distance law; numbered as kLaw... in shaders/lib/math/rough.glsl.
-    enum class Law : std::uint32_t { none, frostbite, square, cone, exact };
-    Rough rough = Rough::none;
-    Law law = Law::none;
-    std::uint32_t taps = 0;      ///< most samples of each texel for Rough::prefilter and fast
+    enum class DistanceLaw : std::uint32_t { none, frostbite, square, cone, exact };
+    RoughLookup rough = RoughLookup::none;
+    DistanceLaw law = DistanceLaw::none;
+    std::uint32_t taps = 0;      ///< most samples of each texel for RoughLookup::prefilter and fast
     std::uint32_t lobe_rays = 1; ///< directions of each rough pixel
     /// Returns whether rough surfaces are looked up in filtered levels of captures.
-    bool looks_up_levels() const { return rough == Rough::mips || filters_by_lobe(); }
+    bool uses_filtered_levels() const {
+        return rough == RoughLookup::mips || are_levels_filtered_by_lobe();
+    }
     /// Returns whether these levels are filtered by the lobe.
-    bool filters_by_lobe() const { return rough == Rough::prefilter || rough == Rough::fast; }
+    bool are_levels_filtered_by_lobe() const {
+        return rough == RoughLookup::prefilter || rough == RoughLookup::fast;
+    }
     /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
     /// `capture=none`, or the technique has no such knob.
     std::optional<std::uint32_t> capture;
@@ -81,13 +86,13 @@ struct SharedKnobs {
 };
 
 /// Reads the shared knobs.
-SharedKnobs shared_knobs(const KnobSettings& settings);
+SharedKnobs read_shared_knobs(const KnobSettings& settings);
 
 struct Technique {
     std::string_view name;
     std::string_view summary; ///< one sentence for `list` and the report
     int order = 0;            ///< position in lists and tables
-    std::span<const Knob> knobs;
+    std::span<const TechniqueKnob> knobs;
     /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
     /// Returns the scene passes R per frame as the report counts them. A cube counts once.
@@ -104,7 +109,8 @@ struct Technique {
     const char* search = nullptr;
     /// Returns how the technique draws its mirrors, and declares the passes that this needs.
     MirrorShading (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const KnobSettings& settings, const MirrorInputs& around) = nullptr;
+                          const KnobSettings& settings,
+                          const MirrorShadingInputs& around) = nullptr;
     /// Returns how many flat mirrors one behind the other a mirrored view shows. Null: the
     /// technique has no mirrored views (reflect/mirrored.hpp).
     int (*mirrored_bounces)(const KnobSettings& settings) = nullptr;
@@ -112,7 +118,7 @@ struct Technique {
     /// Null: the technique draws any mirror. `tolerance`: scene::compute_flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
     /// Knob whose choice is the technique that draws the mirrors that are unfit; null: `unfit` is.
-    const Knob* rest = nullptr;
+    const TechniqueKnob* rest = nullptr;
     /// Returns why the technique cannot draw with these settings together, as words after
     /// "technique
     /// '...': "; empty: it can. Null: it can with all settings.
@@ -125,7 +131,7 @@ struct Technique {
     /// Null: the view is rasterised.
     TechniqueOutputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
                                 const KnobSettings& settings,
-                                const render::Lighting& lighting) = nullptr;
+                                const render::ShadingLights& lighting) = nullptr;
 };
 
 /// Adds a technique to the table when the program starts, as an object of namespace scope.
@@ -153,7 +159,7 @@ struct TechniqueChoice {
     std::string file_name() const;
     /// Returns whether technique and knob values are the same. The spelling of the labels does not
     /// matter.
-    bool same_as(const TechniqueChoice& other) const {
+    bool is_same_choice_as(const TechniqueChoice& other) const {
         return technique == other.technique && settings == other.settings;
     }
 };

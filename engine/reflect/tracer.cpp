@@ -40,8 +40,9 @@ std::vector<vec2> make_sample_offsets(int count, std::uint64_t seed) {
     return offsets;
 }
 
-render::SphereMode sphere_mode_of_tracer(const TracerSettings& tracer) {
-    return tracer.exact_spheres ? render::SphereMode::exact : render::SphereMode::mesh;
+render::SphereIntersectionMode sphere_mode_of_tracer(const TracerSettings& tracer) {
+    return tracer.exact_spheres ? render::SphereIntersectionMode::exact
+                                : render::SphereIntersectionMode::mesh;
 }
 
 /// Returns whether rays may aim at lamps. Exact spheres and points in double precision differ from
@@ -56,7 +57,7 @@ void request_tracing(const render::GpuScene& scene, const TracerSettings& tracer
     if (may_aim_at_lamps(tracer)) scene.request_lamp_points();
 }
 
-bool reads_shadow_map(const TracerSettings& tracer) {
+bool does_tracer_read_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
@@ -69,14 +70,14 @@ gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::
     return {"raytrace.comp" + build,
             {{"max_depth", tracer.depth},
              {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
-             {"has_shadow_map", reads_shadow_map(tracer) ? 1u : 0u},
+             {"has_shadow_map", does_tracer_read_shadow_map(tracer) ? 1u : 0u},
              {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
              {"first_raster", tracer.first_raster ? 1u : 0u},
              {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
              {"samples_lamps", may_aim_at_lamps(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
              {"traces_paths", tracer.paths ? 1u : 0u},
              {"without", tracer.without},
-             {"fixed_offset", scene.space().to_scene_length(kSeedReportRayOffset)}},
+             {"fixed_offset", scene.scene_units().world_to_scene_length(kSeedReportRayOffset)}},
             scene.tracing_features(sphere_mode_of_tracer(tracer))};
 }
 
@@ -85,25 +86,26 @@ void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene
                            const TracerSettings& tracer) {
     scene.bind(commands);
     scene.bind_tracing(commands, sphere_mode_of_tracer(tracer));
-    if (reads_shadow_map(tracer))
-        commands.bind("shadow_map", *tracer.lighting.shadow_map, graph::TextureFilter::compare);
+    if (does_tracer_read_shadow_map(tracer))
+        commands.bind_resource("shadow_map", *tracer.lighting.shadow_map,
+                               graph::TextureFilter::compare);
 }
 
 /// Returns the seed of the lobes' directions. It depends on the number of rays, so that a row with
 /// few rays shares no ray with a reference of many.
 std::uint32_t make_lobe_seed(const TracerSettings& tracer, std::uint64_t seed) {
     ContentHash hash;
-    hash.add(seed).add(tracer.rays).add(tracer.samples);
-    if (tracer.seed != 0) hash.add(tracer.seed);
-    if (tracer.paths) hash.add(tracer.paths);
-    const std::uint64_t mixed = hash.hash_value();
+    hash.add_value(seed).add_value(tracer.rays).add_value(tracer.samples);
+    if (tracer.seed != 0) hash.add_value(tracer.seed);
+    if (tracer.paths) hash.add_value(tracer.paths);
+    const std::uint64_t mixed = hash.current_hash();
     return static_cast<std::uint32_t>(mixed ^ mixed >> 32);
 }
 
 /// Runs one dispatch per sample and ray, with barriers between them.
 template <typename Dispatch>
-void dispatch_samples(graph::PassCommands& commands, const TracerSettings& tracer, uvec2 size,
-                      std::uint64_t seed, Dispatch&& dispatch) {
+void dispatch_sample_passes(graph::PassCommands& commands, const TracerSettings& tracer, uvec2 size,
+                            std::uint64_t seed, Dispatch&& dispatch) {
     const std::vector<vec2> offsets = make_sample_offsets(tracer.samples, seed);
     const std::uint32_t rays = std::max(tracer.rays, 1u);
     const auto count = static_cast<std::uint32_t>(offsets.size()) * rays;
@@ -117,16 +119,16 @@ void dispatch_samples(graph::PassCommands& commands, const TracerSettings& trace
 }
 
 /// The pixels to trace, the dispatch arguments in work groups, and counters.
-struct PixelList {
+struct TracedPixelList {
     graph::BufferHandle pixels, arguments, counters;
 };
 
-PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
-                         const std::string& suffix, std::uint32_t number, bool first_raster,
-                         const render::CameraOutputs& view) {
+TracedPixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
+                               const std::string& suffix, std::uint32_t number, bool first_raster,
+                               const render::CameraPassOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
-    PixelList list;
+    TracedPixelList list;
     // Entries are those of shaders/lib/trace_list.glsl.
     const std::uint32_t words = first_raster ? 3 : 1;
     list.pixels = graph.add_buffer({name, words * sizeof(std::uint32_t) * size.x * size.y});
@@ -150,14 +152,14 @@ PixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
         .writes(list.arguments, ResourceUse::storage)
         .writes(list.pixels, ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            if (in_alpha || first_raster) commands.bind("picture", view.hdr);
+            if (in_alpha || first_raster) commands.bind_resource("picture", view.hdr);
             if (!in_alpha) {
-                commands.bind("lookup", *view.lookup);
-                commands.bind("marks", *view.tracers);
+                commands.bind_resource("lookup", *view.lookup);
+                commands.bind_resource("marks", *view.tracers);
             }
-            commands.bind("counters", list.counters);
-            commands.bind("arguments", list.arguments);
-            commands.bind("List", list.pixels);
+            commands.bind_resource("counters", list.counters);
+            commands.bind_resource("arguments", list.arguments);
+            commands.bind_resource("List", list.pixels);
             const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
             commands.bind_pipeline(gpu::ComputeState{
                 shader, {{"tracer", number}, {"first_raster", first_raster ? 1u : 0u}}});
@@ -173,37 +175,41 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
                                   const TracerSettings& tracer) {
     const uvec2 size = inputs.size;
     const TracedPicture traced{
-        graph.add_image({inputs.prefix + "hdr", Format::rgba32f, size.x, size.y}),
+        graph.add_image({inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y}),
         graph.add_buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
     graph.add_pass(inputs.prefix + "raytrace/reset")
         .writes(traced.counters, ResourceUse::copy_to)
         .record([=](graph::PassCommands& commands) { commands.fill_buffer(traced.counters, 0); });
     request_tracing(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
-    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
+    if (does_tracer_read_shadow_map(tracer))
+        pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
         .record([=, &scene = inputs.scene, seed = inputs.seed](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
-            commands.bind("picture", traced.hdr);
-            commands.bind("counters", traced.counters);
+            commands.bind_resource("picture", traced.hdr);
+            commands.bind_resource("counters", traced.counters);
             commands.bind_pipeline(make_tracer_state(tracer, scene, false));
             const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
                                 rows = (groups + kMaxWorkGroupsPerRow - 1) / kMaxWorkGroupsPerRow;
-            dispatch_samples(commands, tracer, size, seed,
-                             [&] { commands.dispatch((groups + rows - 1) / rows, rows); });
+            dispatch_sample_passes(commands, tracer, size, seed,
+                                   [&] { commands.dispatch((groups + rows - 1) / rows, rows); });
         });
     return traced;
 }
 
-graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
-                                     const TracerSettings& tracer, std::uint32_t number,
-                                     const render::CameraOutputs& view) {
+graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
+                                              const render::FrameInputs& inputs,
+                                              const TracerSettings& tracer, std::uint32_t number,
+                                              const render::CameraPassOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
-    const PixelList list = add_pixel_list(graph, inputs, suffix, number, tracer.first_raster, view);
+    const TracedPixelList list = add_pixel_list(graph, inputs, suffix, number, tracer.first_raster,
+                                                view);
     request_tracing(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
-    if (reads_shadow_map(tracer)) pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
+    if (does_tracer_read_shadow_map(tracer))
+        pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.reads(list.arguments, ResourceUse::indirect)
         .reads(list.pixels, ResourceUse::storage_read)
         .writes(list.counters, ResourceUse::storage)
@@ -211,12 +217,12 @@ graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInp
         .record([=, &scene = inputs.scene, size = inputs.size, seed = inputs.seed,
                  hdr = view.hdr](graph::PassCommands& commands) {
             bind_tracer_resources(commands, scene, tracer);
-            commands.bind("picture", hdr);
-            commands.bind("counters", list.counters);
-            commands.bind("List", list.pixels);
+            commands.bind_resource("picture", hdr);
+            commands.bind_resource("counters", list.counters);
+            commands.bind_resource("List", list.pixels);
             commands.bind_pipeline(make_tracer_state(tracer, scene, true));
-            dispatch_samples(commands, tracer, size, seed,
-                             [&] { commands.dispatch_indirect(list.arguments); });
+            dispatch_sample_passes(commands, tracer, size, seed,
+                                   [&] { commands.dispatch_indirect(list.arguments); });
         });
     return list.counters;
 }

@@ -24,7 +24,7 @@ struct TracerSettings {
     TracedShadow shadow = TracedShadow::ray;
     /// Has a shadow map if `shadow` is `map`. With `first_raster` and `ray`, a shadow map here
     /// spares the shadow rays where it can tell alone.
-    render::Lighting lighting;
+    render::ShadingLights lighting;
     bool exact_spheres = false; ///< intersects exact spheres instead of their triangles
     /// Camera rays of listed pixels start at the triangle that the view drew in their pixel. The
     /// view's shaders write its number (shaders/lib/first_hit.glsl). One sample only.
@@ -43,8 +43,9 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
 
 /// Lists the pixels of the view that are marked for tracer `number`, from 1, and traces them into
 /// `view.hdr`. Returns the shared::Counters of the tracing.
-graph::BufferHandle add_list_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
-                                     const TracerSettings& tracer, std::uint32_t number,
-                                     const render::CameraOutputs& view);
+graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
+                                              const render::FrameInputs& inputs,
+                                              const TracerSettings& tracer, std::uint32_t number,
+                                              const render::CameraPassOutputs& view);
 
 } // namespace catoptric::reflect

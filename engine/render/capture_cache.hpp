@@ -18,7 +18,7 @@
 namespace catoptric::render {
 
 /// A face of a mirror's capture.
-struct CachedFace {
+struct CachedCaptureFace {
     /// Content hash of all surfaces and lights that the face shows, except mirrors; 0: the contents
     /// of the face are invalid.
     std::uint64_t content_hash = 0;
@@ -27,13 +27,13 @@ struct CachedFace {
     /// Content hash of all surfaces and lights that the face shows, except mirrors and the moving
     /// objects in `pieces`.
     std::uint64_t settings = 0;
-    std::shared_ptr<const require::FacePieces>
+    std::shared_ptr<const require::MovingFacePieces>
         pieces; ///< moving pieces in the mirror's faces, as of `content_hash`
-    bool operator==(const CachedFace&) const = default;
+    bool operator==(const CachedCaptureFace&) const = default;
 };
 
 /// How a mirror's capture changed since the frame before.
-enum class CaptureChange {
+enum class CaptureChangeKind {
     none,
     /// The capture was redrawn only because captures of other mirrors changed; may be equal.
     unknown,
@@ -44,8 +44,9 @@ enum class CaptureChange {
 struct CaptureCache {
     std::vector<CaptureOptions> options; ///< settings that determine the layout of the arrays
     std::uint32_t set = 0;               ///< index of the set in use, of the two
-    std::vector<std::array<CachedFace, 6>> faces; ///< the six faces of each mirror's capture
-    std::vector<CaptureChange> changes; ///< change of each mirror's capture since the frame before
+    std::vector<std::array<CachedCaptureFace, 6>> faces; ///< the six faces of each mirror's capture
+    std::vector<CaptureChangeKind>
+        changes; ///< change of each mirror's capture since the frame before
     /// For each mirror: for how many frames the redraw of its capture has waited.
     std::vector<std::uint32_t> waited;
     bool is_late = false; ///< a capture that had waited was drawn, and `saw` does not record that
@@ -56,7 +57,7 @@ struct CaptureCache {
     std::shared_ptr<CaptureCache> before;
     /// Results of the device's comparison of old and new captures: one word per mirror, not 0 if
     /// the captures differ. Valid once the frame has ended.
-    std::shared_ptr<const gpu::Buffer> differing;
+    std::shared_ptr<const gpu::GpuBuffer> differing;
     std::uint64_t frame = 0; ///< number of the frame, which the caller sets
 };
 
@@ -67,14 +68,14 @@ std::vector<char> find_changed_captures(const CaptureCache& captures);
 
 /// Reads the results of comparisons in frames that have ended, for these captures and the frames
 /// before. `has_ended`: called with CaptureCache::frame.
-void read_finished_comparisons(const std::shared_ptr<CaptureCache>& captures,
-                               const std::function<bool(std::uint64_t)>& has_ended);
+void read_finished_face_comparisons(const std::shared_ptr<CaptureCache>& captures,
+                                    const std::function<bool(std::uint64_t)>& has_ended);
 
 /// Marks all captures as unchanged since the frame before, without a comparison.
-void mark_all_unchanged(CaptureCache& captures);
+void mark_captures_unchanged(CaptureCache& captures);
 
 /// The work of a frame on one face.
-enum class FaceWork : std::uint8_t {
+enum class CaptureFaceWork : std::uint8_t {
     keep,
     clear, ///< clear the face, which has no contents yet and which no ray can ask for
     draw,  ///< draw the face, because the surfaces or lights that it shows have changed
@@ -83,31 +84,31 @@ enum class FaceWork : std::uint8_t {
 };
 
 /// The work of a frame on its captures.
-struct CaptureWork {
+struct FrameCaptureWork {
     /// Work on each face of each mirror; empty: all six faces are drawn.
-    std::vector<std::array<FaceWork, 6>> faces;
+    std::vector<std::array<CaptureFaceWork, 6>> faces;
     /// For each mirror: the part of each face that is redrawn. Outside the part, the texels equal
     /// those of the frame before.
-    std::vector<std::array<require::FacePart, 6>> parts;
-    FaceWork work_on_face(std::uint32_t mirror, std::uint32_t face) const {
-        return faces.empty() ? FaceWork::draw : faces[mirror][face];
+    std::vector<std::array<require::CubeFacePart, 6>> parts;
+    CaptureFaceWork work_of_capture_face(std::uint32_t mirror, std::uint32_t face) const {
+        return faces.empty() ? CaptureFaceWork::draw : faces[mirror][face];
     }
-    require::FacePart part(std::uint32_t mirror, std::uint32_t face) const {
-        return parts.empty() ? require::FacePart() : parts[mirror][face];
+    require::CubeFacePart drawn_face_part(std::uint32_t mirror, std::uint32_t face) const {
+        return parts.empty() ? require::CubeFacePart() : parts[mirror][face];
     }
-    bool is_drawn(std::uint32_t mirror, std::uint32_t face) const {
-        return work_on_face(mirror, face) == FaceWork::draw ||
-               work_on_face(mirror, face) == FaceWork::compare;
+    bool is_face_drawn(std::uint32_t mirror, std::uint32_t face) const {
+        return work_of_capture_face(mirror, face) == CaptureFaceWork::draw ||
+               work_of_capture_face(mirror, face) == CaptureFaceWork::compare;
     }
 };
 
 /// The captures of a frame, their sources, and the capture cache for the next frame.
-struct CaptureUpdate {
-    std::shared_ptr<const Captures> captures; ///< captures that the frame samples
+struct FrameCaptureUpdate {
+    std::shared_ptr<const MirrorCaptures> captures; ///< captures that the frame samples
     /// Captures that other captures sample; null: none existed.
-    std::shared_ptr<const Captures> last;
+    std::shared_ptr<const MirrorCaptures> last;
     std::vector<bool> was_there; ///< for each mirror: whether `last` has a capture of the mirror
-    CaptureWork work;
+    FrameCaptureWork work;
     std::shared_ptr<CaptureCache> kept; ///< null: captures do not persist
 };
 
@@ -115,28 +116,29 @@ struct CaptureUpdate {
 class ComparisonBuffers {
 public:
     /// `has_ended`: called with the numbers of frames.
-    ComparisonBuffers(gpu::Device& device, std::function<bool(std::uint64_t)> has_ended)
-        : device_(device), has_ended_(std::move(has_ended)) {}
+    ComparisonBuffers(gpu::GpuDevice& device, std::function<bool(std::uint64_t)> has_ended)
+        : buffer_device_(device), has_ended_(std::move(has_ended)) {}
     /// Returns a buffer of zeros, one word a mirror, that neither the host nor the device uses.
-    std::shared_ptr<gpu::Buffer> buffer(std::size_t mirrors);
+    std::shared_ptr<gpu::GpuBuffer> buffer(std::size_t mirrors);
     /// Records that the frame `frame`, just submitted, writes to the buffer. Null is ignored.
-    void mark_used(const std::shared_ptr<const gpu::Buffer>& buffer, std::uint64_t frame);
+    void mark_used(const std::shared_ptr<const gpu::GpuBuffer>& buffer, std::uint64_t frame);
 
 private:
-    struct PooledBuffer {
+    struct PooledComparisonBuffer {
         /// A buffer of comparison results, which can be used again if this is its only owner.
-        std::shared_ptr<gpu::Buffer> buffer;
+        std::shared_ptr<gpu::GpuBuffer> buffer;
         std::uint64_t frame = 0; ///< number of the last frame that wrote to it
     };
-    gpu::Device& device_;
+    gpu::GpuDevice& buffer_device_;
     std::function<bool(std::uint64_t)> has_ended_;
-    std::vector<PooledBuffer> entries_;
+    std::vector<PooledComparisonBuffer> entries_;
 };
 
 /// Declares all captures of this frame and those of the frame before. Every capture is drawn again
 /// in each frame.
-CaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& inputs,
-                                  const std::string& name, std::vector<CaptureOptions> options);
+FrameCaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& inputs,
+                                       const std::string& name,
+                                       std::vector<CaptureOptions> options);
 
 /// The state from which the captures of a frame sequence continue.
 struct PreviousCaptures {
@@ -153,25 +155,26 @@ struct PreviousCaptures {
 
 /// Returns whether the next frame must first read the comparisons of this frame. The order of
 /// captures under a budget depends on their results.
-bool must_read_comparisons(const CaptureCache& captures, std::uint32_t most);
+bool must_read_face_comparisons(const CaptureCache& captures, std::uint32_t most);
 
 /// Decides which captures must be drawn, given those of the frame before. Declares the arrays, and
 /// the pass that copies unchanged faces into the set that the frame fills. Throws `internal` if
-/// must_read_comparisons holds and `read_finished_comparisons` was not called. Costs O(mirrors seen
-/// by mirrors).
-CaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
-                                       const std::string& name,
-                                       const std::vector<CaptureOptions>& options,
-                                       const require::Model& model, const PreviousCaptures& sequel);
+/// must_read_face_comparisons holds and `read_finished_face_comparisons` was not called. Costs
+/// O(mirrors seen by mirrors).
+FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInputs& inputs,
+                                            const std::string& name,
+                                            const std::vector<CaptureOptions>& options,
+                                            const require::RequiredWorkModel& model,
+                                            const PreviousCaptures& sequel);
 
 /// Declares the pass that compares captures with those of the frame before. Call it after the
 /// captures are drawn. Declares nothing if no capture needs a comparison.
-void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
-                            const CaptureUpdate& feeding);
+void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
+                                 const FrameCaptureUpdate& feeding);
 
 /// Calls visit(first, end) for each run of a mirror's six faces for which `is` holds.
 template <typename Is, typename Visit>
-void for_each_face_run(Is&& is, Visit&& visit) {
+void for_each_run_of_faces(Is&& is, Visit&& visit) {
     for (std::uint32_t first = 0; first < 6; ++first) {
         std::uint32_t end = first;
         while (end < 6 && is(end)) ++end;

@@ -12,76 +12,77 @@ std::vector<char> find_changed_captures(const CaptureCache& captures) {
     const auto was = [&](std::uint32_t other) { return before.empty() || before[other]; };
     std::vector<char> now;
     for (std::size_t mirror = 0; mirror < captures.changes.size(); ++mirror)
-        now.push_back(captures.changes[mirror] == CaptureChange::some ||
-                      (captures.changes[mirror] == CaptureChange::unknown &&
+        now.push_back(captures.changes[mirror] == CaptureChangeKind::some ||
+                      (captures.changes[mirror] == CaptureChangeKind::unknown &&
                        std::ranges::any_of(captures.saw[mirror], was)));
     return now;
 }
 
-void read_finished_comparisons(const std::shared_ptr<CaptureCache>& captures,
-                               const std::function<bool(std::uint64_t)>& has_ended) {
+void read_finished_face_comparisons(const std::shared_ptr<CaptureCache>& captures,
+                                    const std::function<bool(std::uint64_t)>& has_ended) {
     if (!captures) return;
-    read_finished_comparisons(captures->before, has_ended);
+    read_finished_face_comparisons(captures->before, has_ended);
     if (!captures->differing || !has_ended(captures->frame)) return;
-    const std::vector<std::byte> found = captures->differing->read();
+    const std::vector<std::byte> found = captures->differing->read_contents();
     for (std::size_t mirror = 0; mirror < captures->changes.size(); ++mirror) {
         std::uint32_t word = 0;
         std::memcpy(&word, found.data() + sizeof word * mirror, sizeof word);
-        if (captures->changes[mirror] == CaptureChange::unknown)
-            captures->changes[mirror] = word ? CaptureChange::some : CaptureChange::none;
+        if (captures->changes[mirror] == CaptureChangeKind::unknown)
+            captures->changes[mirror] = word ? CaptureChangeKind::some : CaptureChangeKind::none;
     }
     captures->before = nullptr;
     captures->differing = nullptr;
 }
 
-void mark_all_unchanged(CaptureCache& captures) {
-    std::ranges::fill(captures.changes, CaptureChange::none);
+void mark_captures_unchanged(CaptureCache& captures) {
+    std::ranges::fill(captures.changes, CaptureChangeKind::none);
     captures.before = nullptr;
     captures.differing = nullptr;
 }
 
-std::shared_ptr<gpu::Buffer> ComparisonBuffers::buffer(std::size_t mirrors) {
+std::shared_ptr<gpu::GpuBuffer> ComparisonBuffers::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     // A caller that discards a frame releases its buffer while the device may still write to it.
-    const auto fits = [&](const PooledBuffer& entry) {
+    const auto fits = [&](const PooledComparisonBuffer& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
-               entry.buffer->bytes() >= sizeof(std::uint32_t) * mirrors;
+               entry.buffer->size_in_bytes() >= sizeof(std::uint32_t) * mirrors;
     };
     auto found = std::ranges::find_if(entries_, fits);
     if (found == entries_.end())
-        found = entries_.insert(found, {std::make_shared<gpu::Buffer>(
-                                            device_, "differing", sizeof(std::uint32_t) * mirrors,
-                                            gpu::BufferUsage::read_back),
-                                        0});
-    found->buffer->write(std::span<const std::uint32_t>(zeros));
+        found = entries_.insert(found,
+                                {std::make_shared<gpu::GpuBuffer>(buffer_device_, "differing",
+                                                                  sizeof(std::uint32_t) * mirrors,
+                                                                  gpu::BufferUsage::read_back),
+                                 0});
+    found->buffer->write_contents(std::span<const std::uint32_t>(zeros));
     return found->buffer;
 }
 
-void ComparisonBuffers::mark_used(const std::shared_ptr<const gpu::Buffer>& buffer,
+void ComparisonBuffers::mark_used(const std::shared_ptr<const gpu::GpuBuffer>& buffer,
                                   std::uint64_t frame) {
-    const auto is_it = [&](const PooledBuffer& entry) { return entry.buffer == buffer; };
+    const auto is_it = [&](const PooledComparisonBuffer& entry) { return entry.buffer == buffer; };
     const auto found = std::ranges::find_if(entries_, is_it);
     if (found != entries_.end()) found->frame = frame;
 }
 
-void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
-                            const CaptureUpdate& feeding) {
+void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
+                                 const FrameCaptureUpdate& feeding) {
     if (!feeding.kept || !feeding.kept->differing) return;
-    const Captures &last = *feeding.last, &now = *feeding.captures;
+    const MirrorCaptures &last = *feeding.last, &now = *feeding.captures;
     struct ComparisonParameters {
         std::uint32_t before, after, mirror;
     };
-    struct CubePair {
-        CubeArray before, after; ///< the whole arrays
+    struct CubeImagePair {
+        CubeCaptureArray before, after; ///< the whole arrays
         ComparisonParameters push;
         std::uint32_t faces;
     };
-    std::vector<CubePair> all;
+    std::vector<CubeImagePair> all;
     for (std::uint32_t mirror = 0; mirror < now.places.size(); ++mirror)
-        for_each_face_run(
+        for_each_run_of_faces(
             [&](std::uint32_t face) {
-                return now.places[mirror].is_captured() &&
-                       feeding.work.work_on_face(mirror, face) == FaceWork::compare;
+                return now.places[mirror].has_capture() &&
+                       feeding.work.work_of_capture_face(mirror, face) == CaptureFaceWork::compare;
             },
             [&](std::uint32_t first, std::uint32_t end) {
                 const auto &from = last.places[mirror], &to = now.places[mirror];
@@ -92,12 +93,12 @@ void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
             });
     const graph::BufferHandle differing = graph.import_external(
         graph::BufferDesc{inputs.prefix + now.name + ".differing",
-                          feeding.kept->differing->bytes()},
+                          feeding.kept->differing->size_in_bytes()},
         feeding.kept->differing.get());
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + now.name + ".compare");
     std::vector<graph::ImageHandle> images;
-    for (const CubePair& one : all)
-        for (const CubeArray* const cubes : {&one.before, &one.after})
+    for (const CubeImagePair& one : all)
+        for (const CubeCaptureArray* const cubes : {&one.before, &one.after})
             for (const graph::ImageHandle image :
                  {cubes->colour, cubes->distance.value_or(cubes->colour)})
                 if (std::ranges::find(images, image) == images.end()) images.push_back(image);
@@ -105,12 +106,12 @@ void add_capture_comparison(graph::Graph& graph, const FrameInputs& inputs,
     pass.writes(differing, graph::ResourceUse::storage_write)
         .record([all = std::move(all), differing](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"differing.comp", {}});
-            commands.bind("Differing", differing);
+            commands.bind_resource("Differing", differing);
             for (const auto& [before, after, push, faces] : all) {
-                commands.bind("colour_before", before.colour);
-                commands.bind("colour_after", after.colour);
-                commands.bind("distance_before", before.distance.value_or(before.colour));
-                commands.bind("distance_after", after.distance.value_or(after.colour));
+                commands.bind_resource("colour_before", before.colour);
+                commands.bind_resource("colour_after", after.colour);
+                commands.bind_resource("distance_before", before.distance.value_or(before.colour));
+                commands.bind_resource("distance_after", after.distance.value_or(after.colour));
                 commands.push_constants(push);
                 const std::uint32_t groups = (after.face + 7) / 8;
                 commands.dispatch(groups, groups, faces);

@@ -15,134 +15,142 @@ constexpr std::uint64_t kClearedFaceHash = 1; // `drawing` of a face that holds 
 
 } // namespace
 
-CaptureDecider::CaptureDecider(const GpuScene& scene, const require::Model& model,
-                               const std::vector<CaptureOptions>& layout,
-                               const CaptureCache* before, bool compares)
-    : scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
+CaptureUpdateDecider::CaptureUpdateDecider(const GpuScene& scene,
+                                           const require::RequiredWorkModel& model,
+                                           const std::vector<CaptureOptions>& layout,
+                                           const CaptureCache* before, bool compares)
+    : gpu_scene_(scene), model_(model), layout_(layout), before_(before), compares_(compares) {
     if (before) changed_ = find_changed_captures(*before);
     ContentHash lit;
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
-        lit.add_all(std::span(scene.backdrops(light)));
+        lit.add_values(std::span(scene.list_backdrops_of_light(light)));
         for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
-            lit.add(scene.views()[scene.shadow_view(light) + face]);
+            lit.add_value(scene.list_views()[scene.shadow_view_index(light) + face]);
     }
-    shadow_views_ = lit.hash_value();
+    shadow_views_ = lit.current_hash();
 }
 
-bool CaptureDecider::had_same_capture(std::uint32_t mirror) const {
+bool CaptureUpdateDecider::had_same_capture(std::uint32_t mirror) const {
     return before_ && layout_[mirror].face > 0 &&
-           have_equal_contents(before_->options[mirror], layout_[mirror]);
+           have_equal_capture_contents(before_->options[mirror], layout_[mirror]);
 }
 
-std::uint32_t CaptureDecider::frames_waited(std::uint32_t mirror) const {
+std::uint32_t CaptureUpdateDecider::frames_waited(std::uint32_t mirror) const {
     return had_same_capture(mirror) ? before_->waited[mirror] : 0;
 }
 
-void CaptureDecider::decide_faces(std::uint32_t mirror, CaptureWork& work,
-                                  CaptureCache& kept) const {
-    CaptureChange change = CaptureChange::none;
+void CaptureUpdateDecider::decide_faces(std::uint32_t mirror, FrameCaptureWork& work,
+                                        CaptureCache& kept) const {
+    CaptureChangeKind change = CaptureChangeKind::none;
     std::vector<std::uint32_t>& saw = kept.saw[mirror];
     for (std::uint32_t face = 0; face < 6; ++face) {
         const std::vector<std::uint32_t> seen = mirrors_seen_by_face(mirror, face);
-        const FaceWork what = decide_faces(mirror, face, seen, kept.faces[mirror][face]);
+        const CaptureFaceWork what = decide_faces(mirror, face, seen, kept.faces[mirror][face]);
         work.faces[mirror][face] = what;
-        if (work.is_drawn(mirror, face))
+        if (work.is_face_drawn(mirror, face))
             work.parts[mirror][face] = changing_face_part(mirror, face, seen,
                                                           kept.faces[mirror][face]);
-        if (what == FaceWork::draw) change = CaptureChange::some;
-        if (what != FaceWork::compare) continue;
-        change = std::max(change, CaptureChange::unknown);
+        if (what == CaptureFaceWork::draw) change = CaptureChangeKind::some;
+        if (what != CaptureFaceWork::compare) continue;
+        change = std::max(change, CaptureChangeKind::unknown);
         saw.insert(saw.end(), seen.begin(), seen.end());
     }
     kept.changes[mirror] = change;
 }
 
-bool CaptureDecider::can_wait(std::uint32_t mirror, const CaptureWork& work) const {
+bool CaptureUpdateDecider::can_wait(std::uint32_t mirror, const FrameCaptureWork& work) const {
     if (!had_same_capture(mirror)) return false;
     for (std::uint32_t face = 0; face < 6; ++face)
-        if (work.is_drawn(mirror, face) && before_->faces[mirror][face].content_hash == 0)
+        if (work.is_face_drawn(mirror, face) && before_->faces[mirror][face].content_hash == 0)
             return false;
     return true;
 }
 
-void CaptureDecider::postpone_redraw(std::uint32_t mirror, CaptureWork& work,
-                                     CaptureCache& kept) const {
+void CaptureUpdateDecider::postpone_redraw(std::uint32_t mirror, FrameCaptureWork& work,
+                                           CaptureCache& kept) const {
     for (std::uint32_t face = 0; face < 6; ++face) {
-        if (!work.is_drawn(mirror, face)) continue;
+        if (!work.is_face_drawn(mirror, face)) continue;
         kept.faces[mirror][face] = before_->faces[mirror][face];
         kept.faces[mirror][face].is_behind = true;
-        work.faces[mirror][face] = FaceWork::keep, work.parts[mirror][face] = {};
+        work.faces[mirror][face] = CaptureFaceWork::keep, work.parts[mirror][face] = {};
     }
-    kept.changes[mirror] = CaptureChange::none;
+    kept.changes[mirror] = CaptureChangeKind::none;
     kept.saw[mirror].clear();
     kept.waited[mirror] = before_->waited[mirror] + 1;
 }
 
-std::vector<std::uint32_t> CaptureDecider::mirrors_seen_by_face(std::uint32_t mirror,
-                                                                std::uint32_t face) const {
-    const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
+std::vector<std::uint32_t> CaptureUpdateDecider::mirrors_seen_by_face(std::uint32_t mirror,
+                                                                      std::uint32_t face) const {
+    const shared::View& view =
+        gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face];
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t other : model_.mirrors[mirror].sees)
         if (layout_[other].face > 0 &&
-            may_view_show_box(view, scene_.draw_ranges()[scene_.mirror_object(other)]))
+            may_view_show_box(view,
+                              gpu_scene_.list_draw_ranges()[gpu_scene_.object_of_mirror(other)]))
             seen.push_back(other);
     return seen;
 }
 
-FaceWork CaptureDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
-                                      const std::vector<std::uint32_t>& seen,
-                                      CachedFace& now) const {
-    const require::MirrorNeeds& needs = model_.mirrors[mirror];
+CaptureFaceWork CaptureUpdateDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
+                                                   const std::vector<std::uint32_t>& seen,
+                                                   CachedCaptureFace& now) const {
+    const require::MirrorRequirements& needs = model_.mirrors[mirror];
     ContentHash shown =
-        ContentHash(shadow_views_).add(scene_.views()[scene_.capture_view(mirror) + face]);
-    for (const std::uint32_t other : seen) shown.add(other);
+        ContentHash(shadow_views_)
+            .add_value(gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face]);
+    for (const std::uint32_t other : seen) shown.add_value(other);
     const std::uint64_t content_hash =
-        ContentHash(shown).add(needs.content_hashes[face]).hash_value();
-    now = had_same_capture(mirror) ? before_->faces[mirror][face] : CachedFace();
+        ContentHash(shown).add_value(needs.content_hashes[face]).current_hash();
+    now = had_same_capture(mirror) ? before_->faces[mirror][face] : CachedCaptureFace();
     const bool shows_same = now.drawing > 0 && now.content_hash == content_hash;
     const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
     if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
-        return FaceWork::keep;
+        return CaptureFaceWork::keep;
     if (!needs.is_captured || !(needs.faces >> face & 1)) {
         // Without a content hash, the face is drawn as soon as a ray needs it again.
         now.content_hash = 0, now.is_behind = false;
-        if (now.drawing > 0) return FaceWork::keep;
+        if (now.drawing > 0) return CaptureFaceWork::keep;
         now.drawing = kClearedFaceHash;
-        return FaceWork::clear;
+        return CaptureFaceWork::clear;
     }
     now = {content_hash, face_picture_hash(content_hash, seen), false,
-           ContentHash(shown).add(needs.settings[face]).hash_value(), needs.pieces};
-    return shows_same && compares_ ? FaceWork::compare : FaceWork::draw;
+           ContentHash(shown).add_value(needs.settings[face]).current_hash(), needs.pieces};
+    return shows_same && compares_ ? CaptureFaceWork::compare : CaptureFaceWork::draw;
 }
 
-require::FacePart CaptureDecider::changing_face_part(std::uint32_t mirror, std::uint32_t face,
-                                                     const std::vector<std::uint32_t>& seen,
-                                                     const CachedFace& now) const {
+require::CubeFacePart
+CaptureUpdateDecider::changing_face_part(std::uint32_t mirror, std::uint32_t face,
+                                         const std::vector<std::uint32_t>& seen,
+                                         const CachedCaptureFace& now) const {
     if (!had_same_capture(mirror)) return {};
-    const CachedFace& before = before_->faces[mirror][face];
+    const CachedCaptureFace& before = before_->faces[mirror][face];
     if (before.content_hash == 0 || before.is_behind || before.settings != now.settings ||
         !before.pieces || !now.pieces)
         return {};
-    require::FacePart part = require::find_differing_part(before.pieces->faces[face],
-                                                          now.pieces->faces[face]);
-    const shared::View& view = scene_.views()[scene_.capture_view(mirror) + face];
+    require::CubeFacePart part = require::find_changed_face_part(before.pieces->faces[face],
+                                                                 now.pieces->faces[face]);
+    const shared::View& view =
+        gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face];
     // All of them, because the position of other mirrors can change a mirror's look before its
     // capture changes.
     for (const std::uint32_t other : seen)
         part = unite_face_parts(
-            part, face_part_showing_box(view, static_cast<int>(face),
-                                        scene_.draw_ranges()[scene_.mirror_object(other)].bounds));
-    return part.empty() ? require::FacePart() : part;
+            part, face_part_showing_box(
+                      view, static_cast<int>(face),
+                      gpu_scene_.list_draw_ranges()[gpu_scene_.object_of_mirror(other)].bounds));
+    return part.is_empty() ? require::CubeFacePart() : part;
 }
 
-std::uint64_t CaptureDecider::face_picture_hash(std::uint64_t content_hash,
-                                                const std::vector<std::uint32_t>& seen) const {
+std::uint64_t
+CaptureUpdateDecider::face_picture_hash(std::uint64_t content_hash,
+                                        const std::vector<std::uint32_t>& seen) const {
     ContentHash number;
-    number.add(content_hash);
+    number.add_value(content_hash);
     for (const std::uint32_t other : seen)
         for (std::uint32_t face = 0; face < 6; ++face)
-            number.add(had_same_capture(other) ? before_->faces[other][face].drawing : 0);
-    return std::max<std::uint64_t>(number.hash_value(), kClearedFaceHash + 1);
+            number.add_value(had_same_capture(other) ? before_->faces[other][face].drawing : 0);
+    return std::max<std::uint64_t>(number.current_hash(), kClearedFaceHash + 1);
 }
 
 } // namespace catoptric::render

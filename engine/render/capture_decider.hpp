@@ -10,14 +10,14 @@ namespace catoptric::render {
 
 /// Decides for each mirror whether a frame keeps, clears, draws or compares the faces of the
 /// mirror's capture.
-class CaptureDecider {
+class CaptureUpdateDecider {
 public:
     /// `layout`: options of this frame's captures. `before`: captures of the frame before; null:
     /// there are none. All references must outlive this object. `compares`: captures that may have
     /// changed are compared.
-    CaptureDecider(const GpuScene& scene, const require::Model& model,
-                   const std::vector<CaptureOptions>& layout, const CaptureCache* before,
-                   bool compares);
+    CaptureUpdateDecider(const GpuScene& scene, const require::RequiredWorkModel& model,
+                         const std::vector<CaptureOptions>& layout, const CaptureCache* before,
+                         bool compares);
 
     /// Returns whether the frame before left a capture of the mirror with the same options.
     bool had_same_capture(std::uint32_t mirror) const;
@@ -26,29 +26,30 @@ public:
     std::uint32_t frames_waited(std::uint32_t mirror) const;
 
     /// Decides for all six faces of the mirror. Fills the mirror's entries in `work` and `kept`.
-    void decide_faces(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
+    void decide_faces(std::uint32_t mirror, FrameCaptureWork& work, CaptureCache& kept) const;
     /// Returns whether the redraw can wait. The old contents must be valid in every face that would
     /// be drawn.
-    bool can_wait(std::uint32_t mirror, const CaptureWork& work) const;
+    bool can_wait(std::uint32_t mirror, const FrameCaptureWork& work) const;
     /// Cancels the redraw that `decide_faces` asked for; the old contents stay.
-    void postpone_redraw(std::uint32_t mirror, CaptureWork& work, CaptureCache& kept) const;
+    void postpone_redraw(std::uint32_t mirror, FrameCaptureWork& work, CaptureCache& kept) const;
 
 private:
     /// Returns the other mirrors whose captures the face shows.
     std::vector<std::uint32_t> mirrors_seen_by_face(std::uint32_t mirror, std::uint32_t face) const;
-    FaceWork decide_faces(std::uint32_t mirror, std::uint32_t face,
-                          const std::vector<std::uint32_t>& seen, CachedFace& now) const;
+    CaptureFaceWork decide_faces(std::uint32_t mirror, std::uint32_t face,
+                                 const std::vector<std::uint32_t>& seen,
+                                 CachedCaptureFace& now) const;
     /// Returns the part of a drawn face that may differ from its old contents.
-    require::FacePart changing_face_part(std::uint32_t mirror, std::uint32_t face,
-                                         const std::vector<std::uint32_t>& seen,
-                                         const CachedFace& now) const;
+    require::CubeFacePart changing_face_part(std::uint32_t mirror, std::uint32_t face,
+                                             const std::vector<std::uint32_t>& seen,
+                                             const CachedCaptureFace& now) const;
     /// Returns the number of a face's picture, from the content hash and the captures that the face
     /// shows.
     std::uint64_t face_picture_hash(std::uint64_t content_hash,
                                     const std::vector<std::uint32_t>& seen) const;
 
-    const GpuScene& scene_;
-    const require::Model& model_;
+    const GpuScene& gpu_scene_;
+    const require::RequiredWorkModel& model_;
     const std::vector<CaptureOptions>& layout_;
     const CaptureCache* before_;
     bool compares_;

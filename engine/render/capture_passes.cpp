@@ -15,23 +15,24 @@ namespace {
 using graph::ClearValue;
 using graph::ImageHandle;
 using graph::PassCommands;
-using graph::PassTag;
+using graph::PassPurpose;
 using graph::ResourceUse;
 
 /// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
 /// and keeps the rest.
 void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options,
-                         const CubeArray& cubes, const std::optional<graph::PixelArea>& area = {}) {
+                         const CubeCaptureArray& cubes,
+                         const std::optional<graph::PixelArea>& area = {}) {
     // An empty direction has the distance +infinity. Unorm8 cannot store it and uses the end of its
     // range.
-    const float nothing = options.distance == Format::r8_unorm
+    const float nothing = options.distance == TexelFormat::r8_unorm
                               ? 1.0f
                               : std::numeric_limits<float>::infinity();
     const auto write = [&](ImageHandle image, const ClearValue& clear) {
         area ? pass.updates(image, ResourceUse::colour, clear)
              : pass.writes(image, ResourceUse::colour, clear);
     };
-    write(cubes.colour, kClearToBlack);
+    write(cubes.colour, kClearColourBlack);
     if (cubes.distance) write(*cubes.distance, ClearValue{nothing, 0, 0, 0});
     if (cubes.surfaces) write(*cubes.surfaces, ClearValue{});
     if (area) pass.set_area(*area);
@@ -39,48 +40,51 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
 
 /// Returns whether the part of the face may show the object.
 bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
-                          const require::FacePart& part, std::size_t object) {
-    return part.is_whole() ||
+                          const require::CubeFacePart& part, std::size_t object) {
+    return part.is_whole_face() ||
            !intersect_face_parts(
-                part,
-                face_part_showing_box(scene.views()[scene.capture_view(mirror) + face],
-                                      static_cast<int>(face), scene.draw_ranges()[object].bounds))
-                .empty();
+                part, face_part_showing_box(
+                          scene.list_views()[scene.capture_view_index(mirror) + face],
+                          static_cast<int>(face), scene.list_draw_ranges()[object].bounds))
+                .is_empty();
 }
 
 /// Returns the balls inside mirrors that a capture draws completely.
-std::vector<InnerBall> list_hiding_balls(const GpuScene& scene, const MirrorShaders& looks) {
-    std::vector<InnerBall> balls;
+std::vector<InnerOccluderBall> list_hiding_balls(const GpuScene& scene,
+                                                 const MirrorShaders& looks) {
+    std::vector<InnerOccluderBall> balls;
     for (std::uint32_t mirror = 0; mirror < scene.mirror_count(); ++mirror)
-        if (looks.of_mirror[mirror] != MirrorShaders::kShadedByParts)
-            balls.push_back(scene.inner_ball_of_mirror(mirror));
+        if (looks.of_mirror[mirror] != MirrorShaders::kShaderChosenByPart)
+            balls.push_back(scene.find_inner_ball_of_mirror(mirror));
     return balls;
 }
 
 /// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
 /// lies behind these distances.
 void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                      const FaceRange& faces, const std::string& pass_name, const CubeArray& cubes,
+                      const CubeFaceRange& faces, const std::string& pass_name,
+                      const CubeCaptureArray& cubes,
                       const std::shared_ptr<const MirrorShaders>& looks,
-                      std::optional<ImageHandle> peeled, const require::FacePart& changing) {
+                      std::optional<ImageHandle> peeled, const require::CubeFacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
-    const ImageHandle depth = graph.add_image(
-        {name + ".depth", Format::d32f, options.face, options.face, faces.count, faces.count == 6});
-    graph::PassBuilder pass = graph.add_pass(name, PassTag::scene);
+    const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f, options.face,
+                                               options.face, faces.count, faces.count == 6});
+    graph::PassBuilder pass = graph.add_pass(name, PassPurpose::scene);
     declare_shader_reads(pass, options.lighting, *looks);
     if (peeled) pass.reads(*peeled, ResourceUse::sampled);
-    const require::FacePart part = grow_to_texels(changing, options.face);
-    declare_cube_writes(pass, options, cubes, face_part_to_area(part, options.face));
-    DrawSettings drawing{.first_view = inputs.scene.capture_view(faces.owner) + faces.first,
-                         .layers = faces.count,
-                         .lighting = options.lighting,
-                         .looks = looks,
-                         .store = {{"distance_scale", 1 / options.stored_unit}},
-                         .peeled = peeled};
-    if (options.colour == Format::rgba16f && options.saturates)
-        drawing.store.emplace_back("largest_colour", kLargestHalf);
+    const require::CubeFacePart part = grow_face_part_to_texels(changing, options.face);
+    declare_cube_writes(pass, options, cubes, face_part_to_pixel_area(part, options.face));
+    SceneDrawSettings drawing{.first_view = inputs.scene.capture_view_index(faces.owner) +
+                                            faces.first,
+                              .layers = faces.count,
+                              .lighting = options.lighting,
+                              .looks = looks,
+                              .store = {{"distance_scale", 1 / options.stored_unit}},
+                              .peeled = peeled};
+    if (options.colour == TexelFormat::rgba16f && options.saturates)
+        drawing.store.emplace_back("largest_colour", kLargestHalfFloat);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
-    if (peeled && options.distance == Format::r8_unorm)
+    if (peeled && options.distance == TexelFormat::r8_unorm)
         drawing.store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .set_layer_count(faces.count)
@@ -88,8 +92,8 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                  edge = options.face, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](PassCommands& commands) {
             const auto is_wanted = [&](std::size_t object) {
-                const DrawRange& range = scene.draw_ranges()[object];
-                return object != scene.mirror_object(mirror) &&
+                const ObjectDrawRange& range = scene.list_draw_ranges()[object];
+                return object != scene.object_of_mirror(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
                        may_face_show_object(scene, mirror, face, part, object);
             };
@@ -97,10 +101,10 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                 draw_scene(commands, scene, drawing, is_wanted);
                 return;
             }
-            const std::vector<std::uint8_t> shown = find_shown_faces(
-                std::span(scene.views()).subspan(drawing.first_view, drawing.layers),
-                {edge, scene.device().limits().subPixelPrecisionBits}, scene.draw_ranges(),
-                list_hiding_balls(scene, *drawing.looks), is_wanted);
+            const std::vector<std::uint8_t> shown = find_faces_showing_objects(
+                std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
+                {edge, scene.scene_device().vulkan_limits().subPixelPrecisionBits},
+                scene.list_draw_ranges(), list_hiding_balls(scene, *drawing.looks), is_wanted);
             draw_scene(
                 commands, scene, drawing, [&](std::size_t object) { return shown[object] != 0; },
                 shown);
@@ -110,8 +114,10 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
 
 /// Declares a pass that clears faces that no ray can ask for.
 void add_clear_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                    const FaceRange& faces, const std::string& name, const CubeArray& cubes) {
-    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name_of(name, faces) + ".clear");
+                    const CubeFaceRange& faces, const std::string& name,
+                    const CubeCaptureArray& cubes) {
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name_with_face_range(name, faces) +
+                                             ".clear");
     declare_cube_writes(pass, options, cubes);
     if (cubes.colour2)
         declare_cube_writes(pass, options,
@@ -121,25 +127,29 @@ void add_clear_pass(graph::Graph& graph, const FrameInputs& inputs, const Captur
 
 } // namespace
 
-void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                        MirrorShaders looks, const CaptureWork& work) {
+void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
+                        const MirrorCaptures& captures, MirrorShaders looks,
+                        const FrameCaptureWork& work) {
     const auto shared = std::make_shared<const MirrorShaders>(std::move(looks));
     for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
-        if (!captures.places[mirror].is_captured()) continue;
+        if (!captures.places[mirror].has_capture()) continue;
         const auto& [array, cube] = captures.places[mirror];
         const CaptureOptions& options = captures.options[mirror];
         const std::string number = "/" + std::to_string(mirror + 1);
         const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                               std::uint32_t first, std::uint32_t end) {
-            const FaceRange faces{mirror, first, end - first};
-            const require::FacePart changing = work.part(mirror, first);
-            const CubeArray part = cube_layer_range(cubes, first_layer + first, faces.count);
-            const CubeArray front{part.face, part.colour, part.distance, {}, {}, part.surfaces};
-            add_capture_pass(graph, inputs, options, faces, name_of(captures.name + number, faces),
-                             front, shared, {}, changing);
+            const CubeFaceRange faces{mirror, first, end - first};
+            const require::CubeFacePart changing = work.drawn_face_part(mirror, first);
+            const CubeCaptureArray part = select_cube_layers(cubes, first_layer + first,
+                                                             faces.count);
+            const CubeCaptureArray front{part.face, part.colour, part.distance,
+                                         {},        {},          part.surfaces};
+            add_capture_pass(graph, inputs, options, faces,
+                             name_with_face_range(captures.name + number, faces), front, shared, {},
+                             changing);
             if (part.colour2)
                 add_capture_pass(graph, inputs, options, faces,
-                                 name_of(captures.name + "2" + number, faces),
+                                 name_with_face_range(captures.name + "2" + number, faces),
                                  {part.face, *part.colour2, part.distance2, {}, {}, {}}, shared,
                                  part.distance, changing);
         };
@@ -147,17 +157,20 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs, const Ca
                                std::uint32_t first, std::uint32_t end) {
             add_clear_pass(graph, inputs, options, {mirror, first, end - first},
                            captures.name + number,
-                           cube_layer_range(cubes, first_layer + first, end - first));
+                           select_cube_layers(cubes, first_layer + first, end - first));
         };
-        for_each_face_run(
+        for_each_run_of_faces(
             [&](std::uint32_t face) {
-                return work.is_drawn(mirror, face) && work.part(mirror, face).is_whole();
+                return work.is_face_drawn(mirror, face) &&
+                       work.drawn_face_part(mirror, face).is_whole_face();
             },
             draw);
         for (std::uint32_t face = 0; face < 6; ++face)
-            if (!work.part(mirror, face).is_whole()) draw(face, face + 1);
-        for_each_face_run(
-            [&](std::uint32_t face) { return work.work_on_face(mirror, face) == FaceWork::clear; },
+            if (!work.drawn_face_part(mirror, face).is_whole_face()) draw(face, face + 1);
+        for_each_run_of_faces(
+            [&](std::uint32_t face) {
+                return work.work_of_capture_face(mirror, face) == CaptureFaceWork::clear;
+            },
             clear);
     }
 }

@@ -19,10 +19,10 @@ vec3 CapturedCubes::colour(std::uint32_t mirror, int cube_face, std::uint32_t x,
 }
 
 float CapturedCubes::distance(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y,
-                              Format format) const {
+                              TexelFormat format) const {
     const std::size_t i = index(mirror, cube_face, x, y);
-    if (format == Format::r8_unorm) return static_cast<float>(distance_bytes[i]) / 255;
-    if (format == Format::r16f) {
+    if (format == TexelFormat::r8_unorm) return static_cast<float>(distance_bytes[i]) / 255;
+    if (format == TexelFormat::r16f) {
         std::uint16_t half;
         std::memcpy(&half, distance_bytes.data() + 2 * i, 2);
         return half_to_float(half);

@@ -20,7 +20,7 @@ struct CapturedCubes {
     /// Returns the stored distance, decoded from `format`: scene units from the centre, or the
     /// fraction of the range for r8_unorm.
     float distance(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y,
-                   Format format) const;
+                   TexelFormat format) const;
 
 private:
     std::size_t index(std::uint32_t mirror, int cube_face, std::uint32_t x, std::uint32_t y) const;

@@ -12,9 +12,9 @@ namespace catoptric::render {
 namespace {
 
 /// The properties that captures of one array share, except the edge.
-using CaptureContents = std::tuple<Format, std::optional<Format>, bool, bool, float>;
+using CaptureContents = std::tuple<TexelFormat, std::optional<TexelFormat>, bool, bool, float>;
 
-CaptureContents capture_contents(const CaptureOptions& options) {
+CaptureContents contents_of_capture(const CaptureOptions& options) {
     return {options.colour, options.distance, options.second_layer, options.surfaces,
             options.stored_unit};
 }
@@ -28,7 +28,7 @@ group_mirrors_by_format_and_edge(const std::vector<CaptureOptions>& options) {
     MirrorsByFormatAndEdge kinds;
     for (std::uint32_t mirror = 0; mirror < options.size(); ++mirror)
         if (options[mirror].face > 0)
-            kinds[{capture_contents(options[mirror]), options[mirror].face}].push_back(mirror);
+            kinds[{contents_of_capture(options[mirror]), options[mirror].face}].push_back(mirror);
     return kinds;
 }
 
@@ -67,9 +67,9 @@ bool merge_smaller_captures(MirrorsByFormatAndEdge& kinds, std::vector<std::stri
 }
 
 /// Declares one array for captures of the same kind.
-CubeArray declare_cube_array(graph::Graph& graph, const std::string& name,
-                             const CaptureOptions& options, std::size_t cubes, bool stay) {
-    const auto image = [&](const char* what, Format format) {
+CubeCaptureArray declare_cube_array(graph::Graph& graph, const std::string& name,
+                                    const CaptureOptions& options, std::size_t cubes, bool stay) {
+    const auto image = [&](const char* what, TexelFormat format) {
         graph::ImageDesc desc{
             name + what, format, options.face, options.face, static_cast<std::uint32_t>(6 * cubes),
             true};
@@ -78,11 +78,11 @@ CubeArray declare_cube_array(graph::Graph& graph, const std::string& name,
     };
     check(options.distance || !(options.surfaces || options.second_layer), Failure::internal,
           "captures '", name, "' want surfaces or a second layer, which need the distance");
-    CubeArray made;
+    CubeCaptureArray made;
     made.face = options.face;
     made.colour = image("colour", options.colour);
     if (options.distance) made.distance = image("distance", *options.distance);
-    if (options.surfaces) made.surfaces = image("surfaces", Format::rgba16f);
+    if (options.surfaces) made.surfaces = image("surfaces", TexelFormat::rgba16f);
     if (options.second_layer) {
         made.colour2 = image("colour2", options.colour);
         made.distance2 = image("distance2", *options.distance);
@@ -91,16 +91,16 @@ CubeArray declare_cube_array(graph::Graph& graph, const std::string& name,
 }
 
 /// Declares a buffer with the place of each mirror's capture, and the pass that fills it.
-graph::BufferHandle add_capture_table(graph::Graph& graph, const std::string& name,
-                                      const Captures& captures) {
+graph::BufferHandle add_capture_table_buffer(graph::Graph& graph, const std::string& name,
+                                             const MirrorCaptures& captures) {
     shared::CaptureTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
         const auto& [array, cube] = captures.places[i];
         places.places[i] = array << 16 | cube;
-        if (!captures.places[i].is_captured()) continue;
+        if (!captures.places[i].has_capture()) continue;
         const CaptureOptions& options = captures.options[i];
         places.arrays[array] = {options.stored_unit,
-                                options.distance == Format::r8_unorm ? 1u : 0u};
+                                options.distance == TexelFormat::r8_unorm ? 1u : 0u};
     }
     const graph::BufferHandle table = graph.add_buffer({name + ".table", sizeof places});
     graph.add_pass(name + ".table")
@@ -113,26 +113,27 @@ graph::BufferHandle add_capture_table(graph::Graph& graph, const std::string& na
 
 } // namespace
 
-CubeArray cube_layer_range(const CubeArray& cubes, std::uint32_t first, std::uint32_t count) {
+CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t first,
+                                    std::uint32_t count) {
     const auto part = [&](const std::optional<graph::ImageHandle>& image) {
-        return image ? std::optional(image->layers(first, count)) : image;
+        return image ? std::optional(image->select_layers(first, count)) : image;
     };
     return {cubes.face,
-            cubes.colour.layers(first, count),
+            cubes.colour.select_layers(first, count),
             part(cubes.distance),
             part(cubes.colour2),
             part(cubes.distance2),
             part(cubes.surfaces)};
 }
 
-bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b) {
-    return a.face == b.face && capture_contents(a) == capture_contents(b) &&
+bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b) {
+    return a.face == b.face && contents_of_capture(a) == contents_of_capture(b) &&
            a.saturates == b.saturates && a.leaves_out_spheres == b.leaves_out_spheres;
 }
 
-Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
-                          std::vector<CaptureOptions> options, const std::string& set) {
-    Captures captures;
+MirrorCaptures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
+                                std::vector<CaptureOptions> options, const std::string& set) {
+    MirrorCaptures captures;
     captures.name = std::move(name);
     MirrorsByFormatAndEdge kinds = group_mirrors_by_format_and_edge(options);
     const std::size_t most_cubes = inputs.scene.max_cube_count();
@@ -163,18 +164,18 @@ Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::s
         }
     }
     captures.options = std::move(options);
-    std::vector<CapturePlace> in_order;
+    std::vector<CaptureArraySlot> in_order;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror)
         in_order.push_back({0, mirror});
     if (captures.places != in_order)
-        captures.table = add_capture_table(graph, inputs.prefix + captures.name + dot_set,
-                                           captures);
+        captures.table = add_capture_table_buffer(graph, inputs.prefix + captures.name + dot_set,
+                                                  captures);
     return captures;
 }
 
-Captures captures_of_previous_frame(graph::Graph& graph, const Captures& captures) {
-    Captures last = captures;
-    for (CubeArray& cubes : last.arrays) {
+MirrorCaptures declare_previous_captures(graph::Graph& graph, const MirrorCaptures& captures) {
+    MirrorCaptures last = captures;
+    for (CubeCaptureArray& cubes : last.arrays) {
         cubes = {cubes.face, graph.previous_contents(cubes.colour), cubes.distance, {}, {}, {}};
         if (cubes.distance) cubes.distance = graph.previous_contents(*cubes.distance);
     }

@@ -16,7 +16,7 @@ namespace catoptric::render {
 /// A cube array with 6 layers a mirror: colour and, if requested, radial distance. `colour2` and
 /// `distance2` hold the next surface behind the first in the same direction, if that surface faces
 /// the centre.
-struct CubeArray {
+struct CubeCaptureArray {
     std::uint32_t face = 0; ///< edge in texels
     graph::ImageHandle colour;
     std::optional<graph::ImageHandle> distance;
@@ -27,39 +27,40 @@ struct CubeArray {
 };
 
 /// Returns a range of layers of every image that exists.
-CubeArray cube_layer_range(const CubeArray& cubes, std::uint32_t first, std::uint32_t count);
+CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t first,
+                                    std::uint32_t count);
 
 /// Contents of one mirror's capture, and settings with which the capture is drawn.
 struct CaptureOptions {
     std::uint32_t face = 256; ///< cube edge in texels; 0: the mirror has no capture
-    Format colour = Format::rgba16f;
-    std::optional<Format> distance;
+    TexelFormat colour = TexelFormat::rgba16f;
+    std::optional<TexelFormat> distance;
     bool saturates = true;     ///< clamps half-float colour; false only to measure the cost
     bool second_layer = false; ///< needs distance: adds a pass name2/1; fragment#peel must exist
     /// Needs distance: also stores the number and normal of the visible surface.
     bool surfaces = false;
     bool leaves_out_spheres = false; ///< mirrors that are exact spheres are not drawn
     float stored_unit = 1;           ///< scene units that a stored 1 means (unorm8: the range)
-    Lighting lighting;
+    ShadingLights lighting;
 };
 
 /// Returns whether both options give captures of the same layout and content, apart from lighting.
-bool have_equal_contents(const CaptureOptions& a, const CaptureOptions& b);
+bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// The place of a mirror's capture in the arrays.
-struct CapturePlace {
+struct CaptureArraySlot {
     /// Indices from 0; `array` is kMaxCubeArrays if the mirror has no capture.
     std::uint32_t array = shared::kMaxCubeArrays, cube = 0;
-    bool is_captured() const { return array < shared::kMaxCubeArrays; }
-    bool operator==(const CapturePlace&) const = default;
+    bool has_capture() const { return array < shared::kMaxCubeArrays; }
+    bool operator==(const CaptureArraySlot&) const = default;
 };
 
 /// The captures of all mirrors.
-struct Captures {
-    std::string name;                    ///< passes have the names name/1, name/2, ...
-    std::vector<CaptureOptions> options; ///< options of each mirror's capture
-    std::vector<CapturePlace> places;    ///< place of each mirror's capture
-    std::vector<CubeArray> arrays;       ///< 1 to shared::kMaxCubeArrays arrays
+struct MirrorCaptures {
+    std::string name;                     ///< passes have the names name/1, name/2, ...
+    std::vector<CaptureOptions> options;  ///< options of each mirror's capture
+    std::vector<CaptureArraySlot> places; ///< place of each mirror's capture
+    std::vector<CubeCaptureArray> arrays; ///< 1 to shared::kMaxCubeArrays arrays
     /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
     std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
@@ -68,8 +69,8 @@ struct Captures {
     std::vector<std::array<std::uint64_t, 6>> drawings;
 
     /// Returns the array that holds the mirror's capture; null if the mirror has none.
-    const CubeArray* array_of_mirror(std::uint32_t mirror) const {
-        return places[mirror].is_captured() ? &arrays[places[mirror].array] : nullptr;
+    const CubeCaptureArray* find_array_of_mirror(std::uint32_t mirror) const {
+        return places[mirror].has_capture() ? &arrays[places[mirror].array] : nullptr;
     }
 };
 
@@ -80,10 +81,10 @@ struct Captures {
 /// (graph::ImageLifetime::persistent). The name tells them from other arrays of the same
 /// captures. Throws `exhausted` if kMaxCubeArrays arrays cannot hold the captures. Costs
 /// O(mirrors).
-Captures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
-                          std::vector<CaptureOptions> options, const std::string& set = "");
+MirrorCaptures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
+                                std::vector<CaptureOptions> options, const std::string& set = "");
 
 /// Returns the colours and distances of these captures at the end of the frame before.
-Captures captures_of_previous_frame(graph::Graph& graph, const Captures& captures);
+MirrorCaptures declare_previous_captures(graph::Graph& graph, const MirrorCaptures& captures);
 
 } // namespace catoptric::render

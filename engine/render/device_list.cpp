@@ -9,20 +9,21 @@ namespace {
 
 constexpr std::size_t kComparedPageBytes = 16384; // bytes that are compared and written together
 
-std::size_t count_pages(std::size_t bytes) {
+std::size_t count_compared_pages(std::size_t bytes) {
     return (bytes + kComparedPageBytes - 1) / kComparedPageBytes;
 }
 
 } // namespace
 
-bool DeviceList::set_contents(std::span<const std::byte> data, std::size_t from, std::size_t to) {
+bool DeviceDataList::set_list_contents(std::span<const std::byte> data, std::size_t from,
+                                       std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
     data_.resize(data.size());
-    pages_.resize(count_pages(data.size()), next);
+    pages_.resize(count_compared_pages(data.size()), next);
     if (changed) from = 0, to = data.size();
-    for (std::size_t page = from / kComparedPageBytes; page < count_pages(to); ++page) {
+    for (std::size_t page = from / kComparedPageBytes; page < count_compared_pages(to); ++page) {
         const std::size_t first = page * kComparedPageBytes,
                           end = std::min(first + kComparedPageBytes, data.size());
         if (end <= kept && std::memcmp(&data_[first], &data[first], end - first) == 0) continue;
@@ -35,7 +36,7 @@ bool DeviceList::set_contents(std::span<const std::byte> data, std::size_t from,
 }
 
 /// Returns a copy that no other slot binds.
-std::size_t DeviceList::find_free_copy(std::size_t slot) {
+std::size_t DeviceDataList::find_free_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)
             if (other != slot && bound_[other] == copy) return false;
@@ -48,17 +49,17 @@ std::size_t DeviceList::find_free_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t DeviceList::write_changed_pages(gpu::Device& device, std::size_t slot) {
-    const auto current = std::ranges::find(copies_, version_, &DeviceCopy::version);
+std::size_t DeviceDataList::write_changed_pages(gpu::GpuDevice& device, std::size_t slot) {
+    const auto current = std::ranges::find(copies_, version_, &DeviceListCopy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
         return 0;
     }
     const std::size_t place = find_free_copy(slot);
-    DeviceCopy& copy = copies_[place];
-    if (!copy.buffer.handle() || copy.buffer.bytes() < data_.size()) {
+    DeviceListCopy& copy = copies_[place];
+    if (!copy.buffer.buffer_handle() || copy.buffer.size_in_bytes() < data_.size()) {
         copy = {};
-        copy.buffer = gpu::Buffer(device, name_, data_.size(), use_);
+        copy.buffer = gpu::GpuBuffer(device, list_name_, data_.size(), use_);
     }
     std::size_t writes = 0;
     for (std::size_t page = 0; page < pages_.size();) {
@@ -69,7 +70,7 @@ std::size_t DeviceList::write_changed_pages(gpu::Device& device, std::size_t slo
             continue;
         }
         const std::size_t end = std::min(page * kComparedPageBytes, data_.size());
-        copy.buffer.write(
+        copy.buffer.write_contents(
             first * kComparedPageBytes,
             std::span(data_).subspan(first * kComparedPageBytes, end - first * kComparedPageBytes));
         ++writes;

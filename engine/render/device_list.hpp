@@ -13,47 +13,48 @@ namespace catoptric::render {
 /// reads. Each slot (a frame in flight) binds one of several copies of the list; slots with equal
 /// contents bind the same copy. A list that never changes has one copy. A changing list has at most
 /// one a slot.
-class DeviceList {
+class DeviceDataList {
 public:
-    DeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
-        : name_(std::move(name)), use_(use), bound_(slots) {}
+    DeviceDataList(std::string name, gpu::BufferUsage use, std::size_t slots)
+        : list_name_(std::move(name)), use_(use), bound_(slots) {}
 
     /// Sets the contents for the next `write_changed_pages`. Returns whether they differ from the
     /// last contents; equal contents change nothing. Costs a comparison.
     template <typename T>
-    bool set_contents(const std::vector<T>& data) {
-        return set_contents(data, 0, data.size());
+    bool set_list_contents(const std::vector<T>& data) {
+        return set_list_contents(data, 0, data.size());
     }
     /// Sets the contents, of which only entries from `first` up to, not including, `end` may differ
     /// from the last ones. Compares only these entries.
     template <typename T>
-    bool set_contents(const std::vector<T>& data, std::size_t first, std::size_t end) {
-        return set_contents(std::as_bytes(std::span(data)), first * sizeof(T), end * sizeof(T));
+    bool set_list_contents(const std::vector<T>& data, std::size_t first, std::size_t end) {
+        return set_list_contents(std::as_bytes(std::span(data)), first * sizeof(T),
+                                 end * sizeof(T));
     }
     /// Makes slot `slot` bind the contents. No frame may be in flight in the slot. Returns the
-    /// number of writes to device memory. Throws as gpu::Buffer does.
-    std::size_t write_changed_pages(gpu::Device& device, std::size_t slot);
+    /// number of writes to device memory. Throws as gpu::GpuBuffer does.
+    std::size_t write_changed_pages(gpu::GpuDevice& device, std::size_t slot);
     /// Returns the buffer that `write_changed_pages` chose for the slot.
-    const gpu::Buffer& buffer_of_copy(std::size_t slot) const {
+    const gpu::GpuBuffer& buffer_of_device_copy(std::size_t slot) const {
         return copies_[*bound_[slot]].buffer;
     }
-    std::size_t copy_count() const { return copies_.size(); }
+    std::size_t device_copy_count() const { return copies_.size(); }
 
 private:
-    struct DeviceCopy {
-        gpu::Buffer buffer;
+    struct DeviceListCopy {
+        gpu::GpuBuffer buffer;
         std::uint64_t version = 0;
     };
 
-    bool set_contents(std::span<const std::byte> data, std::size_t first, std::size_t end);
+    bool set_list_contents(std::span<const std::byte> data, std::size_t first, std::size_t end);
     std::size_t find_free_copy(std::size_t slot);
 
-    std::string name_;
+    std::string list_name_;
     gpu::BufferUsage use_;
     std::vector<std::byte> data_;
     std::vector<std::uint64_t> pages_; ///< version of the last change of each page of `data_`
     std::uint64_t version_ = 1;
-    std::vector<DeviceCopy> copies_;
+    std::vector<DeviceListCopy> copies_;
     std::vector<std::optional<std::size_t>> bound_; ///< copy, by slot
 };
 

@@ -17,17 +17,17 @@ using graph::TextureFilter;
 constexpr const char* kBlackMirrorShader = "mirror_black.frag";
 
 /// Returns the winding of back faces in a view's picture. Cube faces show the scene mirrored.
-gpu::Winding back_face_winding(const shared::View& view) {
+gpu::TriangleWinding find_back_face_winding(const shared::View& view) {
     return dot(glm::cross(view.right, view.down), view.forward) > 0
-               ? gpu::Winding::clockwise
-               : gpu::Winding::counterclockwise;
+               ? gpu::TriangleWinding::clockwise
+               : gpu::TriangleWinding::counterclockwise;
 }
 
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, const DrawnParts& parts) {
-    const DrawRange& range = scene.draw_ranges()[object];
+                 std::uint32_t first_view, std::uint32_t layers, const DrawnObjectParts& parts) {
+    const ObjectDrawRange& range = scene.list_draw_ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kInstanceLayerBits;
     scene.bind_vertices(commands, object);
     const auto draw_layers = [&](std::uint32_t first, std::uint32_t count) {
@@ -39,7 +39,7 @@ void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t obje
     };
     const auto is_drawn_in = [&](std::uint32_t layer) {
         if (!parts.layers.empty()) return (parts.layers[object] >> layer & 1) != 0;
-        return may_view_show_box(scene.views()[first_view + layer], range);
+        return may_view_show_box(scene.list_views()[first_view + layer], range);
     };
     for (std::uint32_t layer = 0; layer < layers;) {
         std::uint32_t end = layer;
@@ -51,31 +51,34 @@ void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t obje
 
 /// Returns one image of each array.
 template <typename Part>
-std::vector<ImageHandle> list_cube_images(const Captures& captures, Part&& part) {
+std::vector<ImageHandle> list_cube_images(const MirrorCaptures& captures, Part&& part) {
     std::vector<ImageHandle> images;
-    for (const CubeArray& cubes : captures.arrays) images.push_back(part(cubes));
+    for (const CubeCaptureArray& cubes : captures.arrays) images.push_back(part(cubes));
     return images;
 }
 
-void bind_capture_images(PassCommands& commands, const Captures& captures) {
-    commands.bind("colour_cubes",
-                  list_cube_images(captures, [](const CubeArray& cubes) { return cubes.colour; }));
+void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures) {
+    commands.bind_resource(
+        "colour_cubes",
+        list_cube_images(captures, [](const CubeCaptureArray& cubes) { return cubes.colour; }));
     // Every shader has these bindings. If a capture lacks an image, its colour is bound instead,
     // and nothing reads it.
-    commands.bind("surface_cubes", list_cube_images(captures, [](const CubeArray& cubes) {
-                      return cubes.surfaces.value_or(cubes.colour);
-                  }));
+    commands.bind_resource("surface_cubes",
+                           list_cube_images(captures, [](const CubeCaptureArray& cubes) {
+                               return cubes.surfaces.value_or(cubes.colour);
+                           }));
     const std::vector<ImageHandle> distances = list_cube_images(
-        captures, [](const CubeArray& cubes) { return cubes.distance.value_or(cubes.colour); });
-    commands.bind("distance_cubes", distances);
-    commands.bind("linear_texels", TextureFilter::linear);
-    commands.bind("nearest_texels", TextureFilter::nearest);
-    commands.bind("mipmapped_texels", TextureFilter::mipmapped);
-    if (captures.table) commands.bind("Captures", *captures.table);
+        captures,
+        [](const CubeCaptureArray& cubes) { return cubes.distance.value_or(cubes.colour); });
+    commands.bind_resource("distance_cubes", distances);
+    commands.bind_resource("linear_texels", TextureFilter::linear);
+    commands.bind_resource("nearest_texels", TextureFilter::nearest);
+    commands.bind_resource("mipmapped_texels", TextureFilter::mipmapped);
+    if (captures.table) commands.bind_resource("Captures", *captures.table);
 }
 
 /// Adds the constants that tell a shader where the captures are stored.
-void add_capture_place_constants(const Captures& captures, gpu::ShaderConstants& constants) {
+void add_capture_place_constants(const MirrorCaptures& captures, gpu::ShaderConstants& constants) {
     const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
     const float unit = unit_of(captures.options.front());
     const bool same = std::ranges::all_of(
@@ -90,26 +93,28 @@ void add_capture_place_constants(const Captures& captures, gpu::ShaderConstants&
 }
 
 /// Returns the constants of the pass for fragment shaders that draw objects with a colour.
-gpu::ShaderConstants fragment_shader_constants(const GpuScene& scene, const DrawSettings& drawing) {
+gpu::ShaderConstants make_fragment_shader_constants(const GpuScene& scene,
+                                                    const SceneDrawSettings& drawing) {
     gpu::ShaderConstants features;
     if (drawing.peeled) features.emplace_back("peels", 1u);
-    if (scene.has_details()) features.emplace_back("lights_mirrors", 1u);
+    if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
     return features;
 }
 
-void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
-                  const MirrorShader& look, const ObjectFilter& wanted, const DrawnParts& parts) {
+void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
+                  const MirrorShader& look, const ObjectFilter& wanted,
+                  const DrawnObjectParts& parts) {
     gpu::RasterState state{"", kBlackMirrorShader, drawing.store};
-    state.features = fragment_shader_constants(scene, drawing);
+    state.features = make_fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment +
                          (look.ablated && !drawing.peeled ? "#ablate" : look.variant);
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_capture_images(commands, *look.captures);
         if (look.captures) add_capture_place_constants(*look.captures, state.constants);
-        for (const auto& [name, images] : look.images) commands.bind(name, images);
-        for (const auto& [name, buffer] : look.buffers) commands.bind(name, buffer);
+        for (const auto& [name, images] : look.images) commands.bind_resource(name, images);
+        for (const auto& [name, buffer] : look.buffers) commands.bind_resource(name, buffer);
     }
     const auto& draw = drawing.peeled ? draw_objects : draw_objects_without_backs;
     draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted, parts);
@@ -119,7 +124,7 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const DrawSetti
 /// For a sphere they are half of all triangles. Returns false if the eye is inside the object's
 /// bounds or the view has a clip plane.
 bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::size_t object) {
-    const DrawRange& range = scene.draw_ranges()[object];
+    const ObjectDrawRange& range = scene.list_draw_ranges()[object];
     const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
                         all(lessThanEqual(view.eye, range.bounds.hi));
     return range.shell && !range.flipped && !within && view.parallel == 0 && view.clip == vec4(0);
@@ -129,15 +134,15 @@ bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::s
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, const DrawnParts& parts) {
+                  const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     std::ranges::copy(scene.shader_features(first_view), std::back_inserter(state.features));
-    const char* const build = scene.views()[first_view].clip == vec4(0) ? "" : "#clipped";
+    const char* const build = scene.list_views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
         state.vertex = (own ? "placed.vert" : "scene.vert") + std::string(build);
         bool in_use = false; // avoids creating a pipeline that draws nothing
-        for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i) {
-            if (scene.draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
+        for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
+            if (scene.list_draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
             if (!std::exchange(in_use, true)) {
                 commands.bind_pipeline(state);
                 commands.push_constants(shared::DrawParameters{first_view, ablated});
@@ -150,40 +155,40 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterStat
 void draw_objects_without_backs(PassCommands& commands, const GpuScene& scene,
                                 gpu::RasterState state, std::uint32_t first_view,
                                 std::uint32_t layers, std::uint32_t ablated,
-                                const ObjectFilter& wanted, const DrawnParts& parts) {
-    const shared::View& view = scene.views()[first_view];
+                                const ObjectFilter& wanted, const DrawnObjectParts& parts) {
+    const shared::View& view = scene.list_views()[first_view];
     const auto is_front = [&](std::size_t i) { return can_cull_back_faces(scene, view, i); };
     draw_objects(
         commands, scene, state, first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && !is_front(i); }, parts);
-    state.hidden = back_face_winding(view);
+    state.hidden = find_back_face_winding(view);
     draw_objects(
         commands, scene, std::move(state), first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && is_front(i); }, parts);
 }
 
-void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSettings& drawing,
+void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                 const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
-    const DrawnParts whole{nullptr, shown};
+    const DrawnObjectParts whole{nullptr, shown};
     const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
-    const gpu::ShaderConstants features = fragment_shader_constants(scene, drawing);
+    const gpu::ShaderConstants features = make_fragment_shader_constants(scene, drawing);
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
     if (lighting.shadow_map)
-        commands.bind("shadow_map", *lighting.shadow_map, TextureFilter::compare);
-    if (peeled) commands.bind("first_layer", *peeled);
-    gpu::RasterState diffuse{"", "diffuse.frag", store, gpu::Winding::none, features};
+        commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
+    if (peeled) commands.bind_resource("first_layer", *peeled);
+    gpu::RasterState diffuse{"", "diffuse.frag", store, gpu::TriangleWinding::none, features};
     if (completing_tracer.number > 0) {
         diffuse.fragment += "#first";
         diffuse.constants.emplace_back("tracer", completing_tracer.number);
         diffuse.constants.emplace_back("traces_lobes", completing_tracer.traces_lobes ? 1u : 0u);
     }
-    const auto draw_diffuse = [&](bool one_sided, gpu::Winding hidden) {
+    const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;
         draw_objects(
             commands, scene, diffuse, first_view, layers, 0,
             [&](std::size_t i) {
-                const DrawRange& range = scene.draw_ranges()[i];
+                const ObjectDrawRange& range = scene.list_draw_ranges()[i];
                 return !range.mirror && range.one_sided == one_sided && wanted(i);
             },
             whole);
@@ -197,7 +202,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
             draw_mirrors(
                 commands, scene, drawing, looks->looks[look],
                 [&](std::size_t i) {
-                    const std::uint32_t mirror = scene.mirror_of(i);
+                    const std::uint32_t mirror = scene.mirror_number_of_object(i);
                     return mirror > 0 && looks->of_mirror[mirror - 1] == look && wanted(i) &&
                            !is_black(i);
                 },
@@ -205,8 +210,8 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
         for (const MirrorPartShader& part : looks->parts)
             draw_mirrors(commands, scene, drawing, looks->looks[part.look],
                          [&](std::size_t i) {
-                             return scene.mirror_of(i) == part.mirror + 1 && wanted(i) &&
-                                    !is_black(i);
+                             return scene.mirror_number_of_object(i) == part.mirror + 1 &&
+                                    wanted(i) && !is_black(i);
                          },
                          {&part.triangles, shown});
     };
@@ -214,16 +219,17 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const DrawSetting
     // shading what they hide.
     const bool mirrors_first = scene.uses_mirror_bvh() && first_view != GpuScene::kCameraViewIndex;
     if (mirrors_first) draw_all_mirrors();
-    draw_diffuse(false, gpu::Winding::none);
-    if (std::ranges::any_of(scene.draw_ranges(), &DrawRange::one_sided))
-        draw_diffuse(true, back_face_winding(scene.views()[first_view]));
+    draw_diffuse(false, gpu::TriangleWinding::none);
+    if (std::ranges::any_of(scene.list_draw_ranges(), &ObjectDrawRange::one_sided))
+        draw_diffuse(true, find_back_face_winding(scene.list_views()[first_view]));
     if (!mirrors_first) draw_all_mirrors();
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
-    for (std::size_t i = 0; i < scene.draw_ranges().size(); ++i)
+    for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i)
         if (is_shut(i))
-            return draw_objects(commands, scene,
-                                {"", kBlackMirrorShader, store, gpu::Winding::none, features},
-                                first_view, layers, 0, is_shut, whole);
+            return draw_objects(
+                commands, scene,
+                {"", kBlackMirrorShader, store, gpu::TriangleWinding::none, features}, first_view,
+                layers, 0, is_shut, whole);
 }
 
 } // namespace catoptric::render

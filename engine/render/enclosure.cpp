@@ -32,7 +32,7 @@ bool is_closed_surface(std::size_t corners, At&& at) {
 
 /// Returns the solid angle of the triangle as seen from the origin, signed by its winding (Van
 /// Oosterom and Strackee 1983); 0 in the triangle's plane.
-double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
+double solid_angle_of_triangle(dvec3 a, dvec3 b, dvec3 c) {
     const double volume = dot(a, cross(b, c)), x = length(a), y = length(b), z = length(c);
     if (volume == 0) return 0;
     return 2 * std::atan2(volume, x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
@@ -40,18 +40,19 @@ double solid_angle(dvec3 a, dvec3 b, dvec3 c) {
 
 } // namespace
 
-bool encloses_point(const Geometry& geometry, const DrawRange& range, const dvec3& place) {
+bool does_object_enclose_point(const FrameGeometry& geometry, const ObjectDrawRange& range,
+                               const dvec3& place) {
     const vec3 in_scene(place);
     if (!(all(lessThanEqual(range.bounds.lo, in_scene)) &&
           all(lessThanEqual(in_scene, range.bounds.hi))))
         return false;
-    const vec3 point = range.own ? vec3(range.own->to_object_point(place)) : in_scene;
+    const vec3 point = range.own ? vec3(range.own->scene_to_object_point(place)) : in_scene;
     double seen = 0;
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto corner = [&](std::uint32_t j) {
             return dvec3(geometry.vertices[geometry.indices[k + j]].position) - dvec3(point);
         };
-        seen += solid_angle(corner(0), corner(1), corner(2));
+        seen += solid_angle_of_triangle(corner(0), corner(1), corner(2));
     }
     // Inside, the sum is the whole sphere of directions. On a face it is half of that, and on an
     // edge or a corner a fraction. Outside it is 0.

@@ -2,8 +2,9 @@
 
 namespace catoptric::render {
 
-require::FacePart grow_to_texels(const require::FacePart& part, std::uint32_t edge) {
-    if (part.is_whole()) return part;
+require::CubeFacePart grow_face_part_to_texels(const require::CubeFacePart& part,
+                                               std::uint32_t edge) {
+    if (part.is_whole_face()) return part;
     const double size = edge;
     const auto texel = [&](const dvec2& place) { return (place * .5 + .5) * size; };
     const dvec2 first = max(floor(texel(part.low)) - 1., dvec2(0)),
@@ -11,9 +12,9 @@ require::FacePart grow_to_texels(const require::FacePart& part, std::uint32_t ed
     return {first / size * 2. - 1., end / size * 2. - 1.};
 }
 
-std::optional<graph::PixelArea> face_part_to_area(const require::FacePart& part,
-                                                  std::uint32_t edge) {
-    if (part.is_whole()) return {};
+std::optional<graph::PixelArea> face_part_to_pixel_area(const require::CubeFacePart& part,
+                                                        std::uint32_t edge) {
+    if (part.is_whole_face()) return {};
     const auto texel = [&](const dvec2& place) {
         return uvec2(round((place * .5 + .5) * static_cast<double>(edge)));
     };
@@ -21,8 +22,8 @@ std::optional<graph::PixelArea> face_part_to_area(const require::FacePart& part,
     return graph::PixelArea{first.x, first.y, size.x, size.y};
 }
 
-require::FacePart face_part_showing_box(const shared::View& view, int face,
-                                        const Bounds<float>& box) {
+require::CubeFacePart face_part_showing_box(const shared::View& view, int face,
+                                            const Bounds<float>& box) {
     const dvec3 centre(view.eye);
     return require::face_part_containing(face, {dvec3(box.lo) - centre, dvec3(box.hi) - centre});
 }

@@ -14,7 +14,7 @@ namespace catoptric::render {
 
 /// The pixels of a picture as the eye sees them: squares on a plane. Towards the edge of the
 /// picture they turn away from the eye and lie farther off.
-struct PixelGrid {
+struct PicturePixelGrid {
     shared::View view;
     std::uint32_t height = 1; ///< height of the picture in pixels
 
@@ -32,23 +32,24 @@ struct PixelGrid {
 /// the footprint of a concave mirror shrinks to nothing. The result is therefore never smaller than
 /// the footprint of a flat mirror.
 /// `cosine`: of the angle of incidence, above 0.
-double reflected_pixel_footprint(double pixel_angle, double distance, double curvature,
-                                 double cosine);
+double angle_between_reflected_pixels(double pixel_angle, double distance, double curvature,
+                                      double cosine);
 
 /// Returns the texels along the edge of a cube face, (pi/2) / footprint, not rounded. With that
 /// many texels across its right angle, a face has the footprint as mean texel angle.
-double texels_for_footprint(double footprint);
+double cube_edge_texels_for_footprint(double footprint);
 
-/// Returns the largest texels_for_footprint on a sphere. The maximum lies near the point closest to
-/// the eye, a little farther from the axis. Returns 0 for a sphere outside the picture.
-double texels_needed_by_sphere(const PixelGrid& pixels, const vec3& centre, double radius);
+/// Returns the largest cube_edge_texels_for_footprint on a sphere. The maximum lies near the point
+/// closest to the eye, a little farther from the axis. Returns 0 for a sphere outside the picture.
+double texels_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre, double radius);
 
-/// Returns the largest texels_for_footprint of a mesh's triangles. Each triangle uses the two
-/// principal curvatures that its corner normals give (Rusinkiewicz 2004), and the pixel angle at
-/// the corner farthest from the axis. Facets without smooth normals are flat. Both sides of a
+/// Returns the largest cube_edge_texels_for_footprint of a mesh's triangles. Each triangle uses the
+/// two principal curvatures that its corner normals give (Rusinkiewicz 2004), and the pixel angle
+/// at the corner farthest from the axis. Facets without smooth normals are flat. Both sides of a
 /// triangle count as reflecting. Objects that hide the mirror are ignored. Returns 0 if no triangle
 /// with an area is in the picture.
-double texels_needed_by_mesh(const PixelGrid& pixels, std::span<const shared::Vertex> vertices,
+double texels_needed_by_mesh(const PicturePixelGrid& pixels,
+                             std::span<const shared::Vertex> vertices,
                              std::span<const std::uint32_t> indices);
 
 /// Returns the texels along the edge of a cube face that a rough surface needs: with them, the
@@ -58,6 +59,6 @@ double texels_needed_by_lobe(double alpha);
 
 /// Returns the common edge of captures in one cube array: the largest need, rounded up to a
 /// multiple of 16, at least 16 and at most `most`. The small multiple keeps the excess small.
-std::uint32_t common_capture_edge(std::span<const double> needs, std::uint32_t most);
+std::uint32_t choose_common_capture_edge(std::span<const double> needs, std::uint32_t most);
 
 } // namespace catoptric::render

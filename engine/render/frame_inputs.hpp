@@ -19,9 +19,9 @@ struct FrameInputs {
 };
 
 /// The lighting of captures and views. Without a shadow map, light casts no shadows.
-struct Lighting {
+struct ShadingLights {
     std::optional<graph::ImageHandle> shadow_map;
-    friend bool operator==(const Lighting&, const Lighting&) = default;
+    friend bool operator==(const ShadingLights&, const ShadingLights&) = default;
 };
 
 } // namespace catoptric::render

@@ -14,7 +14,7 @@ namespace {
 
 /// Returns whether the triangle is clockwise as seen from the side of its normals. Mirrored objects
 /// and badly written files have such triangles.
-bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& triangle) {
+bool is_triangle_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& triangle) {
     const shared::Vertex &a = vertices[triangle.x], &b = vertices[triangle.y],
                          &c = vertices[triangle.z];
     return dot(glm::cross(b.position - a.position, c.position - a.position),
@@ -22,85 +22,90 @@ bool runs_clockwise(const std::vector<shared::Vertex>& vertices, const uvec3& tr
 }
 
 /// Writes the object's indices.
-void write_object_indices(Geometry& geometry, const scene::Mesh& mesh, const DrawRange& range) {
+void write_object_indices(FrameGeometry& geometry, const scene::Mesh& mesh,
+                          const ObjectDrawRange& range) {
     std::size_t index = range.first_index;
     for (uvec3 triangle : mesh.triangles) {
         triangle += range.first_vertex;
-        if (range.one_sided && !range.casts_shadow && runs_clockwise(geometry.vertices, triangle))
+        if (range.one_sided && !range.casts_shadow &&
+            is_triangle_clockwise(geometry.vertices, triangle))
             std::swap(triangle.y, triangle.z);
         for (int i = 0; i < 3; ++i) geometry.indices[index++] = triangle[i];
     }
 }
 
 /// Writes the vertices that all copies of a mesh share. Returns their space.
-MeshSpace write_shared_vertices(Geometry& geometry, const scene::Mesh& mesh,
-                                const DrawRange& range) {
-    MeshSpace space = make_mesh_space(mesh);
+SharedMeshSpace write_shared_vertices(FrameGeometry& geometry, const scene::Mesh& mesh,
+                                      const ObjectDrawRange& range) {
+    SharedMeshSpace space = make_mesh_space(mesh);
     const dmat3 to_own(space.unit), normal_to_own(1);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const vec3 position(to_own * (mesh.positions[i] - space.middle));
         space.box.add(dvec3(position));
         geometry.vertices[range.first_vertex + i] = {
-            position, vec3(scene::world_normal(normal_to_own, dvec3(mesh.normals[i])))};
+            position,
+            vec3(scene::transform_normal_to_world(normal_to_own, dvec3(mesh.normals[i])))};
     }
     write_object_indices(geometry, mesh, range);
     return space;
 }
 
 /// Writes the vertices of a single object into its object space. Returns whether they changed.
-bool write_object_space_vertices(Geometry& geometry, const scene::Scene& now,
+bool write_object_space_vertices(FrameGeometry& geometry, const scene::Scene& now,
                                  const SceneUnits& space, std::size_t index) {
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
-    DrawRange& range = geometry.ranges[index];
+    ObjectDrawRange& range = geometry.ranges[index];
     range.own = make_object_space(now, object, space);
     // Transforms the mesh relative to the middle of the space.
     const dvec3 middle = make_mesh_space(mesh).middle;
     const dmat3 own_from_scene = glm::inverse(range.own->scene_from_own),
                 turn = own_from_scene * space.scale * dmat3(object.world_from_object),
-                normal_to_own = scene::normal_matrix(object.world_from_object);
-    const dvec3 at_middle = own_from_scene * (space.to_scene_units(scene::transform_point(
-                                                  object.world_from_object, middle)) -
-                                              range.own->centre);
+                normal_to_own = scene::compute_normal_matrix(object.world_from_object);
+    const dvec3 at_middle = own_from_scene *
+                            (space.world_to_scene_units(scene::transform_point_to_world(
+                                 object.world_from_object, middle)) -
+                             range.own->centre);
     Bounds<double> box;
     bool changed = false;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const vec3 position(turn * (mesh.positions[i] - middle) + at_middle);
         box.add(dvec3(position));
-        const shared::Vertex vertex{
-            position, vec3(scene::world_normal(normal_to_own, dvec3(mesh.normals[i])))};
+        const shared::Vertex vertex{position, vec3(scene::transform_normal_to_world(
+                                                  normal_to_own, dvec3(mesh.normals[i])))};
         shared::Vertex& kept = geometry.vertices[range.first_vertex + i];
         changed = changed || kept.position != vertex.position || kept.normal != vertex.normal;
         kept = vertex;
     }
     range.bounds = mesh.positions.empty() ? Bounds<float>()
-                                          : bounds_in_scene_units(*range.own, box);
+                                          : object_bounds_in_scene_units(*range.own, box);
     return changed;
 }
 
 /// Writes the object's vertices in scene units.
-void write_scene_space_vertices(Geometry& geometry, const scene::Scene& now,
+void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now,
                                 const SceneUnits& space, std::size_t index) {
     const dmat4& world_from_object = now.objects[index].world_from_object;
     const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
-    const dmat3 normal_to_world = scene::normal_matrix(world_from_object);
-    DrawRange& range = geometry.ranges[index];
+    const dmat3 normal_to_world = scene::compute_normal_matrix(world_from_object);
+    ObjectDrawRange& range = geometry.ranges[index];
     range.bounds = {};
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const vec3 position = space.to_scene_point(
+        const vec3 position = space.world_to_scene_point(
             dvec3(world_from_object * dvec4(mesh.positions[i], 1)));
         range.bounds.add(position);
         geometry.vertices[range.first_vertex + i] = {
-            position, vec3(scene::world_normal(normal_to_world, dvec3(mesh.normals[i])))};
+            position,
+            vec3(scene::transform_normal_to_world(normal_to_world, dvec3(mesh.normals[i])))};
     }
 }
 
 /// Returns whether the material has a factor, other than those of glTF itself, that is not at its
 /// default.
-bool has_extra_factors(const scene::Material& material) {
+bool has_extra_material_factors(const scene::Material& material) {
     const scene::Material usual;
     return std::ranges::any_of(scene::kMaterialFactors, [&](const scene::MaterialFactor& factor) {
-        return factor.extension != scene::kCoreFactors &&
+        return factor.extension != scene::kCoreMaterialFactors &&
                material.*factor.member != usual.*factor.member;
     });
 }
@@ -110,13 +115,13 @@ bool has_varying_colour(const scene::Mesh& mesh, const scene::Material& material
     const bool throws_back = material.albedo != vec3(0) && material.reflectance != vec3(1);
     return !mesh.colours.empty() || material.albedo_texture || material.emission_texture ||
            material.normal_texture || material.unlit || scene::has_alpha_mask(material) ||
-           has_extra_factors(material) ||
+           has_extra_material_factors(material) ||
            (material.mirror ? throws_back || scene::is_visibly_emissive(material)
-                            : scene::is_specular(material));
+                            : scene::has_specular_part(material));
 }
 
 /// Returns whether a mirror shows nothing except reflections.
-bool shows_only_reflections(const scene::Mesh& mesh, const scene::Material& material) {
+bool mirror_shows_only_reflections(const scene::Mesh& mesh, const scene::Material& material) {
     if (scene::is_visibly_emissive(material)) return false;
     if (material.mirror) return material.albedo == vec3(0) || material.reflectance == vec3(1);
     return material.metallic == 1 && mesh.colours.empty() && !material.albedo_texture &&
@@ -124,10 +129,10 @@ bool shows_only_reflections(const scene::Mesh& mesh, const scene::Material& mate
 }
 
 /// Returns the properties of an object that do not depend on its place.
-DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) {
+ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) {
     const scene::Mesh& mesh = now.meshes[object.mesh];
     const scene::Material& material = now.materials[object.material];
-    DrawRange range;
+    ObjectDrawRange range;
     range.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
     range.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     range.mirror = scene::is_mirror(now, object);
@@ -142,31 +147,31 @@ DrawRange make_draw_range(const scene::Scene& now, const scene::Object& object) 
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::has_alpha_mask(material);
     range.has_normal_texture = material.normal_texture.has_value();
-    range.has_lobe = scene::reflects_by_lobe(now, object);
+    range.has_lobe = scene::may_reflect_by_lobe(now, object);
     range.rough = range.mirror && range.has_lobe;
     if (range.rough && !material.roughness_texture)
         range.lobe_alpha = f32::roughness_to_alpha(material.roughness);
     // Captures do not show lights without a surface, so a rough mirror's highlights are its own
     // light.
-    range.lit = range.mirror && (!shows_only_reflections(mesh, material) ||
+    range.lit = range.mirror && (!mirror_shows_only_reflections(mesh, material) ||
                                  (range.has_lobe && !now.punctual.empty()));
     return range;
 }
 
 /// Gives each range its part of the vertex and index lists. Objects in scene units come first.
 /// Copies that share a mesh have one part.
-void lay_out_geometry(Geometry& geometry, const scene::Scene& now) {
+void assign_geometry_ranges(FrameGeometry& geometry, const scene::Scene& now) {
     std::uint32_t vertices = 0, indices = 0;
-    const auto store = [&](DrawRange& range) {
+    const auto store = [&](ObjectDrawRange& range) {
         range.first_index = indices, range.first_vertex = vertices;
         vertices += range.vertex_count, indices += range.index_count;
     };
-    for (DrawRange& range : geometry.ranges)
+    for (ObjectDrawRange& range : geometry.ranges)
         if (!range.own) store(range);
     geometry.flat_indices = indices;
     std::vector<std::optional<std::uint32_t>> first_with(now.meshes.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        DrawRange& range = geometry.ranges[i];
+        ObjectDrawRange& range = geometry.ranges[i];
         if (!range.own) continue;
         std::optional<std::uint32_t>& first = first_with[now.objects[i].mesh];
         if (range.shares && first) {
@@ -183,7 +188,7 @@ void lay_out_geometry(Geometry& geometry, const scene::Scene& now) {
 }
 
 /// Stores the attributes of every mesh that has them, once.
-void lay_out_attributes(Geometry& geometry, const scene::Scene& now) {
+void assign_attribute_ranges(FrameGeometry& geometry, const scene::Scene& now) {
     std::vector<std::optional<std::uint32_t>> first_of(now.meshes.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
@@ -204,77 +209,78 @@ void lay_out_attributes(Geometry& geometry, const scene::Scene& now) {
 
 } // namespace
 
-Geometry make_geometry(const scene::Scene& now, const SceneUnits& space, VertexSpace spaces) {
-    Geometry geometry{.core = space.core, .spaces = spaces};
-    const std::vector<bool> shared = spaces == VertexSpace::object_space
+FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnits& space,
+                                  VertexSpaceChoice spaces) {
+    FrameGeometry geometry{.core = space.core, .spaces = spaces};
+    const std::vector<bool> shared = spaces == VertexSpaceChoice::object_space
                                          ? find_objects_sharing_meshes(now)
                                          : std::vector<bool>(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        DrawRange range = make_draw_range(now, now.objects[i]);
+        ObjectDrawRange range = make_draw_range(now, now.objects[i]);
         range.storage = static_cast<std::uint32_t>(i);
         range.shares = shared[i];
-        if (range.shares || (spaces == VertexSpace::object_space &&
-                             is_small_for_distance(now, now.objects[i], space)))
+        if (range.shares || (spaces == VertexSpaceChoice::object_space &&
+                             is_small_for_its_distance(now, now.objects[i], space)))
             range.own.emplace();
         geometry.ranges.push_back(range);
     }
-    lay_out_geometry(geometry, now);
-    lay_out_attributes(geometry, now);
+    assign_geometry_ranges(geometry, now);
+    assign_attribute_ranges(geometry, now);
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
+        const ObjectDrawRange& range = geometry.ranges[i];
         const std::size_t mesh = now.objects[i].mesh;
         if (range.shares && range.storage == i)
             geometry.mesh_spaces[mesh] = write_shared_vertices(geometry, now.meshes[mesh], range);
-        move_object(geometry, now, space, i);
+        move_object_geometry(geometry, now, space, i);
     }
     return geometry;
 }
 
 /// Returns the radius of a sphere around the middle of the object's bounds that contains the
 /// object.
-float bounding_radius(const Geometry& geometry, const DrawRange& range) {
-    constexpr float kRadiusMargin = 1 + 0x1p-20f;
+float compute_bounding_radius(const FrameGeometry& geometry, const ObjectDrawRange& range) {
+    constexpr float kBoundingRadiusMargin = 1 + 0x1p-20f;
     if (range.bounds.empty()) return 0;
-    if (range.own) return kRadiusMargin * length(range.bounds.extent()) / 2;
+    if (range.own) return kBoundingRadiusMargin * length(range.bounds.extent()) / 2;
     const vec3 middle = range.bounds.centre();
     float squared = 0;
     for (std::uint32_t i = 0; i < range.vertex_count; ++i) {
         const vec3 from = geometry.vertices[range.first_vertex + i].position - middle;
         squared = std::max(squared, dot(from, from));
     }
-    return kRadiusMargin * std::sqrt(squared);
+    return kBoundingRadiusMargin * std::sqrt(squared);
 }
 
-bool needs_other_space(const Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
-                       std::size_t object) {
-    if (geometry.spaces == VertexSpace::scene_space) return false;
-    const DrawRange& range = geometry.ranges[object];
-    if (range.shares) return !may_share_mesh(now, now.objects[object]);
-    return range.own.has_value() != is_small_for_distance(now, now.objects[object], space);
+bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
+                              const SceneUnits& space, std::size_t object) {
+    if (geometry.spaces == VertexSpaceChoice::scene_space) return false;
+    const ObjectDrawRange& range = geometry.ranges[object];
+    if (range.shares) return !may_object_share_mesh(now, now.objects[object]);
+    return range.own.has_value() != is_small_for_its_distance(now, now.objects[object], space);
 }
 
-bool move_object(Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
-                 std::size_t index) {
+bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                          std::size_t index) {
     const scene::Object& object = now.objects[index];
-    DrawRange& range = geometry.ranges[index];
+    ObjectDrawRange& range = geometry.ranges[index];
     bool changed = !range.shares;
     if (range.shares) {
-        const MeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
+        const SharedMeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
         range.own = make_object_space(mesh, object.world_from_object, space);
-        range.bounds = bounds_in_scene_units(*range.own, mesh.box);
+        range.bounds = object_bounds_in_scene_units(*range.own, mesh.box);
     } else if (range.own) {
         changed = write_object_space_vertices(geometry, now, space, index);
     } else {
         write_scene_space_vertices(geometry, now, space, index);
     }
-    range.radius = bounding_radius(geometry, range);
+    range.radius = compute_bounding_radius(geometry, range);
     range.flipped = !(glm::determinant(dmat3(object.world_from_object)) > 0);
     check_object_distance(range.bounds, object.name);
     if (!range.shares) write_object_indices(geometry, now.meshes[object.mesh], range);
     return changed;
 }
 
-float squared_distance_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+float squared_distance_from_point_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c) {
     const vec3 ab = b - a, ac = c - a, ap = p - a;
     const float d1 = dot(ab, ap), d2 = dot(ac, ap);
     const auto to = [&](vec3 closest) { return dot(p - closest, p - closest); };

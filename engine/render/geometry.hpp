@@ -11,13 +11,13 @@
 namespace catoptric::render {
 
 /// The choice of objects that are stored in object space.
-enum class VertexSpace {
+enum class VertexSpaceChoice {
     scene_space, ///< none: all vertices are in scene units
-    object_space ///< some: see make_geometry
+    object_space ///< some: see make_frame_geometry
 };
 
 /// The triangles of one object in the shared buffers, and its properties.
-struct DrawRange {
+struct ObjectDrawRange {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
     std::uint32_t first_vertex = 0;
@@ -33,8 +33,8 @@ struct DrawRange {
     /// Whether the object has several colours, or reflects sharply without being a mirror.
     bool varies = false;
     bool has_normal_texture = false;
-    bool has_lobe = false; ///< some part reflects by a lobe (scene::reflects_by_lobe)
-    bool rough = false;    ///< a mirror that reflects by a lobe (scene::reflects_by_lobe)
+    bool has_lobe = false; ///< some part reflects by a lobe (scene::may_reflect_by_lobe)
+    bool rough = false;    ///< a mirror that reflects by a lobe (scene::may_reflect_by_lobe)
     float lobe_alpha = 0;  ///< of a rough mirror, the width of its lobe; 0: a texture varies it
     bool turns = false;    ///< the normal turns to the viewer's side
     bool masked = false;   ///< whether an alpha mask may cut out parts of the object
@@ -43,8 +43,8 @@ struct DrawRange {
     bool glass = false;   ///< rays pass through (scene::is_glass)
     bool shell = false;   ///< the mesh passes is_shell
     bool flipped = false; ///< whether the object's transform mirrors or flattens the mesh
-    /// Index in Geometry::attributes of the first attribute of the object's mesh; empty: the mesh
-    /// has no attributes.
+    /// Index in FrameGeometry::attributes of the first attribute of the object's mesh; empty: the
+    /// mesh has no attributes.
     std::optional<std::uint32_t> first_attribute;
     std::optional<ObjectSpace> own; ///< none: vertices are in scene units
     /// Index of the object that owns these vertices and indices: the first object with the mesh, or
@@ -55,36 +55,36 @@ struct DrawRange {
 
 /// All triangles of a frame, in scene units unless their object has an object space. Each object
 /// has one range, in the order of the scene. Vertices and indices in scene units come first.
-struct Geometry {
+struct FrameGeometry {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<DrawRange> ranges;
+    std::vector<ObjectDrawRange> ranges;
     /// Vertex attributes, stored once for each mesh that has them.
     std::vector<shared::VertexAttribute> attributes;
     /// Object spaces of meshes that copies share, by mesh index.
-    std::map<std::size_t, MeshSpace> mesh_spaces;
+    std::map<std::size_t, SharedMeshSpace> mesh_spaces;
     Bounds<float> core; ///< bounds of most of the scene (SceneUnits::core)
-    VertexSpace spaces = VertexSpace::scene_space;
+    VertexSpaceChoice spaces = VertexSpaceChoice::scene_space;
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };
-/// Builds the geometry of a scene. With VertexSpace::object_space, an object keeps an object space
-/// if it is small (is_small) or one of many copies (shared_objects). Costs O(n) in stored vertices
-/// and triangles; a copy that shares its mesh costs O(1).
-Geometry make_geometry(const scene::Scene& now, const SceneUnits& space,
-                       VertexSpace spaces = VertexSpace::scene_space);
+/// Builds the geometry of a scene. With VertexSpaceChoice::object_space, an object keeps an object
+/// space if it is small (is_small) or one of many copies (shared_objects). Costs O(n) in stored
+/// vertices and triangles; a copy that shares its mesh costs O(1).
+FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnits& space,
+                                  VertexSpaceChoice spaces = VertexSpaceChoice::scene_space);
 
-/// Returns whether `make_geometry` would now choose another kind of space for the object.
-bool needs_other_space(const Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
-                       std::size_t object);
+/// Returns whether `make_frame_geometry` would now choose another kind of space for the object.
+bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
+                              const SceneUnits& space, std::size_t object);
 
 /// Moves an object's triangles to their present place. Nothing else about the object may have
-/// changed since `make_geometry`. Returns whether vertices changed; moving only an object space
-/// changes none. Throws as check_reach does.
-bool move_object(Geometry& geometry, const scene::Scene& now, const SceneUnits& space,
-                 std::size_t index);
+/// changed since `make_frame_geometry`. Returns whether vertices changed; moving only an object
+/// space changes none. Throws as check_reach does.
+bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
+                          std::size_t index);
 
 /// Returns the squared distance from p to the triangle (Ericson, Real-Time Collision Detection,
 /// 5.1.5).
-float squared_distance_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c);
+float squared_distance_from_point_to_triangle(vec3 p, vec3 a, vec3 b, vec3 c);
 
 } // namespace catoptric::render

@@ -13,21 +13,21 @@ namespace {
 
 /// Returns the light's entry, without its position and its shadow axes.
 shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits& space) {
-    const scene::LightKind& kind = scene::light_kind_of(light.kind);
+    const scene::LightKind& kind = scene::find_light_kind(light.kind);
     shared::Light entry{};
     entry.normal = vec3(light.normal);
     entry.forward = light.axis == dvec3(0) ? entry.normal : vec3(light.axis);
     const bool is_alike_all_round = light.normal == dvec3(0) && light.cosines == dvec3(0);
-    const double share = is_alike_all_round ? light_share_towards(light, {0, 0, 1}) : 1;
+    const double share = is_alike_all_round ? light_share_in_direction(light, {0, 0, 1}) : 1;
     const double area = light.directional ? 1 : share * light.area * space.scale * space.scale;
     entry.intensity = light.emission * static_cast<float>(area);
-    entry.reach = 1 / space.to_scene_length(light.range);
+    entry.reach = 1 / space.world_to_scene_length(light.range);
     entry.kind = !light.is_lamp              ? kind.shader_kind
                  : light.cosines != dvec3(0) ? shared::kLightKindTwoSidedLamp
                                              : shared::kLightKindLamp;
     const bool has_numbers = !light.is_lamp && kind.shader_numbers != nullptr;
     const auto [cos_outer, sharpness] = has_numbers ? kind.shader_numbers(light)
-                                                    : scene::ShaderNumbers();
+                                                    : scene::LightShaderNumbers();
     entry.cos_outer = cos_outer, entry.sharpness = sharpness;
     return entry;
 }
@@ -48,14 +48,16 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
         shared::Light entry = make_light_entry(light, space_);
         if (light.directional)
             light_places_.emplace_back(
-                make_sun_views(entry.forward, space_.core, geometry_bounds(geometry_))[0].eye);
+                make_directional_light_views(entry.forward, space_.core,
+                                             compute_geometry_bounds(geometry_))[0]
+                    .eye);
         else
-            light_places_.push_back(space_.to_scene_units(light.position));
+            light_places_.push_back(space_.world_to_scene_units(light.position));
         entry.position = vec3(light_places_.back());
         if (!light.directional) {
             const float gap = nearest_.distance_to_nearest(
                 geometry_, light_places_.back(),
-                [](std::size_t, const DrawRange& range) { return !range.casts_shadow; });
+                [](std::size_t, const ObjectDrawRange& range) { return !range.casts_shadow; });
             const bool has_axes = light.cosines != dvec3(0);
             const shared::View main = has_axes ? make_turned_cube_views(
                                                      entry.position, glm::mat3(light.axes), gap)[4]
@@ -70,13 +72,14 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
     }
     std::vector<shared::Light> all = lights_;
     all.resize(shared::kMaxLights);
-    light_buffer_.set_contents(all);
+    light_buffer_.set_list_contents(all);
 }
 
 std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {
     std::vector<shared::View> views;
     if (light.kind == shared::kLightKindDirectional) {
-        std::ranges::copy(make_sun_views(light.forward, space_.core, geometry_bounds(geometry_)),
+        std::ranges::copy(make_directional_light_views(light.forward, space_.core,
+                                                       compute_geometry_bounds(geometry_)),
                           std::back_inserter(views));
     } else {
         views = make_turned_cube_views(light.position,

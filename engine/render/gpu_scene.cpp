@@ -29,19 +29,19 @@ shared::Surface make_surface_entry(const scene::Object& object, const scene::Mat
     surface.reflectance = material.reflectance;
     surface.mirror = mirror;
     if (object.sphere) {
-        surface.centre = space.to_scene_point(object.sphere->centre);
-        surface.radius = space.to_scene_length(object.sphere->radius);
+        surface.centre = space.world_to_scene_point(object.sphere->centre);
+        surface.radius = space.world_to_scene_length(object.sphere->radius);
     }
     return surface;
 }
 
 /// Returns the flat faces of a mirror, in scene units.
-scene::FlatFaces flat_faces_in_scene_units(const SceneUnits& space, const scene::Scene& now,
-                                           std::size_t object) {
+scene::FlatFaces flat_mirror_faces_in_scene_units(const SceneUnits& space, const scene::Scene& now,
+                                                  std::size_t object) {
     scene::FlatFaces flats = scene::find_flat_faces(now, now.objects[object]);
     for (scene::FlatFace& face : flats.faces) {
-        face.point = space.to_scene_units(face.point);
-        for (dvec3& corner : face.corners) corner = space.to_scene_units(corner);
+        face.point = space.world_to_scene_units(face.point);
+        for (dvec3& corner : face.corners) corner = space.world_to_scene_units(corner);
     }
     return flats;
 }
@@ -61,16 +61,17 @@ std::vector<bool> find_moving_objects(const scene::Scene& scene) {
 }
 
 /// Returns the scene after checking that it fits on the device.
-const scene::Scene& check_scene_fits(const gpu::Device& device, const scene::Scene& scene) {
+const scene::Scene& check_scene_fits(const gpu::GpuDevice& device, const scene::Scene& scene) {
     check_geometry_limits(scene.name, count_scene_amounts(scene),
                           {device.max_texel_count(sizeof(vec4)),
-                           device.limits().maxStorageBufferRange, device.max_allocation(),
-                           device.memory_budget()});
+                           device.vulkan_limits().maxStorageBufferRange,
+                           device.max_allocation_bytes(), device.memory_budget()});
     return scene;
 }
 
 /// Returns the objects that are in all lists. `lists`: by object, 1 for an object in the list.
-std::vector<std::uint8_t> objects_in_all(const std::vector<std::vector<std::uint8_t>>& lists) {
+std::vector<std::uint8_t>
+intersect_object_lists(const std::vector<std::vector<std::uint8_t>>& lists) {
     if (lists.empty()) return {};
     std::vector<std::uint8_t> result = lists.front();
     for (const std::vector<std::uint8_t>& list : lists)
@@ -80,8 +81,8 @@ std::vector<std::uint8_t> objects_in_all(const std::vector<std::vector<std::uint
 
 } // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots)
-    : device_(device), space_(make_scene_units(check_scene_fits(device, scene))),
+GpuScene::GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots)
+    : scene_device_(device), space_(make_scene_units(check_scene_fits(device, scene))),
       vertices_(find_moving_objects(scene), slots),
       view_buffer_("views", gpu::BufferUsage::plain, slots),
       frame_("frame", gpu::BufferUsage::uniform, slots),
@@ -90,12 +91,12 @@ GpuScene::GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t s
       light_buffer_("lights", gpu::BufferUsage::uniform, slots),
       probe_buffer_("probes", gpu::BufferUsage::texels, slots),
       mirror_tree_("mirror_tree", gpu::BufferUsage::texels, slots),
-      lamp_buffer_("lamps", gpu::BufferUsage::texels, slots), details_(slots), sky_(slots),
-      tracing_(std::make_unique<RayTracingTrees>(slots)) {}
+      lamp_buffer_("lamps", gpu::BufferUsage::texels, slots), material_details_(slots),
+      environment_(slots), tracing_(std::make_unique<RayTracingTrees>(slots)) {}
 
 void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec2 size,
                       double ambient, std::size_t slot) {
-    update_ms_ = 0, hierarchy_ms_before_ = tracing_->update_ms();
+    update_ms_ = 0, hierarchy_ms_before_ = tracing_->bvh_update_ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = wants_lamp_points_ = false;
     const SceneChanges changes = seen_.update_and_compare(now, !complete_);
@@ -104,32 +105,32 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         rebuild_layout(now);
     else
         move_objects(now, changes.moved);
-    const bool moves_vertices = vertices_.layouts() != known_layouts_;
+    const bool moves_vertices = vertices_.geometry_set_count() != known_layouts_;
     if (changes.layout || changes.materials || moves_vertices)
-        details_.fill(now, space_, geometry_, vertices_,
-                      device_.max_texel_count(sizeof(std::uint32_t)));
+        material_details_.fill(now, space_, geometry_, vertices_,
+                               scene_device_.max_texel_count(sizeof(std::uint32_t)));
     if (changes.has_shape_changes() || changes.materials || moves_vertices) {
         fill_surfaces(now);
         has_lamp_table_ = false;
     }
     if (changes.has_shape_changes()) fill_placements();
-    known_layouts_ = vertices_.layouts();
+    known_layouts_ = vertices_.geometry_set_count();
     if (changes.has_shape_changes() || changes.lights) fill_lights(now, changes.lights);
     if (changes.has_shape_changes() || changes.lights) {
         backdrops_.clear();
         for (const shared::Light& light : lights_)
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
-        tracing_->set_backdrops(objects_in_all(backdrops_));
+        tracing_->set_backdrops(intersect_object_lists(backdrops_));
     }
-    sky_.set_environment(now.environment, details_.any_lobes());
+    environment_.set_environment(now.environment, material_details_.has_lobe_surfaces());
     if (changes.has_shape_changes() || changes.lights || changes.materials)
         fill_probes(now, changes);
     if (changes.has_shape_changes() || changes.lights || !is_same_camera(camera_, camera) ||
         size_ != size)
         fill_views(camera, size);
     if (face_needs_.empty())
-        face_needs_ = find_face_needs(geometry_, mirror_objects_, probes_, views_[kCameraViewIndex],
-                                      eye_, size.y);
+        face_needs_ = find_needed_face_edges(geometry_, mirror_objects_, probes_,
+                                             views_[kCameraViewIndex], eye_, size.y);
     fill_frame(ambient);
     write_buffers(slot);
     complete_ = true;
@@ -137,9 +138,9 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
 }
 
 void GpuScene::rebuild_layout(const scene::Scene& now) {
-    geometry_ = make_geometry(now, space_, VertexSpace::object_space);
+    geometry_ = make_frame_geometry(now, space_, VertexSpaceChoice::object_space);
     has_object_spaces_ = std::ranges::any_of(
-        geometry_.ranges, [](const DrawRange& range) { return range.own.has_value(); });
+        geometry_.ranges, [](const ObjectDrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
     find_closed_shells(now);
     nearest_.set_geometry(geometry_);
@@ -151,7 +152,7 @@ void GpuScene::rebuild_layout(const scene::Scene& now) {
 void GpuScene::find_closed_shells(const scene::Scene& now) {
     std::map<std::size_t, bool> known; // by mesh
     for (const std::size_t object : mirror_objects_) {
-        DrawRange& range = geometry_.ranges[object];
+        ObjectDrawRange& range = geometry_.ranges[object];
         if (!range.exact_sphere || range.masked) continue;
         const std::size_t mesh = now.objects[object].mesh;
         if (!known.contains(mesh)) known[mesh] = is_closed_shell(now.meshes[mesh]);
@@ -161,12 +162,12 @@ void GpuScene::find_closed_shells(const scene::Scene& now) {
 
 void GpuScene::move_objects(const scene::Scene& now, const std::vector<std::size_t>& objects) {
     if (std::ranges::any_of(objects, [&](std::size_t object) {
-            return needs_other_space(geometry_, now, space_, object);
+            return needs_other_vertex_space(geometry_, now, space_, object);
         }))
         return rebuild_layout(now);
     bool rebuild = false;
     for (const std::size_t object : objects) {
-        const bool changed = move_object(geometry_, now, space_, object);
+        const bool changed = move_object_geometry(geometry_, now, space_, object);
         nearest_.record_moved_object(object);
         tracing_->record_moved_object(object, changed);
         const bool unexpected = changed && vertices_.record_moved_object(object);
@@ -185,21 +186,21 @@ void GpuScene::fill_surfaces(const scene::Scene& now) {
         const scene::Material& material = now.materials[object.material];
         surfaces_.push_back(make_surface_entry(
             object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirrorNumber, space_));
-        surfaces_.back().detail = details_.indices()[surfaces_.size() - 1];
+        surfaces_.back().detail = material_details_.parameter_indices()[surfaces_.size() - 1];
     }
     // The traversal intersects exact spheres with an object space, so the shaders' list leaves them
     // out.
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
-    surface_buffer_.set_contents(pack_into_texels(listed));
+    surface_buffer_.set_list_contents(pack_structs_into_texels(listed));
 }
 
 /// Lists the triangles of lamps, for rays that aim at points on lamps.
 void GpuScene::fill_lamp_table() const {
     const std::vector<vec4> table = make_lamp_table(geometry_, surfaces_);
     has_sampled_lamps_ = !table.empty();
-    if (has_sampled_lamps_) lamp_buffer_.set_contents(table);
+    if (has_sampled_lamps_) lamp_buffer_.set_list_contents(table);
     has_lamp_table_ = true;
 }
 
@@ -214,22 +215,22 @@ void GpuScene::fill_placements() {
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
                          bvh::float_rounding_error(own->centre)};
     }
-    placement_buffer_.set_contents(placements);
+    placement_buffer_.set_list_contents(placements);
 }
 
 bool GpuScene::has_other_mirrors() const {
-    return std::ranges::any_of(geometry_.ranges, [](const DrawRange& range) {
+    return std::ranges::any_of(geometry_.ranges, [](const ObjectDrawRange& range) {
         return range.mirror && (!range.exact_sphere || range.lit);
     });
 }
 
 /// Returns the largest ball around `centre`, scene units, that lies inside the object. Its radius
 /// is 0 if the object does not hide its own back.
-InnerBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
-    InnerBall ball{vec3(centre), 0, object};
+InnerOccluderBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
+    InnerOccluderBall ball{vec3(centre), 0, object};
     if (geometry_.ranges[object].shell)
         ball.radius = nearest_.distance_to_nearest(
-            geometry_, centre, [&](std::size_t i, const DrawRange&) { return i != object; });
+            geometry_, centre, [&](std::size_t i, const ObjectDrawRange&) { return i != object; });
     return ball;
 }
 
@@ -243,9 +244,9 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         const std::size_t object = mirror_objects_[mirror];
         shared::Probe& probe = probes_[mirror];
         if (mirror >= known || std::ranges::binary_search(changes.moved, object)) {
-            probe_places_[mirror] = space_.to_scene_units(
+            probe_places_[mirror] = space_.world_to_scene_units(
                 scene::bounds(now, now.objects[object]).centre());
-            flats_[mirror] = flat_faces_in_scene_units(space_, now, object);
+            flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
             inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
         }
         probe.centre = vec3(probe_places_[mirror]);
@@ -262,7 +263,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         probe.lowest = box.lo, probe.highest = box.hi;
         const float gap = nearest_.distance_to_nearest(
             geometry_, probe_places_[mirror],
-            [&](std::size_t i, const DrawRange&) { return i == object; });
+            [&](std::size_t i, const ObjectDrawRange&) { return i == object; });
         for (shared::View& view : make_cube_views(probe.centre, gap)) {
             view.eye_low = bvh::float_rounding_error(probe_places_[mirror]);
             scene_views_.push_back(view);
@@ -273,67 +274,68 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
             view.eye_low = bvh::float_rounding_error(light_places_[light]);
             scene_views_.push_back(view);
         }
-    probe_buffer_.set_contents(pack_into_texels(probes_));
-    if (uses_mirror_bvh()) mirror_tree_.set_contents(build_mirror_tree(probes_));
+    probe_buffer_.set_list_contents(pack_structs_into_texels(probes_));
+    if (uses_mirror_bvh()) mirror_tree_.set_list_contents(build_mirror_tree(probes_));
 }
 
 void GpuScene::fill_frame(double ambient) {
-    frame_.set_contents(
+    frame_.set_list_contents(
         std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
 }
 
 std::uint32_t GpuScene::common_face_edge() const {
-    return common_capture_edge(face_needs_, device_.limits().maxImageDimensionCube);
+    return choose_common_capture_edge(face_needs_,
+                                      scene_device_.vulkan_limits().maxImageDimensionCube);
 }
 
 void GpuScene::write_buffers(std::size_t slot) {
-    uploads_ += vertices_.write(device_, slot) + sky_.write(device_, slot);
-    for (DeviceList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
-                               &light_buffer_, &probe_buffer_, &mirror_tree_, &lamp_buffer_})
-        uploads_ += buffer->write_changed_pages(device_, slot);
-    uploads_ += details_.write(device_, slot);
+    uploads_ += vertices_.write(scene_device_, slot) + environment_.write(scene_device_, slot);
+    for (DeviceDataList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
+                                   &light_buffer_, &probe_buffer_, &mirror_tree_, &lamp_buffer_})
+        uploads_ += buffer->write_changed_pages(scene_device_, slot);
+    uploads_ += material_details_.write(scene_device_, slot);
 }
 
 void GpuScene::bind(graph::PassCommands& commands) const {
-    commands.bind("frame", frame_.buffer_of_copy(slot_));
-    commands.bind("Views", view_buffer_.buffer_of_copy(slot_));
-    commands.bind("surface_texels", surface_buffer_.buffer_of_copy(slot_));
-    commands.bind("Placements", placement_buffer_.buffer_of_copy(slot_));
-    commands.bind("Lights", light_buffer_.buffer_of_copy(slot_));
-    commands.bind("probe_texels", probe_buffer_.buffer_of_copy(slot_));
-    commands.bind("mirror_nodes", mirror_tree_.buffer_of_copy(slot_));
-    commands.bind("lamp_texels", lamp_buffer_.buffer_of_copy(slot_));
-    details_.bind(commands, slot_);
-    sky_.bind(commands, slot_);
+    commands.bind_resource("frame", frame_.buffer_of_device_copy(slot_));
+    commands.bind_resource("Views", view_buffer_.buffer_of_device_copy(slot_));
+    commands.bind_resource("surface_texels", surface_buffer_.buffer_of_device_copy(slot_));
+    commands.bind_resource("Placements", placement_buffer_.buffer_of_device_copy(slot_));
+    commands.bind_resource("Lights", light_buffer_.buffer_of_device_copy(slot_));
+    commands.bind_resource("probe_texels", probe_buffer_.buffer_of_device_copy(slot_));
+    commands.bind_resource("mirror_nodes", mirror_tree_.buffer_of_device_copy(slot_));
+    commands.bind_resource("lamp_texels", lamp_buffer_.buffer_of_device_copy(slot_));
+    material_details_.bind(commands, slot_);
+    environment_.bind(commands, slot_);
     vertices_.bind(commands, slot_);
 }
 
 gpu::ShaderConstants GpuScene::shader_features(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
-            {"details", details_.any() ? 1u : 0u},
-            {"masks", details_.masks() ? 1u : 0u},
-            {"has_lobes", details_.any_lobes() ? 1u : 0u},
-            {"has_glass", details_.any_glass() ? 1u : 0u},
-            {"has_normal_textures", details_.any_normal_textures() ? 1u : 0u},
+            {"details", material_details_.has_varying_colours() ? 1u : 0u},
+            {"masks", material_details_.has_cut_out_surfaces() ? 1u : 0u},
+            {"has_lobes", material_details_.has_lobe_surfaces() ? 1u : 0u},
+            {"has_glass", material_details_.any_glass() ? 1u : 0u},
+            {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},
-            {"environment_kind", sky_.environment_kind()},
+            {"environment_kind", environment_.shader_environment_kind()},
             {"orthographic", views_[view].parallel},
             {"mirror_tree", uses_mirror_bvh() ? 1u : 0u}};
 }
 
-gpu::ShaderConstants GpuScene::tracing_features(SphereMode spheres) const {
+gpu::ShaderConstants GpuScene::tracing_features(SphereIntersectionMode spheres) const {
     gpu::ShaderConstants constants = shader_features();
-    for (const auto& constant :
-         make_tracer_constants(device_.variant_choices(), tracing_->largest_bytes(spheres, slot_),
-                               device_.limits().maxStorageBufferRange))
+    for (const auto& constant : make_tracer_constants(
+             scene_device_.list_variant_choices(), tracing_->largest_bytes(spheres, slot_),
+             scene_device_.vulkan_limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
 }
 
 void GpuScene::bind_sky_vertices(graph::PassCommands& commands) const {
-    sky_.bind_vertices(commands, slot_);
+    environment_.bind_vertices(commands, slot_);
 }
 
 void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) const {
@@ -342,21 +344,22 @@ void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) 
 
 void GpuScene::prepare_frame() const {
     if (added_views_ > 0) {
-        view_buffer_.set_contents(views_);
-        uploads_ += view_buffer_.write_changed_pages(device_, slot_);
+        view_buffer_.set_list_contents(views_);
+        uploads_ += view_buffer_.write_changed_pages(scene_device_, slot_);
     }
     if (wants_lamp_points_) {
         if (!has_lamp_table_) fill_lamp_table();
-        uploads_ += lamp_buffer_.write_changed_pages(device_, slot_);
+        uploads_ += lamp_buffer_.write_changed_pages(scene_device_, slot_);
     }
-    for (const SphereMode spheres : {SphereMode::mesh, SphereMode::exact})
+    for (const SphereIntersectionMode spheres :
+         {SphereIntersectionMode::mesh, SphereIntersectionMode::exact})
         if (wants_tracing_[static_cast<std::size_t>(spheres)])
-            tracing_->prepare_trees(device_, geometry_, surfaces_, spheres, wants_first_hits_,
+            tracing_->prepare_trees(scene_device_, geometry_, surfaces_, spheres, wants_first_hits_,
                                     slot_);
 }
 
-void GpuScene::bind_tracing(graph::PassCommands& commands, SphereMode spheres) const {
-    tracing_->prepare_trees(device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
+void GpuScene::bind_tracing(graph::PassCommands& commands, SphereIntersectionMode spheres) const {
+    tracing_->prepare_trees(scene_device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
     tracing_->bind(commands, spheres, slot_);
 }
 

@@ -26,7 +26,7 @@ public:
     /// Prepares for a scene, which the first update writes. `scene` at rest fixes the scene units
     /// for all later frames. `slots`: the most frames in flight at once. Throws as check_limits
     /// (render/limits.hpp) does if the device cannot hold the scene.
-    GpuScene(gpu::Device& device, const scene::Scene& scene, std::size_t slots = 1);
+    GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots = 1);
 
     /// Writes the data that differ from the last update, and nothing else. `now` is
     /// scene::scene_at_time of the scene given above, possibly with other transforms, materials and
@@ -42,69 +42,75 @@ public:
     /// Returns whether some mirror is not an exact sphere or has light of its own.
     bool has_other_mirrors() const;
     /// Returns whether some mirror reflects in lobes.
-    bool has_rough_mirrors() const { return std::ranges::any_of(draw_ranges(), &DrawRange::rough); }
+    bool has_rough_mirrors() const {
+        return std::ranges::any_of(list_draw_ranges(), &ObjectDrawRange::rough);
+    }
     /// Returns whether the mirror reflects in lobes. Mirrors count from 0 here.
     bool is_rough_mirror(std::uint32_t mirror) const {
-        return draw_ranges()[mirror_object(mirror)].rough;
+        return list_draw_ranges()[object_of_mirror(mirror)].rough;
     }
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
     /// Returns the layers of each light in shadow maps, and how many of them are drawn.
-    std::uint32_t shadow_faces() const { return shadow_faces_; }
+    std::uint32_t shadow_face_count() const { return shadow_faces_; }
     std::uint32_t drawn_shadow_faces(std::uint32_t light) const;
     /// Returns the result of find_backdrops for a light, by object.
-    const std::vector<std::uint8_t>& backdrops(std::uint32_t light) const {
+    const std::vector<std::uint8_t>& list_backdrops_of_light(std::uint32_t light) const {
         return backdrops_[light];
     }
-    const gpu::Device& device() const { return device_; }
-    const SceneUnits& space() const { return space_; }
-    const std::vector<DrawRange>& draw_ranges() const { return geometry_.ranges; }
-    const std::vector<shared::View>& views() const { return views_; }
+    const gpu::GpuDevice& scene_device() const { return scene_device_; }
+    const SceneUnits& scene_units() const { return space_; }
+    const std::vector<ObjectDrawRange>& list_draw_ranges() const { return geometry_.ranges; }
+    const std::vector<shared::View>& list_views() const { return views_; }
     /// Returns the index of the object that is the given mirror. Mirrors count from 0 here.
-    std::size_t mirror_object(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    std::size_t object_of_mirror(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
     /// Returns a ball inside the mirror. Only mirrors that hide their own back have one.
-    const InnerBall& inner_ball_of_mirror(std::uint32_t mirror) const {
+    const InnerOccluderBall& find_inner_ball_of_mirror(std::uint32_t mirror) const {
         return inner_balls_[mirror];
     }
     /// Returns the mirror number of the object, from 1; 0: no mirror.
-    std::uint32_t mirror_of(std::size_t object) const { return surfaces_[object].mirror; }
+    std::uint32_t mirror_number_of_object(std::size_t object) const {
+        return surfaces_[object].mirror;
+    }
     /// Returns the flat faces of each mirror, scene units; empty for mirrors that are not flat.
-    const std::vector<scene::FlatFaces>& flat_mirrors() const { return flats_; }
+    const std::vector<scene::FlatFaces>& list_flat_mirror_faces() const { return flats_; }
     /// Returns how far from flat a mirror may be to be drawn as a plane in this picture.
-    double flat_tolerance() const { return scene::compute_flat_tolerance(camera_, size_); }
+    double flat_mirror_tolerance() const { return scene::compute_flat_tolerance(camera_, size_); }
     /// Returns the eye from which mirrored views start.
-    MirroredEye eye() const;
+    MirroredViewEye eye() const;
     /// Returns whether the object is a closed mirror around the camera, which no light from outside
     /// reaches.
     bool hides_everything_from_camera(std::size_t object) const { return hides_all_[object]; }
     /// Returns the texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a
     /// mirror outside the picture. The first update computes them and later updates keep them,
     /// because cubes that change size lose the contents of the frame before.
-    const std::vector<double>& face_needs() const { return face_needs_; }
-    /// Discards the results of face_needs(), so that the next update computes the needed cube edges
-    /// again.
-    void clear_face_needs() { face_needs_.clear(); }
-    bool has_face_needs() const { return face_needs_.size() == mirror_objects_.size(); }
+    const std::vector<double>& needed_face_edges() const { return face_needs_; }
+    /// Discards the results of needed_face_edges(), so that the next update computes the needed
+    /// cube edges again.
+    void discard_face_needs() { face_needs_.clear(); }
+    bool has_needed_face_edges() const { return face_needs_.size() == mirror_objects_.size(); }
     /// Replaces the face needs by those of another sequence of frames.
-    void set_face_needs(std::vector<double> needs) { face_needs_ = std::move(needs); }
+    void set_needed_face_edges(std::vector<double> needs) { face_needs_ = std::move(needs); }
     /// Returns one edge for all cubes: the largest need, limited by the device.
     std::uint32_t common_face_edge() const;
     /// Returns the most cubes in one array on this device.
-    std::uint32_t max_cube_count() const { return device_.limits().maxImageArrayLayers / 6; }
-    /// Returns whether some object has an object space (DrawRange::own).
+    std::uint32_t max_cube_count() const {
+        return scene_device_.vulkan_limits().maxImageArrayLayers / 6;
+    }
+    /// Returns whether some object has an object space (ObjectDrawRange::own).
     bool has_object_spaces() const { return has_object_spaces_; }
     /// Returns the constants for building shaders that show this view. Features that the scene
     /// lacks cost nothing.
     gpu::ShaderConstants shader_features(std::uint32_t view = kCameraViewIndex) const;
     /// Returns `shader_features` for the tracer, plus the device's choices that are not the default
     /// (gpu/variants.hpp). Call it after `bind_tracing` with the same spheres.
-    gpu::ShaderConstants tracing_features(SphereMode spheres) const;
+    gpu::ShaderConstants tracing_features(SphereIntersectionMode spheres) const;
     /// Returns whether some surface has more than one colour.
-    bool has_details() const { return details_.any(); }
+    bool has_varying_colours() const { return material_details_.has_varying_colours(); }
     /// Returns whether rays can aim at points drawn on lamps. Valid from `prepare_frame` on, in
     /// frames that requested lamp points.
     bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
-    bool has_sky() const { return sky_.environment_kind() != 0; }
+    bool has_sky() const { return environment_.shader_environment_kind() != 0; }
 
     static constexpr std::uint32_t kCameraViewIndex = 0;
     /// Removes the views that the frame before added. Call it before a frame declares its passes.
@@ -115,8 +121,8 @@ public:
     /// Returns whether `prepare_frame` will write views. No frame may then be in flight in this
     /// slot. Call it after the passes are declared.
     bool has_new_views() const;
-    std::uint32_t capture_view(std::uint32_t mirror) const { return 1 + 6 * mirror; }
-    std::uint32_t shadow_view(std::uint32_t light) const {
+    std::uint32_t capture_view_index(std::uint32_t mirror) const { return 1 + 6 * mirror; }
+    std::uint32_t shadow_view_index(std::uint32_t light) const {
         return 1 + 6 * mirror_count() + shadow_faces_ * light;
     }
 
@@ -130,7 +136,8 @@ public:
     /// Announces that a pass traces rays. Call it when the pass is declared.
     /// `first_hits`: the rays start at triangles that the rasteriser has drawn
     /// (shaders/lib/first_hit.glsl).
-    void request_ray_tracing(SphereMode spheres = SphereMode::mesh, bool first_hits = false) const {
+    void request_ray_tracing(SphereIntersectionMode spheres = SphereIntersectionMode::mesh,
+                             bool first_hits = false) const {
         wants_tracing_[static_cast<std::size_t>(spheres)] = true;
         wants_first_hits_ = wants_first_hits_ || first_hits;
     }
@@ -142,20 +149,23 @@ public:
     /// passes are declared.
     void prepare_frame() const;
     /// Binds the hierarchy. Updates it first if `prepare_frame` has not.
-    void bind_tracing(graph::PassCommands& commands, SphereMode spheres = SphereMode::mesh) const;
+    void bind_tracing(graph::PassCommands& commands,
+                      SphereIntersectionMode spheres = SphereIntersectionMode::mesh) const;
 
     /// Returns the host milliseconds of the last update, and of hierarchies since it began.
-    double update_ms() const { return update_ms_; }
-    double hierarchy_ms() const { return tracing_->update_ms() - hierarchy_ms_before_; }
+    double scene_update_ms() const { return update_ms_; }
+    double bvh_update_ms() const { return tracing_->bvh_update_ms() - hierarchy_ms_before_; }
     /// Returns the host milliseconds of the first update and of the first write of a hierarchy.
-    /// Building that hierarchy is counted apart: `first_build_ms`, 0 if nothing traces.
-    double first_upload_ms() const { return first_update_ms_ + tracing_->first_write_ms(); }
-    double first_build_ms() const { return tracing_->first_build_ms(); }
+    /// Building that hierarchy is counted apart: `first_bvh_build_ms`, 0 if nothing traces.
+    double first_scene_upload_ms() const {
+        return first_update_ms_ + tracing_->first_bvh_write_ms();
+    }
+    double first_bvh_build_ms() const { return tracing_->first_bvh_build_ms(); }
     /// Returns counts since construction: writes to device memory, hierarchies built, hierarchies
     /// refitted.
-    std::size_t uploads() const { return uploads_ + tracing_->write_count(); }
-    std::size_t hierarchies_built() const { return tracing_->built_tree_count(); }
-    std::size_t hierarchies_refitted() const { return tracing_->refitted_tree_count(); }
+    std::size_t device_write_count() const { return uploads_ + tracing_->device_write_count(); }
+    std::size_t built_bvh_count() const { return tracing_->built_tree_count(); }
+    std::size_t refitted_bvh_count() const { return tracing_->refitted_tree_count(); }
 
 private:
     void rebuild_layout(const scene::Scene& now);
@@ -166,15 +176,15 @@ private:
     void fill_lights(const scene::Scene& now, bool others);
     void fill_lamp_table() const;
     void fill_probes(const scene::Scene& now, const SceneChanges& changes);
-    InnerBall make_inner_ball(std::size_t object, const dvec3& centre);
+    InnerOccluderBall make_inner_ball(std::size_t object, const dvec3& centre);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
     void fill_frame(double ambient);
     void write_buffers(std::size_t slot);
 
-    gpu::Device& device_;
+    gpu::GpuDevice& scene_device_;
     SceneUnits space_;
-    Geometry geometry_;
+    FrameGeometry geometry_;
     NearestTriangleQuery nearest_;
     SceneChangeTracker seen_;
     DeviceVertices vertices_;
@@ -190,8 +200,8 @@ private:
     std::vector<shared::Light> lights_;
     std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
     std::vector<std::size_t> mirror_objects_;
-    std::vector<InnerBall> inner_balls_; ///< ball inside each mirror
-    std::vector<bool> hides_all_;        ///< result of hides_everything_from_camera for each object
+    std::vector<InnerOccluderBall> inner_balls_; ///< ball inside each mirror
+    std::vector<bool> hides_all_; ///< result of hides_everything_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
@@ -204,12 +214,12 @@ private:
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    mutable DeviceList view_buffer_;
-    DeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
+    mutable DeviceDataList view_buffer_;
+    DeviceDataList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
         mirror_tree_;
-    mutable DeviceList lamp_buffer_;
-    MaterialParameterLists details_;
-    EnvironmentOnDevice sky_;
+    mutable DeviceDataList lamp_buffer_;
+    MaterialParameterLists material_details_;
+    DeviceEnvironment environment_;
     std::unique_ptr<RayTracingTrees> tracing_;
     /// Whether a pass of this frame traces rays, for each value of Spheres.
     mutable std::array<bool, 2> wants_tracing_{};

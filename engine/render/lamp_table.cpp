@@ -16,9 +16,9 @@ struct LampTriangle {
 };
 
 /// Appends the object's triangles that have an area.
-void add_lamp_triangles(const Geometry& geometry, std::size_t object, double strength,
+void add_lamp_triangles(const FrameGeometry& geometry, std::size_t object, double strength,
                         std::vector<LampTriangle>& triangles) {
-    const DrawRange& range = geometry.ranges[object];
+    const ObjectDrawRange& range = geometry.ranges[object];
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto corner = [&](std::uint32_t j) {
             const dvec3 own(geometry.vertices[geometry.indices[k + j]].position);
@@ -31,15 +31,15 @@ void add_lamp_triangles(const Geometry& geometry, std::size_t object, double str
 }
 
 /// Cell of an alias table: the share of the cell that its own entry has, and the entry of the rest.
-struct AliasCell {
+struct AliasTableCell {
     double share = 1;
     std::uint32_t rest = 0;
 };
 
 /// Returns the table for drawing entries by weight (Vose, "A Linear Algorithm for Generating Random
 /// Numbers with a Given Distribution", 1991). The weights have mean 1.
-std::vector<AliasCell> make_alias_table(std::vector<double> weights) {
-    std::vector<AliasCell> cells(weights.size());
+std::vector<AliasTableCell> make_alias_table(std::vector<double> weights) {
+    std::vector<AliasTableCell> cells(weights.size());
     std::vector<std::uint32_t> small, large;
     for (std::uint32_t i = 0; i < weights.size(); ++i)
         (weights[i] < 1 ? small : large).push_back(i);
@@ -55,7 +55,7 @@ std::vector<AliasCell> make_alias_table(std::vector<double> weights) {
 
 } // namespace
 
-std::vector<vec4> make_lamp_table(const Geometry& geometry,
+std::vector<vec4> make_lamp_table(const FrameGeometry& geometry,
                                   std::span<const shared::Surface> surfaces) {
     std::vector<LampTriangle> triangles;
     std::uint64_t count = 0;
@@ -74,14 +74,15 @@ std::vector<vec4> make_lamp_table(const Geometry& geometry,
     std::vector<double> weights;
     for (const LampTriangle& triangle : triangles)
         weights.push_back(triangle.power / power * static_cast<double>(triangles.size()));
-    const std::vector<AliasCell> cells = make_alias_table(std::move(weights));
-    std::vector<vec4> texels{{static_cast<float>(1 / power),
-                              bvh::id_to_float_word(static_cast<std::uint32_t>(triangles.size())),
-                              0, 0}};
+    const std::vector<AliasTableCell> cells = make_alias_table(std::move(weights));
+    std::vector<vec4> texels{
+        {static_cast<float>(1 / power),
+         bvh::index_to_float_word(static_cast<std::uint32_t>(triangles.size())), 0, 0}};
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         texels.emplace_back(vec3(triangles[i].corner), static_cast<float>(cells[i].share));
-        texels.emplace_back(vec3(triangles[i].second), bvh::id_to_float_word(cells[i].rest));
-        texels.emplace_back(vec3(triangles[i].third), bvh::id_to_float_word(triangles[i].object));
+        texels.emplace_back(vec3(triangles[i].second), bvh::index_to_float_word(cells[i].rest));
+        texels.emplace_back(vec3(triangles[i].third),
+                            bvh::index_to_float_word(triangles[i].object));
     }
     return texels;
 }

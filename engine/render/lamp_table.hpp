@@ -15,7 +15,7 @@ inline constexpr std::size_t kMaxSampledLampTriangles = 1 << 16;
 /// units: the triangles of all objects whose emission, without textures, is not black. Returns an
 /// empty list if there are no such triangles, or more than kMaxSampledLampTriangles. `surfaces`: by
 /// object. Costs O(n) in the triangles of lamps.
-std::vector<vec4> make_lamp_table(const Geometry& geometry,
+std::vector<vec4> make_lamp_table(const FrameGeometry& geometry,
                                   std::span<const shared::Surface> surfaces);
 
 } // namespace catoptric::render

@@ -11,12 +11,12 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint64_t kBytesPerTexel = 16, kTexelsPerTriangle = 3, kTexelsPerNode = 4;
+constexpr std::uint64_t kBytesPerStorageTexel = 16, kTexelsPerTriangle = 3, kTexelsPerNode = 4;
 
 } // namespace
 
-SceneAmounts count_scene_amounts(const scene::Scene& scene) {
-    SceneAmounts amounts;
+SceneDataAmounts count_scene_amounts(const scene::Scene& scene) {
+    SceneDataAmounts amounts;
     const std::vector<bool> shared = find_objects_sharing_meshes(scene);
     // By mesh: its copies share vertices, which count once.
     std::vector<bool> stored(scene.meshes.size());
@@ -34,7 +34,7 @@ SceneAmounts count_scene_amounts(const scene::Scene& scene) {
     return amounts;
 }
 
-void check_geometry_limits(const std::string& scene, const SceneAmounts& amounts,
+void check_geometry_limits(const std::string& scene, const SceneDataAmounts& amounts,
                            const GeometryLimits& limits) {
     const auto within = [&](std::uint64_t wanted, std::uint64_t allowed, const char* what) {
         check(wanted <= allowed, Failure::exhausted, "scene '", scene, "' wants ", wanted, " ",
@@ -57,7 +57,7 @@ void check_geometry_limits(const std::string& scene, const SceneAmounts& amounts
     within(vertex_bytes, limits.piece_bytes, "bytes of vertices");
     within(index_bytes, limits.piece_bytes, "bytes of indices");
     // The sum includes triangles, their normals, and the nodes above them.
-    within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kBytesPerTexel,
+    within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kBytesPerStorageTexel,
            limits.memory_bytes, "bytes");
 }
 

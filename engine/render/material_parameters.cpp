@@ -20,8 +20,8 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::size_t kTableTexels = shared::kSrgbTableWords +
-                                     shared::kLobeTableEdge * shared::kLobeTableEdge;
+constexpr std::size_t kMaterialTableTexels = shared::kSrgbTableWords +
+                                             shared::kLobeTableEdge * shared::kLobeTableEdge;
 
 std::uint32_t to_unorm16(float value) {
     return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.f, 1.f) * 65535));
@@ -31,39 +31,40 @@ std::uint32_t to_unorm16(float value) {
 /// because the albedo changes most at grazing angles. Each entry is two 16-bit fractions of 1:
 /// f32::lobe_albedo_terms. Takes about 0.1 s.
 std::vector<std::uint32_t> compute_lobe_albedos() {
-    constexpr std::uint32_t kEdge = shared::kLobeTableEdge;
-    constexpr int kSampleEdge = 64;
-    constexpr float kMinCosine = 1e-4f; // at a cosine of 0 no direction is sampled
+    constexpr std::uint32_t kLobeTableEdgeTexels = shared::kLobeTableEdge;
+    constexpr int kLobeSampleGridEdge = 64;
+    constexpr float kMinLobeCosine = 1e-4f; // at a cosine of 0 no direction is sampled
     std::vector<std::uint32_t> words;
-    for (std::uint32_t y = 0; y < kEdge; ++y)
-        for (std::uint32_t x = 0; x < kEdge; ++x) {
-            const float root = static_cast<float>(x) / (kEdge - 1);
+    for (std::uint32_t y = 0; y < kLobeTableEdgeTexels; ++y)
+        for (std::uint32_t x = 0; x < kLobeTableEdgeTexels; ++x) {
+            const float root = static_cast<float>(x) / (kLobeTableEdgeTexels - 1);
             float head_on, grazing;
-            f32::lobe_albedo_terms(f32::roughness_to_alpha(static_cast<float>(y) / (kEdge - 1)),
-                                   std::max(root * root, kMinCosine), kSampleEdge, head_on,
-                                   grazing);
+            f32::lobe_albedo_terms(
+                f32::roughness_to_alpha(static_cast<float>(y) / (kLobeTableEdgeTexels - 1)),
+                std::max(root * root, kMinLobeCosine), kLobeSampleGridEdge, head_on, grazing);
             words.push_back(to_unorm16(head_on) | to_unorm16(grazing) << 16);
         }
     return words;
 }
 
 /// Returns compute_lobe_albedos, which the first call computes.
-const std::vector<std::uint32_t>& lobe_albedo_table() {
+const std::vector<std::uint32_t>& get_lobe_albedo_table() {
     static const std::vector<std::uint32_t> kTable = compute_lobe_albedos();
     return kTable;
 }
 
-std::uint32_t flag_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
+std::uint32_t flag_if_set(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
 shared::MaterialParameters make_material_parameters(const scene::Material& material,
-                                                    const DrawRange& range) {
+                                                    const ObjectDrawRange& range) {
     shared::MaterialParameters detail{};
-    detail.flags = flag_if(range.varies, shared::kMaterialVariesFlag) |
-                   flag_if(range.first_attribute.has_value(), shared::kMaterialHasAttributesFlag) |
-                   flag_if(material.mirror, shared::kMaterialConstantReflectanceFlag) |
-                   flag_if(material.unlit, shared::kMaterialUnlitFlag) |
-                   flag_if(range.turns, shared::kMaterialTwoSidedFlag) |
-                   flag_if(range.glass, shared::kMaterialGlassFlag);
+    detail.flags = flag_if_set(range.varies, shared::kMaterialVariesFlag) |
+                   flag_if_set(range.first_attribute.has_value(),
+                               shared::kMaterialHasAttributesFlag) |
+                   flag_if_set(material.mirror, shared::kMaterialConstantReflectanceFlag) |
+                   flag_if_set(material.unlit, shared::kMaterialUnlitFlag) |
+                   flag_if_set(range.turns, shared::kMaterialTwoSidedFlag) |
+                   flag_if_set(range.glass, shared::kMaterialGlassFlag);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -75,7 +76,7 @@ shared::MaterialParameters make_material_parameters(const scene::Material& mater
 } // namespace
 
 MaterialParameterLists::MaterialParameterLists(std::size_t slots)
-    : details_("details", gpu::BufferUsage::quads, slots),
+    : detail_words_("details", gpu::BufferUsage::quads, slots),
       attributes_("attributes", gpu::BufferUsage::texels, slots),
       texels_("texels", gpu::BufferUsage::words, slots) {}
 
@@ -88,16 +89,16 @@ MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) con
     use.size = texture->image->size.x | texture->image->size.y << 16;
     use.how = static_cast<std::uint32_t>(texture->wrap_u) |
               static_cast<std::uint32_t>(texture->wrap_v) << 2 |
-              flag_if(texture->nearest, shared::kTextureNearestFlag) |
-              flag_if(texture->srgb, shared::kTextureSrgbFlag) |
-              flag_if(texture->uv_set == 1, shared::kTextureSecondUvFlag);
+              flag_if_set(texture->nearest, shared::kTextureNearestFlag) |
+              flag_if_set(texture->srgb, shared::kTextureSrgbFlag) |
+              flag_if_set(texture->uv_set == 1, shared::kTextureSecondUvFlag);
     use.u_row = texture->u_row, use.v_row = texture->v_row;
     return use;
 }
 
 void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t most) {
     std::vector<std::shared_ptr<const scene::Image>> images;
-    std::uint64_t count = kTableTexels;
+    std::uint64_t count = kMaterialTableTexels;
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
         for (const auto* texture : {&material.albedo_texture, &material.emission_texture,
@@ -106,7 +107,7 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
             images.push_back((*texture)->image);
             count += images.back()->texels.size();
             check(count <= most, Failure::exhausted, "scene '", now.name, "': its images up to ",
-                  quote_printable(images.back()->name), " take ", count,
+                  quote_as_printable_text(images.back()->name), " take ", count,
                   " texels, the device allows ", most);
         }
     }
@@ -117,23 +118,23 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
     for (std::uint32_t byte = 0; byte < shared::kSrgbTableWords; ++byte)
         texels.push_back(std::bit_cast<std::uint32_t>(scene::linear_from_srgb(byte)));
     if (any_lobes_)
-        texels.insert(texels.end(), lobe_albedo_table().begin(), lobe_albedo_table().end());
+        texels.insert(texels.end(), get_lobe_albedo_table().begin(), get_lobe_albedo_table().end());
     else
-        texels.resize(kTableTexels);
+        texels.resize(kMaterialTableTexels);
     first_texels_ = {};
     for (const auto& image : images) {
         first_texels_.push_back(static_cast<std::uint32_t>(texels.size()));
         texels.insert(texels.end(), image->texels.begin(), image->texels.end());
     }
     images_ = std::move(images);
-    texels_.set_contents(texels);
+    texels_.set_list_contents(texels);
 }
 
 void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& space,
-                                  const Geometry& geometry, const DeviceVertices& vertices,
+                                  const FrameGeometry& geometry, const DeviceVertices& vertices,
                                   std::uint64_t most) {
-    any_lobes_ = std::ranges::any_of(geometry.ranges, &DrawRange::has_lobe);
-    any_glass_ = std::ranges::any_of(geometry.ranges, &DrawRange::glass);
+    any_lobes_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::has_lobe);
+    any_glass_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::glass);
     fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
@@ -141,18 +142,19 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
     any_ = masks_ = any_normal_textures_ = false;
     std::map<std::size_t, bool> leaves, bodies; // by mesh
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
+        const ObjectDrawRange& range = geometry.ranges[i];
         const scene::Material& material = now.materials[now.objects[i].material];
         shared::MaterialParameters detail = make_material_parameters(material, range);
         detail.ior = material.ior;
-        detail.absorption = material.absorption / space.to_scene_length(1);
+        detail.absorption = material.absorption / space.world_to_scene_length(1);
         detail.max_specular_roughness = now.mirror_max_roughness;
-        detail.flags |= flag_if(now.has_multiple_scattering && range.has_lobe,
-                                shared::kMaterialMultipleScatteringFlag);
+        detail.flags |= flag_if_set(now.has_multiple_scattering && range.has_lobe,
+                                    shared::kMaterialMultipleScatteringFlag);
         // The difference may wrap around, because draws count vertices from the start of their own
         // buffer.
         if (range.first_attribute)
-            detail.first_attribute = *range.first_attribute - vertices.first_of(range.storage);
+            detail.first_attribute = *range.first_attribute -
+                                     vertices.first_vertex_of_object(range.storage);
         detail.albedo = use_of(material.albedo_texture);
         detail.emission = use_of(material.emission_texture);
         detail.rough = use_of(material.roughness_texture);
@@ -162,7 +164,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
             const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
             const auto [entry, is_new] = bodies.try_emplace(now.objects[i].mesh, false);
             if (is_new) entry->second = scene::is_closed_surface(mesh.positions, mesh.triangles);
-            detail.flags |= flag_if(entry->second, shared::kMaterialSolidFlag);
+            detail.flags |= flag_if_set(entry->second, shared::kMaterialSolidFlag);
         }
         any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
@@ -171,7 +173,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
             if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
             const bool differs = entry->second || range.has_normal_texture;
-            detail.flags |= flag_if(differs, shared::kMaterialTestsFacetSideFlag);
+            detail.flags |= flag_if_set(differs, shared::kMaterialTestsFacetSideFlag);
             any_ = any_ || differs;
         }
         masks_ = masks_ || range.masked;
@@ -183,21 +185,22 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
         indices_.push_back(entry->second);
     }
     if (details.empty()) details.emplace_back(); // buffers must not be empty
-    details_.set_contents(details);
-    attributes_.set_contents(geometry.attributes.empty() ? std::vector<shared::VertexAttribute>(1)
-                                                         : geometry.attributes);
+    detail_words_.set_list_contents(details);
+    attributes_.set_list_contents(geometry.attributes.empty()
+                                      ? std::vector<shared::VertexAttribute>(1)
+                                      : geometry.attributes);
 }
 
-std::size_t MaterialParameterLists::write(gpu::Device& device, std::size_t slot) {
-    return details_.write_changed_pages(device, slot) +
+std::size_t MaterialParameterLists::write(gpu::GpuDevice& device, std::size_t slot) {
+    return detail_words_.write_changed_pages(device, slot) +
            attributes_.write_changed_pages(device, slot) +
            texels_.write_changed_pages(device, slot);
 }
 
 void MaterialParameterLists::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind("detail_quads", details_.buffer_of_copy(slot));
-    commands.bind("attribute_texels", attributes_.buffer_of_copy(slot));
-    commands.bind("texture_words", texels_.buffer_of_copy(slot));
+    commands.bind_resource("detail_quads", detail_words_.buffer_of_device_copy(slot));
+    commands.bind_resource("attribute_texels", attributes_.buffer_of_device_copy(slot));
+    commands.bind_resource("texture_words", texels_.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

@@ -16,20 +16,20 @@ public:
     /// Fills the lists for a new geometry layout. Costs O(n) in attributes, and in texels if the
     /// images changed. Throws `exhausted` if the images and the tables before them take more than
     /// `most` texels.
-    void fill(const scene::Scene& now, const SceneUnits& space, const Geometry& geometry,
+    void fill(const scene::Scene& now, const SceneUnits& space, const FrameGeometry& geometry,
               const DeviceVertices& vertices, std::uint64_t most);
-    /// Writes the changes, like DeviceList::write_changed_pages.
-    std::size_t write(gpu::Device& device, std::size_t slot);
+    /// Writes the changes, like DeviceDataList::write_changed_pages.
+    std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
-    bool any_glass() const { return any_glass_; } ///< rays pass through some surface
-    bool any() const { return any_; }             ///< some surface has more than one colour
-    bool masks() const { return masks_; }         ///< some surface is partly cut out
-    bool any_lobes() const { return any_lobes_; } ///< some surface reflects by a lobe
-    bool any_normal_textures() const { return any_normal_textures_; }
+    bool any_glass() const { return any_glass_; }         ///< rays pass through some surface
+    bool has_varying_colours() const { return any_; }     ///< some surface has more than one colour
+    bool has_cut_out_surfaces() const { return masks_; }  ///< some surface is partly cut out
+    bool has_lobe_surfaces() const { return any_lobes_; } ///< some surface reflects by a lobe
+    bool has_normal_textures() const { return any_normal_textures_; }
     /// Returns, by object, the index of its material parameters. Objects with equal parameters
     /// share an entry.
-    const std::vector<std::uint32_t>& indices() const { return indices_; }
+    const std::vector<std::uint32_t>& parameter_indices() const { return indices_; }
 
 private:
     shared::TextureUse use_of(const std::optional<scene::Texture>& texture) const;
@@ -42,7 +42,7 @@ private:
     bool any_lobes_ = false, any_glass_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
     bool texels_filled_ = false;  ///< `fill_texels` was called
-    DeviceList details_, attributes_, texels_;
+    DeviceDataList detail_words_, attributes_, texels_;
 };
 
 } // namespace catoptric::render

@@ -15,7 +15,7 @@ struct MirrorShader {
     std::string fragment; ///< empty: the mirror is black
     std::string variant;  ///< suffix of `fragment`, where no cause of error is removed
     gpu::ShaderConstants constants;
-    std::shared_ptr<const Captures> captures;
+    std::shared_ptr<const MirrorCaptures> captures;
     /// Further images that the mirror's shader samples (nearest), by their names in the shader. An
     /// entry has one image, or one for each array of captures.
     std::vector<std::pair<std::string, std::vector<graph::ImageHandle>>> images;
@@ -29,27 +29,27 @@ struct MirrorShader {
 struct MirrorPartShader {
     std::uint32_t mirror = 0; ///< number from 0
     std::uint32_t look = 0;   ///< index into MirrorShaders::looks
-    std::vector<scene::TriangleRun> triangles;
+    std::vector<scene::TriangleIndexRun> triangles;
 };
 
 /// The shader of each mirror, chosen from a list.
 struct MirrorShaders {
-    static constexpr std::uint32_t kShadedByParts = ~0u;
+    static constexpr std::uint32_t kShaderChosenByPart = ~0u;
     std::vector<MirrorShader> looks;
-    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kShadedByParts: see `parts`
+    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kShaderChosenByPart: see `parts`
     std::vector<MirrorPartShader> parts;  ///< triangles in no part are not drawn
 };
 
 /// Returns shaders that draw all mirrors alike.
-MirrorShaders use_one_shader(const GpuScene& scene, MirrorShader look);
+MirrorShaders use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look);
 
 /// Declares that a pass reads the resources of these shaders and of the lighting, each once.
-void declare_shader_reads(graph::PassBuilder& pass, const Lighting& lighting,
+void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lighting,
                           const MirrorShaders& looks);
 
 /// The tracer that completes surfaces that are no mirrors, where the shadow map leaves their light
 /// open or they reflect.
-struct CompletingTracer {
+struct ShadingTracer {
     std::uint32_t number = 0;  ///< from 1; 0: none
     bool traces_lobes = false; ///< rough surfaces reflect as well
 };

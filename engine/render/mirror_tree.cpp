@@ -9,7 +9,7 @@ namespace {
 
 /// Returns bounds that contain everything that the ray test may hit. Roundings make sphere bounds
 /// one step wider.
-Bounds<float> mirror_bounds(const shared::Probe& probe) {
+Bounds<float> compute_mirror_ray_bounds(const shared::Probe& probe) {
     if (!(probe.radius > 0)) return {probe.lowest, probe.highest};
     Bounds<float> box{probe.sphere - probe.radius, probe.sphere + probe.radius};
     for (int axis = 0; axis < 3; ++axis) {
@@ -23,11 +23,11 @@ Bounds<float> mirror_bounds(const shared::Probe& probe) {
 
 std::vector<vec4> build_mirror_tree(std::span<const shared::Probe> probes) {
     std::vector<Bounds<float>> boxes;
-    for (const shared::Probe& probe : probes) boxes.push_back(mirror_bounds(probe));
+    for (const shared::Probe& probe : probes) boxes.push_back(compute_mirror_ray_bounds(probe));
     std::vector<vec4> texels;
-    for (const BoxTree::WalkStep& step : BoxTree(boxes, 1).list_nodes()) {
-        texels.emplace_back(step.box.lo, bvh::id_to_float_word(step.only ? *step.only + 1 : 0));
-        texels.emplace_back(step.box.hi, bvh::id_to_float_word(step.past));
+    for (const BoxTree::TreeWalkStep& step : BoxTree(boxes, 1).list_nodes()) {
+        texels.emplace_back(step.box.lo, bvh::index_to_float_word(step.only ? *step.only + 1 : 0));
+        texels.emplace_back(step.box.hi, bvh::index_to_float_word(step.past));
     }
     return texels;
 }

@@ -16,7 +16,7 @@ using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
 /// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
 /// is a few roundings of a coordinate near 1.
-constexpr double kEdgeOnCosine = 1e-7;
+constexpr double kEdgeOnMirrorCosine = 1e-7;
 
 /// Returns the part of a polygon in front of the plane (Sutherland and Hodgman 1974).
 Polygon clip_polygon(const Polygon& polygon, const dvec4& plane) {
@@ -37,17 +37,17 @@ dvec2 project_to_picture(const shared::View& view, const dvec3& v) {
 }
 
 /// A rectangle of the picture, -1 to 1.
-struct PictureRectangle {
+struct PictureSubrectangle {
     dvec2 low{-1}, high{1};
 };
 
-PictureRectangle picture_part_of_area(const graph::PixelArea& area, uvec2 size) {
+PictureSubrectangle area_to_picture_rectangle(const graph::PixelArea& area, uvec2 size) {
     const dvec2 low(area.x, area.y), extent(area.width, area.height);
     return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
 }
 
 /// Returns the side planes and the near plane of a part of the view.
-ClipPlanes view_side_planes(const shared::View& view, const PictureRectangle& part) {
+ClipPlanes list_view_side_planes(const shared::View& view, const PictureSubrectangle& part) {
     const dvec3 right(view.right), down(view.down), forward(view.forward);
     if (view.parallel != 0)
         return {{right, -part.low.x},
@@ -63,8 +63,8 @@ ClipPlanes view_side_planes(const shared::View& view, const PictureRectangle& pa
 }
 
 /// Returns the pixels that a visible polygon may cover, and one more on each side.
-graph::PixelArea pixels_covered_by_polygon(const Polygon& polygon, const shared::View& view,
-                                           uvec2 size, const graph::PixelArea& within) {
+graph::PixelArea find_pixels_covered_by_polygon(const Polygon& polygon, const shared::View& view,
+                                                uvec2 size, const graph::PixelArea& within) {
     dvec2 low(1), high(-1);
     for (const dvec3& v : polygon) {
         const dvec2 at = project_to_picture(view, v);
@@ -81,18 +81,18 @@ graph::PixelArea pixels_covered_by_polygon(const Polygon& polygon, const shared:
     return {corner.x, corner.y, extent.x, extent.y};
 }
 
-dvec3 mirror_vector(const dvec3& direction, const dvec3& normal) {
+dvec3 mirror_vector_at_plane(const dvec3& direction, const dvec3& normal) {
     return direction - 2 * dot(direction, normal) * normal;
 }
 
 /// Returns the view of the eye mirrored in the plane. `height`: of the original eye above the
 /// plane, along the normal.
-MirroredView view_behind_plane(const MirroredView& from, const scene::FlatFace& plane,
-                               double height, const Bounds<float>& everything) {
+MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatFace& plane,
+                                    double height, const Bounds<float>& everything) {
     MirroredView made;
     made.eye = from.eye - 2 * height * plane.normal;
     const auto turned = [&](const vec3& axis) {
-        return vec3(mirror_vector(dvec3(axis), plane.normal));
+        return vec3(mirror_vector_at_plane(dvec3(axis), plane.normal));
     };
     shared::View& view = made.view = from.view;
     view.eye = vec3(made.eye);
@@ -113,26 +113,29 @@ MirroredView view_behind_plane(const MirroredView& from, const scene::FlatFace& 
 }
 
 /// Returns the view in the mirror as `from` shows it; nothing if `from` does not show the mirror.
-std::optional<MirroredView> view_in_mirror(const MirroredView& from, const scene::FlatFace& mirror,
-                                           uvec2 size, const Bounds<float>& everything) {
+std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
+                                                const scene::FlatFace& mirror, uvec2 size,
+                                                const Bounds<float>& everything) {
     const double height = dot(from.eye - mirror.point, mirror.normal);
-    if (std::abs(height) < kEdgeOnCosine || (mirror.is_one_sided && height < 0)) return {};
+    if (std::abs(height) < kEdgeOnMirrorCosine || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
     for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
     // A mirror that touches the plane of the view's own mirror, or lies in it, is not in front of
     // it.
     const dvec4 clip(from.view.clip);
     if (clip != dvec4(0) && std::ranges::all_of(polygon, [&](const dvec3& corner) {
-            return dot(dvec3(clip), corner) + clip.w <= kEdgeOnCosine;
+            return dot(dvec3(clip), corner) + clip.w <= kEdgeOnMirrorCosine;
         }))
         return {};
-    ClipPlanes planes = view_side_planes(from.view, picture_part_of_area(from.area, size));
+    ClipPlanes planes = list_view_side_planes(from.view,
+                                              area_to_picture_rectangle(from.area, size));
     if (clip != dvec4(0)) planes.push_back(clip);
     for (const dvec4& plane : planes) polygon = clip_polygon(polygon, plane);
     if (polygon.empty()) return {};
-    const graph::PixelArea area = pixels_covered_by_polygon(polygon, from.view, size, from.area);
+    const graph::PixelArea area = find_pixels_covered_by_polygon(polygon, from.view, size,
+                                                                 from.area);
     if (area.width == 0) return {};
-    MirroredView made = view_behind_plane(from, mirror, height, everything);
+    MirroredView made = make_view_behind_plane(from, mirror, height, everything);
     made.area = area;
     return made;
 }
@@ -154,8 +157,8 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
         const auto& [flat, bounces] = *mirrors.planes[mirror];
         const int deep = within ? left : std::min(left, bounces);
         if (deep == 0) continue;
-        std::optional<MirroredView> made = view_in_mirror(from, flat, mirrors.size,
-                                                          mirrors.everything);
+        std::optional<MirroredView> made = make_view_in_mirror(from, flat, mirrors.size,
+                                                               mirrors.everything);
         if (!made) continue;
         if (views.size() == kMaxMirroredViews) return false;
         made->mirror = mirror, made->within = within;
@@ -168,7 +171,7 @@ bool add_mirrored_views(std::vector<MirroredView>& views, const MirroredView& fr
 } // namespace
 
 std::vector<MirroredView>
-find_mirrored_views(const MirroredEye& camera,
+find_mirrored_views(const MirroredViewEye& camera,
                     const std::vector<std::optional<MirrorPlane>>& mirrors, uvec2 size, int& most) {
     const MirroredView first{
         .view = camera.view, .eye = camera.place, .area = {0, 0, size.x, size.y}};
@@ -181,12 +184,13 @@ find_mirrored_views(const MirroredEye& camera,
 }
 
 bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
-    ClipPlanes planes = view_side_planes(view.view, picture_part_of_area(view.area, size));
+    ClipPlanes planes = list_view_side_planes(view.view,
+                                              area_to_picture_rectangle(view.area, size));
     planes.emplace_back(view.view.clip);
     const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
     return std::ranges::all_of(planes, [&](const dvec4& plane) {
         const double reach = dot(dvec3(plane), middle) + dot(abs(dvec3(plane)), half) + plane.w;
-        return reach >= -kEdgeOnCosine * length(dvec3(plane));
+        return reach >= -kEdgeOnMirrorCosine * length(dvec3(plane));
     });
 }
 

@@ -22,7 +22,7 @@ struct MirroredView {
 };
 
 /// The eye from which mirrored views start; scene units.
-struct MirroredEye {
+struct MirroredViewEye {
     shared::View view;
     dvec3 place{0};
     Bounds<float> everything; ///< bounds of the scene: the range of a parallel view
@@ -46,7 +46,7 @@ inline constexpr std::size_t kMaxMirroredViews = 1000;
 /// kMaxMirroredViews, reduces `most`, the greatest depth, until the views fit; else `most` stays.
 /// Ignores occlusion. Costs O(views * mirrors).
 std::vector<MirroredView>
-find_mirrored_views(const MirroredEye& camera,
+find_mirrored_views(const MirroredViewEye& camera,
                     const std::vector<std::optional<MirrorPlane>>& mirrors, uvec2 size, int& most);
 
 /// Returns false only if the box certainly lies outside the view's area or behind its plane.

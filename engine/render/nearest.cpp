@@ -11,23 +11,24 @@ namespace {
 constexpr std::uint32_t kMaxLinearSearchTriangles =
     16; // the most triangles that are tested one by one
 
-Bounds<float> triangle_bounds(const Geometry& geometry, std::uint32_t first_index) {
+Bounds<float> compute_triangle_bounds(const FrameGeometry& geometry, std::uint32_t first_index) {
     Bounds<float> box;
     for (std::uint32_t j = 0; j < 3; ++j)
         box.add(geometry.vertices[geometry.indices[first_index + j]].position);
     return box;
 }
 
-std::vector<Bounds<float>> list_triangle_boxes(const Geometry& geometry, const DrawRange& range) {
+std::vector<Bounds<float>> list_triangle_boxes(const FrameGeometry& geometry,
+                                               const ObjectDrawRange& range) {
     std::vector<Bounds<float>> boxes;
     for (std::uint32_t k = 0; k < range.index_count; k += 3)
-        boxes.push_back(triangle_bounds(geometry, range.first_index + k));
+        boxes.push_back(compute_triangle_bounds(geometry, range.first_index + k));
     return boxes;
 }
 
-std::vector<Bounds<float>> list_object_boxes(const Geometry& geometry) {
+std::vector<Bounds<float>> list_object_boxes(const FrameGeometry& geometry) {
     std::vector<Bounds<float>> boxes;
-    for (const DrawRange& range : geometry.ranges) boxes.push_back(range.bounds);
+    for (const ObjectDrawRange& range : geometry.ranges) boxes.push_back(range.bounds);
     return boxes;
 }
 
@@ -37,17 +38,19 @@ float min_distance_to_box(const vec3& point, const Bounds<float>& box) {
     if (box.empty()) return std::numeric_limits<float>::infinity();
     const vec3 apart = max(max(box.lo - point, point - box.hi), vec3(0));
     const vec3 size = max(abs(point), max(abs(box.lo), abs(box.hi)));
-    return std::max(0.0f, length(apart) - f32::gamma_bound(64) * f32::largest(size));
+    return std::max(0.0f, length(apart) - f32::rounding_error_gamma_bound(64) *
+                                              f32::largest_vector_component(size));
 }
 
 BoxTree::BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
-    : leaf_(leaf), order_(boxes.size()) {
+    : first_leaf_(leaf), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!boxes.empty()) add(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    if (!boxes.empty()) add_boxes(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
 }
 
 /// Adds the node over these boxes. Splits it by count into halves along the longest axis.
-void BoxTree::add(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count) {
+void BoxTree::add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t first,
+                        std::uint32_t count) {
     const std::size_t place = nodes_.size();
     nodes_.emplace_back();
     Bounds<float> box, centres;
@@ -56,7 +59,7 @@ void BoxTree::add(std::span<const Bounds<float>> boxes, std::uint32_t first, std
         if (!boxes[order_[i]].empty()) centres.add(boxes[order_[i]].centre());
     }
     nodes_[place].box = box;
-    if (count <= leaf_) {
+    if (count <= first_leaf_) {
         nodes_[place].first = first, nodes_[place].count = count;
         return;
     }
@@ -71,9 +74,9 @@ void BoxTree::add(std::span<const Bounds<float>> boxes, std::uint32_t first, std
                          const float at_a = along(a), at_b = along(b);
                          return at_a != at_b ? at_a < at_b : a < b;
                      });
-    add(boxes, first, count / 2);
+    add_boxes(boxes, first, count / 2);
     nodes_[place].second = static_cast<std::uint32_t>(nodes_.size());
-    add(boxes, first + count / 2, count - count / 2);
+    add_boxes(boxes, first + count / 2, count - count / 2);
 }
 
 void BoxTree::refit(std::span<const Bounds<float>> boxes) {
@@ -85,8 +88,8 @@ void BoxTree::refit(std::span<const Bounds<float>> boxes) {
     }
 }
 
-std::vector<BoxTree::WalkStep> BoxTree::list_nodes() const {
-    std::vector<WalkStep> steps(nodes_.size());
+std::vector<BoxTree::TreeWalkStep> BoxTree::list_nodes() const {
+    std::vector<TreeWalkStep> steps(nodes_.size());
     for (std::size_t i = nodes_.size(); i-- > 0;) {
         const BoxNode& node = nodes_[i];
         steps[i].box = node.box;
@@ -97,7 +100,7 @@ std::vector<BoxTree::WalkStep> BoxTree::list_nodes() const {
     return steps;
 }
 
-void NearestTriangleQuery::set_geometry(const Geometry& geometry) {
+void NearestTriangleQuery::set_geometry(const FrameGeometry& geometry) {
     objects_ = BoxTree(list_object_boxes(geometry));
     moved_ = false;
     parts_.assign(geometry.ranges.size(), {});
@@ -107,22 +110,22 @@ void NearestTriangleQuery::record_moved_object(std::size_t object) {
     moved_ = parts_[object].moved = true;
 }
 
-void NearestTriangleQuery::visit_scene_triangle(const Geometry& geometry, std::size_t object,
+void NearestTriangleQuery::visit_scene_triangle(const FrameGeometry& geometry, std::size_t object,
                                                 const vec3& point, float& squared) {
-    const DrawRange& range = geometry.ranges[object];
+    const ObjectDrawRange& range = geometry.ranges[object];
     const auto look = [&](std::uint32_t triangle) {
         const auto corner = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[range.first_index + 3 * triangle + j]]
                 .position;
         };
-        squared = std::min(squared,
-                           squared_distance_to_triangle(point, corner(0), corner(1), corner(2)));
+        squared = std::min(squared, squared_distance_from_point_to_triangle(point, corner(0),
+                                                                            corner(1), corner(2)));
     };
     if (range.index_count <= 3 * kMaxLinearSearchTriangles) {
         for (std::uint32_t i = 0; i < range.index_count / 3; ++i) look(i);
         return;
     }
-    ObjectTree& part = parts_[range.storage];
+    ObjectTriangleTree& part = parts_[range.storage];
     if (!part.tree)
         part.tree = BoxTree(list_triangle_boxes(geometry, range));
     else if (part.moved)
@@ -131,7 +134,7 @@ void NearestTriangleQuery::visit_scene_triangle(const Geometry& geometry, std::s
     part.tree->find_nearest(point, squared, look);
 }
 
-void NearestTriangleQuery::visit_own_triangle(const Geometry& geometry, std::size_t object,
+void NearestTriangleQuery::visit_own_triangle(const FrameGeometry& geometry, std::size_t object,
                                               const dvec3& point, float& squared) {
     constexpr double kTransformRoundingError =
         1e-5; // above the error of the transform there and back
@@ -139,14 +142,14 @@ void NearestTriangleQuery::visit_own_triangle(const Geometry& geometry, std::siz
     // Starts from the known distance, so that farther triangles are skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kTransformRoundingError);
     float own_squared = static_cast<float>(known * known);
-    visit_scene_triangle(geometry, object, vec3(own.to_object_point(point)), own_squared);
+    visit_scene_triangle(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
 
 float NearestTriangleQuery::distance_to_nearest(
-    const Geometry& geometry, const dvec3& at,
-    const std::function<bool(std::size_t, const DrawRange&)>& skip) {
+    const FrameGeometry& geometry, const dvec3& at,
+    const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip) {
     if (moved_) objects_.refit(list_object_boxes(geometry));
     moved_ = false;
     const vec3 point(at);

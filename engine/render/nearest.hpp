@@ -22,13 +22,13 @@ public:
     void find_nearest(const vec3& point, const float& squared, Visit&& visit) const;
 
     /// A node of a walk without a stack. If the ray misses the box, the walk goes on at `past`.
-    struct WalkStep {
+    struct TreeWalkStep {
         Bounds<float> box;
         std::uint32_t past = 0;            ///< the node after the whole subtree
         std::optional<std::uint32_t> only; ///< index of the box, if the node holds a single one
     };
     /// Returns all nodes, parents before their children.
-    std::vector<WalkStep> list_nodes() const;
+    std::vector<TreeWalkStep> list_nodes() const;
 
 private:
     struct BoxNode {
@@ -36,9 +36,9 @@ private:
         std::uint32_t first = 0, count = 0; ///< range of a leaf in `order_`
         std::uint32_t second = 0;           ///< the second child; the first child is the next node
     };
-    void add(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count);
+    void add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count);
 
-    std::uint32_t leaf_ = 0;
+    std::uint32_t first_leaf_ = 0;
     std::vector<std::uint32_t> order_;
     std::vector<BoxNode> nodes_; ///< children after their parents
 };
@@ -49,7 +49,7 @@ private:
 class NearestTriangleQuery {
 public:
     /// Prepares for a new geometry layout.
-    void set_geometry(const Geometry& geometry);
+    void set_geometry(const FrameGeometry& geometry);
     /// Records that the object's triangles have moved.
     void record_moved_object(std::size_t object);
 
@@ -57,22 +57,22 @@ public:
     /// that of testing all triangles. Leaves out objects for which `skip(index, range)` holds.
     /// Returns infinity if none is left. For an object with an object space, the distance is a
     /// lower bound.
-    float distance_to_nearest(const Geometry& geometry, const dvec3& point,
-                              const std::function<bool(std::size_t, const DrawRange&)>& skip);
+    float distance_to_nearest(const FrameGeometry& geometry, const dvec3& point,
+                              const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip);
 
 private:
-    struct ObjectTree {
+    struct ObjectTriangleTree {
         std::optional<BoxTree> tree;
         bool moved = false;
     };
-    void visit_scene_triangle(const Geometry& geometry, std::size_t object, const vec3& point,
+    void visit_scene_triangle(const FrameGeometry& geometry, std::size_t object, const vec3& point,
                               float& squared);
-    void visit_own_triangle(const Geometry& geometry, std::size_t object, const dvec3& point,
+    void visit_own_triangle(const FrameGeometry& geometry, std::size_t object, const dvec3& point,
                             float& squared);
 
     BoxTree objects_;
     bool moved_ = false;
-    std::vector<ObjectTree> parts_; ///< tree of each object
+    std::vector<ObjectTriangleTree> parts_; ///< tree of each object
 };
 
 /// Returns a lower bound of the distance from the point to the box. The bound also holds for the

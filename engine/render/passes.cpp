@@ -12,12 +12,12 @@ namespace {
 using graph::ClearValue;
 using graph::ImageHandle;
 using graph::PassCommands;
-using graph::PassTag;
+using graph::PassPurpose;
 using graph::ResourceUse;
 
 /// Returns the same shaders with some causes of error removed.
-MirrorShaders remove_error_causes(MirrorShaders looks, const FrameInputs& inputs,
-                                  const Lighting& lighting) {
+MirrorShaders remove_error_causes_of_shaders(MirrorShaders looks, const FrameInputs& inputs,
+                                             const ShadingLights& lighting) {
     if (!inputs.ablated) return looks;
     inputs.scene.request_ray_tracing();
     for (MirrorShader& look : looks.looks) {
@@ -34,40 +34,42 @@ MirrorShaders remove_error_causes(MirrorShaders looks, const FrameInputs& inputs
 
 } // namespace
 
-CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
-                              const Lighting& lighting, MirrorShaders looks, bool is_traced,
-                              CompletingTracer completing_tracer) {
+CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
+                                  const ShadingLights& lighting, MirrorShaders looks,
+                                  bool is_traced, ShadingTracer completing_tracer) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.add_image(
-        {inputs.prefix + "hdr", Format::rgba32f, size.x, size.y});
+        {inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y});
     const ImageHandle depth = graph.add_image(
-        {inputs.prefix + "view.depth", Format::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "view", PassTag::scene);
+        {inputs.prefix + "view.depth", TexelFormat::d32f, size.x, size.y});
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "view", PassPurpose::scene);
     declare_shader_reads(pass, lighting, looks);
-    CameraOutputs view{hdr, {}, {}};
-    pass.writes(hdr, ResourceUse::colour, kClearToBlack);
+    CameraPassOutputs view{hdr, {}, {}};
+    pass.writes(hdr, ResourceUse::colour, kClearColourBlack);
     if ((is_traced && completing_tracer.number == 0) || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
         // that captures use for distance. The lookup follows.
         view.tracers = graph.add_image(
-            {inputs.prefix + "view.tracers", Format::r32f, size.x, size.y});
-        view.lookup = graph.add_image({inputs.prefix + "lookup", Format::rgba32f, size.x, size.y});
+            {inputs.prefix + "view.tracers", TexelFormat::r32f, size.x, size.y});
+        view.lookup = graph.add_image(
+            {inputs.prefix + "lookup", TexelFormat::rgba32f, size.x, size.y});
         pass.writes(*view.tracers, ResourceUse::colour, ClearValue{})
             .writes(*view.lookup, ResourceUse::colour, ClearValue{});
     }
-    DrawSettings drawing{.first_view = GpuScene::kCameraViewIndex,
-                         .layers = 1,
-                         .lighting = lighting,
-                         .looks = std::make_shared<const MirrorShaders>(
-                             remove_error_causes(std::move(looks), inputs, lighting)),
-                         .store = {},
-                         .completing_tracer = completing_tracer,
-                         .peeled = {}};
+    SceneDrawSettings drawing{
+        .first_view = GpuScene::kCameraViewIndex,
+        .layers = 1,
+        .lighting = lighting,
+        .looks = std::make_shared<const MirrorShaders>(
+            remove_error_causes_of_shaders(std::move(looks), inputs, lighting)),
+        .store = {},
+        .completing_tracer = completing_tracer,
+        .peeled = {}};
     if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .record([&scene = inputs.scene, drawing = std::move(drawing)](PassCommands& commands) {
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
-                return scene.draw_ranges()[object].seen_by_camera;
+                return scene.list_draw_ranges()[object].seen_by_camera;
             });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
@@ -76,31 +78,32 @@ CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
 
 ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                               const std::string& name, const MirroredView& view,
-                              std::uint32_t number, const Lighting& lighting, MirrorShaders looks,
-                              std::optional<std::uint32_t> left_out) {
+                              std::uint32_t number, const ShadingLights& lighting,
+                              MirrorShaders looks, std::optional<std::uint32_t> left_out) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.add_image(
-        {inputs.prefix + name, Format::rgba32f, size.x, size.y});
+        {inputs.prefix + name, TexelFormat::rgba32f, size.x, size.y});
     const ImageHandle depth = graph.add_image(
-        {inputs.prefix + name + ".depth", Format::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name, PassTag::scene);
+        {inputs.prefix + name + ".depth", TexelFormat::d32f, size.x, size.y});
+    graph::PassBuilder pass = graph.add_pass(inputs.prefix + name, PassPurpose::scene);
     declare_shader_reads(pass, lighting, looks);
-    const DrawSettings drawing{.first_view = number,
-                               .layers = 1,
-                               .lighting = lighting,
-                               .looks = std::make_shared<const MirrorShaders>(std::move(looks)),
-                               .store = {},
-                               .peeled = {}};
-    pass.writes(hdr, ResourceUse::colour, kClearToBlack)
+    const SceneDrawSettings drawing{
+        .first_view = number,
+        .layers = 1,
+        .lighting = lighting,
+        .looks = std::make_shared<const MirrorShaders>(std::move(looks)),
+        .store = {},
+        .peeled = {}};
+    pass.writes(hdr, ResourceUse::colour, kClearColourBlack)
         .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .set_area(view.area)
         .record([&scene = inputs.scene, drawing, view, size, left_out](PassCommands& commands) {
             const auto is_left_out = [&](std::size_t object) {
-                return left_out && object == scene.mirror_object(*left_out);
+                return left_out && object == scene.object_of_mirror(*left_out);
             };
             draw_scene(commands, scene, drawing, [&](std::size_t object) {
                 return !is_left_out(object) &&
-                       may_view_show_box(view, size, scene.draw_ranges()[object].bounds);
+                       may_view_show_box(view, size, scene.list_draw_ranges()[object].bounds);
             });
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
         });
@@ -111,13 +114,13 @@ ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, Ima
                              double exposure_stops) {
     const uvec2 size = inputs.size;
     const ImageHandle picture = graph.add_image(
-        {inputs.prefix + "ldr", Format::rgba8_unorm, size.x, size.y});
+        {inputs.prefix + "ldr", TexelFormat::rgba8_unorm, size.x, size.y});
     graph.add_pass(inputs.prefix + "compose")
         .reads(hdr, ResourceUse::sampled)
-        .writes(picture, ResourceUse::colour, kClearToBlack)
+        .writes(picture, ResourceUse::colour, kClearColourBlack)
         .record([=](PassCommands& commands) {
             commands.bind_pipeline(gpu::RasterState{"screen.vert", "compose.frag", {}});
-            commands.bind("hdr", hdr);
+            commands.bind_resource("hdr", hdr);
             commands.push_constants(static_cast<float>(std::exp2(exposure_stops)));
             commands.draw_covering_triangle();
         });

@@ -22,18 +22,19 @@ inline constexpr std::uint32_t kReferenceBounces = 16;
 /// needs no map gets none.
 std::optional<graph::ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
                                                     std::uint32_t edge,
-                                                    const require::Model& model = {},
+                                                    const require::RequiredWorkModel& model = {},
                                                     const std::string& suffix = "");
 
 /// Declares one pass for each mirror with a capture. The pass draws all faces that need drawing. If
 /// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
 /// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a
 /// mirror is left out of its own capture.
-void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs, const Captures& captures,
-                        MirrorShaders looks, const CaptureWork& work = {});
+void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
+                        const MirrorCaptures& captures, MirrorShaders looks,
+                        const FrameCaptureWork& work = {});
 
 /// The outputs of the camera's view.
-struct CameraOutputs {
+struct CameraPassOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
     /// Image with the direction in which each mirror pixel looked into a capture, rgba32f: see
     /// shaders/lib/mirror.glsl; 0 for other pixels.
@@ -45,16 +46,16 @@ struct CameraOutputs {
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
 /// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see Drawing. With such
 /// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl).
-CameraOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
-                              const Lighting& lighting, MirrorShaders looks, bool is_traced = false,
-                              CompletingTracer completing_tracer = {});
+CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
+                                  const ShadingLights& lighting, MirrorShaders looks,
+                                  bool is_traced = false, ShadingTracer completing_tracer = {});
 
 /// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
 /// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of
 /// views. Leaves out everything behind the mirror's plane, and the mirror `left_out`, from 0.
 graph::ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                      const std::string& name, const MirroredView& view,
-                                     std::uint32_t number, const Lighting& lighting,
+                                     std::uint32_t number, const ShadingLights& lighting,
                                      MirrorShaders looks, std::optional<std::uint32_t> left_out);
 
 /// Declares the pass that makes the final picture: exposure in stops, clamp and sRGB curve,

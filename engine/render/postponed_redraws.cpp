@@ -4,9 +4,9 @@
 
 namespace catoptric::render {
 
-std::vector<std::uint32_t> choose_postponed_mirrors(std::vector<RedrawRequest> asking,
-                                                    std::uint32_t most) {
-    std::ranges::sort(asking, [](const RedrawRequest& a, const RedrawRequest& b) {
+std::vector<std::uint32_t>
+choose_postponed_capture_redraws(std::vector<CaptureRedrawRequest> asking, std::uint32_t most) {
+    std::ranges::sort(asking, [](const CaptureRedrawRequest& a, const CaptureRedrawRequest& b) {
         return a.waited != b.waited ? a.waited > b.waited : a.mirror < b.mirror;
     });
     std::vector<std::uint32_t> later;

@@ -9,20 +9,21 @@ namespace catoptric::render {
 
 namespace {
 
-bool has_equal_values(const std::optional<scene::Sphere>& a,
-                      const std::optional<scene::Sphere>& b) {
+bool are_equal_exact_spheres(const std::optional<scene::Sphere>& a,
+                             const std::optional<scene::Sphere>& b) {
     return a.has_value() == b.has_value() &&
            (!a || (a->centre == b->centre && a->radius == b->radius));
 }
 
-bool emits_light(const scene::Material& material) {
+bool is_light_emitting(const scene::Material& material) {
     return scene::emitted_radiance(material) != vec3(0);
 }
 
 /// Returns whether the object is drawn, traced and counted in the same way with either material, so
 /// that only values differ.
-bool is_drawn_alike(const scene::Material& a, scene::Material b) {
-    if (emits_light(a) != emits_light(b) || (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
+bool are_faces_drawn_alike(const scene::Material& a, scene::Material b) {
+    if (is_light_emitting(a) != is_light_emitting(b) ||
+        (a.albedo == vec3(0)) != (b.albedo == vec3(0)) ||
         (a.reflectance == vec3(1)) != (b.reflectance == vec3(1)))
         return false;
     b.albedo = a.albedo, b.emission = a.emission, b.reflectance = a.reflectance;
@@ -40,7 +41,7 @@ SceneChanges SceneChangeTracker::update_and_compare(const scene::Scene& now, boo
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         const scene::Object& object = now.objects[i];
         const scene::Material& material = now.materials[object.material];
-        ObjectState& seen = objects_[i];
+        TrackedObjectState& seen = objects_[i];
         const bool moved = seen.world_from_object != object.world_from_object;
         const bool is_new = i >= known;
         const bool repainted = is_new || materials_[seen.material] != material;
@@ -48,18 +49,20 @@ SceneChanges SceneChangeTracker::update_and_compare(const scene::Scene& now, boo
                          seen.seen_by_camera != object.seen_by_camera ||
                          seen.mirror != object.mirror ||
                          seen.sphere.has_value() != object.sphere.has_value() || is_new ||
-                         !is_drawn_alike(materials_[seen.material], material);
-        changes.lights = changes.lights || ((moved || repainted) &&
-                                            (emits_light(material) ||
-                                             (!is_new && emits_light(materials_[seen.material]))));
+                         !are_faces_drawn_alike(materials_[seen.material], material);
+        changes.lights = changes.lights ||
+                         ((moved || repainted) &&
+                          (is_light_emitting(material) ||
+                           (!is_new && is_light_emitting(materials_[seen.material]))));
         changes.materials = changes.materials || repainted ||
-                            !has_equal_values(seen.sphere, object.sphere);
+                            !are_equal_exact_spheres(seen.sphere, object.sphere);
         if (moved) changes.moved.push_back(i);
         seen = {object.mesh,   object.material,       object.world_from_object,
                 object.sphere, object.seen_by_camera, object.mirror};
     }
     if (materials_ != now.materials) materials_ = now.materials;
-    const bool other_lights = !std::ranges::equal(punctual_, now.punctual, scene::emit_alike);
+    const bool other_lights = !std::ranges::equal(punctual_, now.punctual,
+                                                  scene::have_equal_emission);
     if (other_lights) punctual_ = now.punctual;
     changes.lights = changes.lights || changes.layout || other_lights;
     return changes;

@@ -24,13 +24,13 @@ public:
     SceneChanges update_and_compare(const scene::Scene& now, bool report_all);
 
 private:
-    struct ObjectState {
+    struct TrackedObjectState {
         std::size_t mesh = 0, material = 0;
         dmat4 world_from_object{1};
         std::optional<scene::Sphere> sphere;
         bool seen_by_camera = true, mirror = false;
     };
-    std::vector<ObjectState> objects_;
+    std::vector<TrackedObjectState> objects_;
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
 };

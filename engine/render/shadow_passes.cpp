@@ -14,32 +14,33 @@ namespace {
 
 using graph::ImageHandle;
 using graph::PassCommands;
-using graph::PassTag;
+using graph::PassPurpose;
 using graph::ResourceUse;
 
 /// Returns the content hash of everything that a face of a light's shadow map may show, and of the
 /// face's view.
-std::uint64_t hash_shadow_face(const GpuScene& scene, const require::Model& model,
-                               std::uint32_t light, std::uint32_t face) {
-    const require::LightNeeds& needs = model.lights[light];
+std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::RequiredWorkModel& model,
+                                   std::uint32_t light, std::uint32_t face) {
+    const require::LightRequirements& needs = model.lights[light];
     ContentHash content_hash;
-    content_hash.add(needs.has_map);
-    if (!needs.has_map || face >= scene.drawn_shadow_faces(light)) return content_hash.hash_value();
-    const shared::View& view = scene.views()[scene.shadow_view(light) + face];
-    content_hash.add(needs.content_hash).add(view);
-    content_hash.add_all(std::span(scene.backdrops(light)));
+    content_hash.add_value(needs.has_map);
+    if (!needs.has_map || face >= scene.drawn_shadow_faces(light))
+        return content_hash.current_hash();
+    const shared::View& view = scene.list_views()[scene.shadow_view_index(light) + face];
+    content_hash.add_value(needs.content_hash).add_value(view);
+    content_hash.add_values(std::span(scene.list_backdrops_of_light(light)));
     for (const require::ShadowCaster& caster : model.casters)
-        if (may_view_show_box(view, scene.draw_ranges()[caster.object]))
-            content_hash.add(caster.object).add(caster.content_hash);
-    return content_hash.hash_value();
+        if (may_view_show_box(view, scene.list_draw_ranges()[caster.object]))
+            content_hash.add_value(caster.object).add_value(caster.content_hash);
+    return content_hash.current_hash();
 }
 
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
 /// them to the farthest depth, so that nothing is in shadow.
 void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
-                     const FaceRange& faces, bool has_map, const std::string& name,
+                     const CubeFaceRange& faces, bool has_map, const std::string& name,
                      ImageHandle part) {
-    graph.add_pass(name, PassTag::scene)
+    graph.add_pass(name, PassPurpose::scene)
         .writes(part, ResourceUse::depth, kClearToFarthestDepth)
         .set_layer_count(faces.count)
         .record([&scene, light, faces, has_map](PassCommands& commands) {
@@ -47,28 +48,28 @@ void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t l
             if (!has_map || faces.first >= drawn) return;
             scene.bind(commands);
             for (const bool masked : {false, true})
-                draw_objects_without_backs(commands, scene, {"", masked ? "masked.frag" : "", {}},
-                                           scene.shadow_view(light) + faces.first,
-                                           std::min(faces.count, drawn - faces.first), 0,
-                                           [&](std::size_t i) {
-                                               const DrawRange& range = scene.draw_ranges()[i];
-                                               return range.casts_shadow &&
-                                                      range.masked == masked &&
-                                                      !scene.backdrops(light)[i];
-                                           });
+                draw_objects_without_backs(
+                    commands, scene, {"", masked ? "masked.frag" : "", {}},
+                    scene.shadow_view_index(light) + faces.first,
+                    std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
+                        const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+                        return range.casts_shadow && range.masked == masked &&
+                               !scene.list_backdrops_of_light(light)[i];
+                    });
         });
 }
 
 } // namespace
 
 std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
-                                             std::uint32_t edge, const require::Model& model,
+                                             std::uint32_t edge,
+                                             const require::RequiredWorkModel& model,
                                              const std::string& suffix) {
     const GpuScene& scene = inputs.scene;
     if (scene.light_count() == 0) return std::nullopt;
-    const std::uint32_t faces = scene.shadow_faces();
-    const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, Format::d32f, edge, edge,
-                                faces * scene.light_count()};
+    const std::uint32_t faces = scene.shadow_face_count();
+    const graph::ImageDesc desc{inputs.prefix + "shadow_map" + suffix, TexelFormat::d32f, edge,
+                                edge, faces * scene.light_count()};
     const ImageHandle map = model.is_everything ? graph.add_image(desc)
                                                 : graph.add_persistent_image(desc);
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
@@ -76,20 +77,20 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
         const std::string name = scene.light_count() == 1 ? "shadow"
                                                           : "shadow/" + std::to_string(light + 1);
         const auto part = [&](std::uint32_t first, std::uint32_t count) {
-            return map.layers(faces * light + first, count);
+            return map.select_layers(faces * light + first, count);
         };
         std::array<std::uint64_t, 6> content_hashes{};
         for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
-            content_hashes[face] = hash_shadow_face(scene, model, light, face);
+            content_hashes[face] = hash_shadow_map_face(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
             return face < faces && (model.is_everything ||
                                     !graph.holds_content(part(face, 1), content_hashes[face]));
         };
-        for_each_face_run(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
-            const FaceRange run{light, first, end - first};
+        for_each_run_of_faces(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
+            const CubeFaceRange run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
                 graph.set_content_hash(part(face, 1), content_hashes[face]);
-            const std::string text = run.count == faces ? name : name_of(name, run);
+            const std::string text = run.count == faces ? name : name_with_face_range(name, run);
             add_shadow_pass(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
                             part(first, run.count));
         });

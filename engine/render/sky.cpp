@@ -12,7 +12,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint32_t kNoEnvironment = 0, kMapEnvironment = 1, kStudioEnvironment = 2;
+constexpr std::uint32_t kNoEnvironmentKind = 0, kMapEnvironment = 1, kStudioEnvironment = 2;
 
 shared::Sky make_sky_entry(const scene::Environment& environment) {
     shared::Sky sky{};
@@ -26,9 +26,9 @@ shared::Sky make_sky_entry(const scene::Environment& environment) {
 }
 
 /// Appends what rough surfaces reflect.
-void add_levels(const std::shared_ptr<const scene::Environment>& environment, shared::Sky& sky,
-                std::vector<vec4>& texels) {
-    const std::shared_ptr<const SkyLevels> levels = find_sky_levels(environment);
+void append_sky_levels(const std::shared_ptr<const scene::Environment>& environment,
+                       shared::Sky& sky, std::vector<vec4>& texels) {
+    const std::shared_ptr<const FilteredSkyLevels> levels = find_sky_levels(environment);
     for (std::size_t k = 0; k < SKY_LEVEL_COUNT; ++k) {
         sky.level_first[k] = static_cast<std::uint32_t>(texels.size()) + levels->first[k];
         sky.level_width[k] = levels->width[k];
@@ -38,15 +38,15 @@ void add_levels(const std::shared_ptr<const scene::Environment>& environment, sh
 
 } // namespace
 
-EnvironmentOnDevice::EnvironmentOnDevice(std::size_t slots)
-    : sky_("sky", gpu::BufferUsage::uniform, slots),
+DeviceEnvironment::DeviceEnvironment(std::size_t slots)
+    : sky_entry_("sky", gpu::BufferUsage::uniform, slots),
       texels_("sky.texels", gpu::BufferUsage::texels, slots),
       vertices_("sky.vertices", gpu::BufferUsage::vertex, slots),
       indices_("sky.indices", gpu::BufferUsage::index, slots) {
-    sky_.set_contents(std::vector(1, shared::Sky{}));
+    sky_entry_.set_list_contents(std::vector(1, shared::Sky{}));
 }
 
-void EnvironmentOnDevice::set_environment(
+void DeviceEnvironment::set_environment(
     const std::shared_ptr<const scene::Environment>& environment, bool has_lobes) {
     if (environment_ == environment && has_levels_ == has_lobes) return;
     if (environment && !environment->studio) {
@@ -56,36 +56,37 @@ void EnvironmentOnDevice::set_environment(
               height, " texels, at least one, found ", environment->texels.size());
     }
     environment_ = environment, has_levels_ = has_lobes;
-    kind_ = !environment          ? kNoEnvironment
+    kind_ = !environment          ? kNoEnvironmentKind
             : environment->studio ? kStudioEnvironment
                                   : kMapEnvironment;
     shared::Sky sky = environment ? make_sky_entry(*environment) : shared::Sky{};
     std::vector<vec4> texels;
     if (kind_ == kMapEnvironment)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
-    if (environment && has_lobes) add_levels(environment, sky, texels);
-    sky_.set_contents(std::vector(1, sky));
-    texels_.set_contents(texels);
-    if (kind_ == kNoEnvironment) return;
-    vertices_.set_contents(
+    if (environment && has_lobes) append_sky_levels(environment, sky, texels);
+    sky_entry_.set_list_contents(std::vector(1, sky));
+    texels_.set_list_contents(texels);
+    if (kind_ == kNoEnvironmentKind) return;
+    vertices_.set_list_contents(
         std::vector<shared::Vertex>{{{-1, -1, 0}, {}}, {{3, -1, 0}, {}}, {{-1, 3, 0}, {}}});
-    indices_.set_contents(std::vector<std::uint32_t>{0, 1, 2});
+    indices_.set_list_contents(std::vector<std::uint32_t>{0, 1, 2});
 }
 
-std::size_t EnvironmentOnDevice::write(gpu::Device& device, std::size_t slot) {
+std::size_t DeviceEnvironment::write(gpu::GpuDevice& device, std::size_t slot) {
     std::size_t writes = 0;
-    for (DeviceList* buffer : {&sky_, &texels_, &vertices_, &indices_})
+    for (DeviceDataList* buffer : {&sky_entry_, &texels_, &vertices_, &indices_})
         writes += buffer->write_changed_pages(device, slot);
     return writes;
 }
 
-void EnvironmentOnDevice::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind("sky", sky_.buffer_of_copy(slot));
-    commands.bind("sky_texels", texels_.buffer_of_copy(slot));
+void DeviceEnvironment::bind(graph::PassCommands& commands, std::size_t slot) const {
+    commands.bind_resource("sky", sky_entry_.buffer_of_device_copy(slot));
+    commands.bind_resource("sky_texels", texels_.buffer_of_device_copy(slot));
 }
 
-void EnvironmentOnDevice::bind_vertices(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_geometry(vertices_.buffer_of_copy(slot), indices_.buffer_of_copy(slot));
+void DeviceEnvironment::bind_vertices(graph::PassCommands& commands, std::size_t slot) const {
+    commands.bind_geometry(vertices_.buffer_of_device_copy(slot),
+                           indices_.buffer_of_device_copy(slot));
 }
 
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,

@@ -12,28 +12,28 @@ namespace catoptric::render {
 class GpuScene;
 
 /// A scene's environment on the device.
-class EnvironmentOnDevice {
+class DeviceEnvironment {
 public:
-    explicit EnvironmentOnDevice(std::size_t slots);
+    explicit DeviceEnvironment(std::size_t slots);
 
     /// Sets the environment; null: black. `has_lobes`: some surface reflects it by a lobe. Costs
     /// O(texels) if the environment differs from the last one, and about 0.2 s for lobes
     /// (find_sky_levels).
     void set_environment(const std::shared_ptr<const scene::Environment>& environment,
                          bool has_lobes);
-    /// Writes the changes, like DeviceList::write_changed_pages.
-    std::size_t write(gpu::Device& device, std::size_t slot);
+    /// Writes the changes, like DeviceDataList::write_changed_pages.
+    std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
     void bind_vertices(graph::PassCommands& commands, std::size_t slot) const;
     /// Returns the kind of environment, numbered as in shaders/lib/environment.glsl; 0: none.
-    std::uint32_t environment_kind() const { return kind_; }
+    std::uint32_t shader_environment_kind() const { return kind_; }
 
 private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
     bool has_levels_ = false;
-    DeviceList sky_, texels_, vertices_, indices_;
+    DeviceDataList sky_entry_, texels_, vertices_, indices_;
 };
 
 /// Draws the environment into pixels that no surface covers, into layers whose views start at

@@ -12,24 +12,26 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kLevelWidths{256, 128, 64, 32, 32, 32, 32, 32};
-constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kLobeSamples{64,  128, 256, 512,
-                                                                  512, 512, 512, 512};
-constexpr float kBoxOverlap = 2; ///< area of a sample's box in areas for which the sample stands
-constexpr std::uint32_t kMinBaseWidth = 64, kMaxBaseWidth = 1024;
+constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kSkyLevelWidths{256, 128, 64, 32,
+                                                                     32,  32,  32, 32};
+constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kSkyLevelLobeSamples{64,  128, 256, 512,
+                                                                          512, 512, 512, 512};
+constexpr float kSampleBoxOverlap =
+    2; ///< area of a sample's box in areas for which the sample stands
+constexpr std::uint32_t kMinSkyBaseWidth = 64, kMaxBaseWidth = 1024;
 
 /// Equirectangular map with twice as many columns as rows.
 struct SkyMap {
     std::uint32_t width = 0;
     std::vector<vec3> texels;
-    std::uint32_t height() const { return width / 2; }
-    const vec3& at(std::uint32_t column, std::uint32_t row) const {
+    std::uint32_t row_count() const { return width / 2; }
+    const vec3& texel_at(std::uint32_t column, std::uint32_t row) const {
         return texels[std::size_t{row} * width + column];
     }
 };
 
 /// Returns the unit direction of a place in a map; both coordinates are in [0, 1].
-vec3 sky_direction(float across, float down) {
+vec3 direction_in_sky_map(float across, float down) {
     constexpr float kPi = std::numbers::pi_v<float>;
     const float azimuth = 2 * kPi * across - kPi, polar = kPi * down;
     return {std::sin(polar) * std::sin(azimuth), std::cos(polar),
@@ -37,8 +39,9 @@ vec3 sky_direction(float across, float down) {
 }
 
 /// Reads a map in a unit direction, as shaders/lib/environment.glsl does.
-vec3 sample_sky(const std::vector<vec3>& texels, uvec2 size, const vec3& direction) {
-    const f32::EnvironmentMapPosition at = f32::environment_map_position(direction, size.x, size.y);
+vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec3& direction) {
+    const f32::EnvironmentMapPosition at = f32::direction_to_environment_map(direction, size.x,
+                                                                             size.y);
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
         return texels[std::size_t{row} * size.x + column];
     };
@@ -49,27 +52,28 @@ vec3 sample_sky(const std::vector<vec3>& texels, uvec2 size, const vec3& directi
 
 /// Returns the environment at a width that is a power of two, with several samples a texel where
 /// the environment is finer.
-SkyMap make_base_map(const scene::Environment& environment) {
+SkyMap make_base_sky_map(const scene::Environment& environment) {
     SkyMap base;
-    base.width = environment.studio
-                     ? kMaxBaseWidth / 2
-                     : std::clamp(std::bit_ceil(environment.size.x), kMinBaseWidth, kMaxBaseWidth);
+    base.width = environment.studio ? kMaxBaseWidth / 2
+                                    : std::clamp(std::bit_ceil(environment.size.x),
+                                                 kMinSkyBaseWidth, kMaxBaseWidth);
     const std::uint32_t edge = environment.studio
                                    ? 1
                                    : std::max(1U,
                                               (environment.size.x + base.width - 1) / base.width);
-    base.texels.reserve(std::size_t{base.width} * base.height());
-    for (std::uint32_t row = 0; row < base.height(); ++row)
+    base.texels.reserve(std::size_t{base.width} * base.row_count());
+    for (std::uint32_t row = 0; row < base.row_count(); ++row)
         for (std::uint32_t column = 0; column < base.width; ++column) {
             vec3 sum(0);
             for (std::uint32_t i = 0; i < edge * edge; ++i) {
                 const float x = (float(i % edge) + .5f) / float(edge);
                 const float y = (float(i / edge) + .5f) / float(edge);
-                const vec3 direction = sky_direction((float(column) + x) / float(base.width),
-                                                     (float(row) + y) / float(base.height()));
+                const vec3 direction = direction_in_sky_map((float(column) + x) / float(base.width),
+                                                            (float(row) + y) /
+                                                                float(base.row_count()));
                 sum += environment.studio
                            ? vec3(f32::studio_radiance(direction))
-                           : sample_sky(environment.texels, environment.size, direction);
+                           : sample_sky_map(environment.texels, environment.size, direction);
             }
             base.texels.push_back(sum / float(edge * edge));
         }
@@ -77,17 +81,19 @@ SkyMap make_base_map(const scene::Environment& environment) {
 }
 
 /// Returns the map at half the width. Texels count by their solid angle.
-SkyMap halve_map(const SkyMap& fine) {
+SkyMap halve_sky_map(const SkyMap& fine) {
     SkyMap half{fine.width / 2, {}};
-    for (std::uint32_t row = 0; row < half.height(); ++row) {
+    for (std::uint32_t row = 0; row < half.row_count(); ++row) {
         const auto weight = [&](std::uint32_t of) {
-            return std::sin(std::numbers::pi_v<float> * (float(of) + .5f) / float(fine.height()));
+            return std::sin(std::numbers::pi_v<float> * (float(of) + .5f) /
+                            float(fine.row_count()));
         };
         const float upper = weight(2 * row), lower = weight(2 * row + 1);
         for (std::uint32_t column = 0; column < half.width; ++column) {
-            const vec3 above = fine.at(2 * column, 2 * row) + fine.at(2 * column + 1, 2 * row);
-            const vec3 below = fine.at(2 * column, 2 * row + 1) +
-                               fine.at(2 * column + 1, 2 * row + 1);
+            const vec3 above = fine.texel_at(2 * column, 2 * row) +
+                               fine.texel_at(2 * column + 1, 2 * row);
+            const vec3 below = fine.texel_at(2 * column, 2 * row + 1) +
+                               fine.texel_at(2 * column + 1, 2 * row + 1);
             half.texels.push_back((upper * above + lower * below) / (2 * (upper + lower)));
         }
     }
@@ -95,12 +101,12 @@ SkyMap halve_map(const SkyMap& fine) {
 }
 
 /// Reads the mean of two neighbouring maps of the chain, the first of which is the finest.
-vec3 sample_chain(const std::vector<SkyMap>& chain, float level, const vec3& direction) {
+vec3 sample_sky_map_chain(const std::vector<SkyMap>& chain, float level, const vec3& direction) {
     const float last = static_cast<float>(chain.size() - 1);
     level = std::clamp(level, 0.f, last);
     const auto finer = static_cast<std::size_t>(std::min(level, last - 1));
     const auto read = [&](const SkyMap& map) {
-        return sample_sky(map.texels, {map.width, map.height()}, direction);
+        return sample_sky_map(map.texels, {map.width, map.row_count()}, direction);
     };
     return glm::mix(read(chain[finer]), read(chain[finer + 1]), level - static_cast<float>(finer));
 }
@@ -120,59 +126,59 @@ std::vector<LobeSample> make_lobe_samples(float alpha, std::uint32_t count) {
         if (!(drawn.z > 0)) continue;
         const vec3 half_way = f32::half_vector_between(vec3(0, 0, 1), drawn);
         const float density = f32::ggx_density(alpha, half_way) / 4;
-        samples.push_back({drawn, .5f * std::log2(kBoxOverlap / (float(count) * density))});
+        samples.push_back({drawn, .5f * std::log2(kSampleBoxOverlap / (float(count) * density))});
     }
     return samples;
 }
 
-vec3 filter_texel(const std::vector<SkyMap>& chain, const std::vector<LobeSample>& samples,
-                  const vec3& normal) {
+vec3 filter_sky_texel(const std::vector<SkyMap>& chain, const std::vector<LobeSample>& samples,
+                      const vec3& normal) {
     constexpr float kPi = std::numbers::pi_v<float>;
     vec3 tangent, bitangent, sum(0);
     f32::tangent_frame(normal, tangent, bitangent);
     // The texel's area at the equator. Near the poles texels are narrower, and boxes with them.
-    const float texel_area = 2 * kPi * kPi / float(chain[0].width * chain[0].height());
+    const float texel_area = 2 * kPi * kPi / float(chain[0].width * chain[0].row_count());
     const float finest = .5f * std::log2(texel_area);
     float weights = 0;
     for (const auto& [local, level] : samples) {
         const vec3 direction = local.x * tangent + local.y * bitangent + local.z * normal;
-        sum += local.z * sample_chain(chain, level - finest, direction);
+        sum += local.z * sample_sky_map_chain(chain, level - finest, direction);
         weights += local.z;
     }
     return sum / weights;
 }
 
-SkyLevels filter_environment(const scene::Environment& environment) {
-    std::vector<SkyMap> chain{make_base_map(environment)};
-    while (chain.back().width > 4) chain.push_back(halve_map(chain.back()));
-    SkyLevels levels;
-    levels.width = kLevelWidths;
+FilteredSkyLevels filter_environment(const scene::Environment& environment) {
+    std::vector<SkyMap> chain{make_base_sky_map(environment)};
+    while (chain.back().width > 4) chain.push_back(halve_sky_map(chain.back()));
+    FilteredSkyLevels levels;
+    levels.width = kSkyLevelWidths;
     for (std::size_t k = 0; k < SKY_LEVEL_COUNT; ++k) {
         levels.first[k] = static_cast<std::uint32_t>(levels.texels.size());
         const float roughness = static_cast<float>(k + 1) / SKY_LEVEL_COUNT;
         const std::vector<LobeSample> samples = make_lobe_samples(
-            f32::roughness_to_alpha(roughness), kLobeSamples[k]);
+            f32::roughness_to_alpha(roughness), kSkyLevelLobeSamples[k]);
         const std::uint32_t width = levels.width[k], height = width / 2;
         for (std::uint32_t row = 0; row < height; ++row)
             for (std::uint32_t column = 0; column < width; ++column)
                 levels.texels.push_back(
-                    filter_texel(chain, samples,
-                                 sky_direction((float(column) + .5f) / float(width),
-                                               (float(row) + .5f) / float(height))));
+                    filter_sky_texel(chain, samples,
+                                     direction_in_sky_map((float(column) + .5f) / float(width),
+                                                          (float(row) + .5f) / float(height))));
     }
     return levels;
 }
 
 } // namespace
 
-std::shared_ptr<const SkyLevels>
+std::shared_ptr<const FilteredSkyLevels>
 find_sky_levels(const std::shared_ptr<const scene::Environment>& environment) {
     static std::mutex mutex;
     static std::weak_ptr<const scene::Environment> last_environment;
-    static std::shared_ptr<const SkyLevels> last_levels;
+    static std::shared_ptr<const FilteredSkyLevels> last_levels;
     const std::scoped_lock lock(mutex);
     if (last_environment.lock() != environment) {
-        last_levels = std::make_shared<const SkyLevels>(filter_environment(*environment));
+        last_levels = std::make_shared<const FilteredSkyLevels>(filter_environment(*environment));
         last_environment = environment;
     }
     return last_levels;

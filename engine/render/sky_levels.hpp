@@ -15,7 +15,7 @@ namespace catoptric::render {
 /// Equirectangular maps in the layout of scene::Environment, without its scale and rotation. Level
 /// k, from 1, holds the environment filtered by the GGX lobe of a surface of roughness k /
 /// SKY_LEVEL_COUNT that is seen along its normal (Karis, "Real Shading in Unreal Engine 4", 2013).
-struct SkyLevels {
+struct FilteredSkyLevels {
     std::vector<vec3> texels;                                    ///< of all levels, row by row
     std::array<std::uint32_t, SKY_LEVEL_COUNT> first{}, width{}; ///< first texel; texels of a row
 };
@@ -25,7 +25,7 @@ struct SkyLevels {
 /// environment whose texels are as large as the part of the lobe for which the sample stands. Takes
 /// about 0.2 s. The result for the last environment is kept, so that a further scene on a device
 /// costs nothing. `environment` is not null. May be called from several threads.
-std::shared_ptr<const SkyLevels>
+std::shared_ptr<const FilteredSkyLevels>
 find_sky_levels(const std::shared_ptr<const scene::Environment>& environment);
 
 } // namespace catoptric::render

@@ -12,7 +12,7 @@ namespace catoptric::render {
 
 namespace {
 
-bool is_box_inside(const Bounds<double>& box, const Bounds<double>& core) {
+bool is_box_inside_view(const Bounds<double>& box, const Bounds<double>& core) {
     return all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
 }
 
@@ -21,19 +21,20 @@ dvec3 choose_scene_origin(const scene::Scene& scene, const Bounds<double>& core)
     Bounds<double> around;
     for (const std::size_t mirror : scene::mirrors(scene)) {
         const Bounds<double> box = scene::bounds(scene, scene.objects[mirror]);
-        if (!is_box_inside(box, core) || !is_small_for_distance(box, core.centre())) continue;
+        if (!is_box_inside_view(box, core) || !is_small_for_its_distance(box, core.centre()))
+            continue;
         small.push_back(box), around.add(box);
     }
     const dvec3 theirs = around.centre();
     const bool helps = !small.empty() && std::ranges::none_of(small, [&](const auto& box) {
-        return is_small_for_distance(box, theirs);
+        return is_small_for_its_distance(box, theirs);
     });
     return helps ? theirs : core.centre();
 }
 
 } // namespace
 
-bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin) {
+bool is_small_for_its_distance(const Bounds<double>& box, const dvec3& origin) {
     if (box.empty()) return false;
     const double size = largest_component(box.extent()),
                  distance = largest_component(
@@ -48,12 +49,12 @@ SceneUnits make_scene_units(const scene::Scene& scene) {
     space.origin_world = choose_scene_origin(scene, core);
     if (const double extent = largest_component(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));
-    space.core = {space.to_scene_point(core.lo), space.to_scene_point(core.hi)};
+    space.core = {space.world_to_scene_point(core.lo), space.world_to_scene_point(core.hi)};
     return space;
 }
 
 void check_object_distance(const Bounds<float>& box, const std::string& object) {
-    const float farthest = f32::largest(max(abs(box.lo), abs(box.hi)));
+    const float farthest = f32::largest_vector_component(max(abs(box.lo), abs(box.hi)));
     // Written so that infinity and NaN fail too. An empty box has no position and passes.
     check(box.empty() || farthest <= scene::kMaxSceneRadius, Failure::exhausted, "object '", object,
           "': wanted every corner within ", scene::kMaxSceneRadius,

@@ -16,9 +16,11 @@ struct SceneUnits {
     Bounds<float> core; ///< scene units; objects may lie outside
 
     bool operator==(const SceneUnits&) const = default;
-    dvec3 to_scene_units(const dvec3& world) const { return (world - origin_world) * scale; }
-    vec3 to_scene_point(const dvec3& world) const { return vec3(to_scene_units(world)); }
-    float to_scene_length(double world) const { return static_cast<float>(world * scale); }
+    dvec3 world_to_scene_units(const dvec3& world) const { return (world - origin_world) * scale; }
+    vec3 world_to_scene_point(const dvec3& world) const {
+        return vec3(world_to_scene_units(world));
+    }
+    float world_to_scene_length(double world) const { return static_cast<float>(world * scale); }
 };
 
 /// An object smaller than this fraction of its distance from the origin loses half of a float's
@@ -27,7 +29,7 @@ inline constexpr double kSmallObjectRatio = 0x1p-12;
 
 /// Returns whether the box is small in that sense; world units. The distance is that of its
 /// farthest corner. Empty boxes and points are not small.
-bool is_small_for_distance(const Bounds<double>& box, const dvec3& origin);
+bool is_small_for_its_distance(const Bounds<double>& box, const dvec3& origin);
 
 /// Returns the scene units of a scene at rest. All frames use the same units, so that motion does
 /// not change them.

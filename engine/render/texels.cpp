@@ -4,18 +4,18 @@
 
 namespace catoptric::render {
 
-std::vector<vec4> pack_into_texels(std::span<const shared::Surface> surfaces) {
+std::vector<vec4> pack_structs_into_texels(std::span<const shared::Surface> surfaces) {
     std::vector<vec4> texels;
     texels.reserve(shared::kTexelsPerSurface * surfaces.size());
     for (const shared::Surface& surface : surfaces)
         texels.insert(texels.end(),
-                      {vec4(surface.albedo, bvh::id_to_float_word(surface.mirror)),
-                       vec4(surface.emission, bvh::id_to_float_word(surface.detail)),
+                      {vec4(surface.albedo, bvh::index_to_float_word(surface.mirror)),
+                       vec4(surface.emission, bvh::index_to_float_word(surface.detail)),
                        vec4(surface.reflectance, 0), vec4(surface.centre, surface.radius)});
     return texels;
 }
 
-std::vector<vec4> pack_into_texels(std::span<const shared::Probe> probes) {
+std::vector<vec4> pack_structs_into_texels(std::span<const shared::Probe> probes) {
     std::vector<vec4> texels;
     texels.reserve(shared::kTexelsPerProbe * probes.size());
     for (const shared::Probe& probe : probes)

@@ -16,68 +16,69 @@ namespace catoptric::render {
 
 namespace {
 
-std::uint32_t ray_mask_of_range(const DrawRange& range) {
-    return (range.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
-           (range.casts_shadow ? 0 : bvh::kCastsNoShadow) |
-           (range.exact_sphere ? bvh::kStandsForSphere : 0) |
-           (range.one_sided ? bvh::kOneSided : 0) | (range.masked ? bvh::kAlphaMasked : 0);
+std::uint32_t ray_mask_of_draw_range(const ObjectDrawRange& range) {
+    return (range.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
+           (range.casts_shadow ? 0 : bvh::kCastsNoShadowFlag) |
+           (range.exact_sphere ? bvh::kStandsForSphereFlag : 0) |
+           (range.one_sided ? bvh::kOneSidedFlag : 0) | (range.masked ? bvh::kAlphaMaskedFlag : 0);
 }
 
 /// Reads an object's triangles, as rays see them. Also reads the normal and the attribute number of
 /// each corner.
-void read_object_triangles(const Geometry& geometry, std::size_t object, std::uint32_t added_flags,
-                           std::vector<bvh::Triangle>& triangles, std::vector<vec4>& normals) {
-    const DrawRange& range = geometry.ranges[object];
+void read_object_triangles(const FrameGeometry& geometry, std::size_t object,
+                           std::uint32_t added_flags, std::vector<bvh::Triangle>& triangles,
+                           std::vector<vec4>& normals) {
+    const ObjectDrawRange& range = geometry.ranges[object];
     for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; k += 3) {
         const auto vertex = [&](std::uint32_t j) -> const shared::Vertex& {
             return geometry.vertices[geometry.indices[k + j]];
         };
         triangles[k / 3] = {vertex(0).position, vertex(1).position, vertex(2).position,
                             static_cast<std::uint32_t>(object),
-                            ray_mask_of_range(range) | added_flags};
+                            ray_mask_of_draw_range(range) | added_flags};
         for (std::uint32_t j = 0; j < 3; ++j) {
             const std::uint32_t local = geometry.indices[k + j] - range.first_vertex;
             normals[k + j] = vec4(vertex(j).normal,
-                                  bvh::id_to_float_word(range.first_attribute.value_or(0) +
-                                                        (range.first_attribute ? local : 0)));
+                                  bvh::index_to_float_word(range.first_attribute.value_or(0) +
+                                                           (range.first_attribute ? local : 0)));
         }
     }
 }
 
 /// Adds `first` to the triangle numbers of a tree.
-void offset_triangle_numbers(bvh::Bvh& tree, std::uint32_t first) {
+void add_to_triangle_numbers(bvh::Bvh& tree, std::uint32_t first) {
     for (std::size_t i = 1; i < tree.triangles.size(); i += 3)
         tree.triangles[i].w = std::bit_cast<float>(
             std::bit_cast<std::uint32_t>(tree.triangles[i].w) + first);
 }
 
-bool has_object_space(const Geometry& geometry, std::size_t object) {
+bool has_object_space(const FrameGeometry& geometry, std::size_t object) {
     return geometry.ranges[object].own && geometry.ranges[object].storage == object;
 }
 
 /// Returns the list with exact spheres in scene units as spheres. Each sphere takes the place of
 /// its first triangle. Its other triangles become NaN, which the build drops.
 std::vector<bvh::Triangle> replace_by_exact_spheres(std::span<const bvh::Triangle> flat,
-                                                    const Geometry& geometry,
+                                                    const FrameGeometry& geometry,
                                                     std::span<const shared::Surface> surfaces) {
     std::vector<bvh::Triangle> triangles(flat.begin(), flat.end());
     const bvh::Triangle nothing{.a = vec3(std::numeric_limits<float>::quiet_NaN())};
     for (std::uint32_t i = 0; i < geometry.ranges.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
+        const ObjectDrawRange& range = geometry.ranges[i];
         if (!range.exact_sphere || range.own || range.index_count == 0) continue;
         const auto own = std::span(triangles).subspan(range.first_index / 3, range.index_count / 3);
         std::ranges::fill(own, nothing);
         own.front() = bvh::make_sphere_primitive(
             surfaces[i].centre, surfaces[i].radius, i,
-            ray_mask_of_range(range) & (bvh::kHiddenFromCamera | bvh::kCastsNoShadow));
+            ray_mask_of_draw_range(range) & (bvh::kHiddenFromCameraFlag | bvh::kCastsNoShadowFlag));
     }
     return triangles;
 }
 
 /// Returns a key that is equal for two objects of one mesh whose object spaces have the same
 /// placement.
-std::array<double, 15> object_space_key(const DrawRange& range) {
-    std::array<double, 15> place{double(range.storage), double(ray_mask_of_range(range)),
+std::array<double, 15> make_object_space_key(const ObjectDrawRange& range) {
+    std::array<double, 15> place{double(range.storage), double(ray_mask_of_draw_range(range)),
                                  double(range.own->radius)};
     for (int i = 0; i < 3; ++i) {
         place[static_cast<std::size_t>(3 + i)] = range.own->centre[i];
@@ -91,12 +92,12 @@ constexpr std::string_view kBvhInStorageConstant = "bvh_in_storage";
 
 /// Returns the list with which shaders find a triangle of the rasteriser in the hierarchy
 /// (known_hit in shaders/lib/whitted.glsl). `count`: the number of stored triangles.
-std::vector<std::uint32_t> list_first_hits(const bvh::Bvh& shown,
-                                           std::span<const bvh::BvhInstance> instances,
-                                           const Geometry& geometry, std::size_t count) {
-    constexpr std::uint32_t kNoFirstHit = 0xffffffff; // as in shaders/lib/whitted.glsl
+std::vector<std::uint32_t> list_first_hit_words(const bvh::Bvh& shown,
+                                                std::span<const bvh::BvhInstance> instances,
+                                                const FrameGeometry& geometry, std::size_t count) {
+    constexpr std::uint32_t kNoFirstHitWord = 0xffffffff; // as in shaders/lib/whitted.glsl
     const std::size_t objects = geometry.ranges.size();
-    std::vector<std::uint32_t> list(2 * objects + count, kNoFirstHit);
+    std::vector<std::uint32_t> list(2 * objects + count, kNoFirstHitWord);
     const auto first = static_cast<std::uint32_t>(2 * objects);
     for (std::size_t i = 0; i < objects; ++i) {
         if (!geometry.ranges[i].own) list[2 * i] = 0;
@@ -126,8 +127,8 @@ gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, s
 }
 
 RayTracingTrees::RayTracingTrees(std::size_t slots)
-    : hierarchies_{DeviceHierarchy(slots), DeviceHierarchy(slots)},
-      normals_buffer_("normals", gpu::BufferUsage::texels, slots) {}
+    : hierarchies_{DeviceBvh(slots), DeviceBvh(slots)},
+      corner_normals_("normals", gpu::BufferUsage::texels, slots) {}
 
 void RayTracingTrees::set_backdrops(std::vector<std::uint8_t> backdrops) {
     if (backdrops == backdrops_) return;
@@ -140,9 +141,9 @@ void RayTracingTrees::record_layout_change() {
     moved_.clear();
 }
 
-void RayTracingTrees::build_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+void RayTracingTrees::build_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                   std::span<const bvh::Triangle> flat) {
-    hierarchy.tree = bvh::build_bvh(flat, geometry.core, bvh::DuplicateScope::across_objects);
+    hierarchy.tree = bvh::build_bvh(flat, geometry.core, bvh::DuplicateSearchScope::across_objects);
     hierarchy.reached.clear();
     hierarchy.lists_first_hits = false;
     hierarchy.cost_when_built = hierarchy.tree.cost;
@@ -150,7 +151,7 @@ void RayTracingTrees::build_trees(DeviceHierarchy& hierarchy, const Geometry& ge
     ++built_;
 }
 
-void RayTracingTrees::refit_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+void RayTracingTrees::refit_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                   std::span<const bvh::Triangle> flat) {
     if (hierarchy.moved != hierarchy.reached) { // mostly the same objects move from frame to frame
         hierarchy.reach = bvh::find_refit_region(hierarchy.tree, hierarchy.moved);
@@ -163,36 +164,37 @@ void RayTracingTrees::refit_trees(DeviceHierarchy& hierarchy, const Geometry& ge
         build_trees(hierarchy, geometry, flat);
 }
 
-void RayTracingTrees::build_object_space_tree(const Geometry& geometry, std::size_t object) {
-    const DrawRange& range = geometry.ranges[object];
+void RayTracingTrees::build_object_space_tree(const FrameGeometry& geometry, std::size_t object) {
+    const ObjectDrawRange& range = geometry.ranges[object];
     bvh::Bvh& tree = own_trees_[object];
     tree = bvh::build_bvh(
         std::span(triangles_).subspan(range.first_index / 3, range.index_count / 3));
-    offset_triangle_numbers(tree, range.first_index / 3);
+    add_to_triangle_numbers(tree, range.first_index / 3);
 }
 
 /// Reads the objects that have moved.
-void RayTracingTrees::read_moved_objects(const Geometry& geometry) {
+void RayTracingTrees::read_moved_objects(const FrameGeometry& geometry) {
     bvh::IndexRange changed{normals_.size(), 0};
     for (const auto& [object, vertices] : moved_) {
-        const DrawRange& range = geometry.ranges[object];
+        const ObjectDrawRange& range = geometry.ranges[object];
         const bool own = range.own.has_value();
         if (vertices) {
-            read_object_triangles(geometry, object, backdrop_flag(object), triangles_, normals_);
+            read_object_triangles(geometry, object, backdrop_triangle_flag(object), triangles_,
+                                  normals_);
             changed = {std::min<std::size_t>(changed.first, range.first_index),
                        std::max<std::size_t>(changed.end, range.first_index + range.index_count)};
         }
         if (vertices && own) build_object_space_tree(geometry, object);
-        for (DeviceHierarchy& hierarchy : hierarchies_) {
+        for (DeviceBvh& hierarchy : hierarchies_) {
             hierarchy.moved.resize(geometry.ranges.size());
             if (!own) hierarchy.moved[object] = 1;
         }
     }
-    normals_buffer_.set_contents(normals_, changed.first, changed.end);
+    corner_normals_.set_list_contents(normals_, changed.first, changed.end);
 }
 
 /// Reads a new layout, or the objects that have moved.
-void RayTracingTrees::read_geometry_changes(const Geometry& geometry) {
+void RayTracingTrees::read_geometry_changes(const FrameGeometry& geometry) {
     if (is_read_ && moved_.empty()) return;
     // `is_read_` stays false if this throws, so that the next call fills everything.
     if (std::exchange(is_read_, false)) {
@@ -205,30 +207,31 @@ void RayTracingTrees::read_geometry_changes(const Geometry& geometry) {
         own_trees_.clear();
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (geometry.ranges[i].storage == i)
-                read_object_triangles(geometry, i, backdrop_flag(i), triangles_, normals_);
+                read_object_triangles(geometry, i, backdrop_triangle_flag(i), triangles_, normals_);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (has_object_space(geometry, i)) build_object_space_tree(geometry, i);
-        normals_buffer_.set_contents(normals_);
+        corner_normals_.set_list_contents(normals_);
     }
     is_read_ = true;
     moved_.clear();
 }
 
 /// Returns the objects in object space that rays can meet. Checks the number of triangles.
-std::vector<bvh::BvhInstance> RayTracingTrees::list_bvh_instances(const Geometry& geometry) const {
+std::vector<bvh::BvhInstance>
+RayTracingTrees::list_bvh_instances(const FrameGeometry& geometry) const {
     std::vector<bvh::BvhInstance> instances;
     std::set<std::array<double, 15>> places; // rays never meet a copy in the same place as another
     auto next = static_cast<std::uint32_t>(triangles_.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
+        const ObjectDrawRange& range = geometry.ranges[i];
         if (!range.own) continue;
         // A copy has triangle numbers of its own, after all others.
         const bool copy = range.storage != i;
-        if (range.masked || places.insert(object_space_key(range)).second)
+        if (range.masked || places.insert(make_object_space_key(range)).second)
             instances.push_back({&own_trees_.at(range.storage), range.own->scene_from_own,
                                  range.own->centre, static_cast<std::uint32_t>(i),
-                                 ray_mask_of_range(range), copy ? next - range.first_index / 3 : 0,
-                                 range.own->radius});
+                                 ray_mask_of_draw_range(range),
+                                 copy ? next - range.first_index / 3 : 0, range.own->radius});
         if (copy) next += range.index_count / 3;
     }
     check(next <= f32::kBvhIdMask, Failure::exhausted, "rays tell ", f32::kBvhIdMask,
@@ -237,29 +240,29 @@ std::vector<bvh::BvhInstance> RayTracingTrees::list_bvh_instances(const Geometry
 }
 
 /// Assembles the trees that the device walks. `first_hits`: lists the places of triangles, too.
-void RayTracingTrees::assemble_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+void RayTracingTrees::assemble_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                      bool first_hits) const {
     const std::vector<bvh::BvhInstance> instances = this->list_bvh_instances(geometry);
     const bvh::Bvh whole = instances.empty()
                                ? bvh::Bvh()
                                : bvh::assemble_two_level_bvh(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
-    hierarchy.nodes.set_contents(shown.nodes);
+    hierarchy.node_list.set_list_contents(shown.nodes);
     if (instances.empty())
-        hierarchy.triangles.set_contents(shown.triangles, hierarchy.changed.first,
-                                         hierarchy.changed.end);
+        hierarchy.triangles.set_list_contents(shown.triangles, hierarchy.changed.first,
+                                              hierarchy.changed.end);
     else
-        hierarchy.triangles.set_contents(shown.triangles);
+        hierarchy.triangles.set_list_contents(shown.triangles);
     // A refit keeps the places of triangles, but assembling may change them.
     hierarchy.lists_first_hits = hierarchy.lists_first_hits && instances.empty();
     if (!first_hits || hierarchy.lists_first_hits) return;
-    hierarchy.first_hits.set_contents(
-        list_first_hits(shown, instances, geometry, triangles_.size()));
+    hierarchy.first_hits.set_list_contents(
+        list_first_hit_words(shown, instances, geometry, triangles_.size()));
     hierarchy.lists_first_hits = true;
 }
 
 /// `flat`: the triangles and spheres in scene units.
-void RayTracingTrees::rebuild_or_refit(DeviceHierarchy& hierarchy, const Geometry& geometry,
+void RayTracingTrees::rebuild_or_refit(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                        std::span<const bvh::Triangle> flat, bool first_hits) {
     // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
@@ -273,16 +276,17 @@ void RayTracingTrees::rebuild_or_refit(DeviceHierarchy& hierarchy, const Geometr
     hierarchy.seen = version_;
 }
 
-void RayTracingTrees::prepare_trees(gpu::Device& device, const Geometry& geometry,
-                                    std::span<const shared::Surface> surfaces, SphereMode spheres,
-                                    bool first_hits, std::size_t slot) {
+void RayTracingTrees::prepare_trees(gpu::GpuDevice& device, const FrameGeometry& geometry,
+                                    std::span<const shared::Surface> surfaces,
+                                    SphereIntersectionMode spheres, bool first_hits,
+                                    std::size_t slot) {
     const Stopwatch watch(ms_);
     const bool is_first = built_ == 0;
     read_geometry_changes(geometry);
-    DeviceHierarchy& hierarchy = hierarchy_of(spheres);
+    DeviceBvh& hierarchy = bvh_of_sphere_mode(spheres);
     if (hierarchy.seen != version_) {
         const std::size_t count = geometry.flat_indices / 3;
-        if (spheres == SphereMode::mesh)
+        if (spheres == SphereIntersectionMode::mesh)
             rebuild_or_refit(hierarchy, geometry, std::span(triangles_).first(count), first_hits);
         else
             rebuild_or_refit(
@@ -292,27 +296,28 @@ void RayTracingTrees::prepare_trees(gpu::Device& device, const Geometry& geometr
     }
     if (first_hits && !hierarchy.lists_first_hits) assemble_trees(hierarchy, geometry, true);
     const double build_ms = watch.elapsed_ms();
-    for (DeviceList* buffer : {&hierarchy.nodes, &hierarchy.triangles, &normals_buffer_})
+    for (DeviceDataList* buffer : {&hierarchy.node_list, &hierarchy.triangles, &corner_normals_})
         writes_ += buffer->write_changed_pages(device, slot);
     if (hierarchy.lists_first_hits)
         writes_ += hierarchy.first_hits.write_changed_pages(device, slot);
     if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.elapsed_ms() - build_ms;
 }
 
-std::uint64_t RayTracingTrees::largest_bytes(SphereMode spheres, std::size_t slot) const {
-    const DeviceHierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
-    return std::max(hierarchy.nodes.buffer_of_copy(slot).bytes(),
-                    hierarchy.triangles.buffer_of_copy(slot).bytes());
+std::uint64_t RayTracingTrees::largest_bytes(SphereIntersectionMode spheres,
+                                             std::size_t slot) const {
+    const DeviceBvh& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    return std::max(hierarchy.node_list.buffer_of_device_copy(slot).size_in_bytes(),
+                    hierarchy.triangles.buffer_of_device_copy(slot).size_in_bytes());
 }
 
-void RayTracingTrees::bind(graph::PassCommands& commands, SphereMode spheres,
+void RayTracingTrees::bind(graph::PassCommands& commands, SphereIntersectionMode spheres,
                            std::size_t slot) const {
-    const DeviceHierarchy& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
-    commands.bind("bvh_nodes", hierarchy.nodes.buffer_of_copy(slot));
-    commands.bind("bvh_triangles", hierarchy.triangles.buffer_of_copy(slot));
-    commands.bind("normals", normals_buffer_.buffer_of_copy(slot));
+    const DeviceBvh& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
+    commands.bind_resource("bvh_nodes", hierarchy.node_list.buffer_of_device_copy(slot));
+    commands.bind_resource("bvh_triangles", hierarchy.triangles.buffer_of_device_copy(slot));
+    commands.bind_resource("normals", corner_normals_.buffer_of_device_copy(slot));
     if (hierarchy.lists_first_hits)
-        commands.bind("first_hits", hierarchy.first_hits.buffer_of_copy(slot));
+        commands.bind_resource("first_hits", hierarchy.first_hits.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

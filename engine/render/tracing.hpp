@@ -19,7 +19,7 @@ inline constexpr double kMaxRefitCostRatio = 2;
 
 /// The two ways in which rays intersect an exact sphere: as the triangles of its mesh (`mesh`), or
 /// as a sphere (`exact`). Each way has a hierarchy of its own.
-enum class SphereMode { mesh, exact };
+enum class SphereIntersectionMode { mesh, exact };
 
 /// Returns the constants with which the tracer's shaders are built for a device's choices, without
 /// defaults. `bytes`: the size of the nodes or triangles. If it exceeds `most_of_storage`, they are
@@ -46,82 +46,82 @@ public:
     /// Brings a hierarchy up to date for slot `slot`. Does nothing if nothing changed since the
     /// last call. `surfaces`: by object, scene units. `first_hits`: the list that finds a triangle
     /// of the rasteriser in the hierarchy is needed, too. A build costs O(n log^2 n), a refit O(n).
-    void prepare_trees(gpu::Device& device, const Geometry& geometry,
-                       std::span<const shared::Surface> surfaces, SphereMode spheres,
+    void prepare_trees(gpu::GpuDevice& device, const FrameGeometry& geometry,
+                       std::span<const shared::Surface> surfaces, SphereIntersectionMode spheres,
                        bool first_hits, std::size_t slot);
-    void bind(graph::PassCommands& commands, SphereMode spheres, std::size_t slot) const;
+    void bind(graph::PassCommands& commands, SphereIntersectionMode spheres,
+              std::size_t slot) const;
     /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
     /// slot.
-    std::uint64_t largest_bytes(SphereMode spheres, std::size_t slot) const;
+    std::uint64_t largest_bytes(SphereIntersectionMode spheres, std::size_t slot) const;
 
     std::size_t built_tree_count() const { return built_; }
     std::size_t refitted_tree_count() const { return refitted_; }
     /// Number of writes to device memory since construction.
-    std::size_t write_count() const { return writes_; }
-    double update_ms() const { return ms_; } ///< host time in ms since construction
-    /// Returns the host milliseconds of the first use, which `update_ms` includes: for building the
-    /// trees, and for writing them to the device.
-    double first_build_ms() const { return first_build_ms_; }
-    double first_write_ms() const { return first_write_ms_; }
+    std::size_t device_write_count() const { return writes_; }
+    double bvh_update_ms() const { return ms_; } ///< host time in ms since construction
+    /// Returns the host milliseconds of the first use, which `bvh_update_ms` includes: for building
+    /// the trees, and for writing them to the device.
+    double first_bvh_build_ms() const { return first_build_ms_; }
+    double first_bvh_write_ms() const { return first_write_ms_; }
 
 private:
-    struct ObjectMove {
+    struct MovedObject {
         std::size_t object;
         bool vertices;
     };
     /// Version number of the scene's geometry. A hierarchy with an older version is out of date.
-    struct GeometryVersion {
+    struct SceneGeometryVersion {
         std::size_t layouts = 0, moves = 0;
-        friend bool operator==(const GeometryVersion&, const GeometryVersion&) = default;
+        friend bool operator==(const SceneGeometryVersion&, const SceneGeometryVersion&) = default;
     };
-    struct DeviceHierarchy {
-        explicit DeviceHierarchy(std::size_t slots)
-            : nodes("bvh_nodes", gpu::BufferUsage::texels, slots),
+    struct DeviceBvh {
+        explicit DeviceBvh(std::size_t slots)
+            : node_list("bvh_nodes", gpu::BufferUsage::texels, slots),
               triangles("bvh_triangles", gpu::BufferUsage::texels, slots),
               first_hits("first_hits", gpu::BufferUsage::words, slots) {}
         bvh::Bvh tree; ///< of the triangles in scene units
         double cost_when_built = 0;
-        GeometryVersion seen;
+        SceneGeometryVersion seen;
         std::vector<char> moved; ///< for each object in scene units: whether it moved since `seen`
         std::vector<char> reached; ///< for each object: whether `reach` includes it
-        bvh::RefitRegion reach;
+        bvh::BvhRefitRegion reach;
         bvh::IndexRange
             changed; ///< range of the tree's triangles that changed since the last `assemble_trees`
         bool lists_first_hits = false; ///< `first_hits` describes the hierarchy
-        DeviceList nodes, triangles;
+        DeviceDataList node_list, triangles;
         /// Finds a triangle of the rasteriser in the hierarchy: see known_hit in
         /// shaders/lib/whitted.glsl.
-        DeviceList first_hits;
+        DeviceDataList first_hits;
     };
-    DeviceHierarchy& hierarchy_of(SphereMode spheres) {
+    DeviceBvh& bvh_of_sphere_mode(SphereIntersectionMode spheres) {
         return hierarchies_[static_cast<std::size_t>(spheres)];
     }
-    std::uint32_t backdrop_flag(std::size_t object) const {
-        return object < backdrops_.size() && backdrops_[object] != 0 ? bvh::kCastsNoShadow : 0;
+    std::uint32_t backdrop_triangle_flag(std::size_t object) const {
+        return object < backdrops_.size() && backdrops_[object] != 0 ? bvh::kCastsNoShadowFlag : 0;
     }
-    void read_geometry_changes(const Geometry& geometry);
-    void rebuild_or_refit(DeviceHierarchy& hierarchy, const Geometry& geometry,
+    void read_geometry_changes(const FrameGeometry& geometry);
+    void rebuild_or_refit(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                           std::span<const bvh::Triangle> flat, bool first_hits);
-    void build_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+    void build_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                      std::span<const bvh::Triangle> flat);
-    void refit_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
+    void refit_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                      std::span<const bvh::Triangle> flat);
-    void read_moved_objects(const Geometry& geometry);
-    void build_object_space_tree(const Geometry& geometry, std::size_t object);
-    std::vector<bvh::BvhInstance> list_bvh_instances(const Geometry& geometry) const;
-    void assemble_trees(DeviceHierarchy& hierarchy, const Geometry& geometry,
-                        bool first_hits) const;
+    void read_moved_objects(const FrameGeometry& geometry);
+    void build_object_space_tree(const FrameGeometry& geometry, std::size_t object);
+    std::vector<bvh::BvhInstance> list_bvh_instances(const FrameGeometry& geometry) const;
+    void assemble_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry, bool first_hits) const;
 
-    std::vector<bvh::Triangle> triangles_; ///< as Geometry::indices lists them
+    std::vector<bvh::Triangle> triangles_; ///< as FrameGeometry::indices lists them
     std::vector<std::uint8_t> backdrops_;  ///< see set_backdrops
     std::vector<vec4> normals_;
     /// Trees of meshes in object space, by the object that owns the vertices.
     std::map<std::size_t, bvh::Bvh> own_trees_;
-    GeometryVersion version_{1, 0};
-    bool is_read_ = false;          ///< the present layout has been read
-    std::vector<ObjectMove> moved_; ///< moves since the triangles were read
-    std::array<DeviceHierarchy, 2> hierarchies_;
-    DeviceList normals_buffer_;
+    SceneGeometryVersion version_{1, 0};
+    bool is_read_ = false;           ///< the present layout has been read
+    std::vector<MovedObject> moved_; ///< moves since the triangles were read
+    std::array<DeviceBvh, 2> hierarchies_;
+    DeviceDataList corner_normals_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;
 };

@@ -6,19 +6,19 @@
 namespace catoptric::render {
 
 DeviceVertices::DeviceVertices(const std::vector<bool>& moves, std::size_t slots)
-    : still_("vertices", gpu::BufferUsage::vertex, slots),
+    : static_vertices_("vertices", gpu::BufferUsage::vertex, slots),
       moving_("moving vertices", gpu::BufferUsage::vertex, slots),
       indices_("indices", gpu::BufferUsage::index, slots) {
     for (const bool one : moves) places_.push_back({one, 0});
 }
 
-void DeviceVertices::set_geometry(const Geometry& geometry) {
+void DeviceVertices::set_geometry(const FrameGeometry& geometry) {
     ++layouts_;
     places_.resize(geometry.ranges.size());
     std::vector<shared::Vertex> still, moving;
     std::vector<std::uint32_t> indices(geometry.indices.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
+        const ObjectDrawRange& range = geometry.ranges[i];
         if (range.shares) places_[i].moves = false; // the mesh's vertices never move
         if (range.storage != i) continue;
         std::vector<shared::Vertex>& home = places_[i].moves ? moving : still;
@@ -28,41 +28,43 @@ void DeviceVertices::set_geometry(const Geometry& geometry) {
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count; ++k)
             indices[k] = geometry.indices[k] - range.first_vertex + places_[i].first;
     }
-    anything_moves_ = std::ranges::any_of(places_, &VertexRange::moves);
-    still_.set_contents(still);
-    moving_.set_contents(moving);
-    indices_.set_contents(indices);
+    anything_moves_ = std::ranges::any_of(places_, &ObjectVertexRange::moves);
+    static_vertices_.set_list_contents(still);
+    moving_.set_list_contents(moving);
+    indices_.set_list_contents(indices);
 }
 
 bool DeviceVertices::record_moved_object(std::size_t object) {
     return !std::exchange(places_[object].moves, true);
 }
 
-void DeviceVertices::copy_moved_vertices(const Geometry& geometry) {
+void DeviceVertices::copy_moved_vertices(const FrameGeometry& geometry) {
     std::vector<shared::Vertex> moving;
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-        const DrawRange& range = geometry.ranges[i];
+        const ObjectDrawRange& range = geometry.ranges[i];
         const auto first = geometry.vertices.begin() + range.first_vertex;
         if (places_[i].moves && range.storage == i)
             moving.insert(moving.end(), first, first + range.vertex_count);
     }
-    moving_.set_contents(moving);
+    moving_.set_list_contents(moving);
 }
 
-std::size_t DeviceVertices::write(gpu::Device& device, std::size_t slot) {
-    return still_.write_changed_pages(device, slot) + moving_.write_changed_pages(device, slot) +
-           indices_.write_changed_pages(device, slot);
+std::size_t DeviceVertices::write(gpu::GpuDevice& device, std::size_t slot) {
+    return static_vertices_.write_changed_pages(device, slot) +
+           moving_.write_changed_pages(device, slot) + indices_.write_changed_pages(device, slot);
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_geometry(still_.buffer_of_copy(slot), indices_.buffer_of_copy(slot));
+    commands.bind_geometry(static_vertices_.buffer_of_device_copy(slot),
+                           indices_.buffer_of_device_copy(slot));
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot,
                           std::size_t object) const {
     if (!anything_moves_) return;
-    const DeviceList& vertices = places_[object].moves ? moving_ : still_;
-    commands.bind_geometry(vertices.buffer_of_copy(slot), indices_.buffer_of_copy(slot));
+    const DeviceDataList& vertices = places_[object].moves ? moving_ : static_vertices_;
+    commands.bind_geometry(vertices.buffer_of_device_copy(slot),
+                           indices_.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

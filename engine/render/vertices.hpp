@@ -14,32 +14,32 @@ public:
     DeviceVertices(const std::vector<bool>& moves, std::size_t slots);
 
     /// Stores a new geometry layout, or one whose indices changed. Costs O(n).
-    void set_geometry(const Geometry& geometry);
+    void set_geometry(const FrameGeometry& geometry);
     /// Records that the object's vertices changed. Returns true if the object was expected to be
     /// static; the caller must then lay out everything again.
     bool record_moved_object(std::size_t object);
     /// Copies the moved vertices. Nothing else may have changed.
-    void copy_moved_vertices(const Geometry& geometry);
+    void copy_moved_vertices(const FrameGeometry& geometry);
     /// Returns how often `set_geometry` ran.
-    std::size_t layouts() const { return layouts_; }
+    std::size_t geometry_set_count() const { return layouts_; }
     /// Returns the index of the object's first vertex in the buffer that it is drawn from.
-    std::uint32_t first_of(std::size_t object) const { return places_[object].first; }
-    /// Writes the changes, like DeviceList::write_changed_pages.
-    std::size_t write(gpu::Device& device, std::size_t slot);
+    std::uint32_t first_vertex_of_object(std::size_t object) const { return places_[object].first; }
+    /// Writes the changes, like DeviceDataList::write_changed_pages.
+    std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     /// Binds the static vertices and all indices.
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the vertices of the object and all indices.
     void bind(graph::PassCommands& commands, std::size_t slot, std::size_t object) const;
 
 private:
-    struct VertexRange {
+    struct ObjectVertexRange {
         bool moves = false;
         std::uint32_t first = 0;
     };
     std::size_t layouts_ = 0;
-    std::vector<VertexRange> places_; ///< range of each object's vertices
+    std::vector<ObjectVertexRange> places_; ///< range of each object's vertices
     bool anything_moves_ = false;
-    DeviceList still_, moving_, indices_;
+    DeviceDataList static_vertices_, moving_, indices_;
 };
 
 } // namespace catoptric::render

@@ -13,7 +13,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& spa
                               float gap, const Bounds<float>& everything = {});
 
 /// Returns the bounds of all objects of the geometry.
-Bounds<float> geometry_bounds(const Geometry& geometry);
+Bounds<float> compute_geometry_bounds(const FrameGeometry& geometry);
 
 /// Returns six 90-degree views from a point along the world's axes. Their order and orientation are
 /// those of cube map faces (+X -X +Y -Y +Z -Z). A cube drawn with them can be sampled with a world
@@ -31,14 +31,14 @@ std::vector<shared::View> make_turned_cube_views(vec3 eye, const glm::mat3& worl
 /// of the whole scene and reach to the scene's far end. The first view covers the bounds `core`,
 /// the second the bounds `everything`. The second view is returned twice if it is hardly larger
 /// than the first.
-std::array<shared::View, 2> make_sun_views(vec3 forward, const Bounds<float>& core,
-                                           const Bounds<float>& everything);
+std::array<shared::View, 2> make_directional_light_views(vec3 forward, const Bounds<float>& core,
+                                                         const Bounds<float>& everything);
 
 /// Returns false only if the box is certainly outside the view: all corners beyond one of its
 /// planes.
 bool may_view_show_box(const shared::View& view, const Bounds<float>& box);
 /// Returns the same for an object. Also tests its bounding sphere, which may be outside although
 /// the box is not.
-bool may_view_show_box(const shared::View& view, const DrawRange& range);
+bool may_view_show_box(const shared::View& view, const ObjectDrawRange& range);
 
 } // namespace catoptric::render

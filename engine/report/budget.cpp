@@ -28,7 +28,7 @@ std::string format_rows_with_intervals(const std::vector<const Row*>& rows) {
 }
 
 /// Returns "4 ms", "FLIP 0.1" or "4 ms and FLIP 0.1".
-std::string format_limits(const Comparison& comparison) {
+std::string format_budget_limits(const Comparison& comparison) {
     std::vector<std::string> limits;
     if (!std::isnan(comparison.max_ms)) limits.push_back(fmt::format("{:g} ms", comparison.max_ms));
     if (!std::isnan(comparison.max_flip))
@@ -39,9 +39,9 @@ std::string format_limits(const Comparison& comparison) {
 } // namespace
 
 std::string describe_budget_answer(const Comparison& comparison) {
-    if (!measure::has_budget(comparison)) return "";
-    const measure::BudgetAnswer answer = measure::find_row_within_budget(comparison);
-    const std::string where = format_limits(comparison) + " on " + comparison.device.name;
+    if (!measure::has_time_or_flip_budget(comparison)) return "";
+    const measure::BudgetedRows answer = measure::find_row_within_budget(comparison);
+    const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name;
     std::string text;
     if (answer.row != nullptr)
         text = fmt::format("Within {}: {} has the least {}{}", where,
@@ -54,7 +54,7 @@ std::string describe_budget_answer(const Comparison& comparison) {
         return fmt::format("Within {}: no row could be judged.", where);
     else
         text = fmt::format("No row keeps {}. The {} is {}", where,
-                           measure::keeps_time_budget(comparison, *answer.nearest) &&
+                           measure::is_within_time_budget(comparison, *answer.nearest) &&
                                    !std::isnan(comparison.max_flip)
                                ? std::isnan(comparison.max_ms) ? "closest row"
                                                                : "closest row within the time"

@@ -18,36 +18,39 @@ constexpr vec3 rgb_from_bytes(int red, int green, int blue) {
     return vec3(red, green, blue) / 255.0F;
 }
 
-const CauseColour kCauseColours[] = {{"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
-                                     {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
-                                     {"direction", "blue", rgb_from_bytes(0, 114, 178)},
-                                     {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
-                                     {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
-                                     {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
-                                     {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
-                                     {"silhouettes", "white", vec3(1)},
-                                     {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
+const CausePictureColour kCauseColours[] = {
+    {"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
+    {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
+    {"direction", "blue", rgb_from_bytes(0, 114, 178)},
+    {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
+    {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
+    {"mirror in mirror", "green", rgb_from_bytes(0, 158, 115)},
+    {"shadow map", "pink", rgb_from_bytes(204, 121, 167)},
+    {"silhouettes", "white", vec3(1)},
+    {"rest", "light grey", rgb_from_bytes(190, 190, 190)}};
 
 /// Kind of line in the table: its name, and the function that computes its cells as shares of the
 /// row's error.
 struct CauseTableLine {
     const char* name;
-    double (*part)(const Cause& cause, double squared_error);
+    double (*part)(const ErrorCauseShare& cause, double squared_error);
     bool adds_up;
 };
 
 constexpr CauseTableLine kCauseTableLines[] = {
-    {"all", [](const Cause& cause, double) { return cause.share; }, true},
-    {"first order", [](const Cause& cause, double) { return cause.share_first_order; }, true},
-    {"mirror in mirror", [](const Cause& cause, double) { return cause.share_mirror_in_mirror; },
+    {"all", [](const ErrorCauseShare& cause, double) { return cause.share; }, true},
+    {"first order", [](const ErrorCauseShare& cause, double) { return cause.share_first_order; },
      true},
-    {"bound", [](const Cause& cause, double whole) { return cause.alone / whole; }, false}};
+    {"mirror in mirror",
+     [](const ErrorCauseShare& cause, double) { return cause.share_mirror_in_mirror; }, true},
+    {"bound", [](const ErrorCauseShare& cause, double whole) { return cause.alone / whole; },
+     false}};
 
 std::vector<std::string> format_cause_cells(const CauseTableLine& line, const Causes& causes) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
-    for (const CauseColour& colour : list_cause_colours()) {
-        const auto cause = std::ranges::find(causes.list, colour.cause, &Cause::name);
+    for (const CausePictureColour& colour : list_cause_colours()) {
+        const auto cause = std::ranges::find(causes.list, colour.cause, &ErrorCauseShare::name);
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
         if (is_there) sum += part;
@@ -67,10 +70,10 @@ const RegisteredReportPart kCausesPart{
 
 } // namespace
 
-std::span<const CauseColour> list_cause_colours() { return kCauseColours; }
+std::span<const CausePictureColour> list_cause_colours() { return kCauseColours; }
 
 measure::Picture make_cause_picture(const Row& row) {
-    constexpr float kUncolouredBrightness = .35F;
+    constexpr float kUncausedErrorBrightness = .35F;
     measure::Picture picture = row.display;
     check(row.causes != nullptr, Failure::internal, "row '", row.label, "' has no causes");
     const std::vector<std::uint8_t>& largest = row.causes->largest;
@@ -79,9 +82,9 @@ measure::Picture make_cause_picture(const Row& row) {
           largest.size());
     for (std::size_t i = 0; i < largest.size(); ++i) {
         vec3& pixel = picture.pixels[i];
-        pixel = largest[i] > 0
-                    ? list_cause_colours()[largest[i] - 1U].colour
-                    : vec3(kUncolouredBrightness * glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
+        pixel = largest[i] > 0 ? list_cause_colours()[largest[i] - 1U].colour
+                               : vec3(kUncausedErrorBrightness *
+                                      glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
     }
     return picture;
 }
@@ -104,7 +107,7 @@ ReportTable make_cause_table(const Comparison& comparison) {
         "images/causes-ROW.png, of pixels in which the cause has the largest part. At "
         "light edges: share of the squared error in pixels that looked within a texel of a "
         "light's outline."};
-    for (const CauseColour& colour : list_cause_colours())
+    for (const CausePictureColour& colour : list_cause_colours())
         table.columns.emplace_back(fmt::format("{} ({})", colour.cause, colour.name));
     table.columns.emplace_back("Sum");
     table.columns.emplace_back("At light edges");

@@ -9,11 +9,11 @@ namespace catoptric::report {
 
 using catoptric::Setting;
 using measure::AutoFace;
-using measure::Cause;
 using measure::Causes;
 using measure::Comparison;
 using measure::DeviceFacts;
 using measure::EnvironmentFacts;
+using measure::ErrorCauseShare;
 using measure::LagAtSpeed;
 using measure::LagResults;
 using measure::LagRow;

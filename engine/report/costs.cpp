@@ -21,99 +21,102 @@ namespace {
 constexpr const char* kCostsSchema = "catoptric/costs/1";
 constexpr const char* kMeasuredTimesSchema = "catoptric/times/1";
 constexpr std::uintmax_t kMaxCostFileBytes = std::uintmax_t{16} << 20;
-constexpr measure::CostOrigin kCostOrigins[] = {
+constexpr measure::CostOrigin kAllCostOrigins[] = {
     measure::CostOrigin::fitted, measure::CostOrigin::literature, measure::CostOrigin::given};
 
 /// A value of a document, with its place for messages: "costs.json: costs[2].ns".
-struct CostValue {
+struct CostJsonValue {
     const Json& json;
     std::string place;
 
-    [[noreturn]] void fail_wanted(const std::string& wanted) const {
+    [[noreturn]] void fail_with_expected_value(const std::string& wanted) const {
         fail(Failure::bad_data, place, ": wanted ", wanted, ", found ", describe_json_value(json));
     }
-    CostValue member(const char* name) const {
+    CostJsonValue find_member(const char* name) const {
         static const Json kNone;
-        if (!json.is_object()) fail_wanted("an object");
+        if (!json.is_object()) fail_with_expected_value("an object");
         const auto found = json.find(name);
         return {found == json.end() ? kNone : *found,
                 place + (place.ends_with(":") ? " " : ".") + name};
     }
     /// Throws `bad_data` for a member with another name, such as a misspelt one.
-    void check_members(const std::vector<std::string>& names) const {
-        if (!json.is_object()) fail_wanted("an object");
+    void check_member_names(const std::vector<std::string>& names) const {
+        if (!json.is_object()) fail_with_expected_value("an object");
         for (const auto& [name, value] : json.items())
             check(std::ranges::find(names, name) != names.end(), Failure::bad_data, place,
                   place.ends_with(":") ? "" : ":", " wanted the members ",
-                  fmt::format("{}", fmt::join(names, ", ")), ", found ", quote_printable(name));
+                  fmt::format("{}", fmt::join(names, ", ")), ", found ",
+                  quote_as_printable_text(name));
     }
-    std::vector<CostValue> elements() const {
-        if (!json.is_array() || json.empty()) fail_wanted("a list with at least one entry");
-        std::vector<CostValue> list;
+    std::vector<CostJsonValue> list_elements() const {
+        if (!json.is_array() || json.empty())
+            fail_with_expected_value("a list with at least one entry");
+        std::vector<CostJsonValue> list;
         for (std::size_t i = 0; i < json.size(); ++i)
             list.push_back({json[i], place + "[" + std::to_string(i) + "]"});
         return list;
     }
-    std::string text() const {
-        if (!json.is_string() || json.get_ref<const std::string&>().empty()) fail_wanted("text");
+    std::string read_text() const {
+        if (!json.is_string() || json.get_ref<const std::string&>().empty())
+            fail_with_expected_value("text");
         return json.get<std::string>();
     }
     /// Returns the text, or an empty one if the member is absent.
-    std::string optional_text() const { return json.is_null() ? std::string() : text(); }
-    double number(double low, const char* wanted) const {
+    std::string read_text_if_any() const { return json.is_null() ? std::string() : read_text(); }
+    double read_number(double low, const char* wanted) const {
         if (!json.is_number() || !std::isfinite(json.get<double>()) || json.get<double>() < low)
-            fail_wanted(wanted);
+            fail_with_expected_value(wanted);
         return json.get<double>();
     }
 };
 
-WorkKind read_kind(const CostValue& value) {
-    const std::string name = value.text();
+WorkKind read_work_kind(const CostJsonValue& value) {
+    const std::string name = value.read_text();
     std::vector<std::string> names;
     for (std::size_t i = 0; i < kWorkKindCount; ++i) {
         if (kWorkKinds[i].name == name) return static_cast<WorkKind>(i);
         names.emplace_back(kWorkKinds[i].name);
     }
     fail(Failure::bad_data, value.place, ": wanted a kind of work, found '", name, "'",
-         suggest_name(name, names));
+         suggest_nearest_name(name, names));
 }
 
-measure::CostOrigin read_origin(const CostValue& value) {
-    const std::string name = value.text();
-    for (const measure::CostOrigin origin : kCostOrigins)
-        if (measure::name_of(origin) == name) return origin;
-    value.fail_wanted("fitted, literature or given");
+measure::CostOrigin read_cost_origin(const CostJsonValue& value) {
+    const std::string name = value.read_text();
+    for (const measure::CostOrigin origin : kAllCostOrigins)
+        if (measure::cost_origin_name(origin) == name) return origin;
+    value.fail_with_expected_value("fitted, literature or given");
 }
 
-measure::Interval read_range(const CostValue& value, double ns) {
+measure::Interval read_cost_range(const CostJsonValue& value, double ns) {
     if (value.json.is_null()) return {};
-    const std::vector<CostValue> ends = value.elements();
-    if (ends.size() != 2) value.fail_wanted("two numbers");
+    const std::vector<CostJsonValue> ends = value.list_elements();
+    if (ends.size() != 2) value.fail_with_expected_value("two numbers");
     constexpr const char* kCostNumberText = "a number of at least 0";
-    const measure::Interval range{ends[0].number(0, kCostNumberText),
-                                  ends[1].number(0, kCostNumberText)};
+    const measure::Interval range{ends[0].read_number(0, kCostNumberText),
+                                  ends[1].read_number(0, kCostNumberText)};
     if (!(range.low <= ns && ns <= range.high))
-        value.fail_wanted("a range around ns, " + std::to_string(ns));
+        value.fail_with_expected_value("a range around ns, " + std::to_string(ns));
     return range;
 }
 
-measure::UnitCost read_unit(const CostValue& value) {
-    value.check_members({"work", "ns", "range", "source"});
-    measure::UnitCost unit;
-    unit.kind = read_kind(value.member("work"));
-    unit.ns = value.member("ns").number(0, "nanoseconds of at least 0");
-    unit.range = read_range(value.member("range"), unit.ns);
-    unit.source = value.member("source").optional_text();
+measure::WorkUnitCost read_unit_cost(const CostJsonValue& value) {
+    value.check_member_names({"work", "ns", "range", "source"});
+    measure::WorkUnitCost unit;
+    unit.kind = read_work_kind(value.find_member("work"));
+    unit.ns = value.find_member("ns").read_number(0, "nanoseconds of at least 0");
+    unit.range = read_cost_range(value.find_member("range"), unit.ns);
+    unit.source = value.find_member("source").read_text_if_any();
     return unit;
 }
 
-void check_schema(const CostValue& document, const char* wanted, const char* what) {
-    const CostValue schema = document.member("schema");
+void check_json_schema(const CostJsonValue& document, const char* wanted, const char* what) {
+    const CostJsonValue schema = document.find_member("schema");
     if (!schema.json.is_string() || schema.json.get_ref<const std::string&>() != wanted)
-        schema.fail_wanted(std::string(what) + ", schema '" + wanted + "'");
+        schema.fail_with_expected_value(std::string(what) + ", schema '" + wanted + "'");
 }
 
-Json read_document(const std::filesystem::path& file) {
+Json read_costs_json(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file, error);
     check(error || bytes <= kMaxCostFileBytes, Failure::bad_data, file.string(),
@@ -122,16 +125,16 @@ Json read_document(const std::filesystem::path& file) {
 }
 
 measure::DeviceCosts read_costs_document(const Json& json, const std::string& file) {
-    const CostValue document{json, file + ":"};
-    check_schema(document, kCostsSchema, "costs of a device");
-    document.check_members({"schema", "device", "origin", "note", "costs", "fit"});
+    const CostJsonValue document{json, file + ":"};
+    check_json_schema(document, kCostsSchema, "costs of a device");
+    document.check_member_names({"schema", "device", "origin", "note", "costs", "fit"});
     measure::DeviceCosts costs;
-    costs.device = document.member("device").text();
-    costs.origin = read_origin(document.member("origin"));
-    costs.note = document.member("note").optional_text();
-    for (const CostValue& value : document.member("costs").elements()) {
-        const measure::UnitCost unit = read_unit(value);
-        check(std::ranges::find(costs.units, unit.kind, &measure::UnitCost::kind) ==
+    costs.device = document.find_member("device").read_text();
+    costs.origin = read_cost_origin(document.find_member("origin"));
+    costs.note = document.find_member("note").read_text_if_any();
+    for (const CostJsonValue& value : document.find_member("costs").list_elements()) {
+        const measure::WorkUnitCost unit = read_unit_cost(value);
+        check(std::ranges::find(costs.units, unit.kind, &measure::WorkUnitCost::kind) ==
                   costs.units.end(),
               Failure::bad_data, value.place, ".work: '",
               kWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
@@ -140,15 +143,15 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
     return costs;
 }
 
-Json to_json(const measure::CostFit& fit) {
+Json to_json(const measure::CostFitQuality& fit) {
     Json json{{"rows", fit.samples.size()},
-              {"within_20_percent", number_json(fit.fraction_within(1.2))},
-              {"within_50_percent", number_json(fit.fraction_within(1.5))},
+              {"within_20_percent", make_number_json(fit.fraction_within(1.2))},
+              {"within_50_percent", make_number_json(fit.fraction_within(1.5))},
               {"left_out", Json::array()}};
     for (std::size_t i = 0; i < fit.samples.size(); ++i)
         json["left_out"].push_back({{"row", fit.samples[i].name},
-                                    {"measured_ms", number_json(fit.samples[i].ms)},
-                                    {"predicted_ms", number_json(fit.left_out_ms[i])}});
+                                    {"measured_ms", make_number_json(fit.samples[i].ms)},
+                                    {"predicted_ms", make_number_json(fit.left_out_ms[i])}});
     return json;
 }
 
@@ -157,12 +160,12 @@ Json to_json(const measure::CostFit& fit) {
 std::string to_json(const measure::DeviceCosts& costs) {
     Json json{{"schema", kCostsSchema},
               {"device", costs.device},
-              {"origin", measure::name_of(costs.origin)}};
+              {"origin", measure::cost_origin_name(costs.origin)}};
     if (!costs.note.empty()) json["note"] = costs.note;
-    json["costs"] = list_json(costs.units, [](const measure::UnitCost& unit) {
+    json["costs"] = make_list_json(costs.units, [](const measure::WorkUnitCost& unit) {
         Json one{{"work", kWorkKinds[static_cast<std::size_t>(unit.kind)].name},
-                 {"ns", number_json(unit.ns)}};
-        if (unit.range.is_known()) one["range"] = interval_json(unit.range);
+                 {"ns", make_number_json(unit.ns)}};
+        if (unit.range.is_known()) one["range"] = make_interval_json(unit.range);
         if (!unit.source.empty()) one["source"] = unit.source;
         return one;
     });
@@ -170,28 +173,28 @@ std::string to_json(const measure::DeviceCosts& costs) {
     return serialise_json(json);
 }
 
-measure::DeviceCosts read_costs(const std::string& text, const std::string& file) {
+measure::DeviceCosts read_device_costs(const std::string& text, const std::string& file) {
     return read_costs_document(parse_json<Json>(file, text), file);
 }
 
 measure::DeviceCosts read_costs_file(const std::filesystem::path& file) {
-    return read_costs_document(read_document(file), file.string());
+    return read_costs_document(read_costs_json(file), file.string());
 }
 
-TimesElsewhere read_times_file(const std::filesystem::path& file) {
-    const Json json = read_document(file);
-    const CostValue document{json, file.string() + ":"};
-    check_schema(document, kMeasuredTimesSchema, "times of rows");
-    document.check_members({"schema", "device", "note", "work", "rows"});
-    TimesElsewhere times;
-    times.device = document.member("device").text();
-    times.note = document.member("note").optional_text();
-    for (const CostValue& kind : document.member("work").elements())
-        times.kinds.push_back(read_kind(kind));
-    for (const CostValue& row : document.member("rows").elements()) {
-        row.check_members({"technique", "ms"});
-        times.rows.push_back({row.member("technique").text(),
-                              row.member("ms").number(1e-6, "milliseconds above 0")});
+OtherDeviceTimes read_times_file(const std::filesystem::path& file) {
+    const Json json = read_costs_json(file);
+    const CostJsonValue document{json, file.string() + ":"};
+    check_json_schema(document, kMeasuredTimesSchema, "times of rows");
+    document.check_member_names({"schema", "device", "note", "work", "rows"});
+    OtherDeviceTimes times;
+    times.device = document.find_member("device").read_text();
+    times.note = document.find_member("note").read_text_if_any();
+    for (const CostJsonValue& kind : document.find_member("work").list_elements())
+        times.kinds.push_back(read_work_kind(kind));
+    for (const CostJsonValue& row : document.find_member("rows").list_elements()) {
+        row.check_member_names({"technique", "ms"});
+        times.rows.push_back({row.find_member("technique").read_text(),
+                              row.find_member("ms").read_number(1e-6, "milliseconds above 0")});
     }
     return times;
 }

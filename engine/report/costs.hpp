@@ -15,22 +15,22 @@ namespace catoptric::report {
 std::string to_json(const measure::DeviceCosts& costs);
 /// Reads costs. Members of a fit are ignored. Throws `bad_data` with `file`, the place, the
 /// expected and the found value.
-measure::DeviceCosts read_costs(const std::string& text, const std::string& file);
-/// Reads the file of costs, at most 16 MiB. Throws as `read_costs` does, and for a file that cannot
-/// be read.
+measure::DeviceCosts read_device_costs(const std::string& text, const std::string& file);
+/// Reads the file of costs, at most 16 MiB. Throws as `read_device_costs` does, and for a file that
+/// cannot be read.
 measure::DeviceCosts read_costs_file(const std::filesystem::path& file);
 
 /// Times of rows that were measured on another device, by techniques of this program.
-struct TimesElsewhere {
+struct OtherDeviceTimes {
     std::string device, note;
     std::vector<WorkKind> kinds; ///< the kinds of work whose costs are to be fitted
-    struct TimedRow {
+    struct TimedRowElsewhere {
         std::string technique;
         double ms = 0;
     };
-    std::vector<TimedRow> rows;
+    std::vector<TimedRowElsewhere> rows;
 };
 /// Reads such times. Throws as `read_costs_file` does.
-TimesElsewhere read_times_file(const std::filesystem::path& file);
+OtherDeviceTimes read_times_file(const std::filesystem::path& file);
 
 } // namespace catoptric::report

@@ -20,9 +20,9 @@ namespace {
 /// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
 /// these characters. Numbers may begin with them.
 bool is_spreadsheet_formula(const std::string& text) {
-    constexpr std::string_view kNumberCharacters = "0123456789.eE+- ";
+    constexpr std::string_view kCsvNumberCharacters = "0123456789.eE+- ";
     return text.find_first_of("=+-@") == 0 &&
-           text.find_first_not_of(kNumberCharacters) != text.npos;
+           text.find_first_not_of(kCsvNumberCharacters) != text.npos;
 }
 
 /// Returns a cell with escaped text from any source. All text enters the table through this
@@ -37,29 +37,30 @@ std::string escape_csv_field(const std::string& field) {
 }
 
 /// Returns the shortest text that reads back as the same number.
-std::string shortest_number_text(double value) {
+std::string format_csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
 /// Field of a row and the name of its column.
 struct CsvField {
     std::string name, text;
-    bool in_table = true; ///< whether CsvColumns::table has the column, too
+    bool in_table = true; ///< whether CsvColumnSet::table has the column, too
 };
 
 /// The fields of a row.
 class CsvLine {
 public:
-    void add(std::string name, std::string text, bool in_table = true) {
+    void add_field(std::string name, std::string text, bool in_table = true) {
         fields.push_back({std::move(name), std::move(text), in_table});
     }
-    void add(std::string name, double value, bool in_table = true) {
-        add(std::move(name), shortest_number_text(value), in_table);
+    void add_field(std::string name, double value, bool in_table = true) {
+        add_field(std::move(name), format_csv_number(value), in_table);
     }
-    void add(const std::string& name, const measure::MetricValue& value, bool in_table);
+    void add_field(const std::string& name, const measure::MetricValue& value, bool in_table);
     /// Adds one field for each axis.
-    void add(const std::string& name, std::string_view axes, const dvec3& values, bool in_table) {
-        for (int i = 0; i < 3; ++i) add(name + "_" + axes[i], values[i], in_table);
+    void add_field(const std::string& name, std::string_view axes, const dvec3& values,
+                   bool in_table) {
+        for (int i = 0; i < 3; ++i) add_field(name + "_" + axes[i], values[i], in_table);
     }
 
     std::vector<CsvField> fields;
@@ -68,7 +69,7 @@ public:
 /// Returns a list of numbers as one field, separated by spaces.
 std::string format_number_list(const std::vector<double>& list) {
     std::vector<std::string> texts;
-    for (const double value : list) texts.push_back(shortest_number_text(value));
+    for (const double value : list) texts.push_back(format_csv_number(value));
     return join_texts(texts, " ");
 }
 
@@ -78,43 +79,43 @@ struct CsvFieldAdder {
     const std::string& name;
     bool in_table;
 
-    void operator()(std::monostate) const { line.add(name, std::string(), in_table); }
-    void operator()(double value) const { line.add(name, value, in_table); }
-    void operator()(const dvec3& colour) const { line.add(name, "rgb", colour, in_table); }
+    void operator()(std::monostate) const { line.add_field(name, std::string(), in_table); }
+    void operator()(double value) const { line.add_field(name, value, in_table); }
+    void operator()(const dvec3& colour) const { line.add_field(name, "rgb", colour, in_table); }
     void operator()(const measure::PixelPosition& place) const {
-        constexpr double kMissingDifference = measure::Difference::kNone;
-        line.add(name + "_x", place.x < 0 ? kMissingDifference : place.x, in_table);
-        line.add(name + "_y", place.x < 0 ? kMissingDifference : place.y, in_table);
+        constexpr double kMissingDifferenceValue = measure::Difference::kNone;
+        line.add_field(name + "_x", place.x < 0 ? kMissingDifferenceValue : place.x, in_table);
+        line.add_field(name + "_y", place.x < 0 ? kMissingDifferenceValue : place.y, in_table);
     }
     void operator()(const measure::SampleSummary& times) const {
-        line.add(name + "_median", times.median, in_table);
-        line.add(name + "_ci95_low", times.ci95.low, in_table);
-        line.add(name + "_ci95_high", times.ci95.high, in_table);
-        line.add(name + "_p05", times.p05, false);
-        line.add(name + "_p95", times.p95, false);
-        line.add(name + "_mad", times.mad, false);
-        line.add(name + "_n", static_cast<double>(times.n), false);
-        line.add(name + "_rounds", format_number_list(times.rounds), false);
-        line.add(name + "_samples", format_number_list(times.samples), false);
+        line.add_field(name + "_median", times.median, in_table);
+        line.add_field(name + "_ci95_low", times.ci95.low, in_table);
+        line.add_field(name + "_ci95_high", times.ci95.high, in_table);
+        line.add_field(name + "_p05", times.p05, false);
+        line.add_field(name + "_p95", times.p95, false);
+        line.add_field(name + "_mad", times.mad, false);
+        line.add_field(name + "_n", static_cast<double>(times.n), false);
+        line.add_field(name + "_rounds", format_number_list(times.rounds), false);
+        line.add_field(name + "_samples", format_number_list(times.samples), false);
     }
     void operator()(const std::vector<double>& list) const {
-        line.add(name, format_number_list(list), in_table);
+        line.add_field(name, format_number_list(list), in_table);
     }
-    void operator()(const std::vector<measure::ValueParts>& list) const {
-        for (const measure::ValueParts& parts : list)
+    void operator()(const std::vector<measure::MetricValueParts>& list) const {
+        for (const measure::MetricValueParts& parts : list)
             for (const auto& [what, value] : parts.values)
-                line.add(name + "_" + parts.name + "_" + std::string(what), value, false);
+                line.add_field(name + "_" + parts.name + "_" + std::string(what), value, false);
     }
 };
 
-void CsvLine::add(const std::string& name, const measure::MetricValue& value, bool in_table) {
+void CsvLine::add_field(const std::string& name, const measure::MetricValue& value, bool in_table) {
     std::visit(CsvFieldAdder{*this, name, in_table}, value);
 }
 
 /// Returns whether the report's table of rows has a column of this metric.
 bool is_in_rows_table(const measure::Metric& quantity) {
     return std::ranges::any_of(quantity.columns, [](const measure::MetricColumn& column) {
-        return column.table == measure::MetricTable::rows;
+        return column.table == measure::MetricTableKind::rows;
     });
 }
 
@@ -124,8 +125,8 @@ template <class Predicate>
 void add_difference_metrics(CsvLine& line, const std::string& mask,
                             const measure::Difference& error, Predicate is_in_table) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        line.add(mask + "_" + std::string(quantity.name), measure::metric_value(quantity, error),
-                 is_in_table(quantity));
+        line.add_field(mask + "_" + std::string(quantity.name),
+                       measure::metric_value(quantity, error), is_in_table(quantity));
 }
 
 /// Adds the errors over all masks and over single mirrors. Each line has columns of `mirrors`
@@ -133,28 +134,28 @@ void add_difference_metrics(CsvLine& line, const std::string& mask,
 void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                       std::size_t mirrors) {
     for (const measure::RowMask& mask : measure::list_row_masks())
-        if (measure::has_columns(mask, comparison))
+        if (measure::has_table_columns(mask, comparison))
             add_difference_metrics(line, std::string(mask.name), row.*mask.error,
                                    [&](const measure::Metric& metric) {
                                        return is_in_rows_table(metric) &&
                                               (mask.title.empty() || metric.each_mask_in_table);
                                    });
     for (std::size_t i = 0; i < mirrors; ++i)
-        add_difference_metrics(line, "mirror_" + std::to_string(MirrorId::at(i).number()),
-                               i < row.error_per_mirror.size() ? row.error_per_mirror[i]
-                                                               : measure::Difference{},
-                               [](const measure::Metric&) { return false; });
+        add_difference_metrics(
+            line, "mirror_" + std::to_string(MirrorId::of_list_index(i).mirror_number()),
+            i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{},
+            [](const measure::Metric&) { return false; });
 }
 
 void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                        std::size_t mirrors) {
     bool has_errors = false;
     for (const measure::Metric& quantity : measure::list_metrics()) {
-        if (!measure::is_shown(quantity, comparison)) continue;
+        if (!measure::is_metric_shown(quantity, comparison)) continue;
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
-            line.add(name, measure::metric_value(quantity, row), is_in_rows_table(quantity));
+            line.add_field(name, measure::metric_value(quantity, row), is_in_rows_table(quantity));
         } else if (!std::exchange(has_errors, true)) {
             add_error_fields(line, comparison, row, mirrors);
         }
@@ -166,36 +167,38 @@ void add_view_fields(CsvLine& line, const Comparison& comparison, const Row& row
     if (comparison.views.empty()) return;
     for (const measure::Metric& quantity : measure::list_difference_metrics()) {
         if (!measure::is_single_number(quantity)) continue;
-        const measure::MetricOverViews over = measure::metric_over_views(
+        const measure::MetricOverViews over = measure::compute_metric_over_views(
             row, measure::list_row_masks().front(), quantity);
         const std::string name = "views_" + std::string(quantity.name);
-        line.add(name + "_median", over.median);
-        line.add(name + "_low", over.ci95.low);
-        line.add(name + "_high", over.ci95.high);
+        line.add_field(name + "_median", over.median);
+        line.add_field(name + "_low", over.ci95.low);
+        line.add_field(name + "_high", over.ci95.high);
     }
-    line.add("views", static_cast<double>(row.views.size()));
+    line.add_field("views", static_cast<double>(row.views.size()));
     const measure::View* worst = row.worst ? &comparison.views.at(row.worst->view) : nullptr;
-    line.add("worst_view", worst ? std::to_string(row.worst->view) : "");
-    line.add("worst_view_camera", worst ? worst->camera.name : "");
-    line.add("worst_view_time", worst ? worst->time : NAN);
+    line.add_field("worst_view", worst ? std::to_string(row.worst->view) : "");
+    line.add_field("worst_view_camera", worst ? worst->camera.name : "");
+    line.add_field("worst_view_time", worst ? worst->time : NAN);
 }
 
 /// Adds the fields that distinguish the rows of this run from those of other runs.
 void add_identity_fields(CsvLine& line, const Comparison& comparison, const Row& row) {
-    line.add("scene", comparison.scene.name);
-    line.add("device", comparison.device.name);
-    line.add("driver", comparison.device.driver);
-    line.add("date", comparison.date);
-    const auto add = [&](const char* name, const auto& value) { line.add(name, value, false); };
+    line.add_field("scene", comparison.scene.name);
+    line.add_field("device", comparison.device.name);
+    line.add_field("driver", comparison.device.driver);
+    line.add_field("date", comparison.date);
+    const auto add = [&](const char* name, const auto& value) {
+        line.add_field(name, value, false);
+    };
     add("plan", row.label);
     add("scene_hash", comparison.scene.hash);
     add("scene_triangles", static_cast<double>(comparison.scene.triangles));
     add("scene_mirrors", static_cast<double>(comparison.scene.mirrors));
     const measure::CameraFacts& camera = comparison.scene.camera;
     add("camera", camera.name);
-    line.add("camera_eye", "xyz", camera.eye, false);
-    line.add("camera_target", "xyz", camera.target, false);
-    line.add("camera_up", "xyz", camera.up, false);
+    line.add_field("camera_eye", "xyz", camera.eye, false);
+    line.add_field("camera_target", "xyz", camera.target, false);
+    line.add_field("camera_up", "xyz", camera.up, false);
     add("camera_vertical_fov_degrees", camera.vertical_fov_degrees);
     add("time", comparison.time);
     add("width", comparison.width);
@@ -219,58 +222,58 @@ void add_identity_fields(CsvLine& line, const Comparison& comparison, const Row&
 
 CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t mirrors) {
     CsvLine line;
-    line.add("technique", row.technique);
-    line.add("label", row.label);
-    line.add("settings", format_settings(row));
-    line.add("model", row.model);
-    const measure::RankRange places = measure::find_time_places(comparison, row);
+    line.add_field("technique", row.technique);
+    line.add_field("label", row.label);
+    line.add_field("settings", format_row_settings(row));
+    line.add_field("model", row.model);
+    const measure::TimeRankRange places = measure::find_time_places(comparison, row);
     const bool has_place = places.first > 0;
-    line.add("place_first", has_place ? static_cast<double>(places.first) : NAN);
-    line.add("place_last", has_place ? static_cast<double>(places.last) : NAN);
+    line.add_field("place_first", has_place ? static_cast<double>(places.first) : NAN);
+    line.add_field("place_last", has_place ? static_cast<double>(places.last) : NAN);
     add_metric_fields(line, comparison, row, mirrors);
     add_view_fields(line, comparison, row);
-    line.add("image", report_image_path(comparison, row.image + ".png"));
-    line.add("on_front", measure::is_on_front(comparison, row));
-    line.add("is_reference", row.is_reference);
+    line.add_field("image", report_image_path(comparison, row.image + ".png"));
+    line.add_field("on_front", measure::is_on_front(comparison, row));
+    line.add_field("is_reference", row.is_reference);
     add_identity_fields(line, comparison, row);
-    line.add("incomplete", describe_incomplete_run(comparison));
+    line.add_field("incomplete", describe_incomplete_run(comparison));
     return line;
 }
 
 /// Adds the columns of a line. A column that only some lines have comes after the column that
 /// precedes it there.
-void add_column_names(std::vector<std::string>& columns, const CsvLine& line, CsvColumns which) {
+void add_column_names(std::vector<std::string>& columns, const CsvLine& line, CsvColumnSet which) {
     auto at = columns.begin();
     for (const CsvField& field : line.fields) {
-        if (which == CsvColumns::table && !field.in_table) continue;
+        if (which == CsvColumnSet::table && !field.in_table) continue;
         const auto found = std::ranges::find(columns, field.name);
         at = (found != columns.end() ? found : columns.insert(at, field.name)) + 1;
     }
 }
 
-std::string shortest_number_text(const std::vector<std::string>& cells) {
+std::string join_csv_cells(const std::vector<std::string>& cells) {
     std::vector<std::string> escaped;
     for (const std::string& cell : cells) escaped.push_back(escape_csv_field(cell));
     return join_texts(escaped, ",") + "\r\n";
 }
 
-std::string shortest_number_text(const CsvLine& line, const std::vector<std::string>& columns) {
+std::string format_csv_line(const CsvLine& line, const std::vector<std::string>& columns) {
     std::unordered_map<std::string, std::string> fields;
     for (const CsvField& field : line.fields) fields.emplace(field.name, field.text);
     std::vector<std::string> cells;
     for (const std::string& name : columns) cells.push_back(fields[name]);
-    return shortest_number_text(cells);
+    return join_csv_cells(cells);
 }
 
 } // namespace
 
-std::string to_csv(const Comparison& comparison) { return to_csv(comparison, CsvColumns::table); }
+std::string to_csv(const Comparison& comparison) { return to_csv(comparison, CsvColumnSet::table); }
 
-std::string to_csv(const Comparison& comparison, CsvColumns which) {
+std::string to_csv(const Comparison& comparison, CsvColumnSet which) {
     return to_csv(std::vector{&comparison}, which);
 }
 
-std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which) {
+std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnSet which) {
     std::size_t mirrors = 0;
     for (const Comparison* comparison : comparisons)
         for (const Row& row : comparison->rows)
@@ -284,11 +287,11 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
             lines.push_back(make_csv_line(*comparison, row, mirrors));
         if (comparison->complete || !comparison->rows.empty()) continue;
         lines.emplace_back(); // a line with only this field
-        lines.back().add("incomplete", describe_incomplete_run(*comparison));
+        lines.back().add_field("incomplete", describe_incomplete_run(*comparison));
     }
     for (const CsvLine& line : lines) add_column_names(columns, line, which);
-    std::string csv = shortest_number_text(columns);
-    for (const CsvLine& line : lines) csv += shortest_number_text(line, columns);
+    std::string csv = join_csv_cells(columns);
+    for (const CsvLine& line : lines) csv += format_csv_line(line, columns);
     return csv;
 }
 

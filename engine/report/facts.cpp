@@ -22,7 +22,7 @@ std::string describe_device(const DeviceFacts& device) {
     return fmt::format("{} ({}{}{})", device.name, device.type, threads, profile);
 }
 
-std::string describe_settings(const Comparison& comparison) {
+std::string describe_run_settings(const Comparison& comparison) {
     return fmt::format("t = {} s, ambient {}, exposure {} stops, model {}", comparison.time,
                        comparison.ambient, comparison.exposure, comparison.model);
 }
@@ -51,7 +51,7 @@ std::string describe_reference(const Comparison& comparison) {
                        format_ms(comparison.reference_gpu_ms.median) + " ms";
     if (std::isfinite(comparison.reference_area_flip))
         text += "; one ray through each pixel's centre, FLIP " +
-                format_error(comparison.reference_area_flip) +
+                format_picture_error(comparison.reference_area_flip) +
                 " over the mirrors from the mean over the pixel's area (--truth converged)";
     if (!comparison.noise) return text;
     const measure::ReferenceNoise& noise = *comparison.noise;
@@ -59,9 +59,10 @@ std::string describe_reference(const Comparison& comparison) {
         " a frame, two halves of {} frames with {} seeds in {} s; between the halves "
         "FLIP {}, rmse {}",
         noise.frames, 2 * noise.frames, format_fixed(noise.seconds, 1),
-        format_error(noise.flip_floor), format_error(noise.halves_rmse));
+        format_picture_error(noise.flip_floor), format_picture_error(noise.halves_rmse));
     if (std::isfinite(noise.predicted_rmse))
-        text += fmt::format(" (their variance predicts {})", format_error(noise.predicted_rmse));
+        text += fmt::format(" (their variance predicts {})",
+                            format_picture_error(noise.predicted_rmse));
     return text;
 }
 
@@ -79,14 +80,14 @@ std::string describe_setup_times(const SetupFacts& setup) {
     return join_texts(parts, "; ");
 }
 
-std::vector<ReportFact> list_report_facts(const Comparison& comparison) {
+std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison) {
     return {
         {"Scene",
          fmt::format("{}, {} triangles, {} mirrors, hash {}", comparison.scene.name,
                      comparison.scene.triangles, comparison.scene.mirrors, comparison.scene.hash)},
         {"Light", describe_lights(comparison.scene)},
         {"Picture", fmt::format("{}x{}, {}", comparison.width, comparison.height,
-                                describe_settings(comparison))},
+                                describe_run_settings(comparison))},
         {"Device", describe_device(comparison.device)},
         {"Driver", comparison.device.driver + ", " + comparison.device.api},
         {"Timing",
@@ -104,7 +105,7 @@ std::vector<ReportFact> list_report_facts(const Comparison& comparison) {
     };
 }
 
-std::vector<std::string> list_cautions(const Comparison& comparison) {
+std::vector<std::string> list_reader_cautions(const Comparison& comparison) {
     std::vector<std::string> list;
     if (!comparison.complete)
         list.push_back("Incomplete, " + describe_incomplete_run(comparison) + ".");
@@ -116,12 +117,12 @@ std::vector<std::string> list_cautions(const Comparison& comparison) {
         list.push_back(
             fmt::format("Noisy: {} of {} rows had to wait for a processor, others were at work "
                         "beside, and these times are not to be trusted: {}.",
-                        noisy.size(), comparison.rows.size(), join_row_labels(noisy)));
-    if (comparison.noise && !comparison.noise->is_reached())
+                        noisy.size(), comparison.rows.size(), join_labels_of_rows(noisy)));
+    if (comparison.noise && !comparison.noise->is_noise_target_reached())
         list.push_back(fmt::format(
             "The reference is noisy: FLIP between its halves is {}, more than a fifth of the least "
             "FLIP of a row. More --reference-seconds than {:g} reduce it.",
-            format_error(comparison.noise->flip_floor), comparison.noise->most_seconds));
+            format_picture_error(comparison.noise->flip_floor), comparison.noise->most_seconds));
     if (comparison.together)
         list.push_back("All rows ran in one command buffer: a row's ms is the sum of its passes.");
     for (const Row& row : comparison.rows)

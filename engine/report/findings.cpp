@@ -22,7 +22,7 @@ std::string format_percent(double share) {
     return format_fixed(100 * share, share < 0.1 ? 1 : 0) + " %";
 }
 
-std::string format_rmse(const Row& row) { return format_error(row.error.rmse); }
+std::string format_rmse(const Row& row) { return format_picture_error(row.error.rmse); }
 
 std::string format_both_times(const Row& a, const Row& b) {
     return format_ms(a.time_ms().median) + " against " + format_ms(b.time_ms().median) + " ms";
@@ -39,42 +39,42 @@ std::string format_ratio_interval(const measure::Interval& ratio) {
 OptionalSentence describe_undrawn_dielectrics(const Comparison& comparison) {
     const auto finding = measure::find_undrawn_dielectrics(comparison);
     if (!finding) return {};
-    const std::string tracing = join_row_labels(finding->tracing);
+    const std::string tracing = join_labels_of_rows(finding->tracing);
     return fmt::format(
         "Not drawn: {} of the pixels show smooth surfaces that are no mirrors, and no row{} draws "
         "what they reflect. Over these pixels the other rows' FLIP is {} at best ({}). "
         "--dielectric-mirrors makes mirrors of such surfaces.",
         format_percent(finding->share), tracing.empty() ? "" : " but " + tracing,
-        format_error(finding->best->error_dielectrics.flip), finding->best->label);
+        format_picture_error(finding->best->error_dielectrics.flip), finding->best->label);
 }
 
 std::string describe_clear_verdict(const measure::ClearCostFinding& finding) {
     switch (finding.verdict) {
-    case measure::ClearCostFinding::ClearVerdict::slower_without:
+    case measure::ClearCostFinding::ClearCostVerdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on this device";
-    case measure::ClearCostFinding::ClearVerdict::too_little:
+    case measure::ClearCostFinding::ClearCostVerdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does not explain the report's order on this device";
-    case measure::ClearCostFinding::ClearVerdict::explains: break;
+    case measure::ClearCostFinding::ClearCostVerdict::explains: break;
     }
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "
         "clearing alone does explain the order on this device",
-        format_percent(finding.gap), format_percent(measure::kSeedClearGap));
+        format_percent(finding.gap), format_percent(measure::kSeedReportClearCostShare));
 }
 
 OptionalSentence describe_clear_cost(const Comparison& comparison) {
-    using measure::kSeedPartOne, measure::kSeedPartTwo;
-    const auto finding = measure::find_clear_cost(comparison);
+    using measure::kSeedReportPartOne, measure::kSeedReportPartTwo;
+    const auto finding = measure::find_clear_cost_finding(comparison);
     if (!finding) return {};
     const char* order = finding->one_is_slower ? "slower than" : "not slower than";
     std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
                                    "{:.1f} ms more than its part two ({:.1f} against {:.1f} ms), "
                                    "which it puts down to clearing the cube maps. Here part one, "
                                    "{}, is {} part two ({})",
-                                   measure::kSeedClearMs, kSeedPartOne.ms, kSeedPartTwo.ms,
-                                   finding->one->label, order,
+                                   measure::kSeedReportClearMs, kSeedReportPartOne.ms,
+                                   kSeedReportPartTwo.ms, finding->one->label, order,
                                    format_both_times(*finding->one, *finding->two));
     if (!finding->clear_ms) return text + "; what a clear costs was not measured.";
     return text + ". Clearing the cubes of all mirrors costs " + format_ms(*finding->clear_ms) +
@@ -82,7 +82,7 @@ OptionalSentence describe_clear_cost(const Comparison& comparison) {
 }
 
 OptionalSentence describe_stored_distance(const Comparison& comparison) {
-    const auto finding = measure::find_stored_distance(comparison);
+    const auto finding = measure::find_stored_distance_finding(comparison);
     if (!finding) return {};
     std::string text = "Stored distance: rmse over the mirrors is " + format_rmse(*finding->plain) +
                        " without correction, " + format_rmse(*finding->full) +
@@ -103,7 +103,7 @@ OptionalSentence describe_stored_distance(const Comparison& comparison) {
 }
 
 OptionalSentence describe_bounces(const Comparison& comparison) {
-    const auto finding = measure::find_bounces(comparison);
+    const auto finding = measure::find_bounce_finding(comparison);
     if (!finding) return {};
     std::vector<std::string> figures;
     for (const Row* row : finding->steps) figures.push_back(format_rmse(*row));
@@ -112,7 +112,7 @@ OptionalSentence describe_bounces(const Comparison& comparison) {
         finding->steps.size(), join_texts(figures, ", "));
     if (finding->helps)
         return text + "More inter-reflections bring it closer to the reference, by " +
-               format_error(finding->fall) + " in all.";
+               format_picture_error(finding->fall) + " in all.";
     text +=
         "From i = 1 on, more of them bring it no closer to the reference by as much as one 8-bit "
         "step (1/255)";
@@ -124,12 +124,12 @@ OptionalSentence describe_bounces(const Comparison& comparison) {
 }
 
 OptionalSentence describe_correction_price(const Comparison& comparison) {
-    const auto finding = measure::find_correction_price(comparison);
+    const auto finding = measure::find_parallax_correction_price(comparison);
     if (!finding) return {};
     std::string text = fmt::format(
         "Price of the correction: the report calls the code's complexity its only drawback ({:.1f} "
         "against {:.1f} ms). Here part three takes ",
-        measure::kSeedPartThree.ms, measure::kSeedPartTwo.ms);
+        measure::kSeedReportPartThree.ms, measure::kSeedReportPartTwo.ms);
     const std::string times = format_both_times(*finding->three, *finding->two);
     if (finding->tie)
         text += "as long as part two (" + times + kTieText + ")";
@@ -144,14 +144,14 @@ OptionalSentence describe_correction_price(const Comparison& comparison) {
 }
 
 OptionalSentence describe_ray_tracing_time(const Comparison& comparison) {
-    using measure::kSeedPartThree, measure::kSeedRayTrace;
-    const auto finding = measure::find_tracing_time(comparison);
+    using measure::kSeedReportPartThree, measure::kSeedReportRayTracing;
+    const auto finding = measure::find_tracing_time_finding(comparison);
     if (!finding) return {};
     const Row &three = *finding->three, &traced = *finding->traced;
     std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
                                    "part three ({:.1f} against {:.1f} ms); here {} takes ",
-                                   measure::kSeedRayTraceRatio, kSeedRayTrace.ms, kSeedPartThree.ms,
-                                   traced.label);
+                                   measure::kSeedReportRayTracingRatio, kSeedReportRayTracing.ms,
+                                   kSeedReportPartThree.ms, traced.label);
     const std::string times = format_both_times(traced, three);
     if (finding->tie)
         text += "as long as " + three.label + " (" + times + kTieText + ")";
@@ -182,7 +182,7 @@ std::string describe_ray_tracing_verdict(const measure::RayTracingVerdict& verdi
     if (!verdict.unbeaten.empty())
         return fmt::format("ray tracing beats {} of the {} other rows: all but {}",
                            verdict.others - verdict.unbeaten.size(), verdict.others,
-                           join_row_labels(verdict.unbeaten, ", "));
+                           join_labels_of_rows(verdict.unbeaten, ", "));
     return fmt::format("ray tracing beats every other row, {} of {}", verdict.others,
                        verdict.others);
 }
@@ -191,12 +191,12 @@ std::string describe_ray_tracing_verdict(const measure::RayTracingVerdict& verdi
 std::string describe_fastest_and_closest(const Comparison& comparison) {
     const std::vector<const Row*> fastest = measure::find_fastest_rows(comparison);
     if (fastest.empty()) return "no row could be judged";
-    std::string text = "fastest is " + join_row_labels(fastest, " or ");
+    std::string text = "fastest is " + join_labels_of_rows(fastest, " or ");
     if (const Row* closest = measure::find_closest_row(comparison))
         text += ", closest is " + format_row_metrics(*closest);
     if (const std::vector<const Row*> ties = measure::find_ties_with_closest_row(comparison);
         !ties.empty())
-        text += ", with which tie within the noise of the reference: " + join_row_labels(ties);
+        text += ", with which tie within the noise of the reference: " + join_labels_of_rows(ties);
     return text;
 }
 
@@ -207,34 +207,34 @@ std::string make_findings_title(const Comparison& comparison) {
 }
 
 std::vector<std::string> list_findings(const Comparison& comparison) {
-    struct Finding {
+    struct ReportFinding {
         OptionalSentence (*say)(const Comparison&);
         /// Compares with the seed report's numbers, so it applies to that report's scene only.
         bool beside_the_report;
     };
     std::vector<std::string> list;
-    for (const auto& [say, beside_the_report] : {Finding{describe_undrawn_dielectrics, false},
+    for (const auto& [say, beside_the_report] : {ReportFinding{describe_undrawn_dielectrics, false},
                                                  {describe_clear_cost, true},
                                                  {describe_bounces, false},
                                                  {describe_stored_distance, true},
                                                  {describe_correction_price, true},
                                                  {describe_ray_tracing_time, true},
-                                                 {describe_lag, false}}) {
+                                                 {describe_measured_lag, false}}) {
         if (beside_the_report && !comparison.scene.is_seed) continue;
         if (const OptionalSentence sentence = say(comparison)) list.push_back(*sentence);
     }
     return list;
 }
 
-std::string summarise_verdict(const Comparison& comparison) {
+std::string summarise_ray_tracing_verdict(const Comparison& comparison) {
     const std::string tracing = describe_ray_tracing_verdict(
-        measure::judge_ray_tracing(comparison));
+        measure::find_ray_tracing_verdict(comparison));
     return "On this device, " + comparison.device.name + ", " +
            (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) + ".";
 }
 
-std::vector<std::string> describe_front(const Comparison& comparison) {
-    const measure::Ranking standing = measure::rank_rows(comparison);
+std::vector<std::string> describe_pareto_front(const Comparison& comparison) {
+    const measure::TimeRanking standing = measure::rank_rows_by_time(comparison);
     if (standing.front.empty()) return {"No row could be judged, so there is no front."};
     std::vector<std::string> words{
         "On the front, by median time: " + format_metrics_of_rows(standing.front) +
@@ -243,7 +243,7 @@ std::vector<std::string> describe_front(const Comparison& comparison) {
         "interval holds 1, or is not known, times are a tie."};
     if (comparison.noise)
         words.push_back("The reference has noise. A difference in FLIP below " +
-                        format_error(comparison.noise->flip_floor) +
+                        format_picture_error(comparison.noise->flip_floor) +
                         ", the FLIP between its halves, is a tie as well.");
     for (const auto& [winner, losers] : standing.wins)
         words.push_back(winner->label + " beats " + format_metrics_of_rows(losers) + ".");
@@ -259,7 +259,7 @@ std::vector<std::string> describe_front(const Comparison& comparison) {
         words.push_back("Not on the front, since their time is not known: " +
                         format_metrics_of_rows(standing.untimed) + ".");
     if (!standing.not_judged.empty())
-        words.push_back("Not judged: " + join_row_labels(standing.not_judged, "; ") + ".");
+        words.push_back("Not judged: " + join_labels_of_rows(standing.not_judged, "; ") + ".");
     return words;
 }
 

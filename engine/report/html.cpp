@@ -18,15 +18,15 @@ namespace catoptric::report {
 
 namespace {
 
-std::string html_cell(const TableColumn& column, const char* tag, const char* scope,
-                      const std::string& content) {
+std::string make_html_table_cell(const TableColumn& column, const char* tag, const char* scope,
+                                 const std::string& content) {
     return fmt::format("<{}{}{}>{}</{}>", tag, scope, column.is_number ? "" : " class=\"text\"",
                        content, tag);
 }
 
 /// Returns the anchor in the page at which the pictures of a row stand.
-std::string html_anchor_of_row(const Comparison& comparison, std::size_t row) {
-    return fmt::format("{}row-{}", html_id_prefix(comparison), row);
+std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t row) {
+    return fmt::format("{}row-{}", make_html_id_prefix(comparison), row);
 }
 
 /// Returns a table as HTML. If `linked` is given, the first cell of row i links to the pictures of
@@ -39,7 +39,7 @@ std::string to_html(const ReportTable& table, const std::string& look,
                                    "aria-label=\"{}\"><table class=\"{}\"><thead><tr>",
                                    title, look);
     for (const TableColumn& column : table.columns)
-        html += html_cell(column, "th", " scope=\"col\"", escape_html(column.name));
+        html += make_html_table_cell(column, "th", " scope=\"col\"", escape_html(column.name));
     html += "</tr></thead><tbody>";
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const bool marked = r < table.marked.size() && table.marked[r];
@@ -47,58 +47,59 @@ std::string to_html(const ReportTable& table, const std::string& look,
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
             std::string content = escape_html(table.rows[r][i]);
             if (i == 0 && linked != nullptr)
-                content = fmt::format("<a href=\"#{}\">{}</a>", html_anchor_of_row(*linked, r),
+                content = fmt::format("<a href=\"#{}\">{}</a>", make_html_anchor_of_row(*linked, r),
                                       content);
-            html += html_cell(table.columns[i], i == 0 ? "th" : "td",
-                              i == 0 ? " scope=\"row\"" : "", content);
+            html += make_html_table_cell(table.columns[i], i == 0 ? "th" : "td",
+                                         i == 0 ? " scope=\"row\"" : "", content);
         }
         html += "</tr>";
     }
-    return html_titled_section(title, html + "</tbody></table></div><p class=\"note\">" +
-                                          escape_html(table.note) + "</p>");
+    return make_html_titled_section(title, html + "</tbody></table></div><p class=\"note\">" +
+                                               escape_html(table.note) + "</p>");
 }
 
-std::string html_list(const std::vector<std::string>& sentences) {
+std::string make_html_list(const std::vector<std::string>& sentences) {
     std::string html = "<ul>";
     for (const std::string& sentence : sentences) html += "<li>" + escape_html(sentence) + "</li>";
     return html + "</ul>";
 }
 
-std::string html_headline(const std::string& name, const std::string& figure,
-                          const std::string& of) {
+std::string make_html_headline(const std::string& name, const std::string& figure,
+                               const std::string& of) {
     return fmt::format("<div><dt>{}</dt><dd>{} <small>{}</small></dd></div>", name, figure,
                        escape_html(of));
 }
 
 /// Returns the headlines: the fastest row, the closest row other than the reference, the front, and
 /// the reference.
-std::string html_headlines(const Comparison& comparison) {
+std::string make_html_headlines(const Comparison& comparison) {
     std::string html = "<dl class=\"headline\">";
     if (const std::vector<const Row*> fastest = measure::find_fastest_rows(comparison);
         fastest.size() == 1)
-        html += html_headline("Fastest", format_ms(fastest.front()->time_ms().median) + " ms",
-                              fastest.front()->label);
+        html += make_html_headline("Fastest", format_ms(fastest.front()->time_ms().median) + " ms",
+                                   fastest.front()->label);
     else if (!fastest.empty())
-        html += html_headline("Fastest", std::to_string(fastest.size()) + " rows",
-                              "not told apart");
+        html += make_html_headline("Fastest", std::to_string(fastest.size()) + " rows",
+                                   "not told apart");
     if (const Row* closest = measure::find_closest_row(comparison); closest != nullptr)
-        html += html_headline("Closest", "FLIP " + format_flip(closest->error), closest->label);
-    html += html_headline("On the front", std::to_string(comparison.pareto.size()),
-                          fmt::format("of {} rows", comparison.rows.size()));
-    html += html_headline("Reference", format_ms(comparison.reference_gpu_ms.median) + " ms",
-                          comparison.reference_label);
+        html += make_html_headline("Closest", "FLIP " + format_flip(closest->error),
+                                   closest->label);
+    html += make_html_headline("On the front", std::to_string(comparison.pareto.size()),
+                               fmt::format("of {} rows", comparison.rows.size()));
+    html += make_html_headline("Reference", format_ms(comparison.reference_gpu_ms.median) + " ms",
+                               comparison.reference_label);
     return html + "</dl>";
 }
 
-std::string html_row_numbers(const Row& row) {
+std::string make_html_row_numbers(const Row& row) {
     const double ms = row.time_ms().median;
     std::string html = "<dl class=\"numbers\">";
     for (const auto& [name, value] :
          {std::pair("ms", format_ms(ms)), std::pair("FPS", format_fps(ms)),
           std::pair("FLIP", format_flip(row.error)),
           std::pair("off, %", format_fixed(100 * row.error.off, 2)),
-          std::pair("MAE", format_error(row.error.mae)),
-          std::pair("rmse", format_error(row.error.rmse)),
+          std::pair("MAE", format_picture_error(row.error.mae)),
+          std::pair("rmse", format_picture_error(row.error.rmse)),
           std::pair("FLIP, 1st order", format_flip(row.error_first_order)),
           std::pair("PSNR dB", format_fixed(row.error.psnr.value_or(NAN), 1)),
           std::pair("Scene passes", std::to_string(row.scene_passes)),
@@ -107,9 +108,9 @@ std::string html_row_numbers(const Row& row) {
     return html + "</dl>";
 }
 
-std::string html_row_details(const Row& row) {
+std::string make_html_row_details(const Row& row) {
     std::string html = "<details><summary>Knobs and passes</summary><p><code>" +
-                       escape_html(format_settings(row)) + "</code></p>";
+                       escape_html(format_row_settings(row)) + "</code></p>";
     if (row.rays)
         html += fmt::format("<p>Rays: {} primary, {} mirror, {} shadow.</p>", row.rays->primary,
                             row.rays->mirror, row.rays->shadow);
@@ -125,81 +126,86 @@ std::string html_row_details(const Row& row) {
     return html + "</tbody></table></details>";
 }
 
-std::string html_row_article(const Comparison& comparison, const EncodedPictures& encoded,
-                             std::size_t index) {
+std::string make_html_row_article(const Comparison& comparison, const EncodedPictures& encoded,
+                                  std::size_t index) {
     const Row& row = comparison.rows[index];
     std::string html = fmt::format("<article id=\"{}\"><div class=\"title\"><h3>{}</h3>",
-                                   html_anchor_of_row(comparison, index), escape_html(row.label));
+                                   make_html_anchor_of_row(comparison, index),
+                                   escape_html(row.label));
     for (const auto& [holds, name] :
          {std::pair(measure::is_on_front(comparison, row), "on the front"),
           std::pair(row.is_reference, "the reference"),
           std::pair(measure::has_nonfinite_pixels(row), "failed"), std::pair(row.noisy, "noisy")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
-            html_figure(row.display.width, row.display.height, encoded.rows[index].picture,
-                        "Picture by " + row.label, "Picture") +
-            html_figure(row.display.width, row.display.height, encoded.rows[index].error,
-                        "Heat map of the FLIP error of " + row.label + ", mean over the mirrors " +
-                            format_flip(row.error),
-                        "FLIP error") +
-            html_figure(row.display.width, row.display.height, encoded.rows[index].causes,
-                        "Pixels of " + row.label + " that are off, painted by their largest cause",
-                        "Largest cause where it is off");
-    return html + "</div>" + html_row_numbers(row) + html_row_details(row) + "</article>\n";
+            make_html_figure(row.display.width, row.display.height, encoded.rows[index].picture,
+                             "Picture by " + row.label, "Picture") +
+            make_html_figure(row.display.width, row.display.height, encoded.rows[index].error,
+                             "Heat map of the FLIP error of " + row.label +
+                                 ", mean over the mirrors " + format_flip(row.error),
+                             "FLIP error") +
+            make_html_figure(row.display.width, row.display.height, encoded.rows[index].causes,
+                             "Pixels of " + row.label +
+                                 " that are off, painted by their largest cause",
+                             "Largest cause where it is off");
+    return html + "</div>" + make_html_row_numbers(row) + make_html_row_details(row) +
+           "</article>\n";
 }
 
-std::string css_colour(const vec3& colour) {
+std::string format_css_colour(const vec3& colour) {
     return fmt::format("rgb({:.0f} {:.0f} {:.0f})", colour.x * 255, colour.y * 255, colour.z * 255);
 }
 
 /// Returns the colour scale of the heat maps from 0 to 1.
-std::string html_heat_scale() {
+std::string make_html_heat_scale() {
     std::string stops;
     for (int i = 0; i <= 8; ++i)
-        stops += "," + css_colour(measure::heat_colour(static_cast<float>(i) / 8));
+        stops += "," + format_css_colour(measure::heat_map_colour(static_cast<float>(i) / 8));
     return "<div class=\"scale\" style=\"background:linear-gradient(90deg" + stops +
            ")\"></div><div class=\"ends\"><span>FLIP 0: no difference</span><span>1</span></div>";
 }
 
 /// Returns the legend of the pictures by cause, or nothing if there are none.
-std::string html_cause_legend(const Comparison& comparison) {
+std::string make_html_cause_legend(const Comparison& comparison) {
     if (std::ranges::none_of(comparison.rows, [](const Row& row) { return row.causes != nullptr; }))
         return "";
     std::string html = "<ul class=\"legend\">";
-    for (const CauseColour& one : list_cause_colours())
-        html += "<li><span style=\"background:" + css_colour(one.colour) + "\"></span>" +
+    for (const CausePictureColour& one : list_cause_colours())
+        html += "<li><span style=\"background:" + format_css_colour(one.colour) + "\"></span>" +
                 std::string(one.cause) + "</li>";
     return html + "</ul>";
 }
 
-std::string html_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
+std::string make_html_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html =
         "<div class=\"reference\">" +
-        html_figure(comparison.reference_display.width, comparison.reference_display.height,
-                    encoded.reference, "Reference picture by " + comparison.reference_label,
-                    "Reference: " + comparison.reference_label) +
+        make_html_figure(comparison.reference_display.width, comparison.reference_display.height,
+                         encoded.reference, "Reference picture by " + comparison.reference_label,
+                         "Reference: " + comparison.reference_label) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
-        html_heat_scale() + html_cause_legend(comparison) + "</div></div><div class=\"rows\">";
+        make_html_heat_scale() + make_html_cause_legend(comparison) +
+        "</div></div><div class=\"rows\">";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i)
-        html += html_row_article(comparison, encoded, i);
-    return html_titled_section("Pictures", html + "</div>");
+        html += make_html_row_article(comparison, encoded, i);
+    return make_html_titled_section("Pictures", html + "</div>");
 }
 
 /// Returns the tables, sentences and pictures of a part.
-std::string part_of(const Comparison& comparison, const EncodedPictures& encoded,
-                    const ReportPart& part) {
+std::string make_html_part(const Comparison& comparison, const EncodedPictures& encoded,
+                           const ReportPart& part) {
     std::string html;
     for (const ReportTable& table : part.tables(comparison))
         html += to_html(table, std::string(part.look), part.links_rows ? &comparison : nullptr);
     const bool has_rows = !html.empty();
     if (part.plots != nullptr) html.insert(0, part.plots(comparison));
     if (has_rows && part.sentences != nullptr)
-        html += html_titled_section(std::string(part.title), html_list(part.sentences(comparison)));
+        html += make_html_titled_section(std::string(part.title),
+                                         make_html_list(part.sentences(comparison)));
     if (has_rows && part.pictures != nullptr) html += part.pictures(comparison, encoded);
     return html;
 }
 
-std::string html_front(const Comparison& comparison) {
+std::string make_html_front(const Comparison& comparison) {
     std::string html;
     if (const std::string drawing = make_comparison_plot(comparison); !drawing.empty())
         html =
@@ -209,24 +215,25 @@ std::string html_front(const Comparison& comparison) {
             "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
             "Squares: ray traced. Bars: 95 % intervals of times; which rows tie, the places in the "
             "tables say. The lane below is error 0.</figcaption></figure>";
-    return html_titled_section("Time against error", html + html_list(describe_front(comparison)));
+    return make_html_titled_section("Time against error",
+                                    html + make_html_list(describe_pareto_front(comparison)));
 }
 
-std::string html_circumstances(const Comparison& comparison) {
+std::string make_html_circumstances(const Comparison& comparison) {
     std::string html = "<dl class=\"facts\">";
-    for (const ReportFact& fact : list_report_facts(comparison))
+    for (const ReportHeaderLine& fact : list_report_facts(comparison))
         html += fmt::format("<dt>{0}</dt><dd><{1}>{2}</{1}></dd>", fact.name,
                             fact.name == "Command" ? "code" : "span", escape_html(fact.value));
-    return html_titled_section("What was measured where", html + "</dl>");
+    return make_html_titled_section("What was measured where", html + "</dl>");
 }
 
 } // namespace
 
-std::string html_titled_section(const std::string& title, const std::string& content) {
+std::string make_html_titled_section(const std::string& title, const std::string& content) {
     return "<section><h2>" + title + "</h2>" + content + "</section>\n";
 }
 
-std::string html_id_prefix(const Comparison& comparison) {
+std::string make_html_id_prefix(const Comparison& comparison) {
     std::string name = comparison.images;
     std::ranges::replace(name, '/', '-');
     return name;
@@ -238,12 +245,13 @@ std::string to_html(const Comparison& comparison) {
     return to_html(comparison, pictures);
 }
 
-std::string html_figure(int width, int height, const std::string& png, const std::string& alt,
-                        const std::string& caption) {
+std::string make_html_figure(int width, int height, const std::string& png, const std::string& alt,
+                             const std::string& caption) {
     if (png.empty()) return "";
     return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
                        "<figcaption>{}</figcaption></figure>",
-                       width, height, escape_html(alt), png_data_uri(png), escape_html(caption));
+                       width, height, escape_html(alt), make_png_data_uri(png),
+                       escape_html(caption));
 }
 
 std::string make_html_page(const std::string& title, const std::string& content) {
@@ -257,29 +265,32 @@ std::string make_html_page(const std::string& title, const std::string& content)
 std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<header><p class=\"kicker\">Reflections compared</p><h1>" +
                        escape_html(comparison.scene.name) + "</h1>" +
-                       (measure::has_budget(comparison)
+                       (measure::has_time_or_flip_budget(comparison)
                             ? "<p class=\"lede answer\"><strong>" +
                                   escape_html(describe_budget_answer(comparison)) + "</strong></p>"
                             : "") +
-                       "<p class=\"lede\">" + escape_html(summarise_verdict(comparison)) + "</p>";
-    const std::vector<std::string> notes = list_cautions(comparison);
-    if (!notes.empty()) html += "<aside class=\"caution\">" + html_list(notes) + "</aside>";
-    const bool is_page = html_id_prefix(comparison).empty(); // a page has exactly one <main>
-    html += html_headlines(comparison) + "</header>\n" +
-            (is_page ? "<main>" : "<div class=\"main\">") + html_front(comparison) +
+                       "<p class=\"lede\">" +
+                       escape_html(summarise_ray_tracing_verdict(comparison)) + "</p>";
+    const std::vector<std::string> notes = list_reader_cautions(comparison);
+    if (!notes.empty()) html += "<aside class=\"caution\">" + make_html_list(notes) + "</aside>";
+    const bool is_page = make_html_id_prefix(comparison).empty(); // a page has exactly one <main>
+    html += make_html_headlines(comparison) + "</header>\n" +
+            (is_page ? "<main>" : "<div class=\"main\">") + make_html_front(comparison) +
             (comparison.scene.is_seed ? to_html(make_seed_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = list_findings(comparison);
     if (!sentences.empty())
-        html += html_titled_section(make_findings_title(comparison), html_list(sentences));
-    html += html_titled_section("Set-up, once",
-                                "<p>" + escape_html(describe_setup_times(comparison.setup)) +
-                                    "</p>") +
+        html += make_html_titled_section(make_findings_title(comparison),
+                                         make_html_list(sentences));
+    html += make_html_titled_section("Set-up, once",
+                                     "<p>" + escape_html(describe_setup_times(comparison.setup)) +
+                                         "</p>") +
             to_html(make_rows_table(comparison), "all", &comparison) +
             to_html(make_plan_table(comparison), "plans", &comparison);
-    for (const ReportPart& part : list_report_parts()) html += part_of(comparison, encoded, part);
-    html += html_pictures(comparison, encoded) +
+    for (const ReportPart& part : list_report_parts())
+        html += make_html_part(comparison, encoded, part);
+    html += make_html_pictures(comparison, encoded) +
             to_html(make_unsupported_table(comparison.scene), "gaps") +
-            html_circumstances(comparison);
+            make_html_circumstances(comparison);
     return html + (is_page ? "</main>\n" : "</div>\n");
 }
 

@@ -43,7 +43,7 @@ std::string escape_html(std::string_view text) {
     return result;
 }
 
-std::string png_data_uri(std::string_view png) {
+std::string make_png_data_uri(std::string_view png) {
     return "data:image/png;base64," + encode_base64(png);
 }
 

@@ -15,7 +15,7 @@
 
 namespace catoptric::report {
 
-Json number_json(double value) {
+Json make_number_json(double value) {
     if (!std::isfinite(value)) return nullptr;
     constexpr double kMaxExactInteger = 9007199254740992; // 2^53
     if (std::abs(value) < kMaxExactInteger && value == std::trunc(value) && !std::signbit(value))
@@ -23,24 +23,24 @@ Json number_json(double value) {
     return value;
 }
 
-Json number_json(const std::optional<double>& value) {
-    return value ? number_json(*value) : Json();
+Json make_number_json(const std::optional<double>& value) {
+    return value ? make_number_json(*value) : Json();
 }
 
-Json numbers_json(const std::vector<double>& values) {
-    return list_json(values, [](double value) { return number_json(value); });
+Json make_number_list_json(const std::vector<double>& values) {
+    return make_list_json(values, [](double value) { return make_number_json(value); });
 }
 
-Json interval_json(const measure::Interval& interval) {
+Json make_interval_json(const measure::Interval& interval) {
     return interval.is_known()
-               ? Json::array({number_json(interval.low), number_json(interval.high)})
+               ? Json::array({make_number_json(interval.low), make_number_json(interval.high)})
                : Json();
 }
 
 std::string describe_json_value(const Json& value) {
     if (value.is_null()) return "nothing";
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
-    return quote_printable(value.dump(-1, ' ', true, Json::error_handler_t::replace));
+    return quote_as_printable_text(value.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
 Json make_device_json(const DeviceFacts& device) {
@@ -60,55 +60,58 @@ namespace {
 
 Json to_json(const measure::SampleSummary& summary) {
     if (summary.n == 0) return nullptr; // never measured
-    return {{"median", number_json(summary.median)},
-            {"p05", number_json(summary.p05)},
-            {"p95", number_json(summary.p95)},
-            {"mad", number_json(summary.mad)},
-            {"ci95", interval_json(summary.ci95)},
-            {"rounds", numbers_json(summary.rounds)},
+    return {{"median", make_number_json(summary.median)},
+            {"p05", make_number_json(summary.p05)},
+            {"p95", make_number_json(summary.p95)},
+            {"mad", make_number_json(summary.mad)},
+            {"ci95", make_interval_json(summary.ci95)},
+            {"rounds", make_number_list_json(summary.rounds)},
             {"n", summary.n},
-            {"samples", numbers_json(summary.samples)}};
+            {"samples", make_number_list_json(summary.samples)}};
 }
 
-Json to_json(const measure::ValueParts& parts) {
+Json to_json(const measure::MetricValueParts& parts) {
     Json json{{parts.kind, parts.name}};
-    for (const auto& [name, value] : parts.values) json[std::string(name)] = value_json(value);
+    for (const auto& [name, value] : parts.values)
+        json[std::string(name)] = make_metric_value_json(value);
     return json;
 }
 
 struct JsonValueWriter {
     Json operator()(std::monostate) const { return nullptr; }
     Json operator()(bool mark) const { return mark; }
-    Json operator()(double value) const { return number_json(value); }
-    Json operator()(const dvec3& colour) const { return point_json(colour); }
+    Json operator()(double value) const { return make_number_json(value); }
+    Json operator()(const dvec3& colour) const { return make_point_json(colour); }
     Json operator()(const measure::PixelPosition& place) const {
         return place.x < 0 ? Json(nullptr) : Json::array({place.x, place.y});
     }
     Json operator()(const measure::SampleSummary& times) const { return to_json(times); }
-    Json operator()(const std::vector<double>& list) const { return numbers_json(list); }
-    Json operator()(const std::vector<measure::ValueParts>& list) const {
-        return list_json(list, [](const measure::ValueParts& parts) { return to_json(parts); });
+    Json operator()(const std::vector<double>& list) const { return make_number_list_json(list); }
+    Json operator()(const std::vector<measure::MetricValueParts>& list) const {
+        return make_list_json(
+            list, [](const measure::MetricValueParts& parts) { return to_json(parts); });
     }
 };
 
 /// Returns an object that begins with `json` and has all metrics of a difference.
 Json add_difference_metrics_json(Json json, const measure::Difference& error) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        json[std::string(quantity.name)] = value_json(measure::metric_value(quantity, error));
+        json[std::string(quantity.name)] = make_metric_value_json(
+            measure::metric_value(quantity, error));
     return json;
 }
 
 /// Returns the budgets, and the labels of the rows that answer them.
 Json make_budget_json(const Comparison& comparison) {
-    const measure::BudgetAnswer answer = measure::find_row_within_budget(comparison);
+    const measure::BudgetedRows answer = measure::find_row_within_budget(comparison);
     const auto label = [](const Row* row) { return row == nullptr ? Json() : Json(row->label); };
     const auto labels = [](const std::vector<const Row*>& rows) {
         Json list = Json::array();
         for (const Row* row : rows) list.push_back(row->label);
         return list;
     };
-    return {{"max_ms", number_json(comparison.max_ms)},
-            {"max_flip", number_json(comparison.max_flip)},
+    return {{"max_ms", make_number_json(comparison.max_ms)},
+            {"max_flip", make_number_json(comparison.max_flip)},
             {"row", label(answer.row)},
             {"ties", labels(answer.ties)},
             {"undecided", labels(answer.undecided)},
@@ -122,8 +125,8 @@ void add_error_fields_json(Json& json, const Row& row) {
                                                                     row.*mask.error);
     Json& list = json["error_per_mirror"] = Json::array();
     for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i)
-        list.push_back(add_difference_metrics_json({{"mirror", MirrorId::at(i).number()}},
-                                                   row.error_per_mirror[i]));
+        list.push_back(add_difference_metrics_json(
+            {{"mirror", MirrorId::of_list_index(i).mirror_number()}}, row.error_per_mirror[i]));
 }
 
 /// Adds a metric to an object of metrics. The object is null as long as none of its metrics has a
@@ -134,7 +137,7 @@ void add_metric_to_object(Json& json, const measure::Metric& quantity,
     Json& object = json[std::string(quantity.name.substr(0, slash))];
     if (object.is_null() && measure::is_missing_value(value)) return;
     if (object.is_null() && !quantity.mask.empty()) object["mask"] = quantity.mask;
-    object[std::string(quantity.name.substr(slash + 1))] = value_json(value);
+    object[std::string(quantity.name.substr(slash + 1))] = make_metric_value_json(value);
 }
 
 void add_metric_json(Json& json, const measure::Metric& quantity, const Row& row) {
@@ -144,13 +147,13 @@ void add_metric_json(Json& json, const measure::Metric& quantity, const Row& row
     if (quantity.name.find('/') != std::string_view::npos)
         add_metric_to_object(json, quantity, value);
     else
-        json[std::string(quantity.name)] = value_json(value);
+        json[std::string(quantity.name)] = make_metric_value_json(value);
 }
 
 /// Adds all metrics of the table. Those of differences stand at the place of the first of them.
 void add_row_metrics_json(Json& json, const Comparison& comparison, const Row& row) {
     for (const measure::Metric& quantity : measure::list_metrics()) {
-        if (!measure::is_shown(quantity, comparison)) continue;
+        if (!measure::is_metric_shown(quantity, comparison)) continue;
         if (quantity.mask != "each")
             add_metric_json(json, quantity, row);
         else if (!json.contains("error"))
@@ -161,7 +164,8 @@ void add_row_metrics_json(Json& json, const Comparison& comparison, const Row& r
 Json to_json(const std::vector<Setting>& settings) {
     Json json = Json::object();
     for (const Setting& setting : settings)
-        json[setting.name] = setting.number ? number_json(*setting.number) : Json(setting.text);
+        json[setting.name] = setting.number ? make_number_json(*setting.number)
+                                            : Json(setting.text);
     return json;
 }
 
@@ -169,28 +173,28 @@ Json to_json(const measure::CulledWork& work) {
     return {{"what", work.what},
             {"why", work.why},
             {"saves", work.saves},
-            {"error", number_json(work.error)}};
+            {"error", make_number_json(work.error)}};
 }
 
 Json to_json(const Comparison& comparison, const Row& row) {
     Json json{{"technique", row.technique}, {"settings", to_json(row.settings)}};
     json["label"] = row.label;
     json["model"] = row.model;
-    json["left_out"] = list_json(row.left_out,
-                                 [](const measure::CulledWork& work) { return to_json(work); });
+    json["left_out"] = make_list_json(
+        row.left_out, [](const measure::CulledWork& work) { return to_json(work); });
     add_row_metrics_json(json, comparison, row);
-    json["views"] = views_json(comparison, row);
-    json["plan"] = plan_json(row.plan);
+    json["views"] = make_views_json(comparison, row);
+    json["plan"] = make_plan_json(row.plan);
     json["image"] = report_image_path(comparison, row.image + ".png");
     json["is_reference"] = row.is_reference;
     return json;
 }
 
 Json to_json(const SetupFacts& setup) {
-    return {{"load_ms", number_json(setup.load_ms)},
-            {"upload_ms", number_json(setup.upload_ms)},
-            {"hierarchy_ms", number_json(setup.hierarchy_ms)},
-            {"compile_ms", number_json(setup.compile_ms)},
+    return {{"load_ms", make_number_json(setup.load_ms)},
+            {"upload_ms", make_number_json(setup.upload_ms)},
+            {"hierarchy_ms", make_number_json(setup.hierarchy_ms)},
+            {"compile_ms", make_number_json(setup.compile_ms)},
             {"pipelines", setup.pipelines},
             {"pipeline_cache", setup.pipeline_cache}};
 }
@@ -198,7 +202,7 @@ Json to_json(const SetupFacts& setup) {
 void add_circumstances_json(Json& json, const Comparison& comparison) {
     json["device"] = make_device_json(comparison.device);
     json["device"]["held_threads"] = comparison.device.held_threads;
-    json["scene"] = scene_json(comparison.scene);
+    json["scene"] = make_scene_json(comparison.scene);
     json["setup"] = to_json(comparison.setup);
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
@@ -206,11 +210,11 @@ void add_circumstances_json(Json& json, const Comparison& comparison) {
     json["rounds"] = comparison.rounds;
     json["timing"] = comparison.timing;
     json["load"] = Json::array(
-        {number_json(comparison.load_start), number_json(comparison.load_end)});
-    json["time"] = number_json(comparison.time);
-    json["ambient"] = number_json(comparison.ambient);
-    json["exposure"] = number_json(comparison.exposure);
-    json["flip_source"] = measure::kFlipOfFloats;
+        {make_number_json(comparison.load_start), make_number_json(comparison.load_end)});
+    json["time"] = make_number_json(comparison.time);
+    json["ambient"] = make_number_json(comparison.ambient);
+    json["exposure"] = make_number_json(comparison.exposure);
+    json["flip_source"] = measure::kFlipSourceFloats;
     json["together"] = comparison.together;
     json["warnings"] = comparison.warnings;
 }
@@ -218,22 +222,23 @@ void add_circumstances_json(Json& json, const Comparison& comparison) {
 /// Returns the noise of a reference.
 Json to_json(const measure::ReferenceNoise& noise) {
     return {{"frames", noise.frames},
-            {"seconds", number_json(noise.seconds)},
-            {"most_seconds", number_json(noise.most_seconds)},
-            {"flip_floor", number_json(noise.flip_floor)},
-            {"wanted_floor", number_json(noise.wanted_floor)},
-            {"halves_rmse", number_json(noise.halves_rmse)},
-            {"predicted_rmse", number_json(noise.predicted_rmse)}};
+            {"seconds", make_number_json(noise.seconds)},
+            {"most_seconds", make_number_json(noise.most_seconds)},
+            {"flip_floor", make_number_json(noise.flip_floor)},
+            {"wanted_floor", make_number_json(noise.wanted_floor)},
+            {"halves_rmse", make_number_json(noise.halves_rmse)},
+            {"predicted_rmse", make_number_json(noise.predicted_rmse)}};
 }
 
 } // namespace
 
-Json point_json(const dvec3& point) {
-    return Json::array({number_json(point.x), number_json(point.y), number_json(point.z)});
+Json make_point_json(const dvec3& point) {
+    return Json::array(
+        {make_number_json(point.x), make_number_json(point.y), make_number_json(point.z)});
 }
 
-Json plan_json(const std::vector<PlanEntry>& plan) {
-    return list_json(plan, [](const PlanEntry& entry) {
+Json make_plan_json(const std::vector<PlanEntry>& plan) {
+    return make_list_json(plan, [](const PlanEntry& entry) {
         return Json{{"mirror", entry.mirror},
                     {"name", entry.name},
                     {"technique", entry.technique},
@@ -242,14 +247,16 @@ Json plan_json(const std::vector<PlanEntry>& plan) {
     });
 }
 
-Json times_json(const Row& row) {
+Json make_row_times_json(const Row& row) {
     Json json = Json::object();
     for (const measure::Metric& quantity : measure::list_metrics())
         if (quantity.unit == "ms" && quantity.study.empty()) add_metric_json(json, quantity, row);
     return json;
 }
 
-Json value_json(const measure::MetricValue& value) { return std::visit(JsonValueWriter{}, value); }
+Json make_metric_value_json(const measure::MetricValue& value) {
+    return std::visit(JsonValueWriter{}, value);
+}
 
 Json make_report_json(const Comparison& comparison) {
     Json json{{"schema", "catoptric/compare/1"}, {"version", comparison.version},
@@ -264,15 +271,15 @@ Json make_report_json(const Comparison& comparison) {
                          {"settings", to_json(comparison.reference_settings)},
                          {"label", comparison.reference_label},
                          {"gpu_ms", to_json(comparison.reference_gpu_ms)}};
-    json["reference"]["area_flip"] = number_json(comparison.reference_area_flip);
+    json["reference"]["area_flip"] = make_number_json(comparison.reference_area_flip);
     if (comparison.noise) json["reference"]["noise"] = to_json(*comparison.noise);
     if (comparison.clear_ms) json["clear_ms"] = to_json(*comparison.clear_ms);
     json["model"] = comparison.model;
-    json["views"] = views_json(comparison);
-    json["rows"] = list_json(comparison.rows,
-                             [&](const Row& row) { return to_json(comparison, row); });
+    json["views"] = make_views_json(comparison);
+    json["rows"] = make_list_json(comparison.rows,
+                                  [&](const Row& row) { return to_json(comparison, row); });
     json["pareto"] = comparison.pareto;
-    if (measure::has_budget(comparison)) json["budget"] = make_budget_json(comparison);
+    if (measure::has_time_or_flip_budget(comparison)) json["budget"] = make_budget_json(comparison);
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
     return json;
 }

@@ -20,42 +20,42 @@ std::string serialise_json(const Json& document);
 
 /// Return a number: integers without a fraction, and null if JSON cannot hold the value or if there
 /// is none.
-Json number_json(double value);
-Json number_json(const std::optional<double>& value);
+Json make_number_json(double value);
+Json make_number_json(const std::optional<double>& value);
 /// Returns a list with `entry` of each item.
 template <class List, class Entry>
-Json list_json(const List& list, Entry entry) {
+Json make_list_json(const List& list, Entry entry) {
     Json json = Json::array();
     for (const auto& item : list) json.push_back(entry(item));
     return json;
 }
-Json numbers_json(const std::vector<double>& values);
+Json make_number_list_json(const std::vector<double>& values);
 /// Returns the list [low, high], or null if the interval is not known.
-Json interval_json(const measure::Interval& interval);
+Json make_interval_json(const measure::Interval& interval);
 /// Describes a value for a message: "nothing", "a list", or its JSON in quotes.
 std::string describe_json_value(const Json& value);
 /// Returns the field "device".
 Json make_device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.
-Json times_json(const Row& row);
+Json make_row_times_json(const Row& row);
 /// Returns the value of a metric as JSON, or null if the metric has no value.
-Json value_json(const measure::MetricValue& value);
+Json make_metric_value_json(const measure::MetricValue& value);
 /// Returns the field "lag".
 Json to_json(const LagResults& lag);
 
 /// Return the field "views": a list for a comparison; for a row, null if no views were drawn.
-Json views_json(const Comparison& comparison);
-Json views_json(const Comparison& comparison, const Row& row);
-Json point_json(const dvec3& point);
-Json camera_json(const measure::CameraFacts& camera);
+Json make_views_json(const Comparison& comparison);
+Json make_views_json(const Comparison& comparison, const Row& row);
+Json make_point_json(const dvec3& point);
+Json make_camera_json(const measure::CameraFacts& camera);
 /// Return the lists of lights and unsupported features, and the environment or null.
-Json lights_json(const std::vector<LightFacts>& lights);
-Json environment_json(const std::optional<EnvironmentFacts>& environment);
-Json unsupported_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
+Json make_lights_json(const std::vector<LightFacts>& lights);
+Json make_environment_json(const std::optional<EnvironmentFacts>& environment);
+Json make_unsupported_features_json(const std::vector<UnsupportedFeatureFacts>& unsupported);
 /// Returns the field "scene".
-Json scene_json(const SceneFacts& scene);
+Json make_scene_json(const SceneFacts& scene);
 
 /// Returns a list with one object a mirror: mirror, name, technique, settings, why.
-Json plan_json(const std::vector<PlanEntry>& plan);
+Json make_plan_json(const std::vector<PlanEntry>& plan);
 
 } // namespace catoptric::report

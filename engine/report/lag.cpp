@@ -18,15 +18,15 @@ namespace catoptric::report {
 namespace {
 
 using measure::Difference;
-using measure::metric_percentile;
+using measure::percentile_over_instants;
 
-constexpr auto kFlipMember = &Difference::flip;
+constexpr auto kFlipOfDifference = &Difference::flip;
 
 Json to_json(const SettlingAfterCut& settling) {
-    return {{"rmse_settled", number_json(settling.rmse_settled)},
-            {"max_settled", number_json(settling.max_settled)},
-            {"rmse", numbers_json(settling.rmse)},
-            {"max", numbers_json(settling.max)}};
+    return {{"rmse_settled", make_number_json(settling.rmse_settled)},
+            {"max_settled", make_number_json(settling.max_settled)},
+            {"rmse", make_number_list_json(settling.rmse)},
+            {"max", make_number_list_json(settling.max)}};
 }
 
 /// Adds each headline metric of each instant, and its mean. Names begin with `prefix`.
@@ -34,19 +34,22 @@ void add_lag_metrics(Json& json, const std::string& prefix, const std::vector<Di
     for (const auto& [name, figure] :
          {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
           std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
-        json[prefix + name + "_mean"] = number_json(measure::mean_of(errors, figure));
-        json[prefix + name] = numbers_json(measure::list_metric_values(errors, figure));
+        json[prefix + name + "_mean"] = make_number_json(
+            measure::mean_over_instants(errors, figure));
+        json[prefix + name] = make_number_list_json(measure::list_metric_values(errors, figure));
     }
 }
 
 Json to_json(const LagAtSpeed& at) {
-    Json json{{"speed", number_json(at.speed)}};
+    Json json{{"speed", make_number_json(at.speed)}};
     add_lag_metrics(json, "", at.errors);
     for (const auto& [name, figure] :
          {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
         const std::string prefix(name);
-        json[prefix + "_median"] = number_json(measure::metric_percentile(at.errors, figure, .5));
-        json[prefix + "_max"] = number_json(measure::metric_percentile(at.errors, figure, 1));
+        json[prefix + "_median"] = make_number_json(
+            measure::percentile_over_instants(at.errors, figure, .5));
+        json[prefix + "_max"] = make_number_json(
+            measure::percentile_over_instants(at.errors, figure, 1));
     }
     add_lag_metrics(json, "reference_", at.reference_errors);
     return json;
@@ -59,11 +62,11 @@ Json to_json(const LagRow& row) {
               {"after_black", to_json(row.after_black)},
               {"after_jump", to_json(row.after_jump)}};
     add_lag_metrics(json, "still_reference_", row.still_reference_errors);
-    json["speeds"] = list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
+    json["speeds"] = make_list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
     return json;
 }
 
-std::string format_speed(double speed) { return fmt::format("{:g}x", speed); }
+std::string format_motion_speed(double speed) { return fmt::format("{:g}x", speed); }
 
 std::string format_frame_count(const std::optional<int>& frames, int cap) {
     return frames ? std::to_string(*frames) : fmt::format("over {}", cap);
@@ -85,26 +88,26 @@ std::string describe_lag_limits(const LagResults& lag) {
 
 /// Returns the FLIP of the instants: mean, median and largest.
 std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
-    return {format_error(measure::mean_of(at.errors, kFlipMember)),
-            format_error(metric_percentile(at.errors, kFlipMember, .5)),
-            format_error(metric_percentile(at.errors, kFlipMember, 1))};
+    return {format_picture_error(measure::mean_over_instants(at.errors, kFlipOfDifference)),
+            format_picture_error(percentile_over_instants(at.errors, kFlipOfDifference, .5)),
+            format_picture_error(percentile_over_instants(at.errors, kFlipOfDifference, 1))};
 }
 
 std::vector<std::string> make_lag_line(const LagResults& lag, const LagRow& row,
                                        const LagAtSpeed& at) {
     const auto mean = [&](double Difference::*figure) {
-        return measure::mean_of(at.errors, figure);
+        return measure::mean_over_instants(at.errors, figure);
     };
     const auto flip_to_reference = [](const std::vector<Difference>& errors) {
-        return format_error(measure::mean_of(errors, kFlipMember));
+        return format_picture_error(measure::mean_over_instants(errors, kFlipOfDifference));
     };
     const auto [flip, median, largest] = format_flip_values(at);
     return {row.label,
-            format_speed(at.speed),
+            format_motion_speed(at.speed),
             flip,
             format_fixed(100 * mean(&Difference::off), 2),
-            format_error(mean(&Difference::mae)),
-            format_error(mean(&Difference::rmse)),
+            format_picture_error(mean(&Difference::mae)),
+            format_picture_error(mean(&Difference::rmse)),
             median,
             largest,
             format_fixed(measure::find_worst_instant(lag, at), 2),
@@ -117,12 +120,12 @@ std::string describe_row_lag(const LagRow& row) {
     for (const LagAtSpeed& at : row.speeds) {
         const auto [flip, median, largest] = format_flip_values(at);
         parts.push_back(fmt::format("{} (median {}, largest {}) at {}", flip, median, largest,
-                                    format_speed(at.speed)));
+                                    format_motion_speed(at.speed)));
     }
     return row.label + " is behind its own still picture by a FLIP of " + join_texts(parts, ", ");
 }
 
-std::string describe_settling(const LagRow& row, int cap) {
+std::string describe_settling_after_cut(const LagRow& row, int cap) {
     const auto counts = [&](const SettlingAfterCut& settling) {
         return fmt::format("{} by rmse, {} in every pixel",
                            format_frame_count(settling.rmse_settled, cap),
@@ -133,7 +136,7 @@ std::string describe_settling(const LagRow& row, int cap) {
                        counts(row.after_black), counts(row.after_jump));
 }
 
-std::string html_lag_along_path(const LagResults& lag, const LagRow& row) {
+std::string make_html_lag_along_path(const LagResults& lag, const LagRow& row) {
     LinePlot plot{.x_name = "instant of the scene, s",
                   .y_name = "FLIP to the still picture",
                   .says = "Lag of " + row.label + " along the path, one line a speed",
@@ -142,12 +145,12 @@ std::string html_lag_along_path(const LagResults& lag, const LagRow& row) {
         plot.x_ticks.push_back(lag.seconds.front() + share * lag.path);
     std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
-        plot.lines.push_back(
-            {format_speed(at.speed), measure::list_metric_values(at.errors, kFlipMember)});
+        plot.lines.push_back({format_motion_speed(at.speed),
+                              measure::list_metric_values(at.errors, kFlipOfDifference)});
     return make_line_plot(plot);
 }
 
-std::string html_lag_against_speed(const LagResults& lag) {
+std::string make_html_lag_against_speed(const LagResults& lag) {
     LinePlot plot{.x_name = "speed of the scene's time",
                   .y_name = "FLIP to the still picture, mean",
                   .says = "Mean lag against speed, one line a row",
@@ -157,12 +160,12 @@ std::string html_lag_against_speed(const LagResults& lag) {
     for (const LagRow& row : lag.rows) {
         PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, {}});
         for (const LagAtSpeed& at : row.speeds)
-            line.y.push_back(measure::mean_of(at.errors, kFlipMember));
+            line.y.push_back(measure::mean_over_instants(at.errors, kFlipOfDifference));
     }
     return make_line_plot(plot);
 }
 
-std::string html_settling_curves(const LagResults& lag) {
+std::string make_html_settling_curves(const LagResults& lag) {
     constexpr std::size_t kMaxShownFrames = 10; // number of frames shown
     LinePlot plot{.x_name = "frame after a jump of half the path",
                   .y_name = "rmse to the still picture",
@@ -177,7 +180,7 @@ std::string html_settling_curves(const LagResults& lag) {
     return make_line_plot(plot);
 }
 
-std::string html_lag_figure(const std::string& drawing, const std::string& caption) {
+std::string make_html_lag_figure(const std::string& drawing, const std::string& caption) {
     if (drawing.empty()) return "";
     return "<figure>" + drawing + "<figcaption>" + escape_html(caption) + "</figcaption></figure>";
 }
@@ -187,12 +190,12 @@ std::string html_lag_figure(const std::string& drawing, const std::string& capti
 Json to_json(const LagResults& lag) {
     return {{"mask", "mirrors"},
             {"complete", lag.complete},
-            {"path_seconds", number_json(lag.path)},
-            {"jump_from", number_json(lag.jump_from)},
+            {"path_seconds", make_number_json(lag.path)},
+            {"jump_from", make_number_json(lag.jump_from)},
             {"frame_cap", lag.frame_cap},
-            {"seconds", numbers_json(lag.seconds)},
+            {"seconds", make_number_list_json(lag.seconds)},
             {"without_history", lag.without_history},
-            {"rows", list_json(lag.rows, [](const LagRow& row) { return to_json(row); })}};
+            {"rows", make_list_json(lag.rows, [](const LagRow& row) { return to_json(row); })}};
 }
 
 ReportTable make_lag_table(const Comparison& comparison) {
@@ -230,14 +233,14 @@ ReportTable make_settling_table(const Comparison& comparison) {
     return table;
 }
 
-std::optional<std::string> describe_lag(const Comparison& comparison) {
+std::optional<std::string> describe_measured_lag(const Comparison& comparison) {
     if (!comparison.lag) return {};
     const LagResults& lag = *comparison.lag;
     std::vector<std::string> sentences;
     for (const LagRow& row : lag.rows)
         if (!row.speeds.empty())
             sentences.push_back(describe_row_lag(row) + "; " +
-                                describe_settling(row, lag.frame_cap));
+                                describe_settling_after_cut(row, lag.frame_cap));
     if (!lag.without_history.empty())
         sentences.push_back("Left out, since their frames read nothing of the frame before and "
                             "have no lag: " +
@@ -253,10 +256,11 @@ std::string make_lag_plots(const Comparison& comparison) {
     const LagResults& lag = *comparison.lag;
     std::string html = "<section><h2>Lag</h2><div class=\"panels\">";
     for (const LagRow& row : lag.rows)
-        html += html_lag_figure(html_lag_along_path(lag, row),
-                                row.label + " along the path, one line a speed");
-    html += html_lag_figure(html_lag_against_speed(lag), "Mean over the path against speed");
-    html += html_lag_figure(html_settling_curves(lag), "Frames after a cut");
+        html += make_html_lag_figure(make_html_lag_along_path(lag, row),
+                                     row.label + " along the path, one line a speed");
+    html += make_html_lag_figure(make_html_lag_against_speed(lag),
+                                 "Mean over the path against speed");
+    html += make_html_lag_figure(make_html_settling_curves(lag), "Frames after a cut");
     return html + "</div><p class=\"note\">All against the still picture of the same row and "
                   "instant, over the mirrors. The lane below is 0.</p></section>\n";
 }

@@ -17,26 +17,26 @@ namespace {
 /// Returns a squared error with two significant digits, or words for a negative estimate.
 std::string format_squared_error(double square) {
     if (!std::isfinite(square)) return std::string(kEmptyCellText);
-    return square < 0 ? std::string(kBelowNoise) : fmt::format("{:.2e}", square);
+    return square < 0 ? std::string(kBelowNoiseText) : fmt::format("{:.2e}", square);
 }
 
 /// Returns the entry of a row over the mirrors.
-const measure::ValueParts* find_mirror_noise(const measure::MetricValue& value) {
-    const auto* list = std::get_if<std::vector<measure::ValueParts>>(&value);
+const measure::MetricValueParts* find_mirror_noise(const measure::MetricValue& value) {
+    const auto* list = std::get_if<std::vector<measure::MetricValueParts>>(&value);
     if (list == nullptr) return nullptr;
     const auto found = std::ranges::find(*list, measure::list_row_masks().front().name,
-                                         &measure::ValueParts::name);
+                                         &measure::MetricValueParts::name);
     return found == list->end() ? nullptr : &*found;
 }
 
-double find_number(const measure::ValueParts& parts, std::string_view name) {
+double find_number_of_part(const measure::MetricValueParts& parts, std::string_view name) {
     for (const auto& [what, value] : parts.values)
         if (const auto* number = std::get_if<double>(&value); what == name && number != nullptr)
             return *number;
     return NAN;
 }
 
-std::string format_interval(const measure::ValueParts& parts) {
+std::string format_noise_interval(const measure::MetricValueParts& parts) {
     for (const auto& [what, value] : parts.values)
         if (const auto* list = std::get_if<std::vector<double>>(&value); list != nullptr)
             return fmt::format("{:.2e} to {:.2e}", list->front(), list->back());
@@ -56,18 +56,20 @@ ReportTable make_noise_table(const Comparison& comparison) {
         "half exceeds 1 and the other does not, which clamping biases. FLIP: the mean of FLIP "
         "against A and against B. Floor: FLIP between A and B."};
     for (const Row& row : comparison.rows) {
-        const measure::MetricValue value = measure::studied_value(row, measure::kNoise);
-        const measure::ValueParts* noise = find_mirror_noise(value);
+        const measure::MetricValue value = measure::find_study_metric(row,
+                                                                      measure::kNoiseMetricName);
+        const measure::MetricValueParts* noise = find_mirror_noise(value);
         if (noise == nullptr) continue;
-        const double square = find_number(*noise, "squared_error");
+        const double square = find_number_of_part(*noise, "squared_error");
         const bool hidden = measure::is_below_noise(row.error) || square < 0;
-        table.rows.push_back({row.label, format_squared_error(square),
-                              format_squared_error(find_number(*noise, "deviation")),
-                              format_interval(*noise),
-                              format_squared_error(find_number(*noise, "squared_error_unclamped")),
-                              format_fixed(100 * find_number(*noise, "crossing"), 2),
-                              format_error(row.error.flip), format_error(row.error.flip_floor),
-                              hidden ? std::string(kBelowNoise) : "above the noise"});
+        table.rows.push_back(
+            {row.label, format_squared_error(square),
+             format_squared_error(find_number_of_part(*noise, "deviation")),
+             format_noise_interval(*noise),
+             format_squared_error(find_number_of_part(*noise, "squared_error_unclamped")),
+             format_fixed(100 * find_number_of_part(*noise, "crossing"), 2),
+             format_picture_error(row.error.flip), format_picture_error(row.error.flip_floor),
+             hidden ? std::string(kBelowNoiseText) : "above the noise"});
     }
     return table;
 }

@@ -17,10 +17,10 @@ namespace catoptric::report {
 namespace {
 
 /// Approximate letter width and line height of an 11 px label, pixels.
-constexpr double kLetterWidth = 6.6, kTextLineHeight = 13;
+constexpr double kLabelLetterWidth = 6.6, kTextLineHeight = 13;
 
 /// Mapping from the logarithm of a value to pixels.
-struct LogScale {
+struct LogarithmicAxisScale {
     double low, high; ///< logarithms to base 10
     double from, to;  ///< pixels
     double operator()(double value) const {
@@ -38,7 +38,7 @@ struct ChartFrame {
     double width, height, left, right, top, lane, bottom;
     double tick_gap;  ///< between a number of the y axis and the axis
     double y_name_at; ///< x of the y axis's name
-    double zero() const { return (lane + bottom) / 2; }
+    double y_of_zero_lane() const { return (lane + bottom) / 2; }
     /// Returns the lane and the axes with grid, numbers and names.
     std::string axes(const std::vector<AxisTick>& x_ticks, const std::vector<AxisTick>& y_ticks,
                      const std::string& x_name, const std::string& y_name) const;
@@ -46,7 +46,7 @@ struct ChartFrame {
 
 /// Returns a scale that covers all values, which are positive, with a margin. A single value gets
 /// one decade.
-LogScale make_log_scale(const std::vector<double>& values, double from, double to) {
+LogarithmicAxisScale make_log_scale(const std::vector<double>& values, double from, double to) {
     if (values.empty()) return {-3, 0, from, to};
     const auto [least, most] = std::ranges::minmax(values);
     const double low = std::log10(least), high = std::log10(most);
@@ -55,7 +55,7 @@ LogScale make_log_scale(const std::vector<double>& values, double from, double t
 }
 
 /// Returns 1, 2 and 5 times the powers of ten inside the scale.
-std::vector<double> list_ticks(const LogScale& scale) {
+std::vector<double> list_axis_tick_values(const LogarithmicAxisScale& scale) {
     std::vector<double> values;
     for (int decade = static_cast<int>(std::floor(scale.low)); decade <= scale.high; ++decade)
         for (const double step : {1.0, 2.0, 5.0}) {
@@ -67,19 +67,20 @@ std::vector<double> list_ticks(const LogScale& scale) {
 }
 
 /// Returns the ticks of a scale with their places.
-std::vector<AxisTick> place_ticks(const LogScale& scale, const std::vector<double>& values) {
+std::vector<AxisTick> make_axis_ticks(const LogarithmicAxisScale& scale,
+                                      const std::vector<double>& values) {
     std::vector<AxisTick> list;
     for (const double value : values) list.push_back({value, scale(value)});
     return list;
 }
 
-std::string svg_grid_line(double x0, double y0, double x1, double y1) {
+std::string make_svg_grid_line(double x0, double y0, double x1, double y1) {
     return fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)",
                        x0, y0, x1, y1);
 }
 
 /// Returns a text element. `anchor` is start, middle or end. `content` is not escaped.
-std::string svg_text(double x, double y, const char* anchor, std::string_view content) {
+std::string make_svg_text(double x, double y, const char* anchor, std::string_view content) {
     return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", x, y, anchor,
                        content);
 }
@@ -90,23 +91,23 @@ std::string ChartFrame::axes(const std::vector<AxisTick>& x_ticks,
     std::string svg = fmt::format(R"(<rect class="lane" x="{}" y="{}" width="{}" height="{}"/>)",
                                   left, lane, right - left, bottom - lane);
     for (const auto& [value, x] : x_ticks)
-        svg += svg_grid_line(x, top, x, bottom) +
-               svg_text(x, bottom + 16, "middle", fmt::format("{:g}", value));
+        svg += make_svg_grid_line(x, top, x, bottom) +
+               make_svg_text(x, bottom + 16, "middle", fmt::format("{:g}", value));
     for (const auto& [value, y] : y_ticks)
-        svg += svg_grid_line(left, y, right, y) +
-               svg_text(left - tick_gap, y + 4, "end", fmt::format("{:g}", value));
-    return svg + svg_text(left - tick_gap, zero() + 4, "end", "0") +
-           svg_text((left + right) / 2, bottom + 38, "middle", escape_html(x_name)) +
+        svg += make_svg_grid_line(left, y, right, y) +
+               make_svg_text(left - tick_gap, y + 4, "end", fmt::format("{:g}", value));
+    return svg + make_svg_text(left - tick_gap, y_of_zero_lane() + 4, "end", "0") +
+           make_svg_text((left + right) / 2, bottom + 38, "middle", escape_html(x_name)) +
            fmt::format("<g transform=\"translate({} {}) rotate(-90)\">", y_name_at,
                        (top + lane) / 2) +
-           svg_text(0, 0, "middle", escape_html(y_name)) + "</g>";
+           make_svg_text(0, 0, "middle", escape_html(y_name)) + "</g>";
 }
 
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
 constexpr ChartFrame kLinePlotFrame{500, 300, 66, 340, 12, 226, 250, 6, 12};
 constexpr std::size_t kMaxAxisTicks = 8;
 
-double x_pixel(const LinePlot& plot, double x) {
+double to_plot_x(const LinePlot& plot, double x) {
     const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
     const double first = along(plot.x.front()), last = along(plot.x.back());
     return last > first ? kLinePlotFrame.left + (along(x) - first) / (last - first) *
@@ -114,10 +115,12 @@ double x_pixel(const LinePlot& plot, double x) {
                         : kLinePlotFrame.left;
 }
 
-double y_pixel(const LogScale& scale, double y) { return y > 0 ? scale(y) : kLinePlotFrame.zero(); }
+double to_plot_y(const LogarithmicAxisScale& scale, double y) {
+    return y > 0 ? scale(y) : kLinePlotFrame.y_of_zero_lane();
+}
 
-std::vector<double> list_y_ticks(const LogScale& scale) {
-    std::vector<double> values = list_ticks(scale);
+std::vector<double> list_y_ticks(const LogarithmicAxisScale& scale) {
+    std::vector<double> values = list_axis_tick_values(scale);
     if (values.size() > kMaxAxisTicks) // too many ticks: keep only powers of ten
         std::erase_if(values, [](double value) {
             const double place = std::log10(value);
@@ -126,28 +129,28 @@ std::vector<double> list_y_ticks(const LogScale& scale) {
     return values;
 }
 
-std::string svg_path_of_line(const LinePlot& plot, const PlotLine& line, const LogScale& y,
-                             double opacity) {
+std::string make_svg_path_of_line(const LinePlot& plot, const PlotLine& line,
+                                  const LogarithmicAxisScale& y, double opacity) {
     std::string path;
     for (std::size_t i = 0; i < line.y.size(); ++i)
         if (std::isfinite(line.y[i]))
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
-                                x_pixel(plot, plot.x[i]), y_pixel(y, line.y[i]));
+                                to_plot_x(plot, plot.x[i]), to_plot_y(y, line.y[i]));
     return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", opacity, path);
 }
 
 /// Returns the names at the right ends of the lines. A name moves up if it would overlap another.
-std::string svg_line_names(const LinePlot& plot, const LogScale& y) {
+std::string make_svg_line_names(const LinePlot& plot, const LogarithmicAxisScale& y) {
     std::vector<std::pair<double, std::string>> places;
     for (const PlotLine& line : plot.lines)
         if (!line.y.empty() && std::isfinite(line.y.back()))
-            places.emplace_back(y_pixel(y, line.y.back()), line.name);
+            places.emplace_back(to_plot_y(y, line.y.back()), line.name);
     std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
     std::string drawn;
     double free = kLinePlotFrame.bottom + kTextLineHeight;
     for (const auto& [place, name] : places) {
         free = std::min(place, free - kTextLineHeight);
-        drawn += svg_text(kLinePlotFrame.right + 6, free + 4, "start", escape_html(name));
+        drawn += make_svg_text(kLinePlotFrame.right + 6, free + 4, "start", escape_html(name));
     }
     return drawn;
 }
@@ -155,39 +158,40 @@ std::string svg_line_names(const LinePlot& plot, const LogScale& y) {
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
 constexpr ChartFrame kComparisonPlotFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
 
-struct PlotPoint {
+struct RowPlotPoint {
     double x, y;
     double low, high; ///< ends of the time's interval, clamped to the axes
     const Row* row;
     bool front;
 };
 
-struct LabelBox {
+struct PlotLabelBox {
     double x0, y0, x1, y1;
-    bool intersects_box(const LabelBox& other) const {
+    bool intersects_box(const PlotLabelBox& other) const {
         return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
     }
 };
 
-bool can_be_plotted(const Row& row) {
+bool has_time_and_flip_to_plot(const Row& row) {
     return row.time_ms().median > 0 && std::isfinite(row.error.flip);
 }
 
 /// Returns the front as a staircase: the least error for each time.
-std::string svg_front_staircase(std::vector<PlotPoint> points) {
-    std::erase_if(points, [](const PlotPoint& point) { return !point.front; });
-    std::ranges::sort(points, [](const PlotPoint& a, const PlotPoint& b) {
+std::string make_svg_front_staircase(std::vector<RowPlotPoint> points) {
+    std::erase_if(points, [](const RowPlotPoint& point) { return !point.front; });
+    std::ranges::sort(points, [](const RowPlotPoint& a, const RowPlotPoint& b) {
         return a.x != b.x ? a.x < b.x : a.y > b.y;
     });
     if (points.empty()) return "";
     std::string path = fmt::format("M{:.1f} {:.1f}", points[0].x, kComparisonPlotFrame.top);
-    for (const PlotPoint& point : points) path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
+    for (const RowPlotPoint& point : points)
+        path += fmt::format("H{:.1f}V{:.1f}", point.x, point.y);
     return R"(<path class="step" d=")" + path + fmt::format("H{:.1f}", kComparisonPlotFrame.right) +
            "\"/>";
 }
 
 /// Returns the interval of a row's time as a line.
-std::string svg_time_interval(const PlotPoint& point) {
+std::string make_svg_time_interval(const RowPlotPoint& point) {
     if (!point.row->time_ms().ci95.is_known()) return "";
     return fmt::format(R"(<path class="interval" d="M{:.1f} {:.1f}H{:.1f}"/>)", point.low, point.y,
                        point.high);
@@ -195,7 +199,7 @@ std::string svg_time_interval(const PlotPoint& point) {
 
 /// Returns a row's mark: a square for ray tracing, otherwise a disc. Hovering shows the row's
 /// values.
-std::string svg_row_mark(const PlotPoint& point) {
+std::string make_svg_row_mark(const RowPlotPoint& point) {
     std::string kind = point.front ? "mark front" : "mark";
     if (measure::is_below_noise(point.row->error)) kind += " hidden";
     const std::string title = fmt::format(
@@ -211,9 +215,9 @@ std::string svg_row_mark(const PlotPoint& point) {
 
 /// Returns the first of several places around the point where the label overlaps no earlier label,
 /// or the last place. Points on the front try the left side first, because no stairs lie there.
-LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken) {
-    const double width = kLetterWidth * static_cast<double>(point.row->label.size());
-    LabelBox box{};
+PlotLabelBox choose_label_place(const RowPlotPoint& point, const std::vector<PlotLabelBox>& taken) {
+    const double width = kLabelLetterWidth * static_cast<double>(point.row->label.size());
+    PlotLabelBox box{};
     for (const double rise : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0})
         for (const bool first : {true, false}) {
             const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
@@ -223,7 +227,7 @@ LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken)
                                 box.x1 <= kComparisonPlotFrame.right &&
                                 box.y0 >= kComparisonPlotFrame.top &&
                                 box.y1 <= kComparisonPlotFrame.bottom;
-            if (inside && std::ranges::none_of(taken, [&](const LabelBox& other) {
+            if (inside && std::ranges::none_of(taken, [&](const PlotLabelBox& other) {
                     return box.intersects_box(other);
                 }))
                 return box;
@@ -233,21 +237,21 @@ LabelBox place_label(const PlotPoint& point, const std::vector<LabelBox>& taken)
 
 /// Returns a line at the FLIP between the halves of a reference with noise, with its name. Errors
 /// up to this line are below the noise.
-std::string svg_noise_floor(const Comparison& comparison, const LogScale& y) {
+std::string make_svg_noise_floor(const Comparison& comparison, const LogarithmicAxisScale& y) {
     if (!comparison.noise || !(comparison.noise->flip_floor > 0)) return "";
     const double at = y(comparison.noise->flip_floor);
     return fmt::format(R"(<path class="noise" d="M{:.1f} {:.1f}H{:.1f}"/>)",
                        kComparisonPlotFrame.left, at, kComparisonPlotFrame.right) +
-           svg_text(kComparisonPlotFrame.right - 4, at - 4, "end", kBelowNoise);
+           make_svg_text(kComparisonPlotFrame.right - 4, at - 4, "end", kBelowNoiseText);
 }
 
-std::string svg_labels(const std::vector<PlotPoint>& points) {
-    std::vector<LabelBox> taken;
-    for (const PlotPoint& point : points)
+std::string make_svg_labels(const std::vector<RowPlotPoint>& points) {
+    std::vector<PlotLabelBox> taken;
+    for (const RowPlotPoint& point : points)
         taken.push_back({point.x - 6, point.y - 6, point.x + 6, point.y + 6});
     std::string svg;
-    for (const PlotPoint& point : points) {
-        const LabelBox box = place_label(point, taken);
+    for (const RowPlotPoint& point : points) {
+        const PlotLabelBox box = choose_label_place(point, taken);
         taken.push_back(box);
         svg += fmt::format(R"(<text class="label" x="{:.1f}" y="{:.1f}">{}</text>)", box.x0,
                            box.y1 - 3, escape_html(point.row->label));
@@ -266,58 +270,62 @@ std::string make_line_plot(const LinePlot& plot) {
             if (std::isfinite(y) && y > 0) positive.push_back(y);
         }
     if (!any) return "";
-    const LogScale y = make_log_scale(positive, kLinePlotFrame.lane - 6, kLinePlotFrame.top);
+    const LogarithmicAxisScale y = make_log_scale(positive, kLinePlotFrame.lane - 6,
+                                                  kLinePlotFrame.top);
     std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
                                     kLinePlotFrame.width, kLinePlotFrame.height,
                                     escape_html(plot.says));
     std::vector<AxisTick> x_ticks;
-    for (const double value : plot.x_ticks) x_ticks.push_back({value, x_pixel(plot, value)});
-    drawn += kLinePlotFrame.axes(x_ticks, place_ticks(y, list_y_ticks(y)), plot.x_name,
+    for (const double value : plot.x_ticks) x_ticks.push_back({value, to_plot_x(plot, value)});
+    drawn += kLinePlotFrame.axes(x_ticks, make_axis_ticks(y, list_y_ticks(y)), plot.x_name,
                                  plot.y_name);
     const double count = static_cast<double>(plot.lines.size());
     for (std::size_t k = 0; k < plot.lines.size(); ++k)
-        drawn += svg_path_of_line(plot, plot.lines[k], y,
-                                  0.3 + 0.7 * static_cast<double>(k + 1) / count);
-    return drawn + svg_line_names(plot, y) + "</svg>";
+        drawn += make_svg_path_of_line(plot, plot.lines[k], y,
+                                       0.3 + 0.7 * static_cast<double>(k + 1) / count);
+    return drawn + make_svg_line_names(plot, y) + "</svg>";
 }
 
 std::string make_comparison_plot(const Comparison& comparison) {
     std::vector<double> times, errors;
     for (const Row& row : comparison.rows) {
-        if (!can_be_plotted(row)) continue;
+        if (!has_time_and_flip_to_plot(row)) continue;
         times.push_back(row.time_ms().median);
         if (row.error.flip > 0) errors.push_back(row.error.flip);
     }
     if (times.empty()) return "";
     if (comparison.noise && comparison.noise->flip_floor > 0)
         errors.push_back(comparison.noise->flip_floor);
-    const LogScale x = make_log_scale(times, kComparisonPlotFrame.left, kComparisonPlotFrame.right);
-    const LogScale y = make_log_scale(errors, kComparisonPlotFrame.lane - 8,
-                                      kComparisonPlotFrame.top);
-    std::vector<PlotPoint> points;
+    const LogarithmicAxisScale x = make_log_scale(times, kComparisonPlotFrame.left,
+                                                  kComparisonPlotFrame.right);
+    const LogarithmicAxisScale y = make_log_scale(errors, kComparisonPlotFrame.lane - 8,
+                                                  kComparisonPlotFrame.top);
+    std::vector<RowPlotPoint> points;
     for (const Row& row : comparison.rows) {
-        if (!can_be_plotted(row)) continue;
+        if (!has_time_and_flip_to_plot(row)) continue;
         const measure::Interval& ci95 = row.time_ms().ci95;
-        points.push_back({x(row.time_ms().median),
-                          row.error.flip > 0 ? y(row.error.flip) : kComparisonPlotFrame.zero(),
-                          std::max(x(ci95.low), kComparisonPlotFrame.left),
-                          std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
-                          measure::is_on_front(comparison, row)});
+        points.push_back(
+            {x(row.time_ms().median),
+             row.error.flip > 0 ? y(row.error.flip) : kComparisonPlotFrame.y_of_zero_lane(),
+             std::max(x(ci95.low), kComparisonPlotFrame.left),
+             std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
+             measure::is_on_front(comparison, row)});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
         R"(against FLIP; the figures are in the table of every row">)",
         kComparisonPlotFrame.width, kComparisonPlotFrame.height);
-    svg += kComparisonPlotFrame.axes(
-               place_ticks(x, list_ticks(x)),
-               place_ticks(y, errors.empty() ? std::vector<double>() : list_ticks(y)),
-               points.front().row->moves ? "Time of a frame, host and GPU, median, ms"
+    svg += kComparisonPlotFrame.axes(make_axis_ticks(x, list_axis_tick_values(x)),
+                                     make_axis_ticks(y, errors.empty() ? std::vector<double>()
+                                                                       : list_axis_tick_values(y)),
+                                     points.front().row->moves
+                                         ? "Time of a frame, host and GPU, median, ms"
                                          : "GPU time of a frame, median, ms",
-               "FLIP over the mirrors") +
-           svg_noise_floor(comparison, y) + svg_front_staircase(points);
-    for (const PlotPoint& point : points) svg += svg_time_interval(point);
-    for (const PlotPoint& point : points) svg += svg_row_mark(point);
-    return svg + svg_labels(points) + "</svg>";
+                                     "FLIP over the mirrors") +
+           make_svg_noise_floor(comparison, y) + make_svg_front_staircase(points);
+    for (const RowPlotPoint& point : points) svg += make_svg_time_interval(point);
+    for (const RowPlotPoint& point : points) svg += make_svg_row_mark(point);
+    return svg + make_svg_labels(points) + "</svg>";
 }
 
 } // namespace catoptric::report

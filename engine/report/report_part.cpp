@@ -5,7 +5,7 @@
 namespace catoptric::report {
 
 RegisteredReportPart::RegisteredReportPart(const ReportPart& part) {
-    registered_rows<ReportPart>().push_back(part);
+    get_registered_rows<ReportPart>().push_back(part);
 }
 
 std::vector<ReportPart> list_report_parts() { return sort_registered_rows<ReportPart>(); }

@@ -9,7 +9,7 @@
 
 namespace catoptric::report {
 
-bool SceneReports::is_complete() const {
+bool MultiSceneReport::is_complete() const {
     return list.size() == asked.size() && std::ranges::all_of(list, &Comparison::complete);
 }
 
@@ -24,7 +24,7 @@ std::string scene_images_folder(std::size_t index, const std::string& scene) {
     return std::to_string(index + 1) + "-" + name + "/";
 }
 
-Comparison without_pictures(const Comparison& comparison) {
+Comparison copy_without_pictures(const Comparison& comparison) {
     Comparison bare = comparison;
     bare.reference_display = {};
     for (Row& row : bare.rows) {
@@ -39,7 +39,7 @@ Comparison without_pictures(const Comparison& comparison) {
     return bare;
 }
 
-std::string to_json(const SceneReports& scenes) {
+std::string to_json(const MultiSceneReport& scenes) {
     Json json{{"schema", "catoptric/compare-scenes/1"}};
     if (!scenes.list.empty()) {
         const Comparison& first = scenes.list.front();
@@ -55,26 +55,27 @@ std::string to_json(const SceneReports& scenes) {
     return serialise_json(json);
 }
 
-std::string to_csv(const SceneReports& scenes, CsvColumns which) {
+std::string to_csv(const MultiSceneReport& scenes, CsvColumnSet which) {
     std::vector<const Comparison*> all;
     for (const Comparison& comparison : scenes.list) all.push_back(&comparison);
     return to_csv(all, which);
 }
 
-std::string to_markdown(const SceneReports& scenes) {
+std::string to_markdown(const MultiSceneReport& scenes) {
     std::string text;
     for (const Comparison& comparison : scenes.list) text += to_markdown(comparison);
     return text;
 }
 
-std::string to_html(const SceneReports& scenes, const std::vector<std::string>& sections) {
+std::string to_html(const MultiSceneReport& scenes, const std::vector<std::string>& sections) {
     std::string content = "<nav><ul>";
     for (const Comparison& comparison : scenes.list)
-        content += "<li><a href=\"#" + html_id_prefix(comparison) + "\">" +
+        content += "<li><a href=\"#" + make_html_id_prefix(comparison) + "\">" +
                    escape_html(comparison.scene.name) + "</a></li>";
     content += "</ul></nav>\n";
     for (std::size_t i = 0; i < sections.size(); ++i)
-        content += "<div id=\"" + html_id_prefix(scenes.list[i]) + "\">" + sections[i] + "</div>\n";
+        content += "<div id=\"" + make_html_id_prefix(scenes.list[i]) + "\">" + sections[i] +
+                   "</div>\n";
     return make_html_page(join_texts(scenes.asked, ", "), content);
 }
 

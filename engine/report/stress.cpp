@@ -17,23 +17,23 @@ Json to_json(const StressRow& row) {
     Json json{{"id", row.id},
               {"stimulus", row.stimulus},
               {"property", row.property},
-              {"verdict", name_of(row.verdict)},
+              {"verdict", stress_verdict_name(row.verdict)},
               {"remark", row.remark}};
     const StressCase* worst = row.worst_case();
-    json["measured"] = worst ? number_json(worst->measured) : Json();
-    json["threshold"] = worst ? number_json(worst->limit) : Json();
-    json["cases"] = list_json(row.cases, [](const StressCase& one) {
+    json["measured"] = worst ? make_number_json(worst->measured) : Json();
+    json["threshold"] = worst ? make_number_json(worst->limit) : Json();
+    json["cases"] = make_list_json(row.cases, [](const StressCase& one) {
         return Json{{"what", one.what},
-                    {"measured", number_json(one.measured)},
-                    {"threshold", number_json(one.limit)},
+                    {"measured", make_number_json(one.measured)},
+                    {"threshold", make_number_json(one.limit)},
                     {"holds", one.is_within_limit()},
                     {"quality", one.is_quality}};
     });
-    json["pictures"] = list_json(row.pictures, [](const StressPicture& picture) {
+    json["pictures"] = make_list_json(row.pictures, [](const StressPicture& picture) {
         return "images/" + picture.name + ".png";
     });
-    json["seconds"] = number_json(row.seconds);
-    json["not_run"] = list_json(row.not_run, [](const SkippedStressPart& part) {
+    json["seconds"] = make_number_json(row.seconds);
+    json["not_run"] = make_list_json(row.not_run, [](const SkippedStressPart& part) {
         return Json{{"what", part.what}, {"why", part.why}};
     });
     json["turned_red_by"] = row.turned_red_by;
@@ -65,7 +65,7 @@ ReportTable make_stress_table(const StressResults& stress) {
                       ""};
     for (const StressRow& row : stress.rows) {
         const StressCase* worst = row.worst_case();
-        table.rows.push_back({row.id, name_of(row.verdict),
+        table.rows.push_back({row.id, stress_verdict_name(row.verdict),
                               worst ? format_short_number(worst->measured) : "–",
                               worst ? format_short_number(worst->limit) : "–", row.stimulus,
                               row.property, describe_stress_row(row), row.turned_red_by});
@@ -105,7 +105,7 @@ std::string to_json(const StressResults& stress) {
     json["device"] = make_device_json(stress.device);
     json["size"] = Json::array({stress.width, stress.height});
     json["seed"] = stress.seed;
-    json["rows"] = list_json(stress.rows, [](const StressRow& row) { return to_json(row); });
+    json["rows"] = make_list_json(stress.rows, [](const StressRow& row) { return to_json(row); });
     return serialise_json(json);
 }
 
@@ -139,8 +139,8 @@ std::string to_html(const StressResults& stress) {
     html += "</tbody></table></div></section>\n";
     for (const StressRow& row : stress.rows)
         for (const StressPicture& picture : row.pictures)
-            html += html_figure(picture.width, picture.height, picture.png, picture.name,
-                                picture.name) +
+            html += make_html_figure(picture.width, picture.height, picture.png, picture.name,
+                                     picture.name) +
                     "\n";
     return html + "</main></body></html>\n";
 }
@@ -151,14 +151,14 @@ std::string to_markdown(const StressResults& stress) {
            to_markdown(make_stress_table(stress));
 }
 
-void StressWriter::write(const StressResults& stress) {
-    create_folder(folder_ / "images");
+void StressReportWriter::write_stress_results(const StressResults& stress) {
+    create_folder(stress_folder_ / "images");
     for (; rows_ < stress.rows.size(); ++rows_)
         for (const StressPicture& picture : stress.rows[rows_].pictures)
-            write_file(folder_ / "images" / (picture.name + ".png"), picture.png);
-    write_file(folder_ / "stress.html", to_html(stress));
-    write_file(folder_ / "stress.md", to_markdown(stress));
-    write_file(folder_ / "stress.json", to_json(stress));
+            write_file(stress_folder_ / "images" / (picture.name + ".png"), picture.png);
+    write_file(stress_folder_ / "stress.html", to_html(stress));
+    write_file(stress_folder_ / "stress.md", to_markdown(stress));
+    write_file(stress_folder_ / "stress.json", to_json(stress));
 }
 
 } // namespace catoptric::report

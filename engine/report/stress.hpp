@@ -9,8 +9,8 @@
 /// Reports of the results of `stress`.
 namespace catoptric::report {
 
-using measure::name_of;
 using measure::SkippedStressPart;
+using measure::stress_verdict_name;
 using measure::StressCase;
 using measure::StressPicture;
 using measure::StressResults;
@@ -28,16 +28,16 @@ std::string to_markdown(const StressResults& stress);
 std::string describe_incomplete_run(const StressResults& stress);
 
 /// Writes the results of the finished rows into a folder, which is made as for a comparison. Files:
-/// stress.json, stress.html, stress.md and images/ID-*.png. `write` is called again as rows are
-/// added and writes each picture once.
-class StressWriter {
+/// stress.json, stress.html, stress.md and images/ID-*.png. `write_stress_results` is called again
+/// as rows are added and writes each picture once.
+class StressReportWriter {
 public:
-    explicit StressWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    explicit StressReportWriter(std::filesystem::path folder) : stress_folder_(std::move(folder)) {}
     /// Writes all files. Throws `cannot_create`, `io`.
-    void write(const StressResults& stress);
+    void write_stress_results(const StressResults& stress);
 
 private:
-    std::filesystem::path folder_;
+    std::filesystem::path stress_folder_;
     std::size_t rows_ = 0; ///< number of rows whose pictures are written
 };
 

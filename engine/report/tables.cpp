@@ -18,34 +18,35 @@ namespace catoptric::report {
 
 namespace {
 
-std::string empty_cell() { return std::string(kEmptyCellText); }
+std::string make_empty_cell() { return std::string(kEmptyCellText); }
 
 /// Returns the interval of the median.
 std::string format_median_interval(const measure::SampleSummary& times, int decimals) {
-    if (!times.ci95.is_known()) return empty_cell();
+    if (!times.ci95.is_known()) return make_empty_cell();
     return format_fixed(times.ci95.low, decimals) + "–" + format_fixed(times.ci95.high, decimals);
 }
 
 /// Returns places as "3" or "3–5"; an empty cell for a row without a time.
-std::string format_places(const measure::RankRange& places) {
+std::string format_time_places(const measure::TimeRankRange& places) {
     if (places.first == 0) return std::string(kEmptyCellText);
     const std::string first = std::to_string(places.first);
     return places.first == places.last ? first : first + "–" + std::to_string(places.last);
 }
 
-const Row* find_our_row(const Comparison& comparison, const measure::SeedReportRow& seed) {
+const Row* find_row_of_this_program(const Comparison& comparison,
+                                    const measure::SeedReportRow& seed) {
     if (seed.inter_reflections >= 0)
         return measure::find_naive_row(comparison, seed.inter_reflections);
     if (seed.technique == "parallax") return measure::find_parallax_row(comparison);
     if (seed.technique == "raytrace") return measure::find_ray_traced_row(comparison);
-    return measure::find_row(comparison, seed.technique);
+    return measure::find_row_by_knobs(comparison, seed.technique);
 }
 
-std::vector<std::string> seed_report_cells(const measure::SeedReportRow& seed) {
+std::vector<std::string> make_seed_report_cells(const measure::SeedReportRow& seed) {
     const bool counted = seed.inter_reflections >= 0;
     return {std::string(seed.implementation),
-            counted ? std::to_string(seed.inter_reflections) : empty_cell(),
-            seed.scene_passes > 0 ? std::to_string(seed.scene_passes) : empty_cell(),
+            counted ? std::to_string(seed.inter_reflections) : make_empty_cell(),
+            seed.scene_passes > 0 ? std::to_string(seed.scene_passes) : make_empty_cell(),
             format_fixed(seed.fps, seed.fps < 20 ? 1 : 0), format_fixed(seed.ms, 1)};
 }
 
@@ -56,16 +57,16 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             std::to_string(row.scene_draws),
             format_fixed(row.time_ms().median, decimals),
             format_median_interval(row.time_ms(), decimals),
-            format_places(measure::find_time_places(comparison, row)),
+            format_time_places(measure::find_time_places(comparison, row)),
             format_fps(row.time_ms().median),
             format_flip(row.error),
             format_fixed(100 * row.error.off, 2),
-            format_error(row.error.mae),
-            format_error(row.error.rmse),
+            format_picture_error(row.error.mae),
+            format_picture_error(row.error.rmse),
             format_flip(row.error_first_order)};
 }
 
-std::string seed_table_note(const Comparison& comparison) {
+std::string make_seed_table_note(const Comparison& comparison) {
     std::string note =
         "Left: the seed report, frames per second in a browser on a GeForce GTX 770; R by its "
         "formula for four mirrors. Right: this run; R counted in the executed plan, a cube counted "
@@ -73,13 +74,13 @@ std::string seed_table_note(const Comparison& comparison) {
         "place: from the fastest, rows that tie share one; FPS = 1000 / ms; errors against the "
         "reference over the pixels whose first hit is a mirror, off the share of these in which a "
         "channel differs by more than .02; first order leaves out mirrors seen in mirrors.";
-    if (comparison.scene.mirrors != measure::kSeedMirrors)
+    if (comparison.scene.mirrors != measure::kSeedReportMirrorCount)
         note += " This scene has " + std::to_string(comparison.scene.mirrors) +
                 " mirrors, so R cannot be the report's.";
     return note;
 }
 
-std::string row_remark(const Comparison& comparison, const Row& row) {
+std::string make_row_remark(const Comparison& comparison, const Row& row) {
     std::vector<std::string> remarks;
     if (measure::has_nonfinite_pixels(row)) remarks.push_back("failed");
     if (row.is_reference) remarks.push_back("reference");
@@ -94,23 +95,23 @@ std::string row_remark(const Comparison& comparison, const Row& row) {
 /// Returns a cell of a metric's column. `decimals` is that of times in the whole table.
 std::string format_metric_cell(const measure::MetricColumn& column,
                                const measure::MetricValue& value, int decimals) {
-    using measure::ValueFormat;
-    if (measure::is_missing_value(value)) return empty_cell();
+    using measure::MetricValueFormat;
+    if (measure::is_missing_value(value)) return make_empty_cell();
     if (const auto* times = std::get_if<measure::SampleSummary>(&value)) {
-        if (column.style == ValueFormat::time_interval)
+        if (column.style == MetricValueFormat::time_interval)
             return format_median_interval(*times, decimals);
-        return column.style == ValueFormat::times ? format_fixed(times->median, decimals)
-                                                  : format_ms(times->median);
+        return column.style == MetricValueFormat::times ? format_fixed(times->median, decimals)
+                                                        : format_ms(times->median);
     }
     if (const auto* mark = std::get_if<bool>(&value)) return *mark ? "yes" : "no";
     const auto* number = std::get_if<double>(&value);
-    if (number == nullptr) return empty_cell(); // the value is more than one number
+    if (number == nullptr) return make_empty_cell(); // the value is more than one number
     return format_metric_number(*number, column, decimals);
 }
 
 /// Returns a cell of FLIP, which says whether the noise of the reference hides it.
 std::string format_flip_cell(const measure::Difference& error) {
-    return std::isfinite(error.flip) ? format_flip(error) : empty_cell();
+    return std::isfinite(error.flip) ? format_flip(error) : make_empty_cell();
 }
 
 /// Column of a metric. For metrics of a difference, `mask` is the mask of the column.
@@ -119,12 +120,12 @@ struct MetricTableColumn {
     measure::MetricColumn column;
     const measure::RowMask* mask = nullptr;
 
-    int order() const { return column.order != 0 ? column.order : quantity->order; }
-    measure::MetricValue value(const Row& row) const {
+    int column_order() const { return column.order != 0 ? column.order : quantity->order; }
+    measure::MetricValue metric_value_of_row(const Row& row) const {
         return mask == nullptr ? measure::metric_value(*quantity, row)
                                : measure::metric_value(*quantity, row.*mask->error);
     }
-    std::string title() const {
+    std::string column_title() const {
         const std::string words(column.title);
         return mask == nullptr || mask->title.empty() ? words
                                                       : words + ", " + std::string(mask->title);
@@ -133,41 +134,43 @@ struct MetricTableColumn {
 
 /// Returns the columns of the metrics in a table, by order. Columns over other masks follow all
 /// columns over the mirrors.
-std::vector<MetricTableColumn> list_metric_columns(measure::MetricTable table,
+std::vector<MetricTableColumn> list_metric_columns(measure::MetricTableKind table,
                                                    const Comparison& comparison) {
     std::vector<MetricTableColumn> columns;
     int last = 0; // the last order of a metric of differences
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        if (quantity.order < measure::kAfterDifferences) last = quantity.order;
+        if (quantity.order < measure::kFirstOrderAfterDifferences) last = quantity.order;
     for (const measure::Metric& quantity : measure::list_metrics())
         for (const measure::MetricColumn& column : quantity.columns) {
-            if (column.table != table || !measure::is_shown(quantity, comparison)) continue;
+            if (column.table != table || !measure::is_metric_shown(quantity, comparison)) continue;
             if (quantity.mask != "each") {
                 columns.push_back({&quantity, column});
                 continue;
             }
             for (const measure::RowMask& mask : measure::list_row_masks()) {
                 if (!mask.title.empty() && !quantity.each_mask_in_table) continue;
-                if (!measure::has_columns(mask, comparison)) continue;
+                if (!measure::has_table_columns(mask, comparison)) continue;
                 columns.push_back({&quantity, column, &mask});
                 if (!mask.title.empty()) columns.back().column.order = last;
             }
         }
-    std::ranges::stable_sort(columns, {}, &MetricTableColumn::order);
+    std::ranges::stable_sort(columns, {}, &MetricTableColumn::column_order);
     return columns;
 }
 
-void add_columns(ReportTable& table, const std::vector<MetricTableColumn>& columns) {
-    for (const MetricTableColumn& column : columns) table.columns.emplace_back(column.title());
+void add_metric_columns(ReportTable& table, const std::vector<MetricTableColumn>& columns) {
+    for (const MetricTableColumn& column : columns)
+        table.columns.emplace_back(column.column_title());
 }
 
 std::vector<std::string>
 format_row_cells(const Row& row, const std::vector<MetricTableColumn>& columns, int decimals) {
     std::vector<std::string> cells{row.label};
     for (const MetricTableColumn& column : columns)
-        cells.push_back(column.mask != nullptr && column.quantity->name == "flip"
-                            ? format_flip_cell(row.*column.mask->error)
-                            : format_metric_cell(column.column, column.value(row), decimals));
+        cells.push_back(
+            column.mask != nullptr && column.quantity->name == "flip"
+                ? format_flip_cell(row.*column.mask->error)
+                : format_metric_cell(column.column, column.metric_value_of_row(row), decimals));
     return cells;
 }
 
@@ -221,14 +224,14 @@ constexpr CellTextWriter kCellTextWriters[] = {
 } // namespace
 
 std::string format_metric_number(double value, const measure::MetricColumn& column, int decimals) {
-    using measure::ValueFormat;
+    using measure::MetricValueFormat;
     switch (column.style) {
-    case ValueFormat::fixed: return format_fixed(value, column.decimals);
-    case ValueFormat::percent: return format_fixed(100 * value, column.decimals);
-    case ValueFormat::mebibytes: return format_mebibytes(static_cast<std::uint64_t>(value));
-    case ValueFormat::times: return format_fixed(value, decimals);
-    case ValueFormat::own_times: return format_ms(value);
-    default: return format_error(value);
+    case MetricValueFormat::fixed: return format_fixed(value, column.decimals);
+    case MetricValueFormat::percent: return format_fixed(100 * value, column.decimals);
+    case MetricValueFormat::mebibytes: return format_mebibytes(static_cast<std::uint64_t>(value));
+    case MetricValueFormat::times: return format_fixed(value, decimals);
+    case MetricValueFormat::own_times: return format_ms(value);
+    default: return format_picture_error(value);
     }
 }
 
@@ -246,15 +249,15 @@ ReportTable make_seed_table(const Comparison& comparison) {
                        "ms, GTX 770", make_text_column("Here"), "R", "Draws", "ms, " + device,
                        "95 %", "Place", "FPS, " + device, "FLIP", "off, %", "MAE", "rmse",
                        "FLIP, first order"},
-                      seed_table_note(comparison)};
+                      make_seed_table_note(comparison)};
     const int decimals = choose_ms_decimals(comparison);
-    for (const measure::SeedReportRow& seed : measure::kSeedTable) {
-        std::vector<std::string>& cells = table.rows.emplace_back(seed_report_cells(seed));
+    for (const measure::SeedReportRow& seed : measure::kSeedReportTable) {
+        std::vector<std::string>& cells = table.rows.emplace_back(make_seed_report_cells(seed));
         std::vector<std::string> right{"not in this run"};
-        if (const Row* row = find_our_row(comparison, seed))
+        if (const Row* row = find_row_of_this_program(comparison, seed))
             right = format_measured_cells(comparison, *row, decimals);
         cells.insert(cells.end(), right.begin(), right.end());
-        cells.resize(table.columns.size(), empty_cell());
+        cells.resize(table.columns.size(), make_empty_cell());
     }
     return table;
 }
@@ -273,16 +276,17 @@ ReportTable make_rows_table(const Comparison& comparison) {
     if (measure::find_undrawn_dielectrics(comparison))
         table.note += " Smooth dielectrics: the pixels whose first hit reflects without being a "
                       "mirror.";
-    const std::vector<MetricTableColumn> columns = list_metric_columns(measure::MetricTable::rows,
-                                                                       comparison);
-    add_columns(table, columns);
+    const std::vector<MetricTableColumn> columns = list_metric_columns(
+        measure::MetricTableKind::rows, comparison);
+    add_metric_columns(table, columns);
     table.columns.push_back(make_text_column("Remark"));
     const int decimals = choose_ms_decimals(comparison);
     for (const Row& row : comparison.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back(
             format_row_cells(row, columns, decimals));
-        cells.insert(cells.begin() + 1, format_places(measure::find_time_places(comparison, row)));
-        cells.push_back(row_remark(comparison, row));
+        cells.insert(cells.begin() + 1,
+                     format_time_places(measure::find_time_places(comparison, row)));
+        cells.push_back(make_row_remark(comparison, row));
         table.marked.push_back(measure::is_on_front(comparison, row));
     }
     return table;
@@ -294,12 +298,13 @@ ReportTable make_mirror_table(const Comparison& comparison) {
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     for (std::size_t i = 0; i < mirrors; ++i)
-        table.columns.push_back("Mirror " + std::to_string(MirrorId::at(i).number()));
+        table.columns.push_back("Mirror " +
+                                std::to_string(MirrorId::of_list_index(i).mirror_number()));
     for (const Row& row : comparison.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back(1, row.label);
         for (const measure::Difference& error : row.error_per_mirror)
             cells.push_back(format_flip(error));
-        cells.resize(mirrors + 1, empty_cell());
+        cells.resize(mirrors + 1, make_empty_cell());
     }
     return table;
 }
@@ -313,9 +318,9 @@ ReportTable make_lookup_table(const Comparison& comparison) {
         "mirror, in whichever capture the row looked; wrong object: the capture shows "
         "another one there; unknown and miss: what the search says of itself; traced: of "
         "all mirror pixels."};
-    const std::vector<MetricTableColumn> columns = list_metric_columns(measure::MetricTable::lookup,
-                                                                       comparison);
-    add_columns(table, columns);
+    const std::vector<MetricTableColumn> columns = list_metric_columns(
+        measure::MetricTableKind::lookup, comparison);
+    add_metric_columns(table, columns);
     const int decimals = choose_ms_decimals(comparison);
     for (const Row& row : comparison.rows)
         if (row.lookup) table.rows.push_back(format_row_cells(row, columns, decimals));
@@ -369,8 +374,8 @@ ReportTable make_unsupported_table(const SceneFacts& scene) {
     for (const UnsupportedFeatureFacts& gap : scene.unsupported)
         table.rows.push_back(
             {gap.id, std::to_string(gap.count),
-             gap.pixel_share ? format_fixed(100 * *gap.pixel_share, 1) : empty_cell(), gap.first,
-             describe_unsupported_feature(gap.id)});
+             gap.pixel_share ? format_fixed(100 * *gap.pixel_share, 1) : make_empty_cell(),
+             gap.first, describe_unsupported_feature(gap.id)});
     return table;
 }
 

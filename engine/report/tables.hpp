@@ -66,30 +66,30 @@ ReportTable make_lag_table(const Comparison& comparison);
 ReportTable make_settling_table(const Comparison& comparison);
 
 /// Colour in which pictures show a cause.
-struct CauseColour {
+struct CausePictureColour {
     std::string_view cause, name;
     vec3 colour; ///< display space
 };
 
 /// Returns the colours of all causes, in the order of Causes::list. Colour-blind readers can tell
 /// them apart, too (Okabe, Ito).
-std::span<const CauseColour> list_cause_colours();
+std::span<const CausePictureColour> list_cause_colours();
 
 /// Returns the row's picture, dark and grey. Each mirror pixel that is off has the colour of the
 /// cause with the largest part of its squared error. The row must have `causes`.
 measure::Picture make_cause_picture(const Row& row);
 
 /// A line at the head of a report, such as "Device": name and value.
-struct ReportFact {
+struct ReportHeaderLine {
     std::string name;
     std::string value;
 };
-std::vector<ReportFact> list_report_facts(const Comparison& comparison);
+std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison);
 /// Returns the set-up costs in one line, which stands above the rows.
 std::string describe_setup_times(const SetupFacts& setup);
 /// Returns cautions for the reader: a processor as device, a run cut short, rows measured together,
 /// warnings.
-std::vector<std::string> list_cautions(const Comparison& comparison);
+std::vector<std::string> list_reader_cautions(const Comparison& comparison);
 
 /// Returns the findings of a run. For the seed report's scene they include its statements about its
 /// Table 1 and figures 5 and 7.
@@ -101,15 +101,15 @@ std::string make_findings_title(const Comparison& comparison);
 std::string describe_budget_answer(const Comparison& comparison);
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
 /// it. If all rows are of one kind, it names the fastest and the closest row.
-std::string summarise_verdict(const Comparison& comparison);
+std::string summarise_ray_tracing_verdict(const Comparison& comparison);
 
 /// Returns sentences that compare the measured lag with the seed report's statement that parts one
 /// and two show no difference, and which rows have no lag.
-std::optional<std::string> describe_lag(const Comparison& comparison);
+std::optional<std::string> describe_measured_lag(const Comparison& comparison);
 /// Returns the order of the rows over drawn views by each headline metric, and which of them tie.
-std::vector<std::string> describe_views(const Comparison& comparison);
+std::vector<std::string> describe_drawn_views(const Comparison& comparison);
 
 /// Returns the Pareto front in words: the rows on it, and which row beats each of the others.
-std::vector<std::string> describe_front(const Comparison& comparison);
+std::vector<std::string> describe_pareto_front(const Comparison& comparison);
 
 } // namespace catoptric::report

@@ -13,7 +13,7 @@ namespace catoptric::report {
 namespace {
 
 /// Returns the decimals that give three significant digits, at most four.
-int decimals_for(double value) {
+int choose_decimals(double value) {
     if (!(value > 0)) return 0;
     return std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
 }
@@ -28,29 +28,29 @@ std::string format_fixed(double value, int decimals) {
     return text;
 }
 
-std::string format_error(double error) {
+std::string format_picture_error(double error) {
     if (error == 0) return "0";
-    if (error < 0) return std::string(kBelowNoise);
+    if (error < 0) return std::string(kBelowNoiseText);
     const bool tiny = std::abs(error) < 5e-5; // four decimals would read 0.0000
     return tiny ? fmt::format("{:.0e}", error) : format_fixed(error, 4);
 }
 
 std::string format_flip(const measure::Difference& error) {
-    const std::string text = format_error(error.flip);
-    return measure::is_below_noise(error) ? text + ", " + std::string(kBelowNoise) : text;
+    const std::string text = format_picture_error(error.flip);
+    return measure::is_below_noise(error) ? text + ", " + std::string(kBelowNoiseText) : text;
 }
 
-std::string format_ms(double ms) { return format_fixed(ms, decimals_for(ms)); }
+std::string format_ms(double ms) { return format_fixed(ms, choose_decimals(ms)); }
 
 int choose_ms_decimals(const Comparison& comparison) {
     double fastest = INFINITY;
     for (const Row& row : comparison.rows)
         if (row.time_ms().median > 0) fastest = std::min(fastest, row.time_ms().median);
-    return std::isfinite(fastest) ? decimals_for(fastest) : 1;
+    return std::isfinite(fastest) ? choose_decimals(fastest) : 1;
 }
 
 std::string format_fps(double ms) {
-    return ms > 0 ? format_fixed(1000 / ms, std::min(decimals_for(1000 / ms), 2))
+    return ms > 0 ? format_fixed(1000 / ms, std::min(choose_decimals(1000 / ms), 2))
                   : std::string(kEmptyCellText);
 }
 
@@ -62,7 +62,7 @@ std::string report_image_path(const Comparison& comparison, const std::string& f
     return "images/" + comparison.images + file;
 }
 
-std::string format_settings(const Row& row) {
+std::string format_row_settings(const Row& row) {
     std::vector<std::string> parts;
     for (const Setting& setting : row.settings) parts.push_back(setting.name + "=" + setting.text);
     return join_texts(parts, ", ");
@@ -96,7 +96,7 @@ std::string join_texts(const std::vector<std::string>& parts, std::string_view b
     return fmt::format("{}", fmt::join(parts, between));
 }
 
-std::string join_row_labels(const std::vector<const Row*>& rows, std::string_view between) {
+std::string join_labels_of_rows(const std::vector<const Row*>& rows, std::string_view between) {
     std::vector<std::string> labels;
     for (const Row* row : rows) labels.push_back(row->label);
     return join_texts(labels, between);
@@ -108,6 +108,8 @@ std::string describe_worst_view(const Comparison& comparison, const measure::Wor
                        comparison.views.size(), view.camera.name, view.time);
 }
 
-std::string worst_view_image_name(const std::string& image) { return "worst-" + image + ".png"; }
+std::string make_worst_view_image_name(const std::string& image) {
+    return "worst-" + image + ".png";
+}
 
 } // namespace catoptric::report

@@ -11,14 +11,15 @@ namespace catoptric::report {
 
 inline constexpr std::string_view kEmptyCellText = "–";
 /// Words for an error that the noise of the reference hides (measure/halves.hpp).
-inline constexpr std::string_view kBelowNoise = "below the noise";
+inline constexpr std::string_view kBelowNoiseText = "below the noise";
 
 /// Returns the value with this many decimals, or "–" for NaN and infinities.
 std::string format_fixed(double value, int decimals);
 /// Returns an error in 0..1 with four decimals, "0" for exactly 0, or a power of ten below 0.0001.
-/// Returns kBelowNoise for a negative estimate.
-std::string format_error(double error);
-/// Returns the FLIP of a difference, with kBelowNoise if it is no larger than that of the noise.
+/// Returns kBelowNoiseText for a negative estimate.
+std::string format_picture_error(double error);
+/// Returns the FLIP of a difference, with kBelowNoiseText if it is no larger than that of the
+/// noise.
 std::string format_flip(const measure::Difference& error);
 /// Returns milliseconds with three significant digits.
 std::string format_ms(double ms);
@@ -31,18 +32,19 @@ std::string format_mebibytes(std::uint64_t bytes);
 /// Returns the path of a picture of the comparison, relative to the report's folder.
 std::string report_image_path(const Comparison& comparison, const std::string& file);
 /// Returns the settings as text: "bounces=3, face=256".
-std::string format_settings(const Row& row);
+std::string format_row_settings(const Row& row);
 /// Returns how many of the requested rows a run has, and why it has no more: "4 of 8 rows: ...".
 std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
                                     const std::optional<Error>& stopped);
 /// Returns the same for a comparison, its lag included. Empty if it is complete.
 std::string describe_incomplete_run(const Comparison& comparison);
 std::string join_texts(const std::vector<std::string>& parts, std::string_view between);
-std::string join_row_labels(const std::vector<const Row*>& rows, std::string_view between = ", ");
+std::string join_labels_of_rows(const std::vector<const Row*>& rows,
+                                std::string_view between = ", ");
 /// Returns "view 3 of 30: --camera ... --time ...", the options with which `render` shows the view
 /// again.
 std::string describe_worst_view(const Comparison& comparison, const measure::WorstView& worst);
 /// Returns the file name of a row's picture at its worst view, from its Row::image.
-std::string worst_view_image_name(const std::string& image);
+std::string make_worst_view_image_name(const std::string& image);
 
 } // namespace catoptric::report

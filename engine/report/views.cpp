@@ -13,22 +13,22 @@ namespace catoptric::report {
 
 namespace {
 
-struct ViewMetric {
+struct DrawnViewMetric {
     const measure::Metric* quantity;
     const measure::MetricColumn* column;
 };
 
 /// Returns the metrics of differences that the table of rows shows, too.
-std::vector<ViewMetric> list_view_metrics() {
-    std::vector<ViewMetric> list;
+std::vector<DrawnViewMetric> list_view_metrics() {
+    std::vector<DrawnViewMetric> list;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         for (const measure::MetricColumn& column : quantity.columns)
             if (measure::is_single_number(quantity)) list.push_back({&quantity, &column});
     return list;
 }
 
-std::string format_view_cell(const Row& row, const ViewMetric& figure) {
-    const measure::MetricOverViews over = measure::metric_over_views(
+std::string format_view_cell(const Row& row, const DrawnViewMetric& figure) {
+    const measure::MetricOverViews over = measure::compute_metric_over_views(
         row, measure::list_row_masks().front(), *figure.quantity);
     const measure::MetricColumn& column = *figure.column;
     const std::string median = format_metric_number(over.median, column);
@@ -38,25 +38,25 @@ std::string format_view_cell(const Row& row, const ViewMetric& figure) {
 }
 
 /// Returns the title of the metric's column without the unit.
-std::string_view metric_title(const measure::Metric& quantity) {
+std::string_view title_of_metric(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));
 }
 
-std::string format_row_pairs(const measure::RowOrder::RowPairs& list) {
+std::string format_pairs_of_rows(const measure::MetricRowOrder::RowPairs& list) {
     std::vector<std::string> pairs;
     for (const auto& [a, b] : list) pairs.push_back(a->label + " and " + b->label);
     return join_texts(pairs, "; ");
 }
 
-std::string format_ties(const measure::RowOrder& order) {
+std::string format_tied_rows(const measure::MetricRowOrder& order) {
     const std::size_t pairs = order.rows.size() * (order.rows.size() - 1) / 2;
     if (order.ties.size() == pairs) return "No two of them are apart.";
     std::string text = order.ties.empty() ? "Every two of them are apart."
-                                          : "Ties: " + format_row_pairs(order.ties) +
+                                          : "Ties: " + format_pairs_of_rows(order.ties) +
                                                 ". All other pairs are apart.";
     if (!order.reversed.empty())
-        text += " The other way round: " + format_row_pairs(order.reversed) + ".";
+        text += " The other way round: " + format_pairs_of_rows(order.reversed) + ".";
     return text;
 }
 
@@ -65,26 +65,27 @@ Json make_view_metrics_json(const Row& row, const measure::RowMask& mask) {
     Json figures = Json::object();
     for (const measure::Metric& quantity : measure::list_difference_metrics()) {
         if (!measure::is_single_number(quantity)) continue;
-        const measure::MetricOverViews over = measure::metric_over_views(row, mask, quantity);
-        figures[std::string(quantity.name)] = {{"median", number_json(over.median)},
-                                               {"ci95", interval_json(over.ci95)},
-                                               {"values", value_json(over.values)}};
+        const measure::MetricOverViews over = measure::compute_metric_over_views(row, mask,
+                                                                                 quantity);
+        figures[std::string(quantity.name)] = {{"median", make_number_json(over.median)},
+                                               {"ci95", make_interval_json(over.ci95)},
+                                               {"values", make_metric_value_json(over.values)}};
     }
     return figures;
 }
 
 /// Returns each row at its worst view.
-std::string worst_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
+std::string make_html_worst_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<p>Each row at its view of the largest FLIP, beside the reference.</p>";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
         if (!row.worst) continue;
         const std::string where = describe_worst_view(comparison, *row.worst);
-        html += html_figure(
+        html += make_html_figure(
             row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
             row.label + ", to its right the reference, at " + where, row.label + ": " + where);
     }
-    return html_titled_section("Worst views", html);
+    return make_html_titled_section("Worst views", html);
 }
 
 const RegisteredReportPart kViewsPart{
@@ -93,21 +94,21 @@ const RegisteredReportPart kViewsPart{
      .tables =
          [](const Comparison& comparison) { return std::vector{make_views_table(comparison)}; },
      .look = "views",
-     .sentences = describe_views,
+     .sentences = describe_drawn_views,
      .title = "Apart and ties",
-     .pictures = worst_pictures}};
+     .pictures = make_html_worst_pictures}};
 
 } // namespace
 
-Json views_json(const Comparison& comparison) {
-    return list_json(comparison.views, [](const measure::View& view) {
-        return Json{{"camera", camera_json(view.camera)},
-                    {"time", number_json(view.time)},
+Json make_views_json(const Comparison& comparison) {
+    return make_list_json(comparison.views, [](const measure::View& view) {
+        return Json{{"camera", make_camera_json(view.camera)},
+                    {"time", make_number_json(view.time)},
                     {"seed", view.seed}};
     });
 }
 
-Json views_json(const Comparison& comparison, const Row& row) {
+Json make_views_json(const Comparison& comparison, const Row& row) {
     if (row.views.empty()) return nullptr;
     Json json = Json::object();
     for (const measure::RowMask& mask : measure::list_row_masks())
@@ -116,8 +117,8 @@ Json views_json(const Comparison& comparison, const Row& row) {
     if (row.worst)
         json["worst"] = {
             {"view", row.worst->view},
-            {"flip", number_json(row.views[row.worst->view].error.flip)},
-            {"image", report_image_path(comparison, worst_view_image_name(row.image))}};
+            {"flip", make_number_json(row.views[row.worst->view].error.flip)},
+            {"image", report_image_path(comparison, make_worst_view_image_name(row.image))}};
     return json;
 }
 
@@ -130,14 +131,15 @@ ReportTable make_views_table(const Comparison& comparison) {
         "a mirror: median over the views, and its 95 % interval by order statistics. Worst: "
         "the largest FLIP, and the options that render it again."};
     if (comparison.views.empty()) return table;
-    const std::vector<ViewMetric> columns = list_view_metrics();
-    for (const ViewMetric& figure : columns)
+    const std::vector<DrawnViewMetric> columns = list_view_metrics();
+    for (const DrawnViewMetric& figure : columns)
         table.columns.emplace_back(std::string(figure.column->title));
     table.columns.emplace_back("Worst FLIP");
     table.columns.push_back(make_text_column("Worst view"));
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
-        for (const ViewMetric& figure : columns) cells.push_back(format_view_cell(row, figure));
+        for (const DrawnViewMetric& figure : columns)
+            cells.push_back(format_view_cell(row, figure));
         cells.push_back(row.worst ? format_flip(row.views[row.worst->view].error)
                                   : std::string(kEmptyCellText));
         cells.push_back(row.worst ? describe_worst_view(comparison, *row.worst)
@@ -147,12 +149,12 @@ ReportTable make_views_table(const Comparison& comparison) {
     return table;
 }
 
-std::vector<std::string> describe_views(const Comparison& comparison) {
+std::vector<std::string> describe_drawn_views(const Comparison& comparison) {
     std::vector<std::string> sentences;
-    for (const measure::RowOrder& order : measure::order_rows_over_views(comparison))
+    for (const measure::MetricRowOrder& order : measure::order_rows_over_views(comparison))
         sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
-                                        metric_title(*order.figure), join_row_labels(order.rows),
-                                        format_ties(order)));
+                                        title_of_metric(*order.figure),
+                                        join_labels_of_rows(order.rows), format_tied_rows(order)));
     if (!sentences.empty())
         sentences.emplace_back(
             "Two rows are apart where the 95 % interval of their difference, view by view, "

@@ -43,7 +43,7 @@ fs::path make_images_folder(const fs::path& folder, const Comparison& comparison
 
 /// Writes the report on `shown`, one comparison or several scenes.
 template <class Shown>
-void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumns csv,
+void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet csv,
                         const std::string& html) {
     write_file(folder / "rows.csv", report::to_csv(shown, csv));
     write_file(folder / "report.md", report::to_markdown(shown));
@@ -69,7 +69,7 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
     pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const Row& row = comparison.rows[i];
-        EncodedPictures::RowPictures& encoded = pictures.rows[i];
+        EncodedPictures::RowPngPictures& encoded = pictures.rows[i];
         if (encoded.pictured != row.pictured || encoded.noise_frames != noise_frames) {
             if (!images.empty() && !row.hdr.pixels.empty())
                 measure::write_exr(row.hdr, images / (row.image + ".exr"));
@@ -86,15 +86,15 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
         if (row.causes && encoded.causes.empty())
             encode(encoded.causes, make_cause_picture(row), "causes-" + row.image + ".png");
         if (row.worst && encoded.worst_view != row.worst->view) {
-            encode(encoded.worst, row.worst->display, worst_view_image_name(row.image));
+            encode(encoded.worst, row.worst->display, make_worst_view_image_name(row.image));
             encoded.worst_view = row.worst->view;
         }
     }
 }
 
-void ReportWriter::write(const Comparison& comparison) {
-    encode_new_pictures(pictures_, comparison, make_images_folder(folder_, comparison));
-    write_report_texts(folder_, comparison, csv_, to_html(comparison, pictures_));
+void ReportWriter::write_comparison(const Comparison& comparison) {
+    encode_new_pictures(pictures_, comparison, make_images_folder(report_folder_, comparison));
+    write_report_texts(report_folder_, comparison, csv_, to_html(comparison, pictures_));
 }
 
 std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
@@ -105,32 +105,36 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
     for (const std::string& image : images) {
         for (const char* ending : {".exr", ".png", "-error.png"})
             files.push_back(there / (image + ending));
-        for (const std::string& more : {"causes-" + image + ".png", worst_view_image_name(image)})
+        for (const std::string& more :
+             {"causes-" + image + ".png", make_worst_view_image_name(image)})
             files.push_back(there / more);
     }
     return files;
 }
 
-MultiSceneWriter::MultiSceneWriter(fs::path folder, const std::vector<std::string>& scenes,
-                                   CsvColumns csv)
-    : folder_(std::move(folder)), csv_(csv) {
+MultiSceneReportWriter::MultiSceneReportWriter(fs::path folder,
+                                               const std::vector<std::string>& scenes,
+                                               CsvColumnSet csv)
+    : multi_scene_folder_(std::move(folder)), csv_(csv) {
     scenes_.asked = scenes;
 }
 
-void MultiSceneWriter::write(std::size_t index, const Comparison& comparison) {
+void MultiSceneReportWriter::write_scene_comparison(std::size_t index,
+                                                    const Comparison& comparison) {
     if (scenes_.list.size() == index) {
         scenes_.list.emplace_back();
         pictures_.emplace_back();
         sections_.emplace_back();
     }
-    encode_new_pictures(pictures_.at(index), comparison, make_images_folder(folder_, comparison));
+    encode_new_pictures(pictures_.at(index), comparison,
+                        make_images_folder(multi_scene_folder_, comparison));
     sections_[index] = make_html_section(comparison, pictures_[index]);
-    scenes_.list[index] = without_pictures(comparison);
-    write_report_texts(folder_, scenes_, csv_, to_html(scenes_, sections_));
+    scenes_.list[index] = copy_without_pictures(comparison);
+    write_report_texts(multi_scene_folder_, scenes_, csv_, to_html(scenes_, sections_));
 }
 
 void write(const Comparison& comparison, const fs::path& folder) {
-    ReportWriter(folder).write(comparison);
+    ReportWriter(folder).write_comparison(comparison);
 }
 
 } // namespace catoptric::report

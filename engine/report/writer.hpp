@@ -12,13 +12,13 @@
 namespace catoptric::report {
 
 /// Columns of rows.csv.
-enum class CsvColumns : std::uint8_t {
+enum class CsvColumnSet : std::uint8_t {
     table, ///< metrics of the report's table of rows, and fields that tell runs apart
     all,   ///< each metric over each mask, mirror, pass and round
 };
 /// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
 struct EncodedPictures {
-    struct RowPictures {
+    struct RowPngPictures {
         int pictured = -1;    ///< Row::pictured at the time of encoding
         int noise_frames = 0; ///< ReferenceNoise::frames of the reference at that time
         std::string picture;  ///< picture as displayed
@@ -32,7 +32,7 @@ struct EncodedPictures {
     };
     std::string reference; ///< empty if the reference was not rendered
     int noise_frames = 0;  ///< ReferenceNoise::frames of that picture
-    std::vector<RowPictures> rows;
+    std::vector<RowPngPictures> rows;
 };
 
 /// Encodes pictures that are new since the last call. Rows are added, show a later frame or get
@@ -42,9 +42,9 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
                          const std::filesystem::path& images = {});
 
 /// Returns rows.csv with these columns.
-std::string to_csv(const Comparison& comparison, CsvColumns which);
+std::string to_csv(const Comparison& comparison, CsvColumnSet which);
 /// Returns rows.csv of several comparisons under one header.
-std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns which);
+std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnSet which);
 /// Writes the results of the finished rows into a folder, which is made as create_folder does.
 /// Files: report.json, report.md, report.html, rows.csv, images/<row>.png and .exr,
 /// images/<row>-error.png and images/reference.png. Rows with causes add images/causes-<row>.png,
@@ -52,20 +52,20 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumns
 /// replaces only pictures that changed and all other files, each as a whole.
 class ReportWriter {
 public:
-    explicit ReportWriter(std::filesystem::path folder, CsvColumns csv = CsvColumns::table)
-        : folder_(std::move(folder)), csv_(csv) {}
+    explicit ReportWriter(std::filesystem::path folder, CsvColumnSet csv = CsvColumnSet::table)
+        : report_folder_(std::move(folder)), csv_(csv) {}
     /// Writes the comparison. Rows that an earlier call wrote must be unchanged, unless they show
     /// another frame or the noise of the reference was reduced. Throws `cannot_create`, `io`.
-    void write(const Comparison& comparison);
+    void write_comparison(const Comparison& comparison);
 
 private:
-    std::filesystem::path folder_;
-    CsvColumns csv_;
+    std::filesystem::path report_folder_;
+    CsvColumnSet csv_;
     EncodedPictures pictures_;
 };
 
 /// Data of one report on several scenes.
-struct SceneReports {
+struct MultiSceneReport {
     std::vector<std::string> asked; ///< scenes as the user named them
     std::vector<Comparison> list;   ///< finished comparisons, each with its own `images`
     /// Returns whether the list has a complete comparison of every requested scene.
@@ -73,30 +73,30 @@ struct SceneReports {
 };
 /// Returns JSON of schema "catoptric/compare-scenes/1": version, commit, command, complete, asked,
 /// and in "scenes" the document of each scene.
-std::string to_json(const SceneReports& scenes);
-std::string to_csv(const SceneReports& scenes, CsvColumns which = CsvColumns::table);
-std::string to_markdown(const SceneReports& scenes);
+std::string to_json(const MultiSceneReport& scenes);
+std::string to_csv(const MultiSceneReport& scenes, CsvColumnSet which = CsvColumnSet::table);
+std::string to_markdown(const MultiSceneReport& scenes);
 /// Returns the page of all scenes. `sections` holds html_section of each.
-std::string to_html(const SceneReports& scenes, const std::vector<std::string>& sections);
+std::string to_html(const MultiSceneReport& scenes, const std::vector<std::string>& sections);
 /// Returns the folder below images/ of the scene at `index`, from 0, such as "1-room/".
 std::string scene_images_folder(std::size_t index, const std::string& scene);
 /// Returns a copy without pictures, because they take most of the memory.
-Comparison without_pictures(const Comparison& comparison);
+Comparison copy_without_pictures(const Comparison& comparison);
 
 /// Writes several scenes one after the other as ReportWriter does, with pictures in
 /// images/N-SCENE/.
-class MultiSceneWriter {
+class MultiSceneReportWriter {
 public:
-    MultiSceneWriter(std::filesystem::path folder, const std::vector<std::string>& scenes,
-                     CsvColumns csv = CsvColumns::table);
+    MultiSceneReportWriter(std::filesystem::path folder, const std::vector<std::string>& scenes,
+                           CsvColumnSet csv = CsvColumnSet::table);
     /// Writes the scene at `index`, from 0. Scenes before it stay unchanged.
-    void write(std::size_t index, const Comparison& comparison);
-    const SceneReports& scenes() const { return scenes_; }
+    void write_scene_comparison(std::size_t index, const Comparison& comparison);
+    const MultiSceneReport& scene_reports() const { return scenes_; }
 
 private:
-    std::filesystem::path folder_;
-    CsvColumns csv_;
-    SceneReports scenes_;
+    std::filesystem::path multi_scene_folder_;
+    CsvColumnSet csv_;
+    MultiSceneReport scenes_;
     std::vector<EncodedPictures> pictures_; ///< encoded pictures of each scene
     std::vector<std::string> sections_;     ///< html_section of each scene
 };

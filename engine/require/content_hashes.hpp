@@ -38,22 +38,23 @@ public:
     /// + walls)).
     void move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge);
     /// Content hashes of the six faces of a mirror's capture.
-    struct FaceHashes {
+    struct CaptureFaceHashes {
         std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
-        std::shared_ptr<const FacePieces> pieces;
+        std::shared_ptr<const MovingFacePieces> pieces;
     };
-    /// Returns the content hashes of a mirror's faces (MirrorNeeds). O(movers + landings); O(1) if
-    /// nothing has changed since the last call.
-    const FaceHashes& face_hashes_of_mirror(const VisibilityWorld& world, std::size_t mirror);
+    /// Returns the content hashes of a mirror's faces (MirrorRequirements). O(movers + landings);
+    /// O(1) if nothing has changed since the last call.
+    const CaptureFaceHashes& face_hashes_of_mirror(const VisibilityWorld& world,
+                                                   std::size_t mirror);
     /// Returns the movers that cast shadows.
     std::vector<ShadowCaster> list_shadow_casters(const VisibilityWorld& world) const;
 
 private:
-    void combine_face_hashes(const VisibilityWorld& world, FaceHashes& faces,
+    void combine_face_hashes(const VisibilityWorld& world, CaptureFaceHashes& faces,
                              std::size_t mirror) const;
 
-    std::vector<FaceHashes> mirrors_;
+    std::vector<CaptureFaceHashes> mirrors_;
     std::vector<ShadowReceiver> landings_;
     std::uint64_t changes_ = 1; ///< counts instants at which something changed
     std::uint64_t all_ = 0;     ///< content hash of the whole scene

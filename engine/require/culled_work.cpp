@@ -14,32 +14,32 @@ namespace {
 using NumberList = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
 
 /// Returns `one` with its number and name, or the plural with several numbers.
-std::string name_numbered_items(const std::string& one, const NumberList& numbers,
-                                const std::string& name) {
+std::string format_numbered_items(const std::string& one, const NumberList& numbers,
+                                  const std::string& name) {
     if (numbers.size() == 1)
         return one + " " + format_number_ranges(numbers) + (name.empty() ? "" : " " + name);
     return one + "s " + format_number_ranges(numbers);
 }
 
 std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
-    return quote_printable(scene.objects[object].name);
+    return quote_as_printable_text(scene.objects[object].name);
 }
 
 /// Returns why the mirrors are invisible. `seen`: number of visible mirrors.
-std::string describe_why_unseen(const UnseenReason& unseen, std::size_t seen, bool is_one,
+std::string describe_why_unseen(const UnseenMirrorReason& unseen, std::size_t seen, bool is_one,
                                 const scene::Scene& scene) {
     const std::string they = is_one ? "it" : "they", them = is_one ? "it" : "them";
     std::string why;
     switch (unseen.why) {
-    case UnseenReason::UnseenCause::empty:
+    case UnseenMirrorReason::UnseenMirrorCause::empty:
         return they + (is_one ? " has" : " have") + " no triangle";
-    case UnseenReason::UnseenCause::outside:
+    case UnseenMirrorReason::UnseenMirrorCause::outside:
         why = they + (is_one ? " is" : " are") + " not in the camera's picture";
         break;
-    case UnseenReason::UnseenCause::hidden_from_camera:
+    case UnseenMirrorReason::UnseenMirrorCause::hidden_from_camera:
         why = "the camera passes " + them + " by";
         break;
-    case UnseenReason::UnseenCause::hidden:
+    case UnseenMirrorReason::UnseenMirrorCause::hidden:
         why = quote_object_name(scene, unseen.wall) + " hides " + them + " from the camera";
         break;
     }
@@ -48,12 +48,12 @@ std::string describe_why_unseen(const UnseenReason& unseen, std::size_t seen, bo
     return why + ", and walls from each of the " + std::to_string(seen) + " mirrors that are seen";
 }
 
-void add_unseen_mirrors(std::vector<CulledWork>& all, const Model& model,
+void add_unseen_mirrors(std::vector<CulledWork>& all, const RequiredWorkModel& model,
                         const VisibilityFindings& findings, const scene::Scene& scene,
                         const std::vector<std::size_t>& mirrors) {
     const auto seen = static_cast<std::size_t>(
-        std::ranges::count_if(model.mirrors, &MirrorNeeds::is_seen));
-    std::map<std::pair<UnseenReason::UnseenCause, std::size_t>, NumberList> alike;
+        std::ranges::count_if(model.mirrors, &MirrorRequirements::is_seen));
+    std::map<std::pair<UnseenMirrorReason::UnseenMirrorCause, std::size_t>, NumberList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (!model.mirrors[i].is_captured && findings.camera[i])
             alike[{findings.camera[i]->why, findings.camera[i]->wall}].push_back(i + 1);
@@ -62,8 +62,8 @@ void add_unseen_mirrors(std::vector<CulledWork>& all, const Model& model,
         const std::string count = std::to_string(numbers.size());
         all.push_back(
             {.what = (is_one ? "the capture of " : "the captures of ") +
-                     name_numbered_items("mirror", numbers,
-                                         quote_object_name(scene, mirrors[numbers[0] - 1])),
+                     format_numbered_items("mirror", numbers,
+                                           quote_object_name(scene, mirrors[numbers[0] - 1])),
              .why = describe_why_unseen({reason.first, reason.second}, seen, is_one, scene),
              .saves = is_one ? "the six faces of a capture, each time that it would be drawn again"
                              : "the six faces of each of " + count +
@@ -71,21 +71,21 @@ void add_unseen_mirrors(std::vector<CulledWork>& all, const Model& model,
     }
 }
 
-void add_culled_faces(std::vector<CulledWork>& all, const Model& model, const scene::Scene& scene,
-                      const std::vector<std::size_t>& mirrors) {
+void add_culled_faces(std::vector<CulledWork>& all, const RequiredWorkModel& model,
+                      const scene::Scene& scene, const std::vector<std::size_t>& mirrors) {
     std::map<FaceBits, NumberList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
-        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaces)
+        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaceBits)
             alike[model.mirrors[i].faces].push_back(i + 1);
     for (const auto& [faces, numbers] : alike) {
-        const auto without = static_cast<FaceBits>(kAllFaces & ~faces);
+        const auto without = static_cast<FaceBits>(kAllFaceBits & ~faces);
         const int count = std::popcount(without);
         const bool is_one = numbers.size() == 1;
         all.push_back(
             {.what = std::string(count == 1 ? "face " : "faces ") + list_face_names(without) +
                      (is_one ? " of the capture of " : " of the captures of ") +
-                     name_numbered_items("mirror", numbers,
-                                         quote_object_name(scene, mirrors[numbers[0] - 1])),
+                     format_numbered_items("mirror", numbers,
+                                           quote_object_name(scene, mirrors[numbers[0] - 1])),
              .why = is_one ? "it is flat, all who look at it stand on one side, and what "
                              "they see in it lies on that side, too"
                            : "they are flat, all who look at each stand on one side, and "
@@ -95,31 +95,32 @@ void add_culled_faces(std::vector<CulledWork>& all, const Model& model, const sc
     }
 }
 
-void add_culled_shadow_maps(std::vector<CulledWork>& all, const Model& model,
+void add_culled_shadow_maps(std::vector<CulledWork>& all, const RequiredWorkModel& model,
                             const scene::Scene& scene) {
     for (std::size_t i = 0; i < model.lights.size(); ++i)
         if (!model.lights[i].has_map)
             all.push_back(
                 {.what = "the shadow map of " +
-                         name_numbered_items("light", {i + 1},
-                                             quote_light_name(scene, i, model.lights.size())),
+                         format_numbered_items("light", {i + 1},
+                                               quote_light_name(scene, i, model.lights.size())),
                  .why = "nothing that is seen lies within its range and in front of it",
                  .saves = "its map, each time that it would be drawn again"});
 }
 
 } // namespace
 
-void fill_findings_hash(VisibilityFindings& findings, const Model& model) {
+void fill_findings_hash(VisibilityFindings& findings, const RequiredWorkModel& model) {
     findings.key.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
-        const MirrorNeeds& needs = model.mirrors[i];
+        const MirrorRequirements& needs = model.mirrors[i];
         std::uint64_t word = needs.faces | (needs.is_captured ? 64u : 0u);
         if (!needs.is_captured && findings.camera[i])
             word |= static_cast<std::uint64_t>(findings.camera[i]->why) << 8 |
                     std::uint64_t{findings.camera[i]->wall} << 16;
         findings.key.push_back(word);
     }
-    for (const LightNeeds& needs : model.lights) findings.key.push_back(needs.has_map ? 1 : 0);
+    for (const LightRequirements& needs : model.lights)
+        findings.key.push_back(needs.has_map ? 1 : 0);
 }
 
 std::string format_number_ranges(const std::vector<std::size_t>& numbers) {
@@ -134,7 +135,8 @@ std::string format_number_ranges(const std::vector<std::size_t>& numbers) {
     return text;
 }
 
-std::vector<CulledWork> list_culled_work(const Model& model, const VisibilityFindings& findings,
+std::vector<CulledWork> list_culled_work(const RequiredWorkModel& model,
+                                         const VisibilityFindings& findings,
                                          const scene::Scene& scene) {
     std::vector<CulledWork> all;
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -148,9 +150,9 @@ std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::
     std::vector<std::string> names;
     for (const scene::Object& object : scene.objects)
         if (scene::emitted_radiance(scene.materials[object.material]) != vec3(0))
-            names.push_back(quote_printable(object.name));
+            names.push_back(quote_as_printable_text(object.name));
     for (const scene::PunctualLight& punctual : scene.punctual)
-        names.push_back(quote_printable(punctual.name));
+        names.push_back(quote_as_printable_text(punctual.name));
     return names.size() == count ? names[light] : "";
 }
 

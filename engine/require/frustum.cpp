@@ -8,7 +8,7 @@ namespace catoptric::require {
 namespace {
 
 /// Returns the corner of the box that lies furthest along the normal.
-dvec3 farthest_box_corner(const Bounds<double>& box, const dvec3& normal) {
+dvec3 box_corner_farthest_along(const Bounds<double>& box, const dvec3& normal) {
     return {normal.x > 0 ? box.hi.x : box.lo.x, normal.y > 0 ? box.hi.y : box.lo.y,
             normal.z > 0 ? box.hi.z : box.lo.z};
 }
@@ -36,7 +36,7 @@ PictureFrustum::PictureFrustum(const scene::Camera& camera, uvec2 size) : eye_(c
 
 bool PictureFrustum::may_contain_box(const Bounds<double>& box) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
-        return dot(plane.first, farthest_box_corner(box, plane.first) - eye_) < -plane.second;
+        return dot(plane.first, box_corner_farthest_along(box, plane.first) - eye_) < -plane.second;
     });
 }
 
@@ -110,8 +110,8 @@ FaceBits faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& 
         for (int side = 0; side < 4 && meets; ++side) {
             dvec3 normal = forward;
             normal[(face / 2 + 1 + side / 2) % 3] = side % 2 == 0 ? 1 : -1;
-            meets = dot(normal, farthest_box_corner(a, normal)) >= 0 ||
-                    dot(normal, farthest_box_corner(b, normal)) >= 0;
+            meets = dot(normal, box_corner_farthest_along(a, normal)) >= 0 ||
+                    dot(normal, box_corner_farthest_along(b, normal)) >= 0;
         }
         if (meets) faces |= static_cast<FaceBits>(1 << face);
     }

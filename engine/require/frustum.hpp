@@ -13,9 +13,9 @@ class PictureFrustum {
 public:
     PictureFrustum(const scene::Camera& camera, uvec2 size);
 
-    const dvec3& eye() const { return eye_; }
-    const dvec3& forward() const { return forward_; }
-    bool is_parallel() const { return is_parallel_; }
+    const dvec3& eye_position() const { return eye_; }
+    const dvec3& view_direction() const { return forward_; }
+    bool is_orthographic() const { return is_parallel_; }
     /// Returns whether the camera's view volume may contain a part of the box. Returns false if all
     /// corners of the box lie beyond one of the five planes that bound the view volume.
     bool may_contain_box(const Bounds<double>& box) const;

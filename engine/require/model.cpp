@@ -3,10 +3,10 @@
 
 namespace catoptric::require {
 
-Model make_everything_model(const ModelInput& question) {
+RequiredWorkModel make_everything_model(const RequiredWorkModelInput& question) {
     return {.is_everything = true,
-            .mirrors = std::vector<MirrorNeeds>(scene::mirrors(question.now).size()),
-            .lights = std::vector<LightNeeds>(scene::list_lights(question.now).size()),
+            .mirrors = std::vector<MirrorRequirements>(scene::mirrors(question.now).size()),
+            .lights = std::vector<LightRequirements>(scene::list_lights(question.now).size()),
             .left_out = {}};
 }
 

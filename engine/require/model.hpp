@@ -17,7 +17,7 @@ namespace catoptric::require {
 
 /// Input of a model: the scene at one instant, the camera, the picture's size and the settings that
 /// decide what the picture requires.
-struct ModelInput {
+struct RequiredWorkModelInput {
     const scene::Scene& now; ///< the scene at the instant (scene::scene_at_time)
     const scene::Camera& camera;
     uvec2 size{512, 512};
@@ -32,18 +32,18 @@ struct ModelInput {
 
 /// Six bits, one per face of a capture, in the order of render::make_cube_views.
 using FaceBits = std::uint8_t;
-struct FacePieces; // parts of a capture's faces that movers change
-inline constexpr FaceBits kAllFaces = 0x3f;
+struct MovingFacePieces; // parts of a capture's faces that movers change
+inline constexpr FaceBits kAllFaceBits = 0x3f;
 
-struct MirrorNeeds {
+struct MirrorRequirements {
     bool is_seen = true; ///< whether the camera or a visible mirror sees the mirror
     /// The mirror in which this mirror is seen; none: the camera sees it, or nothing does.
     MirrorId seen_in;
     /// Whether the mirror's capture may be read: by searches of the mirror's own pixels, by rays
-    /// continued from other mirrors, or by any search with ModelInput::asks_all.
+    /// continued from other mirrors, or by any search with RequiredWorkModelInput::asks_all.
     bool is_captured = true;
     /// Faces of its capture that hold directions which may be read.
-    FaceBits faces = kAllFaces;
+    FaceBits faces = kAllFaceBits;
     std::uint32_t edge = 0; ///< sufficient edge of a face in texels; 0: as many as the row asks for
     /// Content hash of the surfaces that each face of the capture shows and of their lighting,
     /// except reflections in mirrors. The bytes of a face stay the same while this hash, the view
@@ -51,19 +51,20 @@ struct MirrorNeeds {
     std::array<std::uint64_t, 6> content_hashes{};
     /// Content hashes of the same data without the movers and shadows that `pieces` lists.
     std::array<std::uint64_t, 6> settings{};
-    std::shared_ptr<const FacePieces> pieces; ///< null: movers are not listed one by one
+    std::shared_ptr<const MovingFacePieces> pieces; ///< null: movers are not listed one by one
     std::vector<std::uint32_t>
         /// The other mirrors that its capture shows, numbered from 0, in ascending order.
         sees;
 };
 
-struct LightNeeds {
+struct LightRequirements {
     bool has_map = true;            ///< whether something visible may lie in a shadow of the light
     std::uint64_t content_hash = 0; ///< content hash of the light and of all that never moved
 };
 
 /// A mover that casts shadows. A face of a shadow map stays valid while three things stay the same:
-/// LightNeeds::content_hash, the face's view, and the content hashes of its possible casters.
+/// LightRequirements::content_hash, the face's view, and the content hashes of its possible
+/// casters.
 struct ShadowCaster {
     std::uint32_t object = 0;
     std::uint64_t content_hash = 0; ///< content hash of its shape and place
@@ -71,37 +72,37 @@ struct ShadowCaster {
 
 using catoptric::CulledWork;
 
-struct Model {
+struct RequiredWorkModel {
     bool is_everything = true;
-    std::vector<MirrorNeeds> mirrors; ///< entry n-1 belongs to mirror n
-    std::vector<LightNeeds> lights;   ///< in the order of scene::list_lights
+    std::vector<MirrorRequirements> mirrors; ///< entry n-1 belongs to mirror n
+    std::vector<LightRequirements> lights;   ///< in the order of scene::list_lights
     std::vector<ShadowCaster> casters;
     std::vector<CulledWork> left_out;
 };
 
 /// Returns the model that culls no work and keeps no captures.
-Model make_everything_model(const ModelInput& question);
+RequiredWorkModel make_everything_model(const RequiredWorkModelInput& question);
 /// Returns the model with only the work that the picture requires. All faces have one content hash
 /// that covers the whole scene, because a single picture does not tell which objects move.
-/// O(vertices). Use ModelBuilder for many pictures of one scene.
-Model make_required_model(const ModelInput& question);
+/// O(vertices). Use RequiredWorkModelBuilder for many pictures of one scene.
+RequiredWorkModel make_required_model(const RequiredWorkModelInput& question);
 
 /// Computes the models of successive pictures of one scene whose meshes stay the same. Content
 /// hashes tell which captures show an object that moved. Equal hashes stand for equal bytes only
 /// within one object of this class.
-class ModelBuilder {
+class RequiredWorkModelBuilder {
 public:
     /// Takes the scene as loaded: every object in its place at rest, and the list of motions.
     /// O(vertices + texels of images).
-    explicit ModelBuilder(const scene::Scene& rest);
-    ~ModelBuilder();
-    ModelBuilder(ModelBuilder&&) noexcept;
-    ModelBuilder& operator=(ModelBuilder&&) noexcept;
+    explicit RequiredWorkModelBuilder(const scene::Scene& rest);
+    ~RequiredWorkModelBuilder();
+    RequiredWorkModelBuilder(RequiredWorkModelBuilder&&) noexcept;
+    RequiredWorkModelBuilder& operator=(RequiredWorkModelBuilder&&) noexcept;
 
     /// Returns the model of a picture. The reference is valid until the next call. O(objects) if
     /// nothing has changed; else also mirrors * (walls + movers + their shadows). Figures are in
     /// docs/require.md.
-    const Model& model_for(const ModelInput& question);
+    const RequiredWorkModel& model_for(const RequiredWorkModelInput& question);
 
 private:
     struct Impl;
@@ -110,6 +111,6 @@ private:
 
 /// Returns the model as text: a line for each mirror and light, then the culled work with its
 /// reasons. `scene` supplies the names.
-std::string to_text(const Model& model, const scene::Scene& scene);
+std::string describe_model(const RequiredWorkModel& model, const scene::Scene& scene);
 
 } // namespace catoptric::require

@@ -18,55 +18,59 @@ namespace {
 /// The scene's triangles relative to the eye, with the normals of their corners.
 class MirrorPathTracer {
 public:
-    explicit MirrorPathTracer(const ModelInput& question)
-        : number_(question.now.objects.size(), 0) {
+    explicit MirrorPathTracer(const RequiredWorkModelInput& question)
+        : mirror_number_of_object_(question.now.objects.size(), 0) {
         const scene::Scene& now = question.now;
         std::uint32_t mirrors = 0;
         for (const std::size_t object : scene::mirrors(now)) {
-            number_[object] = ++mirrors;
+            mirror_number_of_object_[object] = ++mirrors;
             centres_.emplace_back(scene::bounds(now, now.objects[object]).centre() -
                                   question.camera.eye);
         }
         std::vector<bvh::Triangle> triangles;
-        for (std::size_t i = 0; i < now.objects.size(); ++i) add_path(question, i, triangles);
-        tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateScope::across_objects);
+        for (std::size_t i = 0; i < now.objects.size(); ++i)
+            trace_path_of_pixel(question, i, triangles);
+        tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateSearchScope::across_objects);
     }
 
-    struct MirrorPath {
+    struct TracedMirrorPath {
         std::vector<std::uint32_t> mirrors; ///< in the order in which the ray meets them, from 0
         std::vector<bool>
             /// For each mirror on the path, whether its capture does not show what the ray meets
             /// next.
             is_hidden;
     };
-    MirrorPath follow_ray(f32::Ray ray) const {
-        MirrorPath path;
+    TracedMirrorPath follow_ray_through_mirrors(f32::Ray ray) const {
+        TracedMirrorPath path;
         auto hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance,
-                                                bvh::kHiddenFromCamera | bvh::kOneSided);
-        while (hit && number_[hit->object] > 0 && path.mirrors.size() < kMaxPathMirrors) {
-            const std::uint32_t mirror = number_[hit->object] - 1;
+                                                bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
+        while (hit && mirror_number_of_object_[hit->object] > 0 &&
+               path.mirrors.size() < kMaxMirrorsPerPath) {
+            const std::uint32_t mirror = mirror_number_of_object_[hit->object] - 1;
             path.mirrors.push_back(mirror);
             ray = reflect_ray(ray, *hit);
-            hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, bvh::kOneSided);
-            path.is_hidden.push_back(!capture_shows_hit(mirror, ray, hit));
+            hit = bvh::find_closest_hit<float>(tree_, ray, kUnlimitedDistance, bvh::kOneSidedFlag);
+            path.is_hidden.push_back(!does_capture_show_hit(mirror, ray, hit));
         }
         return path;
     }
 
 private:
-    void add_path(const ModelInput& question, std::size_t index,
-                  std::vector<bvh::Triangle>& triangles) {
+    void trace_path_of_pixel(const RequiredWorkModelInput& question, std::size_t index,
+                             std::vector<bvh::Triangle>& triangles) {
         const scene::Object& object = question.now.objects[index];
         const scene::Mesh& mesh = question.now.meshes[object.mesh];
         const scene::Material& material = question.now.materials[object.material];
-        const bool is_mirror = number_[index] > 0;
-        const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
-                                    (!is_mirror && scene::is_one_sided(material) ? bvh::kOneSided
-                                                                                 : 0);
-        const dmat3 turns = scene::normal_matrix(object.world_from_object);
+        const bool is_mirror = mirror_number_of_object_[index] > 0;
+        const std::uint32_t flags = (object.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
+                                    (!is_mirror && scene::is_one_sided(material)
+                                         ? bvh::kOneSidedFlag
+                                         : 0);
+        const dmat3 turns = scene::compute_normal_matrix(object.world_from_object);
         const auto place = [&](std::uint32_t i) {
-            return vec3(scene::transform_point(object.world_from_object, mesh.positions[i]) -
-                        question.camera.eye);
+            return vec3(
+                scene::transform_point_to_world(object.world_from_object, mesh.positions[i]) -
+                question.camera.eye);
         };
         for (const uvec3& t : mesh.triangles) {
             triangles.push_back(
@@ -75,7 +79,7 @@ private:
             normals_.resize(3 * triangles.size(), vec3(0));
             for (int k = 0; k < 3; ++k)
                 normals_[3 * (triangles.size() - 1) + static_cast<std::size_t>(k)] = vec3(
-                    scene::world_normal(turns, dvec3(mesh.normals[t[k]])));
+                    scene::transform_normal_to_world(turns, dvec3(mesh.normals[t[k]])));
         }
     }
 
@@ -84,29 +88,29 @@ private:
         const vec3 a(corner[0]), b(corner[1]), c(corner[2]), w = hit.barycentric;
         const vec3* normals = &normals_[3 * std::size_t{hit.triangle}];
         vec3 error;
-        const vec3 point = f32::triangle_point(a, b, c, w, error),
+        const vec3 point = f32::triangle_hit_point(a, b, c, w, error),
                    facet = f32::facet_normal(a, b, c),
                    normal = normalize(w.x * normals[0] + w.y * normals[1] + w.z * normals[2]),
-                   direction = f32::mirror_direction(ray.direction, normal, facet);
-        return {f32::spawn_origin(point, error, facet, direction), direction, hit.triangle + 1};
+                   direction = f32::reflect_above_facet(ray.direction, normal, facet);
+        return {f32::ray_spawn_origin(point, error, facet, direction), direction, hit.triangle + 1};
     }
 
     /// Returns whether the mirror's capture shows what the ray met, or that the ray met nothing.
     /// The capture does not contain the mirror itself.
-    bool capture_shows_hit(std::uint32_t mirror, const f32::Ray& ray,
-                           const std::optional<bvh::RayHit<float>>& met) const {
+    bool does_capture_show_hit(std::uint32_t mirror, const f32::Ray& ray,
+                               const std::optional<bvh::RayHit<float>>& met) const {
         constexpr int kMaxOwnTriangles =
             64; // most of the mirror's own triangles that the ray passes
-        constexpr float kRayEndFactor = 1 - 0x1p-10f;
-        if (met && number_[met->object] == mirror + 1) return false;
+        constexpr float kShortenedRayFactor = 1 - 0x1p-10f;
+        if (met && mirror_number_of_object_[met->object] == mirror + 1) return false;
         const vec3 centre = centres_[mirror],
                    way = met ? ray.origin + met->t * ray.direction - centre : ray.direction;
-        float left = met ? length(way) * kRayEndFactor : kUnlimitedDistance;
+        float left = met ? length(way) * kShortenedRayFactor : kUnlimitedDistance;
         f32::Ray from{centre, normalize(way), 0};
         for (int i = 0; i < kMaxOwnTriangles; ++i) {
-            const auto hit = bvh::find_closest_hit<float>(tree_, from, left, bvh::kOneSided);
+            const auto hit = bvh::find_closest_hit<float>(tree_, from, left, bvh::kOneSidedFlag);
             if (!hit) return true;
-            if (number_[hit->object] != mirror + 1) return false;
+            if (mirror_number_of_object_[hit->object] != mirror + 1) return false;
             from.origin += hit->t * from.direction;
             from.leaves = hit->triangle + 1;
             if (met) left -= hit->t;
@@ -115,15 +119,16 @@ private:
     }
 
     static constexpr float kUnlimitedDistance = std::numeric_limits<float>::max();
-    std::vector<vec3> centres_;         ///< centres of the mirrors' captures
-    std::vector<std::uint32_t> number_; ///< mirror number of each object, from 1; 0: no mirror
-    std::vector<vec3> normals_;         ///< three per triangle, up to the last mirror's triangles
+    std::vector<vec3> centres_; ///< centres of the mirrors' captures
+    std::vector<std::uint32_t>
+        mirror_number_of_object_; ///< mirror number of each object, from 1; 0: no mirror
+    std::vector<vec3> normals_;   ///< three per triangle, up to the last mirror's triangles
     bvh::Bvh tree_;
 };
 
 /// Returns the size of the picture, or of a grid of the same shape with at most kMaxMirrorPaths
 /// cells.
-uvec2 choose_path_grid(uvec2 size) {
+uvec2 choose_path_ray_grid(uvec2 size) {
     const double pixels = 1.0 * size.x * size.y,
                  scale = std::min(1.0, std::sqrt(static_cast<double>(kMaxMirrorPaths) / pixels));
     return max(uvec2(1), uvec2(dvec2(size) * scale));
@@ -135,11 +140,11 @@ std::size_t MirrorPathCounts::count_paths_on_mirrors() const {
     return std::accumulate(first.begin(), first.end(), std::size_t{0});
 }
 
-MirrorPathCounts trace_mirror_paths(const ModelInput& question) {
+MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question) {
     const scene::Camera& camera = question.camera;
     const std::size_t mirrors = scene::mirrors(question.now).size();
     const MirrorPathTracer stage(question);
-    const uvec2 grid = choose_path_grid(question.size);
+    const uvec2 grid = choose_path_ray_grid(question.size);
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
     const bool is_parallel = camera.orthographic_height > 0;
@@ -156,7 +161,7 @@ MirrorPathCounts trace_mirror_paths(const ModelInput& question) {
             const f32::Ray ray = is_parallel
                                      ? f32::Ray{vec3(aside), vec3(forward), 0}
                                      : f32::Ray{vec3(0), vec3(normalize(forward + aside)), 0};
-            auto [met, is_hidden] = stage.follow_ray(ray);
+            auto [met, is_hidden] = stage.follow_ray_through_mirrors(ray);
             if (met.empty()) continue;
             ++paths.first[met.front()];
             paths.hidden[met.front()] += std::ranges::find(is_hidden, true) != is_hidden.end();

@@ -12,7 +12,7 @@ namespace catoptric::require {
 /// coarser grid.
 inline constexpr std::size_t kMaxMirrorPaths = 65536;
 /// Largest number of mirrors through which a camera ray is followed.
-inline constexpr std::size_t kMaxPathMirrors = 8;
+inline constexpr std::size_t kMaxMirrorsPerPath = 8;
 
 /// Statistics of rays from the eye through the centre of each pixel (or each cell of a grid),
 /// followed from mirror to mirror. Entry n-1 of a list belongs to mirror n.
@@ -36,6 +36,6 @@ struct MirrorPathCounts {
 
 /// Builds a BVH over all triangles (bvh::build_bvh) and follows at most kMaxMirrorPaths rays, in
 /// floats relative to the eye. Each reflection costs one more ray, from a capture's centre.
-MirrorPathCounts trace_mirror_paths(const ModelInput& question);
+MirrorPathCounts trace_mirror_paths(const RequiredWorkModelInput& question);
 
 } // namespace catoptric::require

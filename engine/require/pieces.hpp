@@ -12,18 +12,18 @@ namespace catoptric::require {
 
 /// A rectangle of a face. Coordinates are right and down divided by depth, from -1 to 1, along the
 /// axes of f64::cube_direction.
-struct FacePart {
+struct CubeFacePart {
     dvec2 low{-1}, high{1};
-    bool operator==(const FacePart&) const = default;
-    bool empty() const { return !(low.x <= high.x && low.y <= high.y); }
-    bool is_whole() const { return *this == FacePart(); }
+    bool operator==(const CubeFacePart&) const = default;
+    bool is_empty() const { return !(low.x <= high.x && low.y <= high.y); }
+    bool is_whole_face() const { return *this == CubeFacePart(); }
 };
-inline constexpr FacePart kEmptyFacePart{dvec2(1), dvec2(-1)};
+inline constexpr CubeFacePart kEmptyFacePart{dvec2(1), dvec2(-1)};
 
 /// Returns the intersection.
-FacePart intersect_face_parts(const FacePart& a, const FacePart& b);
+CubeFacePart intersect_face_parts(const CubeFacePart& a, const CubeFacePart& b);
 /// Returns the smallest rectangle that holds both.
-FacePart unite_face_parts(const FacePart& a, const FacePart& b);
+CubeFacePart unite_face_parts(const CubeFacePart& a, const CubeFacePart& b);
 
 /// Returns a rectangle of the capture's face that contains the projection of the convex hull of the
 /// points. Points are relative to the capture's centre. O(points).
@@ -31,15 +31,15 @@ FacePart unite_face_parts(const FacePart& a, const FacePart& b);
 /// Consider a line through the centre. If no point lies to its left, nothing of the hull lies
 /// there. The smallest slopes with this property bound the hull. Points ahead of the centre
 /// determine these slopes. If points behind it rule out any such slope, the side is unbounded.
-FacePart face_part_containing(int face, std::span<const dvec3> places);
+CubeFacePart face_part_containing(int face, std::span<const dvec3> places);
 /// Returns the same for a box, and for the hull of two boxes.
-FacePart face_part_containing(int face, const Bounds<double>& box);
-FacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b);
+CubeFacePart face_part_containing(int face, const Bounds<double>& box);
+CubeFacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b);
 
 /// A mover, or the shadow of a mover on an object, that a face may show.
-struct FacePiece {
+struct MovingFacePiece {
     std::uint64_t content_hash = 0; ///< equal hashes stand for equal looks
-    FacePart part;
+    CubeFacePart part;
 };
 
 /// Largest number of pieces (moving objects and shadows) that are stored per face. If a face has
@@ -47,14 +47,15 @@ struct FacePiece {
 inline constexpr std::size_t kMaxPiecesPerFace = 64;
 
 /// The pieces in each face of a capture.
-struct FacePieces {
-    std::array<std::vector<FacePiece>, 6> faces;
-    void sort_pieces(); ///< sorts the pieces in the order that `find_differing_part` needs
+struct MovingFacePieces {
+    std::array<std::vector<MovingFacePiece>, 6> faces;
+    void sort_pieces(); ///< sorts the pieces in the order that `find_changed_face_part` needs
 };
 
 /// Compares the moving objects and shadows (pieces) that a face shows in two frames. Returns a
 /// rectangle that contains all pieces that only one of the two lists has. Both lists must be
 /// sorted. O(pieces).
-FacePart find_differing_part(std::span<const FacePiece> before, std::span<const FacePiece> after);
+CubeFacePart find_changed_face_part(std::span<const MovingFacePiece> before,
+                                    std::span<const MovingFacePiece> after);
 
 } // namespace catoptric::require

@@ -9,7 +9,7 @@
 
 namespace catoptric::require {
 
-dvec3 normal_of_flat_mesh(const scene::Mesh& mesh) {
+dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh) {
     const double least = std::cos(kMaxNormalDeviation / 2);
     dvec3 normal(0);
     const auto agrees = [&](const dvec3& other) {
@@ -40,7 +40,7 @@ FaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& 
         front = front && viewer_low > high;
         back = back && viewer_high < low;
     }
-    if (front == back) return kAllFaces; // no viewer, or viewers on both sides
+    if (front == back) return kAllFaceBits; // no viewer, or viewers on both sides
     return faces_in_front_of_plane(front ? normal : -normal, 2 * kMaxNormalDeviation);
 }
 

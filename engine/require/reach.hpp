@@ -16,7 +16,7 @@ inline constexpr double kMaxNormalDeviation = .05;
 
 /// Returns the unit normal of a flat mesh in its own space; zero for other meshes. In a flat mesh,
 /// all facets and vertex normals point one way within kMaxNormalDeviation / 2. O(vertices).
-dvec3 normal_of_flat_mesh(const scene::Mesh& mesh);
+dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh);
 
 /// Returns the needed faces of the capture of a flat mirror. `normal` is in world space. `viewers`
 /// are the boxes of all possible viewers: the eye and other mirrors.

@@ -10,15 +10,15 @@
 
 namespace catoptric::require {
 
-struct ModelBuilder::Impl {
+struct RequiredWorkModelBuilder::Impl {
     VisibilityWorld world;
     MirrorVisibility sight;
     ContentHashes content_hashes;
     VisibilityFindings findings;
-    Model model;
+    RequiredWorkModel model;
     /// Visible mirrors whose view of other mirrors has not been tested yet.
     std::vector<std::size_t> waiting;
-    std::vector<bool> listed;             ///< whether MirrorNeeds::sees of the mirror is up to date
+    std::vector<bool> listed; ///< whether MirrorRequirements::sees of the mirror is up to date
     std::vector<Bounds<double>> viewers;  ///< viewers of one mirror
     std::vector<std::uint64_t> known_key; ///< key of the sentences in the model
 
@@ -31,32 +31,34 @@ struct ModelBuilder::Impl {
 };
 
 /// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
-void ModelBuilder::Impl::find_seen(const PictureFrustum& picture, const scene::Scene& now) {
-    const std::size_t count = world.mirrors().size();
+void RequiredWorkModelBuilder::Impl::find_seen(const PictureFrustum& picture,
+                                               const scene::Scene& now) {
+    const std::size_t count = world.list_mirror_objects().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
     for (std::size_t i = 0; i < count; ++i) {
-        MirrorNeeds& needs = model.mirrors[i];
-        findings.camera[i] = why_hidden_from_camera(world, picture, i);
+        MirrorRequirements& needs = model.mirrors[i];
+        findings.camera[i] = find_reason_hidden_from_camera(world, picture, i);
         if (!findings.camera[i] && !may_picture_show_mirror(picture, world, i, now))
-            findings.camera[i] = UnseenReason{UnseenReason::UnseenCause::outside, 0};
+            findings.camera[i] = UnseenMirrorReason{UnseenMirrorReason::UnseenMirrorCause::outside,
+                                                    0};
         needs.seen_in = {};
         needs.is_seen = !findings.camera[i];
         if (needs.is_seen) waiting.push_back(i);
     }
     for (std::size_t next = 0; next < waiting.size() && waiting.size() < count; ++next)
         for (std::size_t i = 0; i < count; ++i) {
-            MirrorNeeds& needs = model.mirrors[i];
+            MirrorRequirements& needs = model.mirrors[i];
             if (needs.is_seen || !sight.may_reach_object(world, waiting[next], i)) continue;
             needs.is_seen = true;
-            needs.seen_in = MirrorId::at(waiting[next]);
+            needs.seen_in = MirrorId::of_list_index(waiting[next]);
             waiting.push_back(i);
         }
 }
 
 /// Finds what a mirror's capture shows, after find_seen.
-void ModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
-    MirrorNeeds& needs = model.mirrors[mirror];
+void RequiredWorkModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
+    MirrorRequirements& needs = model.mirrors[mirror];
     needs.is_captured = needs.is_seen || asks_all;
     if (!needs.is_captured) {
         listed[mirror] = false;
@@ -65,10 +67,11 @@ void ModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
         needs.pieces = nullptr;
         return;
     }
-    const ContentHashes::FaceHashes& faces = content_hashes.face_hashes_of_mirror(world, mirror);
+    const ContentHashes::CaptureFaceHashes& faces = content_hashes.face_hashes_of_mirror(world,
+                                                                                         mirror);
     needs.content_hashes = faces.content_hashes, needs.settings = faces.settings,
     needs.pieces = faces.pieces;
-    if (listed[mirror] && !sight.has_changed(mirror)) return;
+    if (listed[mirror] && !sight.has_visibility_changed(mirror)) return;
     listed[mirror] = true;
     needs.sees.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
@@ -76,46 +79,53 @@ void ModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
             needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
 
-FaceBits ModelBuilder::Impl::faces_of(const PictureFrustum& picture, std::size_t mirror) {
-    const WorldObject& thing = world.objects()[world.mirrors()[mirror]];
-    const dvec3 flat = world.meshes()[thing.mesh].flat_normal;
-    if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaces;
+FaceBits RequiredWorkModelBuilder::Impl::faces_of(const PictureFrustum& picture,
+                                                  std::size_t mirror) {
+    const VisibilityWorldObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
+    const dvec3 flat = world.list_mesh_facts()[thing.mesh].flat_normal;
+    if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaceBits;
     viewers.clear();
     // The rays of an orthographic picture start in a plane, not at one eye.
-    if (!findings.camera[mirror] && picture.is_parallel()) return kAllFaces;
-    if (!findings.camera[mirror]) viewers.push_back({picture.eye(), picture.eye()});
+    if (!findings.camera[mirror] && picture.is_orthographic()) return kAllFaceBits;
+    if (!findings.camera[mirror])
+        viewers.push_back({picture.eye_position(), picture.eye_position()});
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
         if (model.mirrors[i].is_captured && sight.may_reach_object(world, i, mirror))
-            viewers.push_back(world.objects()[world.mirrors()[i]].box);
-    const dvec3 normal = scene::world_normal(scene::normal_matrix(thing.place), flat);
-    return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.position_rounding_error(),
+            viewers.push_back(world.list_objects()[world.list_mirror_objects()[i]].box);
+    const dvec3 normal = scene::transform_normal_to_world(scene::compute_normal_matrix(thing.place),
+                                                          flat);
+    return needed_faces_of_flat_mirror(thing.box, normal, 4 * world.max_position_rounding_error(),
                                        viewers);
 }
 
 /// Finds whether each light may shine on something that is seen. If any capture is made, all
 /// objects count as seen; else only those that the camera may see.
-void ModelBuilder::Impl::find_lights(const PictureFrustum& picture) {
-    model.lights.resize(world.lights().size());
+void RequiredWorkModelBuilder::Impl::find_lights(const PictureFrustum& picture) {
+    model.lights.resize(world.list_point_lights().size());
     model.casters = content_hashes.list_shadow_casters(world);
-    const bool all_around = std::ranges::any_of(model.mirrors, &MirrorNeeds::is_captured);
+    const bool all_around = std::ranges::any_of(model.mirrors, &MirrorRequirements::is_captured);
     for (std::size_t i = 0; i < model.lights.size(); ++i) {
-        model.lights[i].content_hash = ContentHash(world.epoch()).add(i).hash_value();
+        model.lights[i].content_hash =
+            ContentHash(world.static_change_count()).add_value(i).current_hash();
         model.lights[i].has_map = std::ranges::any_of(
-            world.objects(), [&](const WorldObject& thing) {
+            world.list_objects(), [&](const VisibilityWorldObject& thing) {
                 return !thing.box.empty() &&
-                       may_light_box(world.lights()[i], thing.box,
-                                     world.position_rounding_error()) &&
+                       may_light_box(world.list_point_lights()[i], thing.box,
+                                     world.max_position_rounding_error()) &&
                        (all_around || (thing.seen_by_camera && picture.may_contain_box(thing.box)));
             });
     }
 }
 
-ModelBuilder::ModelBuilder(const scene::Scene& rest) : impl_(std::make_unique<Impl>(rest)) {}
-ModelBuilder::~ModelBuilder() = default;
-ModelBuilder::ModelBuilder(ModelBuilder&&) noexcept = default;
-ModelBuilder& ModelBuilder::operator=(ModelBuilder&&) noexcept = default;
+RequiredWorkModelBuilder::RequiredWorkModelBuilder(const scene::Scene& rest)
+    : impl_(std::make_unique<Impl>(rest)) {}
+RequiredWorkModelBuilder::~RequiredWorkModelBuilder() = default;
+RequiredWorkModelBuilder::RequiredWorkModelBuilder(RequiredWorkModelBuilder&&) noexcept = default;
+RequiredWorkModelBuilder&
+RequiredWorkModelBuilder::operator=(RequiredWorkModelBuilder&&) noexcept = default;
 
-const Model& ModelBuilder::model_for(const ModelInput& question) {
+const RequiredWorkModel&
+RequiredWorkModelBuilder::model_for(const RequiredWorkModelInput& question) {
     Impl& impl = *impl_;
     const PictureFrustum picture(question.camera, question.size);
     impl.world.move_to_instant(question.now);
@@ -126,7 +136,7 @@ const Model& ModelBuilder::model_for(const ModelInput& question) {
         impl.find_captured(i, question.asks_all);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.model.mirrors[i].faces = question.asks_all || question.whole_cubes
-                                          ? kAllFaces
+                                          ? kAllFaceBits
                                           : impl.faces_of(picture, i);
     impl.find_lights(picture);
     fill_findings_hash(impl.findings, impl.model);
@@ -137,8 +147,8 @@ const Model& ModelBuilder::model_for(const ModelInput& question) {
     return impl.model;
 }
 
-Model make_required_model(const ModelInput& question) {
-    return ModelBuilder(question.now).model_for(question);
+RequiredWorkModel make_required_model(const RequiredWorkModelInput& question) {
+    return RequiredWorkModelBuilder(question.now).model_for(question);
 }
 
 } // namespace catoptric::require

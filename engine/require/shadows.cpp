@@ -8,12 +8,12 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr double kNeverReached = std::numeric_limits<double>::infinity();
+constexpr double kUnreachableDistance = std::numeric_limits<double>::infinity();
 
 /// Returns how many times further from the light than the box a shaded point can be.
-double max_shading_factor(const dvec3& light, const Bounds<double>& box,
-                          const Bounds<double>& everything) {
-    double times = kNeverReached;
+double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
+                                 const Bounds<double>& everything) {
+    double times = kUnreachableDistance;
     for (int axis = 0; axis < 3; ++axis) {
         // (wall - L) / (b - L) is largest for the b nearest to the light.
         const double above = box.lo[axis] - light[axis], below = light[axis] - box.hi[axis];
@@ -23,9 +23,9 @@ double max_shading_factor(const dvec3& light, const Bounds<double>& box,
     return std::max(times, 1.);
 }
 
-double max_distance_along(const dvec3& axis, const Bounds<double>& box,
-                          const Bounds<double>& everything) {
-    double times = kNeverReached;
+double max_shadow_distance_along(const dvec3& axis, const Bounds<double>& box,
+                                 const Bounds<double>& everything) {
+    double times = kUnreachableDistance;
     for (int i = 0; i < 3; ++i) {
         if (axis[i] > 0) times = std::min(times, (everything.hi[i] - box.lo[i]) / axis[i]);
         if (axis[i] < 0) times = std::min(times, (everything.lo[i] - box.hi[i]) / axis[i]);
@@ -39,16 +39,18 @@ double max_distance_to_box(const dvec3& place, const Bounds<double>& box) {
 }
 
 /// Returns the length of kShadowFilterTexels at the box, in world units.
-double shadow_texel_length(const scene::PointLight& light, const Bounds<double>& box,
-                           const Bounds<double>& everything, std::uint32_t edge) {
+double shadow_filter_length_at_box(const scene::PointLight& light, const Bounds<double>& box,
+                                   const Bounds<double>& everything, std::uint32_t edge) {
     // A face at depth d is 2 d wide. The windows of a directional light are at most slightly wider
-    // than everything (render::make_sun_views).
+    // than everything (render::make_directional_light_views).
     const double span = light.directional ? 1.5 * glm::length(everything.extent())
                                           : 2 * max_distance_to_box(light.position, box);
     return kShadowFilterTexels * span / std::max(edge, 1u);
 }
 
-Bounds<double> grow_box(const Bounds<double>& box, double by) { return {box.lo - by, box.hi + by}; }
+Bounds<double> grow_box_by(const Bounds<double>& box, double by) {
+    return {box.lo - by, box.hi + by};
+}
 
 Bounds<double> intersect_boxes(const Bounds<double>& a, const Bounds<double>& b) {
     return {glm::max(a.lo, b.lo), glm::min(a.hi, b.hi)};
@@ -56,15 +58,15 @@ Bounds<double> intersect_boxes(const Bounds<double>& a, const Bounds<double>& b)
 
 } // namespace
 
-ShadeVolume compute_shade_volume(const scene::PointLight& light, const Bounds<double>& caster,
-                                 const Bounds<double>& everything) {
+ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
+                                       const Bounds<double>& everything) {
     if (light.directional) {
-        const double far = max_distance_along(light.axis, caster, everything);
-        if (far == kNeverReached) return {everything, everything};
+        const double far = max_shadow_distance_along(light.axis, caster, everything);
+        if (far == kUnreachableDistance) return {everything, everything};
         return {caster, {caster.lo + far * light.axis, caster.hi + far * light.axis}};
     }
-    const double times = max_shading_factor(light.position, caster, everything);
-    if (times == kNeverReached) return {everything, everything};
+    const double times = max_shadow_stretch_factor(light.position, caster, everything);
+    if (times == kUnreachableDistance) return {everything, everything};
     return {caster,
             {light.position + times * (caster.lo - light.position),
              light.position + times * (caster.hi - light.position)}};
@@ -74,21 +76,22 @@ void find_shadow_receivers(const VisibilityWorld& world, std::uint32_t edge,
                            std::vector<ShadowReceiver>& landings) {
     landings.clear();
     Bounds<double> everything;
-    for (const WorldObject& thing : world.objects()) everything.add(thing.box);
-    for (const std::size_t mover : world.movers()) {
-        const WorldObject& caster = world.objects()[mover];
+    for (const VisibilityWorldObject& thing : world.list_objects()) everything.add(thing.box);
+    for (const std::size_t mover : world.list_moving_objects()) {
+        const VisibilityWorldObject& caster = world.list_objects()[mover];
         if (!caster.casts_shadow || caster.box.empty()) continue;
-        for (const scene::PointLight& light : world.lights()) {
-            const auto [from, to] = compute_shade_volume(light, caster.box, everything);
+        for (const scene::PointLight& light : world.list_point_lights()) {
+            const auto [from, to] = compute_shadowed_volume(light, caster.box, everything);
             Bounds<double> shade = from;
             shade.add(to);
-            for (std::size_t i = 0; i < world.objects().size(); ++i) {
-                const Bounds<double>& receiver = world.objects()[i].box;
+            for (std::size_t i = 0; i < world.list_objects().size(); ++i) {
+                const Bounds<double>& receiver = world.list_objects()[i].box;
                 if (receiver.empty()) continue;
-                const double room = shadow_texel_length(light, receiver, everything, edge);
-                const Bounds<double> box = intersect_boxes(grow_box(shade, room), receiver);
+                const double room = shadow_filter_length_at_box(light, receiver, everything, edge);
+                const Bounds<double> box = intersect_boxes(grow_box_by(shade, room), receiver);
                 if (!box.empty())
-                    landings.push_back({mover, i, box, {grow_box(from, room), grow_box(to, room)}});
+                    landings.push_back(
+                        {mover, i, box, {grow_box_by(from, room), grow_box_by(to, room)}});
             }
         }
     }

@@ -20,17 +20,17 @@ inline constexpr double kShadowFilterTexels = 5;
 /// light along a, they are b + t a, t >= 0. While they are in E, t is at most T. T follows from the
 /// axes along which B lies wholly to one side of L. The points lie in the hull of B and a second
 /// box: B scaled T times away from L, or moved by T a. If B lies around L, both boxes are E.
-struct ShadeVolume {
+struct ShadowedVolume {
     Bounds<double> from, to;
 };
-ShadeVolume compute_shade_volume(const scene::PointLight& light, const Bounds<double>& caster,
-                                 const Bounds<double>& everything);
+ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
+                                       const Bounds<double>& everything);
 
 /// A part of a receiver that a mover may shade, with the shade around this part.
 struct ShadowReceiver {
     std::size_t caster = 0, receiver = 0; ///< objects
     Bounds<double> box;
-    ShadeVolume shade;
+    ShadowedVolume shade;
 };
 
 /// Finds, for each light and each mover that casts a shadow, the receivers that the shadow may

@@ -10,30 +10,36 @@ namespace catoptric::require {
 namespace {
 
 /// Returns the margin to the edges and planes of walls: four times
-/// VisibilityWorld::position_rounding_error, in world units.
-double wall_margin(const VisibilityWorld& world) { return 4 * world.position_rounding_error(); }
+/// VisibilityWorld::max_position_rounding_error, in world units.
+double wall_edge_margin(const VisibilityWorld& world) {
+    return 4 * world.max_position_rounding_error();
+}
 
 } // namespace
 
-std::optional<UnseenReason> why_hidden_from_camera(const VisibilityWorld& world,
-                                                   const PictureFrustum& picture,
-                                                   std::size_t mirror) {
-    const std::size_t object = world.mirrors()[mirror];
-    const WorldObject& thing = world.objects()[object];
-    if (thing.box.empty()) return UnseenReason{UnseenReason::UnseenCause::empty, 0};
+std::optional<UnseenMirrorReason> find_reason_hidden_from_camera(const VisibilityWorld& world,
+                                                                 const PictureFrustum& picture,
+                                                                 std::size_t mirror) {
+    const std::size_t object = world.list_mirror_objects()[mirror];
+    const VisibilityWorldObject& thing = world.list_objects()[object];
+    if (thing.box.empty())
+        return UnseenMirrorReason{UnseenMirrorReason::UnseenMirrorCause::empty, 0};
     if (!thing.seen_by_camera)
-        return UnseenReason{UnseenReason::UnseenCause::hidden_from_camera, 0};
+        return UnseenMirrorReason{UnseenMirrorReason::UnseenMirrorCause::hidden_from_camera, 0};
     if (!picture.may_contain_box(thing.box))
-        return UnseenReason{UnseenReason::UnseenCause::outside, 0};
-    const double margin = wall_margin(world);
-    for (const Wall& wall : world.walls()) {
+        return UnseenMirrorReason{UnseenMirrorReason::UnseenMirrorCause::outside, 0};
+    const double margin = wall_edge_margin(world);
+    for (const OccluderWall& wall : world.list_walls()) {
         if (wall.object == object || !wall.seen_by_camera) continue;
-        const bool is_hidden = picture.is_parallel()
-                                   ? wall_hides_from_orthographic(
-                                         wall, picture.eye(), picture.forward(), thing.box, margin)
-                                   : wall_hides_box(wall, {picture.eye(), picture.eye()}, thing.box,
-                                                    margin);
-        if (is_hidden) return UnseenReason{UnseenReason::UnseenCause::hidden, wall.object};
+        const bool is_hidden = picture.is_orthographic()
+                                   ? wall_hides_from_orthographic(wall, picture.eye_position(),
+                                                                  picture.view_direction(),
+                                                                  thing.box, margin)
+                                   : wall_hides_box(
+                                         wall, {picture.eye_position(), picture.eye_position()},
+                                         thing.box, margin);
+        if (is_hidden)
+            return UnseenMirrorReason{UnseenMirrorReason::UnseenMirrorCause::hidden, wall.object};
     }
     return std::nullopt;
 }
@@ -44,14 +50,14 @@ bool has_few_triangles(const scene::Mesh& mesh) {
 
 bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityWorld& world,
                              std::size_t mirror, const scene::Scene& now) {
-    const WorldObject& thing = world.objects()[world.mirrors()[mirror]];
-    const double margin = wall_margin(world);
+    const VisibilityWorldObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
+    const double margin = wall_edge_margin(world);
     if (thing.sphere)
         return picture.may_contain_ball(thing.sphere->centre, thing.sphere->radius + margin);
     const scene::Mesh& mesh = now.meshes[thing.mesh];
     return !has_few_triangles(mesh) || std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
         const auto corner = [&](std::uint32_t i) {
-            return scene::transform_point(thing.place, mesh.positions[i]);
+            return scene::transform_point_to_world(thing.place, mesh.positions[i]);
         };
         return picture.may_contain_triangle({corner(t.x), corner(t.y), corner(t.z)}, margin);
     });
@@ -59,17 +65,20 @@ bool may_picture_show_mirror(const PictureFrustum& picture, const VisibilityWorl
 
 std::uint8_t MirrorVisibility::classify_visibility(const VisibilityWorld& world, std::size_t viewer,
                                                    std::size_t target) const {
-    const std::size_t from = world.mirrors()[viewer], to = world.mirrors()[target];
-    const Bounds<double>&here = world.objects()[from].box, &there = world.objects()[to].box;
+    const std::size_t from = world.list_mirror_objects()[viewer],
+                      to = world.list_mirror_objects()[target];
+    const Bounds<double>&here = world.list_objects()[from].box,
+          &there = world.list_objects()[to].box;
     if (viewer == target || here.empty() || there.empty()) return 0;
-    const dvec3 centre = world.objects()[from].tight.centre();
-    const double margin = wall_margin(world);
+    const dvec3 centre = world.list_objects()[from].tight.centre();
+    const double margin = wall_edge_margin(world);
     const auto [front, back] = places_[viewer].centre;
     const auto [far_front, far_back] = places_[target].box;
     std::uint8_t seen = kReachesFlag | kShowsFlag;
     for (std::uint32_t between = (front & far_back) | (back & far_front & two_sided_); between != 0;
          between &= between - 1) {
-        const Wall& wall = world.walls()[static_cast<std::size_t>(std::countr_zero(between))];
+        const OccluderWall& wall =
+            world.list_walls()[static_cast<std::size_t>(std::countr_zero(between))];
         if (wall.object == from || wall.object == to) continue;
         // If the wall does not hide the target from the centre, it cannot hide it from all points.
         if (!wall_hides_box(wall, {centre, centre}, there, margin)) continue;
@@ -83,8 +92,8 @@ MirrorVisibility::WallSideBits MirrorVisibility::sides_of(const VisibilityWorld&
                                                           const Bounds<double>& box) const {
     static_assert(kMaxWalls <= 32);
     WallSideBits sides;
-    for (std::size_t i = 0; i < world.walls().size(); ++i) {
-        const Wall& wall = world.walls()[i];
+    for (std::size_t i = 0; i < world.list_walls().size(); ++i) {
+        const OccluderWall& wall = world.list_walls()[i];
         const auto [low, high] = project_box_on_axis(wall.normal, box);
         const double plane = dot(wall.normal, wall.corners[0]);
         if (low > plane) sides.front |= 1u << i;
@@ -93,9 +102,9 @@ MirrorVisibility::WallSideBits MirrorVisibility::sides_of(const VisibilityWorld&
     return sides;
 }
 
-MirrorVisibility::MirrorSides MirrorVisibility::mirror_sides_of(const VisibilityWorld& world,
-                                                                std::size_t mirror) const {
-    const WorldObject& thing = world.objects()[world.mirrors()[mirror]];
+MirrorVisibility::MirrorFacingSides MirrorVisibility::mirror_sides_of(const VisibilityWorld& world,
+                                                                      std::size_t mirror) const {
+    const VisibilityWorldObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
     if (thing.box.empty()) return {};
     const dvec3 centre = thing.tight.centre();
     return {sides_of(world, thing.box), sides_of(world, {centre, centre})};
@@ -109,21 +118,21 @@ void MirrorVisibility::update_visibility_from(const VisibilityWorld& world, std:
 }
 
 void MirrorVisibility::move_to_instant(const VisibilityWorld& world) {
-    count_ = world.mirrors().size();
-    if (layout_ != world.layout_count()) {
-        layout_ = world.layout_count();
+    count_ = world.list_mirror_objects().size();
+    if (layout_ != world.object_list_change_count()) {
+        layout_ = world.object_list_change_count();
         rows_.assign(count_, {});
         changed_.assign(count_, true);
         places_.clear(), two_sided_ = 0;
         for (std::size_t i = 0; i < count_; ++i) places_.push_back(mirror_sides_of(world, i));
-        for (std::size_t i = 0; i < world.walls().size(); ++i)
-            if (!world.walls()[i].front_only) two_sided_ |= 1u << i;
+        for (std::size_t i = 0; i < world.list_walls().size(); ++i)
+            if (!world.list_walls()[i].front_only) two_sided_ |= 1u << i;
         return;
     }
     changed_.assign(count_, false);
     std::vector<std::size_t> moved;
     for (std::size_t i = 0; i < count_; ++i)
-        if (world.objects()[world.mirrors()[i]].has_moved) {
+        if (world.list_objects()[world.list_mirror_objects()[i]].has_moved) {
             moved.push_back(i);
             places_[i] = mirror_sides_of(world, i);
         }
@@ -139,7 +148,7 @@ void MirrorVisibility::move_to_instant(const VisibilityWorld& world) {
             if (is_much) return viewer == target ? 0 : kReachesFlag | kShowsFlag;
             return classify_visibility(world, viewer, target);
         };
-        if (world.objects()[world.mirrors()[viewer]].has_moved)
+        if (world.list_objects()[world.list_mirror_objects()[viewer]].has_moved)
             for (std::size_t target = 0; target < count_; ++target) put(target, answer(target));
         else
             for (const std::size_t target : moved) put(target, answer(target));

@@ -13,17 +13,17 @@ namespace catoptric::require {
 inline constexpr std::size_t kMaxVisibilityPairs = 1 << 14;
 
 /// Reason why the camera does not see a mirror.
-struct UnseenReason {
-    enum class UnseenCause { outside, hidden_from_camera, hidden, empty };
-    UnseenCause why = UnseenCause::outside;
+struct UnseenMirrorReason {
+    enum class UnseenMirrorCause { outside, hidden_from_camera, hidden, empty };
+    UnseenMirrorCause why = UnseenMirrorCause::outside;
     std::size_t wall = 0; ///< index of the wall object that hides the mirror
 };
 
 /// Returns why the camera does not see a mirror. The result is none if its bounds are in the
 /// picture and no wall stands in front of them.
-std::optional<UnseenReason> why_hidden_from_camera(const VisibilityWorld& world,
-                                                   const PictureFrustum& picture,
-                                                   std::size_t mirror);
+std::optional<UnseenMirrorReason> find_reason_hidden_from_camera(const VisibilityWorld& world,
+                                                                 const PictureFrustum& picture,
+                                                                 std::size_t mirror);
 
 /// Returns whether a mirror's mesh has few enough triangles to be tested one by one in each frame.
 bool has_few_triangles(const scene::Mesh& mesh);
@@ -47,7 +47,7 @@ public:
     /// `target`.
     bool capture_may_show(const VisibilityWorld& world, std::size_t viewer, std::size_t target);
     /// Returns whether any answer about `viewer` may differ from the previous instant.
-    bool has_changed(std::size_t viewer) const { return changed_[viewer]; }
+    bool has_visibility_changed(std::size_t viewer) const { return changed_[viewer]; }
 
 private:
     enum : std::uint8_t { kReachesFlag = 1, kShowsFlag = 2 };
@@ -55,18 +55,18 @@ private:
     struct WallSideBits {
         std::uint32_t front = 0, back = 0;
     };
-    struct MirrorSides {
+    struct MirrorFacingSides {
         WallSideBits box, centre;
     };
     WallSideBits sides_of(const VisibilityWorld& world, const Bounds<double>& box) const;
-    MirrorSides mirror_sides_of(const VisibilityWorld& world, std::size_t mirror) const;
+    MirrorFacingSides mirror_sides_of(const VisibilityWorld& world, std::size_t mirror) const;
     void update_visibility_from(const VisibilityWorld& world, std::size_t viewer);
     std::uint8_t classify_visibility(const VisibilityWorld& world, std::size_t viewer,
                                      std::size_t target) const;
 
     std::uint64_t layout_ = 0;
     std::size_t count_ = 0;
-    std::vector<MirrorSides> places_;
+    std::vector<MirrorFacingSides> places_;
     std::uint32_t two_sided_ = 0;                 ///< bits of walls that hide from both sides
     std::vector<std::vector<std::uint8_t>> rows_; ///< answers by viewer; empty: not computed yet
     std::vector<bool> changed_;

@@ -15,8 +15,8 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr PictureCostTable kCosts;
-constexpr TechniqueErrorTable kErrors;
+constexpr PictureCostTable kPictureCosts;
+constexpr TechniqueErrorTable kTechniqueErrors;
 constexpr double kEqualErrorFactor = 1.1; // errors within this factor count as equal
 /// Where some mirror is traced anyway, so is each mirror with at least this share of the pixels on
 /// mirrors whose centre does not see all that it shows.
@@ -26,7 +26,7 @@ constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggest
 constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
 
 /// Facts about a picture's mirrors that the choice depends on.
-struct MirrorFacts {
+struct MirrorCostFacts {
     MirrorPathCounts paths;
     std::vector<bool> is_flat, is_seen; ///< one entry per mirror
     double triangles = 0;               ///< number of triangles in the scene
@@ -34,17 +34,17 @@ struct MirrorFacts {
     double on_mirrors = 0;              ///< paths whose first hit is a mirror; at least 1
     int bounces = kMinPlanarBounces;    ///< knob `bounces` of `planar`
 
-    std::size_t count() const { return is_flat.size(); }
+    std::size_t mirror_count() const { return is_flat.size(); }
     /// Returns how many pixels of the picture this number of paths stands for.
-    double pixels_for_paths(std::size_t paths_through) const {
+    double estimate_pixels_of_paths(std::size_t paths_through) const {
         return pixels * static_cast<double>(paths_through) / static_cast<double>(paths.count);
     }
 };
 
-bool is_flat_mirror(const ModelInput& question, const scene::Object& object) {
+bool is_mirror_flat(const RequiredWorkModelInput& question, const scene::Object& object) {
     const scene::FlatFaces flats = scene::find_flat_faces(question.now, object);
     return flats.flat_area_share(scene::compute_flat_tolerance(question.camera, question.size)) >=
-           1 - kMaxBentShare;
+           1 - kMaxCurvedAreaShare;
 }
 
 /// Returns how many mirrors with `of` the path meets before another mirror.
@@ -56,7 +56,7 @@ std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
 }
 
 /// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
-int count_flat_bounces(const MirrorFacts& known) {
+int count_bounces_between_flat_mirrors(const MirrorCostFacts& known) {
     for (int bounces = kMinPlanarBounces; bounces < kMaxSuggestedBounces; ++bounces) {
         double more = 0;
         for (const auto& [path, count] : known.paths.through)
@@ -68,10 +68,10 @@ int count_flat_bounces(const MirrorFacts& known) {
     return kMaxSuggestedBounces;
 }
 
-MirrorFacts gather_mirror_facts(const ModelInput& question) {
-    MirrorFacts known{.paths = trace_mirror_paths(question)};
+MirrorCostFacts gather_mirror_cost_facts(const RequiredWorkModelInput& question) {
+    MirrorCostFacts known{.paths = trace_mirror_paths(question)};
     for (const std::size_t object : scene::mirrors(question.now))
-        known.is_flat.push_back(is_flat_mirror(question, question.now.objects[object]));
+        known.is_flat.push_back(is_mirror_flat(question, question.now.objects[object]));
     known.triangles = static_cast<double>(scene::triangle_count(question.now));
     known.pixels = 1.0 * question.size.x * question.size.y;
     known.on_mirrors = static_cast<double>(
@@ -81,71 +81,77 @@ MirrorFacts gather_mirror_facts(const ModelInput& question) {
                                 kHardlySeenPixelShare * known.on_mirrors);
     // Without any visible mirror, treat all as visible.
     if (std::ranges::none_of(known.is_seen, std::identity()))
-        known.is_seen.assign(known.count(), true);
-    known.bounces = count_flat_bounces(known);
+        known.is_seen.assign(known.mirror_count(), true);
+    known.bounces = count_bounces_between_flat_mirrors(known);
     return known;
 }
 
-double cost_of_pass(const MirrorFacts& known, double pixels) {
-    return kCosts.pass + kCosts.triangle * known.triangles + kCosts.pixel * pixels;
+double estimate_pass_cost(const MirrorCostFacts& known, double pixels) {
+    return kPictureCosts.pass + kPictureCosts.triangle * known.triangles +
+           kPictureCosts.pixel * pixels;
 }
 
 /// The ways to draw a mirror.
-enum class DrawingMethod { planes, hybrid, march, small };
+enum class MirrorDrawingMethod { planes, hybrid, march, small };
 
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
-bool should_trace(const MirrorFacts& known, std::size_t mirror) {
+bool should_trace_mirror(const MirrorCostFacts& known, std::size_t mirror) {
     const auto first = static_cast<double>(known.paths.first[mirror]),
                hidden = static_cast<double>(known.paths.hidden[mirror]);
-    return hidden * (kErrors.unknown - kErrors.search) >
-           (kEqualErrorFactor - 1) * kErrors.search * first;
+    return hidden * (kTechniqueErrors.unknown - kTechniqueErrors.search) >
+           (kEqualErrorFactor - 1) * kTechniqueErrors.search * first;
 }
 
 /// Adds cost and error of a mirror that is seen in flat mirrors with mirrored views. `path` lists
 /// the mirrors that `count` rays meet; this mirror is the last. A mirrored view looks into the
 /// mirror's capture but traces nothing, so it can only guess what the capture does not show.
-void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorFacts& known,
+void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorCostFacts& known,
                               const std::vector<std::uint32_t>& path, std::size_t count,
-                              DrawingMethod way) {
-    const bool is_searched = way != DrawingMethod::small;
-    if (is_searched) candidate.cost += kCosts.searched * known.pixels_for_paths(count);
-    const double error = is_searched ? kErrors.search : kErrors.reuse;
-    candidate.error += static_cast<double>(count) * (error - kErrors.planar);
+                              MirrorDrawingMethod way) {
+    const bool is_searched = way != MirrorDrawingMethod::small;
+    if (is_searched)
+        candidate.cost += kPictureCosts.searched * known.estimate_pixels_of_paths(count);
+    const double error = is_searched ? kTechniqueErrors.search : kTechniqueErrors.reuse;
+    candidate.error += static_cast<double>(count) * (error - kTechniqueErrors.planar);
     const auto found = known.paths.hidden_after.find(path);
     if (is_searched && found != known.paths.hidden_after.end())
-        candidate.error += static_cast<double>(found->second) * (kErrors.unknown - error);
+        candidate.error += static_cast<double>(found->second) * (kTechniqueErrors.unknown - error);
 }
 
 /// Adds cost and error of the candidate's techniques. `face` is the edge in texels of the captures
 /// of mirrors drawn by `planar`; 0: no captures.
-void add_cost_and_error(PlanCandidate& candidate, const MirrorFacts& known,
-                        const std::vector<DrawingMethod>& ways, std::uint32_t face) {
+void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostFacts& known,
+                                  const std::vector<MirrorDrawingMethod>& ways,
+                                  std::uint32_t face) {
     std::vector<bool> by_planes;
-    for (const DrawingMethod way : ways) by_planes.push_back(way == DrawingMethod::planes);
-    candidate.cost = cost_of_pass(known, known.pixels);
-    for (std::size_t i = 0; i < known.count() && face > 0; ++i) {
-        const double edge = by_planes[i]                      ? face
-                            : ways[i] == DrawingMethod::small ? kSmallFaceEdge
-                                                              : kUsualFaceEdge,
+    for (const MirrorDrawingMethod way : ways)
+        by_planes.push_back(way == MirrorDrawingMethod::planes);
+    candidate.cost = estimate_pass_cost(known, known.pixels);
+    for (std::size_t i = 0; i < known.mirror_count() && face > 0; ++i) {
+        const double edge = by_planes[i]                            ? face
+                            : ways[i] == MirrorDrawingMethod::small ? kSmallCaptureFaceEdge
+                                                                    : kUsualFaceEdge,
                      pixels = 6 * edge * edge;
-        candidate.cost += cost_of_pass(known, pixels);
-        if (ways[i] == DrawingMethod::hybrid) candidate.cost += kCosts.bounds * pixels;
+        candidate.cost += estimate_pass_cost(known, pixels);
+        if (ways[i] == MirrorDrawingMethod::hybrid) candidate.cost += kPictureCosts.bounds * pixels;
     }
-    for (std::size_t i = 0; i < known.count(); ++i) {
+    for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         const auto first = static_cast<double>(known.paths.first[i]);
-        const bool is_searched = ways[i] == DrawingMethod::hybrid ||
-                                 ways[i] == DrawingMethod::march;
+        const bool is_searched = ways[i] == MirrorDrawingMethod::hybrid ||
+                                 ways[i] == MirrorDrawingMethod::march;
         if (is_searched)
-            candidate.cost += kCosts.searched * known.pixels_for_paths(known.paths.first[i]);
-        if (ways[i] == DrawingMethod::hybrid)
-            candidate.cost += kCosts.traced * known.pixels_for_paths(known.paths.hidden[i]);
-        if (ways[i] == DrawingMethod::march)
+            candidate.cost += kPictureCosts.searched *
+                              known.estimate_pixels_of_paths(known.paths.first[i]);
+        if (ways[i] == MirrorDrawingMethod::hybrid)
+            candidate.cost += kPictureCosts.traced *
+                              known.estimate_pixels_of_paths(known.paths.hidden[i]);
+        if (ways[i] == MirrorDrawingMethod::march)
             candidate.error += static_cast<double>(known.paths.hidden[i]) *
-                               (kErrors.unknown - kErrors.search);
-        candidate.error += first * (by_planes[i]  ? kErrors.planar
-                                    : is_searched ? kErrors.search
-                                                  : kErrors.reuse);
+                               (kTechniqueErrors.unknown - kTechniqueErrors.search);
+        candidate.error += first * (by_planes[i]  ? kTechniqueErrors.planar
+                                    : is_searched ? kTechniqueErrors.search
+                                                  : kTechniqueErrors.reuse);
     }
     for (const auto& [path, count] : known.paths.through) {
         const auto bounces = static_cast<std::size_t>(known.bounces);
@@ -154,20 +160,21 @@ void add_cost_and_error(PlanCandidate& candidate, const MirrorFacts& known,
             add_cost_in_flat_mirrors(candidate, known, path, count, ways[path.back()]);
         if (planes != path.size()) continue;
         if (path.size() <= bounces)
-            candidate.cost += cost_of_pass(known, known.pixels_for_paths(count));
+            candidate.cost += estimate_pass_cost(known, known.estimate_pixels_of_paths(count));
         if (path.size() == bounces + 1)
-            candidate.error += static_cast<double>(count) * (kErrors.black - kErrors.planar);
+            candidate.error += static_cast<double>(count) *
+                               (kTechniqueErrors.black - kTechniqueErrors.planar);
     }
     candidate.error /= known.on_mirrors;
 }
 
 /// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
 /// hybrid".
-std::string name_candidate(const std::vector<DrawingMethod>& ways) {
+std::string candidate_technique_names(const std::vector<MirrorDrawingMethod>& ways) {
     std::string name;
-    for (const auto& [way, word] :
-         {std::pair(DrawingMethod::planes, "planar"), std::pair(DrawingMethod::hybrid, "hybrid"),
-          std::pair(DrawingMethod::march, "march")})
+    for (const auto& [way, word] : {std::pair(MirrorDrawingMethod::planes, "planar"),
+                                    std::pair(MirrorDrawingMethod::hybrid, "hybrid"),
+                                    std::pair(MirrorDrawingMethod::march, "march")})
         if (std::ranges::find(ways, way) != ways.end())
             name += (name.empty() ? "" : ", ") + std::string(word);
     return name.empty() ? "reuse" : name;
@@ -175,25 +182,26 @@ std::string name_candidate(const std::vector<DrawingMethod>& ways) {
 
 /// Returns a candidate. Flat mirrors get `planar` if `planes` is set. Hardly seen mirrors get small
 /// captures, and all others get searches.
-PlanCandidate make_candidate(const MirrorFacts& known, bool planes) {
-    std::vector<DrawingMethod> ways(known.count(), DrawingMethod::small);
+PlanCandidate make_plan_candidate(const MirrorCostFacts& known, bool planes) {
+    std::vector<MirrorDrawingMethod> ways(known.mirror_count(), MirrorDrawingMethod::small);
     bool is_searched = false; // whether any mirror's capture is searched
-    for (std::size_t i = 0; i < known.count(); ++i) {
+    for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
-        ways[i] = should_trace(known, i) ? DrawingMethod::hybrid : DrawingMethod::march;
+        ways[i] = should_trace_mirror(known, i) ? MirrorDrawingMethod::hybrid
+                                                : MirrorDrawingMethod::march;
         is_searched = true;
     }
-    if (std::ranges::find(ways, DrawingMethod::hybrid) != ways.end())
-        for (std::size_t i = 0; i < known.count(); ++i)
-            if (ways[i] == DrawingMethod::march && known.paths.hidden[i] > 0 &&
+    if (std::ranges::find(ways, MirrorDrawingMethod::hybrid) != ways.end())
+        for (std::size_t i = 0; i < known.mirror_count(); ++i)
+            if (ways[i] == MirrorDrawingMethod::march && known.paths.hidden[i] > 0 &&
                 static_cast<double>(known.paths.first[i]) >= kLargeMirrorShare * known.on_mirrors)
-                ways[i] = DrawingMethod::hybrid;
+                ways[i] = MirrorDrawingMethod::hybrid;
     bool has_captures = false;
-    for (std::size_t i = 0; i < known.count(); ++i) {
+    for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         // If no mirror is searched, a mirrored view costs less than a capture.
         if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched))
-            ways[i] = DrawingMethod::planes;
-        has_captures = has_captures || ways[i] != DrawingMethod::planes;
+            ways[i] = MirrorDrawingMethod::planes;
+        has_captures = has_captures || ways[i] != MirrorDrawingMethod::planes;
     }
     std::string planar = "planar";
     const char* between = ":";
@@ -201,18 +209,18 @@ PlanCandidate make_candidate(const MirrorFacts& known, bool planes) {
         planar += between + setting, between = ",";
     };
     if (known.bounces != kMinPlanarBounces) add("bounces=" + std::to_string(known.bounces));
-    if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallFaceEdge));
-    PlanCandidate candidate{.name = name_candidate(ways)};
-    for (const DrawingMethod way : ways)
-        candidate.techniques.push_back(way == DrawingMethod::planes   ? planar
-                                       : way == DrawingMethod::hybrid ? "hybrid"
-                                       : way == DrawingMethod::march
+    if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallCaptureFaceEdge));
+    PlanCandidate candidate{.name = candidate_technique_names(ways)};
+    for (const MirrorDrawingMethod way : ways)
+        candidate.techniques.push_back(way == MirrorDrawingMethod::planes   ? planar
+                                       : way == MirrorDrawingMethod::hybrid ? "hybrid"
+                                       : way == MirrorDrawingMethod::march
                                            ? "march"
-                                           : "reuse:face=" + std::to_string(kSmallFaceEdge));
-    add_cost_and_error(candidate, known, ways,
-                       !has_captures ? 0
-                       : is_searched ? kUsualFaceEdge
-                                     : kSmallFaceEdge);
+                                           : "reuse:face=" + std::to_string(kSmallCaptureFaceEdge));
+    add_cost_and_error_of_mirror(candidate, known, ways,
+                                 !has_captures ? 0
+                                 : is_searched ? kUsualFaceEdge
+                                               : kSmallCaptureFaceEdge);
     return candidate;
 }
 
@@ -223,8 +231,9 @@ std::string format_percent(double share) {
 }
 
 /// Returns the reason that follows the mirror's technique.
-std::string explain_choice(const ModelInput& question, const MirrorFacts& known, std::size_t mirror,
-                           const scene::Object& object, const std::string& technique) {
+std::string explain_technique_choice(const RequiredWorkModelInput& question,
+                                     const MirrorCostFacts& known, std::size_t mirror,
+                                     const scene::Object& object, const std::string& technique) {
     const auto share = [&](std::size_t paths) {
         return format_percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
     };
@@ -233,14 +242,15 @@ std::string explain_choice(const ModelInput& question, const MirrorFacts& known,
                                     : share(first) + " of the picture, " + share(reached) +
                                           " with what other mirrors show of it";
     if (reached == first && first > 0) seen = share(first) + " of the picture";
-    const scene::MirrorShape::Kind kind = scene::classify_mirror_shape(question.now, object).kind;
-    const char* shape = scene::reflects_by_lobe(question.now, object)            ? "rough"
+    const scene::MirrorShape::ShapeKind kind =
+        scene::classify_mirror_shape(question.now, object).kind;
+    const char* shape = scene::may_reflect_by_lobe(question.now, object)         ? "rough"
                         : question.now.materials[object.material].normal_texture ? "bumpy"
                         : known.is_flat[mirror]
-                            ? kind == scene::MirrorShape::Kind::flat ? "flat" : "flat faces"
-                        : kind == scene::MirrorShape::Kind::flat   ? "not quite flat"
-                        : kind == scene::MirrorShape::Kind::sphere ? "a sphere"
-                                                                   : "curved";
+                            ? kind == scene::MirrorShape::ShapeKind::flat ? "flat" : "flat faces"
+                        : kind == scene::MirrorShape::ShapeKind::flat   ? "not quite flat"
+                        : kind == scene::MirrorShape::ShapeKind::sphere ? "a sphere"
+                                                                        : "curved";
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
     if (technique == "march" && hidden == 0)
@@ -271,16 +281,16 @@ std::string write_plan_text(const std::map<std::string, std::vector<std::size_t>
 
 } // namespace
 
-PlanSuggestion suggest_plan(const ModelInput& question) {
+PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
     const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
     PlanSuggestion suggestion;
     if (mirrors.empty()) {
         suggestion.plan = "hybrid";
         return suggestion;
     }
-    const MirrorFacts known = gather_mirror_facts(question);
-    suggestion.candidates.push_back(make_candidate(known, true));
-    if (PlanCandidate searched = make_candidate(known, false);
+    const MirrorCostFacts known = gather_mirror_cost_facts(question);
+    suggestion.candidates.push_back(make_plan_candidate(known, true));
+    if (PlanCandidate searched = make_plan_candidate(known, false);
         searched.techniques != suggestion.candidates.front().techniques) {
         const PlanCandidate& planes = suggestion.candidates.front();
         const bool is_cheaper = searched.cost < planes.cost,
@@ -297,15 +307,16 @@ PlanSuggestion suggest_plan(const ModelInput& question) {
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const std::string& technique = suggestion.candidates.front().techniques[i];
         of_technique[technique].push_back(i + 1);
-        suggestion.reasons.push_back(
-            technique + ": " +
-            explain_choice(question, known, i, question.now.objects[mirrors[i]], technique));
+        suggestion.reasons.push_back(technique + ": " +
+                                     explain_technique_choice(question, known, i,
+                                                              question.now.objects[mirrors[i]],
+                                                              technique));
     }
     suggestion.plan = write_plan_text(of_technique, "hybrid");
     return suggestion;
 }
 
-std::string to_text(const std::vector<PlanCandidate>& candidates) {
+std::string format_plan_candidates(const std::vector<PlanCandidate>& candidates) {
     std::string text;
     for (const PlanCandidate& candidate : candidates) {
         char figures[160];

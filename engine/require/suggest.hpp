@@ -10,11 +10,12 @@
 namespace catoptric::require {
 
 /// A mirror is hardly seen if at most this share of all mirror pixels show it, directly or in other
-/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallFaceEdge, the cheapest lookup.
+/// mirrors. Such a mirror gets `reuse` with a capture of edge kSmallCaptureFaceEdge, the cheapest
+/// lookup.
 inline constexpr double kHardlySeenPixelShare = .002;
-inline constexpr std::uint32_t kSmallFaceEdge = 64, kUsualFaceEdge = 256;
+inline constexpr std::uint32_t kSmallCaptureFaceEdge = 64, kUsualFaceEdge = 256;
 /// A mirror with a larger share of bent surface than this is not drawn by `planar`.
-inline constexpr double kMaxBentShare = .1;
+inline constexpr double kMaxCurvedAreaShare = .1;
 
 /// Cost model of a picture, in drawn pixels: weights of passes and pixels. Measured on llvmpipe;
 /// docs/require.md has the figures.
@@ -58,9 +59,9 @@ struct PlanSuggestion {
 ///
 /// The candidate with the smaller estimated error wins. If the errors differ by less than a tenth,
 /// the cheaper candidate wins.
-PlanSuggestion suggest_plan(const ModelInput& question);
+PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question);
 
 /// Returns the candidates with cost and error, one line each, for the user.
-std::string to_text(const std::vector<PlanCandidate>& candidates);
+std::string format_plan_candidates(const std::vector<PlanCandidate>& candidates);
 
 } // namespace catoptric::require

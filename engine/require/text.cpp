@@ -16,14 +16,14 @@ std::string format_mirror_numbers(const std::vector<std::uint32_t>& mirrors) {
     return format_number_ranges(numbers);
 }
 
-std::string describe_capture_needs(const MirrorNeeds& needs, const scene::Mesh& mesh) {
+std::string describe_capture_needs(const MirrorRequirements& needs, const scene::Mesh& mesh) {
     if (!needs.is_captured) return "not seen";
-    std::string text = needs.seen_in
-                           ? "in the view of mirror " + std::to_string(needs.seen_in.number())
+    std::string text = needs.seen_in ? "in the view of mirror " +
+                                           std::to_string(needs.seen_in.mirror_number())
                        : !has_few_triangles(mesh) ? "its bounds are in the camera's view"
                                                   : "in the camera's view";
     text += "; captured, ";
-    text += needs.faces == kAllFaces ? "six faces" : "faces " + list_face_names(needs.faces);
+    text += needs.faces == kAllFaceBits ? "six faces" : "faces " + list_face_names(needs.faces);
     if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";
     text += needs.sees.empty() ? ", no other mirror in it"
                                : ", mirrors " + format_mirror_numbers(needs.sees) + " in it";
@@ -38,12 +38,12 @@ std::string format_estimated_error(double error) {
 }
 
 /// Returns the text about captures and maps that are kept over frames; empty if there are none.
-std::string describe_kept_captures(const Model& model) {
+std::string describe_kept_captures(const RequiredWorkModel& model) {
     std::size_t faces = 0;
-    for (const MirrorNeeds& needs : model.mirrors)
+    for (const MirrorRequirements& needs : model.mirrors)
         faces += needs.is_captured ? static_cast<std::size_t>(std::popcount(needs.faces)) : 0;
     const auto maps = static_cast<std::size_t>(
-        std::ranges::count_if(model.lights, &LightNeeds::has_map));
+        std::ranges::count_if(model.lights, &LightRequirements::has_map));
     if (model.is_everything || faces + maps == 0) return "";
     std::ostringstream text;
     text
@@ -59,7 +59,7 @@ std::string describe_kept_captures(const Model& model) {
 
 } // namespace
 
-std::string to_text(const Model& model, const scene::Scene& scene) {
+std::string describe_model(const RequiredWorkModel& model, const scene::Scene& scene) {
     std::ostringstream text;
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     text << (model.is_everything ? "everything is required\n" : "required\n");
@@ -73,7 +73,8 @@ std::string to_text(const Model& model, const scene::Scene& scene) {
         std::size_t end = i + 1;
         while (end < model.mirrors.size() && text_of(end) == needs) ++end;
         if (end == i + 1)
-            text << "  mirror " << end << " " << quote_printable(scene.objects[mirrors[i]].name);
+            text << "  mirror " << end << " "
+                 << quote_as_printable_text(scene.objects[mirrors[i]].name);
         else
             text << "  mirrors " << i + 1 << "-" << end;
         text << ": " << needs << "\n";

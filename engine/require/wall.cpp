@@ -44,14 +44,14 @@ struct BoxCorners {
     }
 };
 
-struct WallDistances {
+struct OccluderWallDistances {
     double height;                ///< distance from the plane, positive
     std::array<double, 4> inside; ///< distance inside each edge
 };
-WallDistances distances_to_wall(const Wall& wall, const dvec3& place) {
-    WallDistances side{std::abs(wall.height_above_plane(place)), {}};
+OccluderWallDistances distances_to_occluder_wall(const OccluderWall& wall, const dvec3& place) {
+    OccluderWallDistances side{std::abs(wall.height_above_wall_plane(place)), {}};
     for (std::size_t edge = 0; edge < 4; ++edge)
-        side.inside[edge] = wall.distance_inside_edge(edge, place);
+        side.inside[edge] = wall.distance_inside_wall_edge(edge, place);
     return side;
 }
 
@@ -87,8 +87,8 @@ std::vector<Quad> find_convex_quads(const scene::Mesh& mesh) {
     return quads;
 }
 
-Wall make_wall(const Quad& corners, std::size_t object) {
-    Wall wall{.corners = corners, .object = object};
+OccluderWall make_occluder_wall(const Quad& corners, std::size_t object) {
+    OccluderWall wall{.corners = corners, .object = object};
     const dvec3 twice = cross(corners[2] - corners[0], corners[3] - corners[1]);
     wall.area = length(twice) / 2;
     if (!(wall.area > 0)) return wall;
@@ -98,8 +98,8 @@ Wall make_wall(const Quad& corners, std::size_t object) {
     return wall;
 }
 
-bool wall_hides_box(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
-                    double margin) {
+bool wall_hides_box(const OccluderWall& wall, const Bounds<double>& viewer,
+                    const Bounds<double>& target, double margin) {
     const auto [viewer_low, viewer_high] = project_box_on_axis(wall.normal, viewer);
     const auto [target_low, target_high] = project_box_on_axis(wall.normal, target);
     const double plane = dot(wall.normal, wall.corners[0]), above = plane + margin,
@@ -108,10 +108,11 @@ bool wall_hides_box(const Wall& wall, const Bounds<double>& viewer, const Bounds
     const bool from_behind = viewer_high < below && target_low > above && !wall.front_only;
     if (!(from_front || from_behind)) return false;
     const BoxCorners from(viewer), to(target);
-    std::array<WallDistances, 8> there;
-    for (std::size_t j = 0; j < to.count; ++j) there[j] = distances_to_wall(wall, to.at[j]);
+    std::array<OccluderWallDistances, 8> there;
+    for (std::size_t j = 0; j < to.count; ++j)
+        there[j] = distances_to_occluder_wall(wall, to.at[j]);
     for (std::size_t i = 0; i < from.count; ++i) {
-        const WallDistances here = distances_to_wall(wall, from.at[i]);
+        const OccluderWallDistances here = distances_to_occluder_wall(wall, from.at[i]);
         for (std::size_t j = 0; j < to.count; ++j)
             for (std::size_t edge = 0; edge < 4; ++edge)
                 if (!(here.inside[edge] * there[j].height + there[j].inside[edge] * here.height >=
@@ -121,16 +122,18 @@ bool wall_hides_box(const Wall& wall, const Bounds<double>& viewer, const Bounds
     return true;
 }
 
-bool wall_hides_from_orthographic(const Wall& wall, const dvec3& eye, const dvec3& direction,
-                                  const Bounds<double>& target, double margin) {
+bool wall_hides_from_orthographic(const OccluderWall& wall, const dvec3& eye,
+                                  const dvec3& direction, const Bounds<double>& target,
+                                  double margin) {
     const double slant = dot(wall.normal, direction);
     if (wall.front_only && slant >= 0) return false;
     for (const dvec3& corner : list_box_corners(target)) {
-        const double depth = dot(corner - eye, direction), height = wall.height_above_plane(corner);
+        const double depth = dot(corner - eye, direction),
+                     height = wall.height_above_wall_plane(corner);
         const double back = height / slant; // distance back to the wall, against the direction
         if (!(back > margin && depth - back > margin)) return false;
         for (std::size_t edge = 0; edge < 4; ++edge)
-            if (!(wall.distance_inside_edge(edge, corner - back * direction) >= margin))
+            if (!(wall.distance_inside_wall_edge(edge, corner - back * direction) >= margin))
                 return false;
     }
     return true;

@@ -27,7 +27,7 @@ inline constexpr double kCoplanarTolerance = 1e-9;
 inline constexpr std::size_t kMaxWallMeshTriangles = 64;
 
 /// An opaque quadrilateral in world space.
-struct Wall {
+struct OccluderWall {
     Quad corners;
     std::size_t object = 0;
     bool front_only = false; ///< whether the wall hides nothing from viewers behind it
@@ -37,13 +37,15 @@ struct Wall {
         inward{}; ///< unit, in the plane, normal of the edge that starts at corner i
     double area = 0;
 
-    double height_above_plane(const dvec3& place) const { return dot(normal, place - corners[0]); }
-    double distance_inside_edge(std::size_t edge, const dvec3& place) const {
+    double height_above_wall_plane(const dvec3& place) const {
+        return dot(normal, place - corners[0]);
+    }
+    double distance_inside_wall_edge(std::size_t edge, const dvec3& place) const {
         return dot(inward[edge], place - corners[edge]);
     }
 };
 /// Returns the wall of a quadrilateral of an object. A wall of zero area hides nothing.
-Wall make_wall(const Quad& corners, std::size_t object);
+OccluderWall make_occluder_wall(const Quad& corners, std::size_t object);
 
 /// Returns whether each segment from a point of `viewer` to a point of `target` crosses the wall.
 /// Crossings must lie at least `margin` inside the wall's edges. The ends must lie on different
@@ -56,13 +58,14 @@ Wall make_wall(const Quad& corners, std::size_t object);
 /// these (at most 64) crossings lie in the wall, which is convex, all crossings do. Let h be the
 /// height over the plane and e the distance inside an edge's line, both linear. The crossing of v
 /// and t has e = (e(v) |h(t)| + e(t) |h(v)|) / (|h(v)| + |h(t)|).
-bool wall_hides_box(const Wall& wall, const Bounds<double>& viewer, const Bounds<double>& target,
-                    double margin);
+bool wall_hides_box(const OccluderWall& wall, const Bounds<double>& viewer,
+                    const Bounds<double>& target, double margin);
 
 /// Returns whether the wall hides the box `target` from an orthographic camera. All rays to
 /// `target` run along the unit `direction`, from the plane through `eye` across it. A corner's
 /// crossing is linear in the corner, so eight segments suffice.
-bool wall_hides_from_orthographic(const Wall& wall, const dvec3& eye, const dvec3& direction,
-                                  const Bounds<double>& target, double margin);
+bool wall_hides_from_orthographic(const OccluderWall& wall, const dvec3& eye,
+                                  const dvec3& direction, const Bounds<double>& target,
+                                  double margin);
 
 } // namespace catoptric::require

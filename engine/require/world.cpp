@@ -14,8 +14,8 @@ namespace catoptric::require {
 
 namespace {
 
-MeshFacts compute_mesh_facts(const scene::Mesh& mesh) {
-    MeshFacts facts;
+FixedMeshFacts compute_mesh_facts(const scene::Mesh& mesh) {
+    FixedMeshFacts facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
     const dvec3 middle = facts.box.centre();
@@ -24,7 +24,7 @@ MeshFacts compute_mesh_facts(const scene::Mesh& mesh) {
             facts.radius = std::max(facts.radius, length(mesh.positions[triangle[i]] - middle));
     facts.content_hash = hash_mesh(mesh);
     facts.quads = find_convex_quads(mesh);
-    facts.flat_normal = normal_of_flat_mesh(mesh);
+    facts.flat_normal = find_normal_of_flat_mesh(mesh);
     return facts;
 }
 
@@ -33,7 +33,7 @@ Bounds<double> transform_bounds(const Bounds<double>& box, const dmat4& place) {
     Bounds<double> result;
     if (!box.empty())
         for (const dvec3& corner : list_box_corners(box))
-            result.add(scene::transform_point(place, corner));
+            result.add(scene::transform_point_to_world(place, corner));
     return result;
 }
 
@@ -48,16 +48,17 @@ double bound_matrix_stretch(const dmat3& m) {
     return std::sqrt(most);
 }
 
-Bounds<double> shift_bounds(const Bounds<double>& box, const dvec3& offset) {
+Bounds<double> translate_bounds(const Bounds<double>& box, const dvec3& offset) {
     return {box.lo + offset, box.hi + offset};
 }
 
-bool is_equal(const std::optional<scene::Sphere>& a, const std::optional<scene::Sphere>& b) {
+bool are_equal_spheres(const std::optional<scene::Sphere>& a,
+                       const std::optional<scene::Sphere>& b) {
     if (a.has_value() != b.has_value()) return false;
     return !a || (a->centre == b->centre && a->radius == b->radius);
 }
 
-bool can_be_wall(const scene::Material& material, bool is_mirror) {
+bool can_object_be_wall(const scene::Material& material, bool is_mirror) {
     // A lamp is invisible from behind, and the order of its corners does not tell where behind is.
     return !scene::has_alpha_mask(material) &&
            (is_mirror || material.front_only || !scene::is_one_sided(material)) &&
@@ -77,13 +78,13 @@ VisibilityWorld::VisibilityWorld(const scene::Scene& rest) {
 void VisibilityWorld::set_layout(const scene::Scene& now) {
     ++layouts_;
     materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
-    materials_stamp_ = hash_mesh(now.materials);
-    environment_stamp_ = hash_mesh(now.environment.get());
+    materials_stamp_ = hash_materials(now.materials);
+    environment_stamp_ = hash_environment(now.environment.get());
     things_.resize(now.objects.size());
     mirrors_ = scene::mirrors(now), movers_.clear(), still_ = {};
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const scene::Object& object = now.objects[i];
-        WorldObject& thing = things_[i];
+        VisibilityWorldObject& thing = things_[i];
         thing.mesh = object.mesh, thing.material = object.material;
         thing.rest = object.world_from_object;
         thing.seen_by_camera = object.seen_by_camera;
@@ -113,7 +114,7 @@ bool VisibilityWorld::has_same_layout(const scene::Scene& now) const {
         return false;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const scene::Object& object = now.objects[i];
-        const WorldObject& thing = things_[i];
+        const VisibilityWorldObject& thing = things_[i];
         if (object.mesh != thing.mesh || object.material != thing.material ||
             object.seen_by_camera != thing.seen_by_camera ||
             scene::is_mirror(now, object) != thing.is_mirror ||
@@ -126,11 +127,11 @@ bool VisibilityWorld::has_same_layout(const scene::Scene& now) const {
 /// Moves an object to its current place.
 void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
-    WorldObject& thing = things_[index];
+    VisibilityWorldObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
     const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
-    thing.tight = is_shifted
-                      ? shift_bounds(thing.tight_rest, dvec3(thing.place[3]) - dvec3(thing.rest[3]))
+    thing.tight = is_shifted ? translate_bounds(thing.tight_rest,
+                                                dvec3(thing.place[3]) - dvec3(thing.rest[3]))
                   : thing.is_mirror
                       ? scene::bounds(
                             now, object) // the centre of its bounds is the centre of its capture
@@ -139,16 +140,17 @@ void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
-    const MeshFacts& mesh = meshes_[thing.mesh];
-    if (!mesh.box.empty()) thing.middle = scene::transform_point(thing.place, mesh.box.centre());
+    const FixedMeshFacts& mesh = meshes_[thing.mesh];
+    if (!mesh.box.empty())
+        thing.middle = scene::transform_point_to_world(thing.place, mesh.box.centre());
     thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;
     ContentHash content_hash;
-    content_hash.add(index)
-        .add(meshes_[thing.mesh].content_hash)
-        .add(thing.material)
-        .add(thing.place);
-    if (thing.sphere) content_hash.add(thing.sphere->centre).add(thing.sphere->radius);
-    thing.content_hash = content_hash.hash_value();
+    content_hash.add_value(index)
+        .add_value(meshes_[thing.mesh].content_hash)
+        .add_value(thing.material)
+        .add_value(thing.place);
+    if (thing.sphere) content_hash.add_value(thing.sphere->centre).add_value(thing.sphere->radius);
+    thing.content_hash = content_hash.current_hash();
 }
 
 void VisibilityWorld::move_to_instant(const scene::Scene& now) {
@@ -157,16 +159,16 @@ void VisibilityWorld::move_to_instant(const scene::Scene& now) {
         for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
             if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
         set_layout(now);
-        for (WorldObject& thing : things_) thing.has_moved = thing.is_mover;
+        for (VisibilityWorldObject& thing : things_) thing.has_moved = thing.is_mover;
         has_changed_ = true;
         return;
     }
-    bool lights_moved = !std::ranges::equal(punctual_, now.punctual, scene::emit_alike);
+    bool lights_moved = !std::ranges::equal(punctual_, now.punctual, scene::have_equal_emission);
     for (const std::size_t mover : movers_) {
-        WorldObject& thing = things_[mover];
+        VisibilityWorldObject& thing = things_[mover];
         const scene::Object& object = now.objects[mover];
         thing.has_moved = object.world_from_object != thing.place ||
-                          !is_equal(object.sphere, thing.sphere);
+                          !are_equal_spheres(object.sphere, thing.sphere);
         if (!thing.has_moved) continue;
         move_object(now, mover);
         has_changed_ = true;
@@ -182,18 +184,18 @@ void VisibilityWorld::move_to_instant(const scene::Scene& now) {
 void VisibilityWorld::find_walls() {
     walls_.clear();
     const auto keep_largest = [&] { // keeps the first of equal walls
-        std::ranges::stable_sort(walls_, std::ranges::greater(), &Wall::area);
+        std::ranges::stable_sort(walls_, std::ranges::greater(), &OccluderWall::area);
         if (walls_.size() > kMaxWalls) walls_.resize(kMaxWalls);
     };
     const double extent = rounding_ / kPositionRoundingError,
                  least = kMinWallAreaShare * extent * extent;
     for (std::size_t i = 0; i < things_.size(); ++i) {
-        const WorldObject& thing = things_[i];
+        const VisibilityWorldObject& thing = things_[i];
         const scene::Material& material = materials_[thing.material];
-        if (thing.is_mover || !can_be_wall(material, thing.is_mirror)) continue;
+        if (thing.is_mover || !can_object_be_wall(material, thing.is_mirror)) continue;
         for (Quad quad : meshes_[thing.mesh].quads) {
-            for (dvec3& corner : quad) corner = scene::transform_point(thing.rest, corner);
-            Wall wall = make_wall(quad, i);
+            for (dvec3& corner : quad) corner = scene::transform_point_to_world(thing.rest, corner);
+            OccluderWall wall = make_occluder_wall(quad, i);
             wall.front_only = material.front_only && !thing.is_mirror;
             wall.seen_by_camera = thing.seen_by_camera;
             if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
@@ -205,11 +207,13 @@ void VisibilityWorld::find_walls() {
 
 void VisibilityWorld::find_epoch() {
     ContentHash content_hash;
-    content_hash.add(materials_stamp_).add(environment_stamp_).add(things_.size());
-    for (const WorldObject& thing : things_)
-        content_hash.add(thing.is_mover ? 0 : thing.content_hash);
-    for (const scene::PointLight& light : lights_) content_hash.add(hash_mesh(light));
-    epoch_ = content_hash.hash_value();
+    content_hash.add_value(materials_stamp_)
+        .add_value(environment_stamp_)
+        .add_value(things_.size());
+    for (const VisibilityWorldObject& thing : things_)
+        content_hash.add_value(thing.is_mover ? 0 : thing.content_hash);
+    for (const scene::PointLight& light : lights_) content_hash.add_value(hash_point_light(light));
+    epoch_ = content_hash.current_hash();
 }
 
 } // namespace catoptric::require

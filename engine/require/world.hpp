@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxWalls = 32;
 inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
-struct MeshFacts {
+struct FixedMeshFacts {
     Bounds<double> box; ///< in the mesh's own space
     double radius = 0;  ///< of all its triangles, around the middle of `box`
     std::uint64_t content_hash = 0;
@@ -32,7 +32,7 @@ struct MeshFacts {
     dvec3 flat_normal{0}; ///< normal of a flat mesh, zero for other meshes (require/reach.hpp)
 };
 
-struct WorldObject {
+struct VisibilityWorldObject {
     std::size_t mesh = 0, material = 0;
     dmat4 rest{1}, place{1}; ///< world from object: at rest, and now
     std::optional<scene::Sphere> sphere;
@@ -58,28 +58,32 @@ public:
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
     /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
-    /// edit begins a new `epoch`. A changed number of objects, material, light or environment also
-    /// begins a new `epoch`.
+    /// edit begins a new `static_change_count`. A changed number of objects, material, light or
+    /// environment also begins a new `static_change_count`.
     void move_to_instant(const scene::Scene& now);
 
-    const std::vector<WorldObject>& objects() const { return things_; }
-    const std::vector<std::size_t>& mirrors() const { return mirrors_; } ///< indices of objects
-    const std::vector<std::size_t>& movers() const { return movers_; }   ///< indices of objects
-    const std::vector<Wall>& walls() const { return walls_; }            ///< the largest first
-    const std::vector<scene::PointLight>& lights() const { return lights_; }
-    const std::vector<MeshFacts>& meshes() const { return meshes_; }
-    const Bounds<double>& static_bounds() const {
+    const std::vector<VisibilityWorldObject>& list_objects() const { return things_; }
+    const std::vector<std::size_t>& list_mirror_objects() const {
+        return mirrors_;
+    } ///< indices of objects
+    const std::vector<std::size_t>& list_moving_objects() const {
+        return movers_;
+    }                                                                      ///< indices of objects
+    const std::vector<OccluderWall>& list_walls() const { return walls_; } ///< the largest first
+    const std::vector<scene::PointLight>& list_point_lights() const { return lights_; }
+    const std::vector<FixedMeshFacts>& list_mesh_facts() const { return meshes_; }
+    const Bounds<double>& bounds_of_static_objects() const {
         return still_;
     } ///< bounds of all that never moved
     /// Largest rounding error of a position, in world units.
-    double position_rounding_error() const { return rounding_; }
-    std::uint64_t epoch() const {
+    double max_position_rounding_error() const { return rounding_; }
+    std::uint64_t static_change_count() const {
         return epoch_;
     } ///< content hash of all that is no mover, and of the lights
-    std::uint64_t layout_count() const {
+    std::uint64_t object_list_change_count() const {
         return layouts_;
     } ///< number of layouts; grows when other objects stand still
-    bool has_changed() const {
+    bool has_world_changed() const {
         return has_changed_;
     } ///< whether anything changed since the previous instant
 
@@ -90,14 +94,14 @@ private:
     void find_walls();
     void find_epoch();
 
-    std::vector<MeshFacts> meshes_;
+    std::vector<FixedMeshFacts> meshes_;
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
     std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, epoch_ = 0, layouts_ = 0;
-    std::vector<WorldObject> things_;
+    std::vector<VisibilityWorldObject> things_;
     std::vector<std::size_t> mirrors_, movers_;
-    std::vector<Wall> walls_;
+    std::vector<OccluderWall> walls_;
     std::vector<scene::PointLight> lights_;
     Bounds<double> still_;
     dvec3 middle_{0};

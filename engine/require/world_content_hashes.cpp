@@ -12,8 +12,8 @@ namespace catoptric::require {
 namespace {
 
 template <typename Value>
-void hash_values(ContentHash& content_hash, const std::vector<Value>& values) {
-    content_hash.add_all(std::span<const Value>(values));
+void hash_value_list(ContentHash& content_hash, const std::vector<Value>& values) {
+    content_hash.add_values(std::span<const Value>(values));
 }
 
 /// Content hashes of images. Each image is hashed once, even if several materials use it.
@@ -23,9 +23,9 @@ public:
         const auto [entry, is_new] = known_.try_emplace(image.get(), 0);
         if (!is_new || !image) return entry->second;
         ContentHash content_hash;
-        content_hash.add(image->size);
-        hash_values(content_hash, image->texels);
-        return entry->second = content_hash.hash_value();
+        content_hash.add_value(image->size);
+        hash_value_list(content_hash, image->texels);
+        return entry->second = content_hash.current_hash();
     }
 
 private:
@@ -34,25 +34,27 @@ private:
 
 void hash_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
                   ImageHashes& images) {
-    content_hash.add(texture.has_value());
+    content_hash.add_value(texture.has_value());
     if (!texture) return;
-    content_hash.add(images[texture->image]).add(texture->wrap_u).add(texture->wrap_v);
-    content_hash.add(texture->nearest).add(texture->srgb).add(texture->uv_set);
-    content_hash.add(texture->u_row).add(texture->v_row);
+    content_hash.add_value(images[texture->image])
+        .add_value(texture->wrap_u)
+        .add_value(texture->wrap_v);
+    content_hash.add_value(texture->nearest).add_value(texture->srgb).add_value(texture->uv_set);
+    content_hash.add_value(texture->u_row).add_value(texture->v_row);
 }
 
 } // namespace
 
 std::uint64_t hash_mesh(const scene::Mesh& mesh) {
     ContentHash content_hash;
-    hash_values(content_hash, mesh.positions), hash_values(content_hash, mesh.normals),
-        hash_values(content_hash, mesh.triangles);
-    hash_values(content_hash, mesh.uv[0]), hash_values(content_hash, mesh.uv[1]),
-        hash_values(content_hash, mesh.colours);
-    return content_hash.hash_value();
+    hash_value_list(content_hash, mesh.positions), hash_value_list(content_hash, mesh.normals),
+        hash_value_list(content_hash, mesh.triangles);
+    hash_value_list(content_hash, mesh.uv[0]), hash_value_list(content_hash, mesh.uv[1]),
+        hash_value_list(content_hash, mesh.colours);
+    return content_hash.current_hash();
 }
 
-std::uint64_t hash_mesh(const std::vector<scene::Material>& materials) {
+std::uint64_t hash_materials(const std::vector<scene::Material>& materials) {
     ContentHash content_hash;
     ImageHashes images;
     const auto add_member = [&](const auto& member) {
@@ -60,27 +62,28 @@ std::uint64_t hash_mesh(const std::vector<scene::Material>& materials) {
         if constexpr (std::is_same_v<Member, std::optional<scene::Texture>>)
             hash_texture(content_hash, member, images);
         else if constexpr (std::is_same_v<Member, std::optional<vec3>>)
-            content_hash.add(member.has_value()).add(member.value_or(vec3(0)));
+            content_hash.add_value(member.has_value()).add_value(member.value_or(vec3(0)));
         else if constexpr (!std::is_same_v<Member, std::string>) // no picture shows a name
-            content_hash.add(member);
+            content_hash.add_value(member);
     };
-    for (const scene::Material& material : materials) scene::visit_members(material, add_member);
-    return content_hash.hash_value();
+    for (const scene::Material& material : materials)
+        scene::visit_material_members(material, add_member);
+    return content_hash.current_hash();
 }
 
-std::uint64_t hash_mesh(const scene::Environment* environment) {
+std::uint64_t hash_environment(const scene::Environment* environment) {
     if (environment == nullptr) return 0;
     ContentHash content_hash(1);
-    content_hash.add(environment->studio).add(environment->size);
-    hash_values(content_hash, environment->texels);
-    content_hash.add(environment->scale).add(environment->rotation_degrees);
-    return content_hash.hash_value();
+    content_hash.add_value(environment->studio).add_value(environment->size);
+    hash_value_list(content_hash, environment->texels);
+    content_hash.add_value(environment->scale).add_value(environment->rotation_degrees);
+    return content_hash.current_hash();
 }
 
-std::uint64_t hash_mesh(const scene::PointLight& light) {
+std::uint64_t hash_point_light(const scene::PointLight& light) {
     ContentHash content_hash;
-    scene::visit_members(light, [&](const auto& member) { content_hash.add(member); });
-    return content_hash.hash_value();
+    scene::visit_light_members(light, [&](const auto& member) { content_hash.add_value(member); });
+    return content_hash.current_hash();
 }
 
 } // namespace catoptric::require

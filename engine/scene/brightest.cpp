@@ -16,18 +16,19 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns how strongly one light lights a surface at `point` that faces it, without shadows.
-double light_strength_at(const dvec3& point, const PointLight& light) {
+double light_strength_at_point(const dvec3& point, const PointLight& light) {
     const double emitted = compute_luminance(dvec3(light.emission)) * light.area;
     if (light.directional) return emitted;
     const dvec3 way = point - light.position;
     const double square = glm::dot(way, way), distance = std::sqrt(square);
     if (square == 0) return std::numeric_limits<double>::infinity();
     const dvec3 along = way / distance;
-    const double facing = light_share_towards(light, along);
+    const double facing = light_share_in_direction(light, along);
     const double part = std::isinf(light.range) ? 0 : std::pow(distance / light.range, 4);
     const double window = std::clamp(1 - part, 0.0, 1.0);
     double cone = 1;
-    if (const LightKind& kind = light_kind_of(light.kind); !light.is_lamp && kind.share != nullptr)
+    if (const LightKind& kind = find_light_kind(light.kind);
+        !light.is_lamp && kind.share != nullptr)
         cone = kind.share(light, glm::dot(light.axis, along));
     return emitted * facing * window * cone / square;
 }
@@ -47,7 +48,7 @@ std::vector<LightSource> list_light_sources(const Scene& scene) {
     const auto add = [&](std::size_t index) {
         std::size_t point = 0;
         for (const PointLight& light : list_lights(one))
-            sources.push_back({index, point++, light_strength_at(centre, light)});
+            sources.push_back({index, point++, light_strength_at_point(centre, light)});
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         one.objects = {scene.objects[i]};
@@ -75,7 +76,7 @@ void split_off_emitting_triangles(Scene& scene, std::size_t index,
                                   const std::vector<std::size_t>& kept) {
     Object rest = scene.objects[index];
     Mesh bright = scene.meshes[rest.mesh], dark = bright;
-    const auto points = light_index_per_triangle(bright, rest.world_from_object);
+    const auto points = find_light_of_each_triangle(bright, rest.world_from_object);
     bright.triangles.clear(), dark.triangles.clear();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool stays = points[i] && std::ranges::find(kept, *points[i]) != kept.end();
@@ -95,13 +96,13 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
     if (list_lights(scene).size() <= most) return;
     std::vector<LightSource> sources = list_light_sources(scene);
     std::ranges::stable_sort(sources, std::ranges::greater(), &LightSource::strength);
-    struct LightOwner {
+    struct LightSourceOwner {
         std::vector<std::size_t> kept;
         std::size_t points = 0;
     };
-    std::map<std::size_t, LightOwner> things; // by index
+    std::map<std::size_t, LightSourceOwner> things; // by index
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        LightOwner& thing = things[sources[i].index];
+        LightSourceOwner& thing = things[sources[i].index];
         ++thing.points;
         if (i < most) thing.kept.push_back(sources[i].point);
     }
@@ -114,12 +115,13 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
             continue;
         }
         std::string place = is_object
-                                ? "object " + quote_printable(scene.objects[index].name)
-                                : "light " + quote_printable(scene.punctual[index - objects].name);
+                                ? "object " + quote_as_printable_text(scene.objects[index].name)
+                                : "light " +
+                                      quote_as_printable_text(scene.punctual[index - objects].name);
         if (!thing.kept.empty())
             place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
                      std::to_string(thing.points) + " parts";
-        add_unsupported(scene.unsupported, "lights-left-out", place);
+        add_unsupported_feature(scene.unsupported, "lights-left-out", place);
         if (!thing.kept.empty())
             split_off_emitting_triangles(scene, index, thing.kept);
         else if (is_object)

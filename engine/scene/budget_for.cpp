@@ -9,16 +9,16 @@
 
 namespace catoptric::scene {
 
-LoadBudget choose_load_budget(const std::filesystem::path& scene, const BudgetOverride& wish,
+LoadBudget choose_load_budget(const std::filesystem::path& scene, const LoadBudgetOverride& wish,
                               std::uint64_t free_bytes) {
-    constexpr std::uint64_t kFileByteFraction = 8, kStoredBytesPerFileByte = 6;
+    constexpr std::uint64_t kFreeMemoryShareDivisor = 8, kStoredBytesPerFileByte = 6;
     LoadBudget budget;
     std::error_code none;
     const std::uintmax_t size = std::filesystem::file_size(scene, none);
     const std::uint64_t stored = none ? 0 : size / kStoredBytesPerFileByte;
-    const std::uint64_t fitting = std::min(stored, free_bytes / kBytesPerTriangle);
+    const std::uint64_t fitting = std::min(stored, free_bytes / kRenderBytesPerTriangle);
     budget.file_bytes = wish.bytes.value_or(
-        std::max(budget.file_bytes, free_bytes / kFileByteFraction));
+        std::max(budget.file_bytes, free_bytes / kFreeMemoryShareDivisor));
     const std::uint64_t triangles = wish.triangles.value_or(std::max(budget.triangles, fitting));
     if (triangles > budget.triangles) {
         budget.vertices = std::max(budget.vertices, 3 * triangles);

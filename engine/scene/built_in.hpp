@@ -18,8 +18,8 @@ struct BuiltInScene {
 };
 /// Registration of a built-in scene. A variable of this type at namespace scope adds the scene to
 /// the table while the program starts.
-struct RegisteredScene {
-    explicit RegisteredScene(BuiltInScene scene);
+struct RegisteredBuiltInScene {
+    explicit RegisteredBuiltInScene(BuiltInScene scene);
 };
 /// Returns every built-in scene, sorted by `order`, then by name.
 const std::vector<BuiltInScene>& list_built_in_scenes();
@@ -36,7 +36,7 @@ Scene make_roughness_room();
 Scene make_flat_mirror_room();
 /// Builds a furnished room: textures, shared meshes, a wall mirror, a smooth floor, two lamps, a
 /// spot.
-Scene furnished_room();
+Scene make_furnished_room();
 /// Builds a hall with sixteen mirrors through which the camera walks.
 Scene make_gallery();
 /// Builds an open court under a sky, with a hollow dish.

@@ -25,18 +25,19 @@ constexpr const char* kIndirectGapId = "indirect-left-out";
 constexpr const char* kUnshadowedGapId = "environment-unshadowed";
 
 /// Values of a material at one place.
-struct MaterialSample {
+struct SampledMaterialValues {
     vec4 colour{1}; ///< base colour and alpha
     float metallic = 0, roughness = 1;
 };
 
 /// Sums over the spots of a surface, weighted by area.
 struct SurfaceAreaSums {
-    SurfaceShares sums; // shares are still sums
+    SurfaceKindShares sums; // shares are still sums
     double all = 0;
     dvec3 mirror_f0{0};
 
-    void add(const Scene& scene, const Material& material, const MaterialSample& spot) {
+    void add_sample(const Scene& scene, const Material& material,
+                    const SampledMaterialValues& spot) {
         if (material.unlit || spot.colour.w < material.alpha_cutoff) return;
         all += 1;
         sums.smoothest = std::min(sums.smoothest, spot.roughness);
@@ -53,9 +54,9 @@ struct SurfaceAreaSums {
                                                       : sums.rough_dielectric) += 1;
         sums.mirror_dielectric += may_be_mirror;
     }
-    SurfaceShares surface() const {
+    SurfaceKindShares compute_surface_shares() const {
         if (all == 0) return {};
-        SurfaceShares shares = sums;
+        SurfaceKindShares shares = sums;
         for (double* share : {&shares.mirror, &shares.smooth_dielectric, &shares.rough_dielectric,
                               &shares.mirror_dielectric, &shares.rough_metal})
             *share /= all;
@@ -66,30 +67,32 @@ struct SurfaceAreaSums {
 
 /// Returns whether the values that decide the kind of surface may differ between places. The base
 /// colour matters only for metals, because F0 of a dielectric has no colour.
-bool has_varying_kind(const Material& material, const Mesh& mesh) {
+bool may_surface_kind_vary(const Material& material, const Mesh& mesh) {
     if (material.roughness_texture) return true;
     return material.metallic > 0 && (material.albedo_texture || !mesh.colours.empty());
 }
 
 template <typename Value>
-Value interpolate_corners(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
+Value interpolate_corner_values(const std::vector<Value>& at, const uvec3& t, const vec3& weights) {
     return weights.x * at[t.x] + weights.y * at[t.y] + weights.z * at[t.z];
 }
 
-vec4 sample_texture(const Texture& texture, const Mesh& mesh, const uvec3& t, const vec3& weights) {
+vec4 sample_texture_on_triangle(const Texture& texture, const Mesh& mesh, const uvec3& t,
+                                const vec3& weights) {
     const std::vector<vec2>& uv = mesh.uv[std::min<std::uint32_t>(texture.uv_set, 1)];
-    return read_texel(texture, uv.empty() ? vec2(0) : interpolate_corners(uv, t, weights));
+    return read_texel(texture, uv.empty() ? vec2(0) : interpolate_corner_values(uv, t, weights));
 }
 
-MaterialSample sample_material(const Material& material, const Mesh& mesh, const uvec3& t,
-                               const vec3& weights) {
-    MaterialSample spot{vec4(material.albedo, material.alpha), material.metallic,
-                        material.roughness};
-    if (!mesh.colours.empty()) spot.colour *= interpolate_corners(mesh.colours, t, weights);
+SampledMaterialValues sample_material_on_triangle(const Material& material, const Mesh& mesh,
+                                                  const uvec3& t, const vec3& weights) {
+    SampledMaterialValues spot{vec4(material.albedo, material.alpha), material.metallic,
+                               material.roughness};
+    if (!mesh.colours.empty()) spot.colour *= interpolate_corner_values(mesh.colours, t, weights);
     if (material.albedo_texture)
-        spot.colour *= sample_texture(*material.albedo_texture, mesh, t, weights);
+        spot.colour *= sample_texture_on_triangle(*material.albedo_texture, mesh, t, weights);
     if (material.roughness_texture) {
-        const vec4 texel = sample_texture(*material.roughness_texture, mesh, t, weights);
+        const vec4 texel = sample_texture_on_triangle(*material.roughness_texture, mesh, t,
+                                                      weights);
         spot.roughness *= texel.y, spot.metallic *= texel.z;
     }
     return spot;
@@ -97,16 +100,16 @@ MaterialSample sample_material(const Material& material, const Mesh& mesh, const
 
 /// Returns barycentric weights of the sample, spread evenly over a triangle by the plastic number's
 /// sequence (Roberts 2018).
-vec3 sample_barycentrics(std::size_t sample) {
-    constexpr double kSequenceStepX = .7548776662466927, kSequenceStepY = .5698402909980532;
-    double x = .5 + kSequenceStepX * static_cast<double>(sample),
+vec3 sample_barycentric_weights(std::size_t sample) {
+    constexpr double kSampleSequenceStepX = .7548776662466927, kSequenceStepY = .5698402909980532;
+    double x = .5 + kSampleSequenceStepX * static_cast<double>(sample),
            y = .5 + kSequenceStepY * static_cast<double>(sample);
     x -= std::floor(x), y -= std::floor(y);
     const double root = std::sqrt(x);
     return {1 - root, root * (1 - y), root * y};
 }
 
-std::vector<double> cumulative_triangle_areas(const Mesh& mesh, const dmat3& linear) {
+std::vector<double> compute_cumulative_triangle_areas(const Mesh& mesh, const dmat3& linear) {
     std::vector<double> sums;
     sums.reserve(mesh.triangles.size());
     double sum = 0;
@@ -119,17 +122,18 @@ std::vector<double> cumulative_triangle_areas(const Mesh& mesh, const dmat3& lin
 }
 
 /// Sums samples of the surface in equal steps of area, so that each triangle has its share.
-SurfaceAreaSums sample_texture(const Scene& scene, const Object& object) {
+SurfaceAreaSums sum_surface_samples(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
     const Mesh& mesh = scene.meshes[object.mesh];
     SurfaceAreaSums sums;
-    if (!has_varying_kind(material, mesh)) {
-        sums.add(scene, material,
-                 {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
+    if (!may_surface_kind_vary(material, mesh)) {
+        sums.add_sample(
+            scene, material,
+            {vec4(material.albedo, material.alpha), material.metallic, material.roughness});
         return sums;
     }
-    const std::vector<double> areas = cumulative_triangle_areas(mesh,
-                                                                dmat3(object.world_from_object));
+    const std::vector<double> areas = compute_cumulative_triangle_areas(
+        mesh, dmat3(object.world_from_object));
     const double whole = areas.empty() ? 0 : areas.back();
     if (!(whole > 0) || !std::isfinite(whole)) return sums;
     auto triangle = areas.begin();
@@ -137,15 +141,16 @@ SurfaceAreaSums sample_texture(const Scene& scene, const Object& object) {
         const double wanted = whole * (static_cast<double>(i) + .5) / kMaterialSampleCount;
         while (triangle + 1 != areas.end() && *triangle < wanted) ++triangle;
         const auto index = static_cast<std::size_t>(triangle - areas.begin());
-        sums.add(scene, material,
-                 sample_material(material, mesh, mesh.triangles[index], sample_barycentrics(i)));
+        sums.add_sample(scene, material,
+                        sample_material_on_triangle(material, mesh, mesh.triangles[index],
+                                                    sample_barycentric_weights(i)));
     }
     return sums;
 }
 
 /// Returns whether the matrix scales all directions alike. Shares of areas are then those of the
 /// mesh itself.
-bool scales_uniformly(const dmat3& m) {
+bool is_uniform_scaling(const dmat3& m) {
     constexpr double kUniformScaleTolerance = 1e-9;
     const dmat3 square = glm::transpose(m) * m;
     const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
@@ -160,8 +165,9 @@ bool scales_uniformly(const dmat3& m) {
 void add_unsupported_materials(Scene& scene, const char* id,
                                const std::set<std::size_t>& materials) {
     for (const std::size_t i : materials)
-        add_unsupported_material(scene.unsupported, id,
-                                 gltf::label_list_item("materials", i, scene.materials[i].name), i);
+        add_unsupported_material(
+            scene.unsupported, id,
+            gltf::format_list_item_label("materials", i, scene.materials[i].name), i);
 }
 
 /// Returns whether part of the material reflects the light of surrounding surfaces in all
@@ -171,7 +177,7 @@ bool has_diffuse_part(const Material& material) {
     return material.mirror || material.metallic < 1 || material.roughness_texture;
 }
 
-bool has_light(const Scene& scene) {
+bool has_any_light(const Scene& scene) {
     return scene.environment || !scene.punctual.empty() ||
            std::ranges::any_of(scene.objects, [&](const Object& object) {
                return is_visibly_emissive(scene.materials[object.material]);
@@ -186,8 +192,8 @@ vec3 compute_f0(const Material& material, const vec3& colour, float metallic) {
 
 float largest_channel(const vec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
 
-SurfaceShares measure_surface_kinds(const Scene& scene, const Object& object) {
-    return sample_texture(scene, object).surface();
+SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object) {
+    return sum_surface_samples(scene, object).compute_surface_shares();
 }
 
 void find_mirrors(Scene& scene, bool dielectric_mirrors) {
@@ -195,13 +201,13 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
         return gap.id == "smooth-dielectric" || gap.id == "rough-dielectric" ||
                gap.id == "rough-metal";
     });
-    std::map<std::pair<std::size_t, std::size_t>, SurfaceShares> known; // by mesh and material
+    std::map<std::pair<std::size_t, std::size_t>, SurfaceKindShares> known; // by mesh and material
     std::set<std::size_t> smooth_dielectrics, rough_dielectrics, rough_metals; // materials
     for (Object& object : scene.objects) {
         object.mirror = false;
         if (scene.materials[object.material].mirror) continue;
-        SurfaceShares surface;
-        if (scales_uniformly(dmat3(object.world_from_object))) {
+        SurfaceKindShares surface;
+        if (is_uniform_scaling(dmat3(object.world_from_object))) {
             const auto [entry, is_new] = known.try_emplace({object.mesh, object.material});
             if (is_new) entry->second = measure_surface_kinds(scene, object);
             surface = entry->second;
@@ -232,7 +238,7 @@ void sort_unsupported_features(Scene& scene) {
     // Features with equal shares of the picture keep this order. These come first because they cost
     // most.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
-    if (has_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
+    if (has_any_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);
     scene.unsupported.insert(scene.unsupported.end(), others.begin(), others.end());
 }

@@ -17,7 +17,7 @@ float largest_channel(const vec3& colour);
 
 /// Shares of an object's area by kind of surface, 0 to 1. Textures are sampled at about 4000
 /// places, the same ones each time. Area that an alpha mask cuts out does not count.
-struct SurfaceShares {
+struct SurfaceKindShares {
     double mirror = 0; ///< F0 at least kMinMirrorF0, roughness up to Scene::mirror_max_roughness
     double smooth_dielectric = 0; ///< reflects less, sharply (shared::kMaxSharpRoughness)
     double rough_dielectric = 0;  ///< reflects less, by a lobe
@@ -27,7 +27,7 @@ struct SurfaceShares {
     vec3 mirror_f0{0};      ///< mean F0 of the `mirror` part
     float smoothest = 1;    ///< lowest roughness found
 };
-SurfaceShares measure_surface_kinds(const Scene& scene, const Object& object);
+SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
 /// Adds the unsupported features "smooth-dielectric", "rough-dielectric" and "rough-metal", counted

@@ -8,7 +8,7 @@ namespace {
 
 enum : std::size_t { kWhite, kGreen, kRed, kLight, kMirror };
 
-std::vector<Material> cornell_materials() {
+std::vector<Material> make_cornell_materials() {
     return {{.name = "white", .albedo = {0.725f, 0.71f, 0.68f}},
             {.name = "green", .albedo = {0.14f, 0.45f, 0.091f}},
             {.name = "red", .albedo = {0.63f, 0.065f, 0.05f}},
@@ -53,7 +53,7 @@ void add_cornell_walls(Scene& scene) {
 } // namespace
 
 Scene make_cornell_mirrors() {
-    Scene scene{.name = "cornell-mirrors", .materials = cornell_materials(), .exposure = 0};
+    Scene scene{.name = "cornell-mirrors", .materials = make_cornell_materials(), .exposure = 0};
     add_cornell_walls(scene);
     const std::size_t unit_ball = scene.meshes.size();
     scene.meshes.push_back(ball("ball", 5));
@@ -96,16 +96,16 @@ Scene make_rough_cornell() {
 
 namespace {
 
-const RegisteredScene kOpenCornellScene{
+const RegisteredBuiltInScene kOpenCornellScene{
     {"cornell-mirrors", "Cornell box with four mirror balls, one of them moving; front open",
      make_cornell_mirrors, 0}};
-const RegisteredScene kClosedCornellScene{
+const RegisteredBuiltInScene kClosedCornellScene{
     {"cornell-mirrors-closed",
      "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
      make_closed_cornell_mirrors, 1}};
-const RegisteredScene kRough{{"cornell-rough",
-                              "Cornell box with four metal balls of roughness 0.05 to 0.5",
-                              make_rough_cornell, 7}};
+const RegisteredBuiltInScene kRough{{"cornell-rough",
+                                     "Cornell box with four metal balls of roughness 0.05 to 0.5",
+                                     make_rough_cornell, 7}};
 
 } // namespace
 

@@ -77,7 +77,7 @@ void add_mirror_dish(Scene& scene, std::size_t mirror, std::size_t stone) {
     scene.objects.back().world_from_object = place;
     add_mesh(scene, lathe("back of the dish", back, 64), stone);
     scene.objects.back().world_from_object = place;
-    add_mesh(scene, box("foot", {-1.2, kFloorGap, -1.5}, {-.6, .7, -.9}), stone);
+    add_mesh(scene, box("foot", {-1.2, kSupportGap, -1.5}, {-.6, .7, -.9}), stone);
 }
 
 } // namespace
@@ -123,7 +123,7 @@ Scene make_courtyard() {
 
 namespace {
 
-const RegisteredScene kCourtyardScene{
+const RegisteredBuiltInScene kCourtyardScene{
     {"courtyard", "open court under a sky: hollow dish, ball and ring, sun", make_courtyard, 5}};
 
 } // namespace

@@ -18,7 +18,7 @@ dvec3 round_to_short_number(const dvec3& point, double distance) {
 } // namespace
 
 Camera make_default_camera(const Scene& scene, double aspect) {
-    constexpr double kFilledPictureShare = .9, kAzimuthDegrees = 30,
+    constexpr double kSceneShareOfPicture = .9, kAzimuthDegrees = 30,
                      kElevationDegrees = 20; // degrees
     Bounds<double> box = bounds(scene);
     if (box.empty()) box.lo = dvec3(-1), box.hi = dvec3(1);
@@ -29,7 +29,7 @@ Camera make_default_camera(const Scene& scene, double aspect) {
     const dvec3 right = glm::normalize(glm::cross(-to_eye, camera.up));
     const dvec3 upward = glm::cross(right, -to_eye);
 
-    const double slope = kFilledPictureShare *
+    const double slope = kSceneShareOfPicture *
                          std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     double distance = 0; // least distance at which all corners lie within the margin
     for (int i = 0; i < 8; ++i) {

@@ -10,7 +10,7 @@ namespace catoptric::scene {
 
 namespace {
 
-void check_index(const char* what, std::size_t index, std::size_t count) {
+void check_edit_index(const char* what, std::size_t index, std::size_t count) {
     check(index < count, Failure::usage, what, " ", index, ": wanted one of the scene's ", count,
           ", from 0");
 }
@@ -24,22 +24,22 @@ bool is_valid_transform(const dmat4& matrix) {
 }
 
 void apply_edit(Scene& scene, const PlacementEdit& edit) {
-    check_index("object", edit.object, scene.objects.size());
+    check_edit_index("object", edit.object, scene.objects.size());
     Object& object = scene.objects[edit.object];
     check(is_valid_transform(edit.world_from_object), Failure::usage, "object '", object.name,
           "': wanted a finite affine transform with an inverse, found another matrix");
-    object.sphere = moved_sphere(object, edit.world_from_object);
+    object.sphere = transform_exact_sphere(object, edit.world_from_object);
     object.world_from_object = edit.world_from_object;
 }
 
 void apply_edit(Scene& scene, const ObjectMaterialEdit& edit) {
-    check_index("object", edit.object, scene.objects.size());
-    check_index("material", edit.material, scene.materials.size());
+    check_edit_index("object", edit.object, scene.objects.size());
+    check_edit_index("material", edit.material, scene.materials.size());
     scene.objects[edit.object].material = edit.material;
 }
 
 void apply_edit(Scene& scene, const MaterialEdit& edit) {
-    check_index("material", edit.material, scene.materials.size());
+    check_edit_index("material", edit.material, scene.materials.size());
     scene.materials[edit.material] = edit.value;
 }
 

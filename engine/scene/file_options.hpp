@@ -11,7 +11,7 @@
 namespace catoptric::scene {
 
 /// Options of `load` with the limits on a file's memory and work.
-struct FileOptions {
+struct SceneFileOptions {
     /// Second folder below which the files named by a scene may lie. The first is the real folder
     /// of the scene. Empty: no second folder.
     std::filesystem::path root;
@@ -23,10 +23,10 @@ struct FileOptions {
 };
 
 /// Loads as `load` does.
-Scene load_file(const std::string& name_or_path, const FileOptions& options);
+Scene load_scene_file(const std::string& name_or_path, const SceneFileOptions& options);
 
 /// Reads a glTF or an OBJ file. Throws as `load`.
-Scene load_gltf(const std::filesystem::path& path, const FileOptions& options = {});
-Scene load_obj(const std::filesystem::path& path, const FileOptions& options = {});
+Scene load_gltf(const std::filesystem::path& path, const SceneFileOptions& options = {});
+Scene load_obj(const std::filesystem::path& path, const SceneFileOptions& options = {});
 
 } // namespace catoptric::scene

@@ -26,7 +26,7 @@ bool is_inside_folder(const fs::path& real, const fs::path& folder) {
 
 /// Returns a path with all links resolved. Returns an empty path, and sets errno, if the path does
 /// not exist or cannot be reached.
-fs::path resolve_links(const fs::path& path) {
+fs::path resolve_symbolic_links(const fs::path& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
                                                            std::free);
     return real ? fs::path(real.get()) : fs::path();
@@ -42,7 +42,8 @@ struct FileDescriptor {
 
 /// Reads a regular file. Opening a pipe does not block. A link as the last step is not followed, so
 /// the file opened is the file named. Throws `missing_input` or `io`.
-std::string read_regular_file(const fs::path& path, const std::string& place, LimitedSum& budget) {
+std::string read_regular_file(const fs::path& path, const std::string& place,
+                              BudgetLimitedSum& budget) {
     const FileDescriptor file{
         ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | O_NOFOLLOW)};
     const int error = errno;
@@ -53,7 +54,7 @@ std::string read_regular_file(const fs::path& path, const std::string& place, Li
     check(known && S_ISREG(facts.st_mode), Failure::missing_input, place, ": wanted a file, found ",
           known && S_ISDIR(facts.st_mode) ? "a folder" : "a device or a pipe");
     const auto size = static_cast<std::size_t>(facts.st_size);
-    budget.add(size, place);
+    budget.add_amount(size, place);
     std::string content(size, '\0');
     std::size_t count = 0;
     while (count < size) {
@@ -69,46 +70,48 @@ std::string read_regular_file(const fs::path& path, const std::string& place, Li
 
 } // namespace
 
-SceneFiles::SceneFiles(const fs::path& scene, const fs::path& root, BudgetAccount& account)
+SceneFileOpener::SceneFileOpener(const fs::path& scene, const fs::path& root,
+                                 LoadBudgetUsage& account)
     : scene_(scene), account_(account) {
-    folder_ = resolve_links(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
+    folder_ = resolve_symbolic_links(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
     if (root.empty()) return;
-    root_ = resolve_links(root);
+    root_ = resolve_symbolic_links(root);
     std::error_code error;
     check(fs::is_directory(root_, error), Failure::missing_input,
           "--root: wanted a folder, found '", root.string(), "'");
 }
 
-void SceneFiles::add_file(const fs::path& real) {
+void SceneFileOpener::add_file(const fs::path& real) {
     if (known_.insert(real.string()).second) found_.push_back(real);
 }
 
-std::string SceneFiles::read_scene() {
-    const fs::path real = resolve_links(scene_);
+std::string SceneFileOpener::read_scene() {
+    const fs::path real = resolve_symbolic_links(scene_);
     std::string bytes = read_regular_file(real.empty() ? scene_ : real, scene_.string(),
                                           account_.file_bytes);
     add_file(real);
     return bytes;
 }
 
-void SceneFiles::check_place(const fs::path& real, const std::string& name,
-                             const std::string& place) const {
+void SceneFileOpener::check_place(const fs::path& real, const std::string& name,
+                                  const std::string& place) const {
     check(is_inside_folder(real, folder_) || is_inside_folder(real, root_), Failure::bad_data,
           place, ": wanted a file below '", folder_.string(),
-          "' or a folder given with --root, found ", quote_printable(name), ", which is '",
+          "' or a folder given with --root, found ", quote_as_printable_text(name), ", which is '",
           real.string(), "'");
 }
 
-fs::path SceneFiles::find_file(const std::string& name, const std::string& place) {
-    account_.files.add(1, place);
+fs::path SceneFileOpener::find_file(const std::string& name, const std::string& place) {
+    account_.files.add_amount(1, place);
     check(!name.empty() && name.size() <= kMaxFileNameLength && name.find('\0') == name.npos,
-          Failure::bad_data, place, ": wanted the name of a file, found ", quote_printable(name));
+          Failure::bad_data, place, ": wanted the name of a file, found ",
+          quote_as_printable_text(name));
     const fs::path path = folder_ / name;
-    fs::path real = resolve_links(path);
+    fs::path real = resolve_symbolic_links(path);
     const int why = errno;
     check_place(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
-        const fs::path parent = resolve_links(path.parent_path());
+        const fs::path parent = resolve_symbolic_links(path.parent_path());
         if (!parent.empty()) check_place(parent / path.filename(), name, place);
         errno = why;
         return {};
@@ -116,24 +119,24 @@ fs::path SceneFiles::find_file(const std::string& name, const std::string& place
     std::error_code error;
     const fs::file_status status = fs::status(real, error);
     check(fs::is_regular_file(status), Failure::bad_data, place, ": wanted a regular file, found ",
-          quote_printable(name), ", which is ",
+          quote_as_printable_text(name), ", which is ",
           fs::is_directory(status) ? "a folder" : "a device or a pipe");
     add_file(real);
     return real;
 }
 
-fs::path SceneFiles::find_required(const std::string& name, const std::string& place) {
+fs::path SceneFileOpener::find_required(const std::string& name, const std::string& place) {
     fs::path real = find_file(name, place);
     const int error = errno; // from realpath(3), if the path was not found
-    check(!real.empty(), Failure::missing_input, place, ": ", quote_printable(name),
+    check(!real.empty(), Failure::missing_input, place, ": ", quote_as_printable_text(name),
           error == ENOENT || error == ENOTDIR
               ? " is not there"
               : " cannot be reached: " + std::generic_category().message(error));
     return real;
 }
 
-std::string SceneFiles::read_file_content(const fs::path& real, const std::string& place) {
-    return read_regular_file(real, place + ": " + quote_printable(real.filename().string()),
+std::string SceneFileOpener::read_file_content(const fs::path& real, const std::string& place) {
+    return read_regular_file(real, place + ": " + quote_as_printable_text(real.filename().string()),
                              account_.file_bytes);
 }
 

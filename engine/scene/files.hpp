@@ -12,7 +12,7 @@ namespace catoptric::scene {
 /// Opens the files of one scene. A file that the scene names is opened by its real path, with links
 /// resolved. The real path must lie below the real folder of the scene's path, or below `root`.
 /// Hard links cannot be told from other files.
-class SceneFiles {
+class SceneFileOpener {
 public:
     /// Longest file name in bytes. Names are limited because each step of a path costs a system
     /// call.
@@ -20,8 +20,8 @@ public:
 
     /// Takes the path of the scene, and a second folder or an empty path. Throws `missing_input` if
     /// `root` is not a folder.
-    SceneFiles(const std::filesystem::path& scene, const std::filesystem::path& root,
-               BudgetAccount& account);
+    SceneFileOpener(const std::filesystem::path& scene, const std::filesystem::path& root,
+                    LoadBudgetUsage& account);
 
     /// Returns the bytes of the scene file, which may lie anywhere. Throws `missing_input`, or `io`
     /// if reading fails.
@@ -40,7 +40,7 @@ public:
 
     /// Returns the real paths of the scene and of all files found, each once, in order of the
     /// calls.
-    const std::vector<std::filesystem::path>& found_files() const { return found_; }
+    const std::vector<std::filesystem::path>& list_found_files() const { return found_; }
 
 private:
     void add_file(const std::filesystem::path& real);
@@ -48,7 +48,7 @@ private:
                      const std::string& place) const;
 
     std::filesystem::path scene_, folder_, root_;
-    BudgetAccount& account_;
+    LoadBudgetUsage& account_;
     std::vector<std::filesystem::path> found_;
     std::unordered_set<std::string> known_; ///< the paths in `found_`, for lookup
 };

@@ -19,9 +19,9 @@ namespace {
 dvec3 normal_of_largest_triangle(const Mesh& mesh, const dmat4& world_from_object) {
     dvec3 largest(0);
     for (const uvec3& triangle : mesh.triangles) {
-        const dvec3 a = transform_point(world_from_object, mesh.positions[triangle.x]),
-                    b = transform_point(world_from_object, mesh.positions[triangle.y]),
-                    c = transform_point(world_from_object, mesh.positions[triangle.z]);
+        const dvec3 a = transform_point_to_world(world_from_object, mesh.positions[triangle.x]),
+                    b = transform_point_to_world(world_from_object, mesh.positions[triangle.y]),
+                    c = transform_point_to_world(world_from_object, mesh.positions[triangle.z]);
         const dvec3 normal = cross(b - a, c - a);
         if (dot(normal, normal) > dot(largest, largest)) largest = normal;
     }
@@ -30,10 +30,10 @@ dvec3 normal_of_largest_triangle(const Mesh& mesh, const dmat4& world_from_objec
 }
 
 /// Returns the sine of the angle between two unit vectors. For small angles it is about the angle.
-double sine_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
+double sine_of_angle_between(const dvec3& a, const dvec3& b) { return length(cross(a, b)); }
 
 /// Returns the corners of the convex hull of points in a plane (Andrew 1979).
-std::vector<dvec3> convex_hull_in_plane(std::vector<dvec3> points, const dvec3& normal) {
+std::vector<dvec3> compute_convex_hull_in_plane(std::vector<dvec3> points, const dvec3& normal) {
     const dvec3 size = abs(normal), other = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
                                             : size.y <= size.z                   ? dvec3(0, 1, 0)
                                                                                  : dvec3(0, 0, 1);
@@ -68,28 +68,29 @@ struct MeshTriangles {
     std::vector<dvec3> places, normals; ///< of the mesh's vertices
 
     MeshTriangles(const Mesh& of, const dmat4& world_from_object) : mesh(of) {
-        const dmat3 turns = normal_matrix(world_from_object);
+        const dmat3 turns = compute_normal_matrix(world_from_object);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            places.push_back(transform_point(world_from_object, mesh.positions[i]));
-            normals.push_back(world_normal(turns, dvec3(mesh.normals[i])));
+            places.push_back(transform_point_to_world(world_from_object, mesh.positions[i]));
+            normals.push_back(transform_normal_to_world(turns, dvec3(mesh.normals[i])));
         }
     }
     /// Returns a vector along the normal, as long as twice the triangle's area.
-    dvec3 cross_of(std::size_t i) const {
+    dvec3 triangle_edge_cross_product(std::size_t i) const {
         const uvec3& t = mesh.triangles[i];
         return cross(places[t.y] - places[t.x], places[t.z] - places[t.x]);
     }
     /// Returns the largest angle between `normal` and a corner's normal, in radians.
-    double off(std::size_t i, const dvec3& normal) const {
+    double max_normal_deviation(std::size_t i, const dvec3& normal) const {
         double most = 0;
         for (int corner = 0; corner < 3; ++corner)
-            most = std::max(most, sine_between(normals[mesh.triangles[i][corner]], normal));
+            most = std::max(most,
+                            sine_of_angle_between(normals[mesh.triangles[i][corner]], normal));
         return most;
     }
 };
 
 /// Face while its triangles are collected.
-struct FacePlane {
+struct FlatFaceBuilder {
     dvec3 point{0}, normal{0};
     double area = 0; ///< twice the area
     std::vector<std::uint32_t> triangles;
@@ -97,16 +98,19 @@ struct FacePlane {
 
 /// Returns the planes of the triangles whose normals agree; nothing if there are more than
 /// kMaxMirrorPlanes.
-std::optional<std::vector<FacePlane>> group_triangles_by_plane(const MeshTriangles& triangles,
-                                                               double extent) {
-    std::vector<FacePlane> planes;
+std::optional<std::vector<FlatFaceBuilder>> group_triangles_by_plane(const MeshTriangles& triangles,
+                                                                     double extent) {
+    std::vector<FlatFaceBuilder> planes;
     for (std::uint32_t i = 0; i < triangles.mesh.triangles.size(); ++i) {
-        const dvec3 along = triangles.cross_of(i), normal = normalized_or_zero(along);
-        if (normal == dvec3(0) || !(triangles.off(i, normal) <= kMaxPlaneDeviation)) continue;
+        const dvec3 along = triangles.triangle_edge_cross_product(i),
+                    normal = normalized_or_zero(along);
+        if (normal == dvec3(0) ||
+            !(triangles.max_normal_deviation(i, normal) <= kMaxPlaneDeviation))
+            continue;
         const uvec3& t = triangles.mesh.triangles[i];
-        const auto holds = [&](const FacePlane& plane) {
+        const auto holds = [&](const FlatFaceBuilder& plane) {
             if (!(dot(plane.normal, normal) > 0 &&
-                  sine_between(plane.normal, normal) <= kCoplanarTolerance))
+                  sine_of_angle_between(plane.normal, normal) <= kCoplanarTolerance))
                 return false;
             return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t corner) {
                 return std::abs(dot(triangles.places[corner] - plane.point, plane.normal)) <=
@@ -125,8 +129,9 @@ std::optional<std::vector<FacePlane>> group_triangles_by_plane(const MeshTriangl
     return planes;
 }
 
-std::vector<TriangleRun> group_into_runs(const std::vector<std::uint32_t>& ascending) {
-    std::vector<TriangleRun> runs;
+std::vector<TriangleIndexRun>
+group_triangles_into_runs(const std::vector<std::uint32_t>& ascending) {
+    std::vector<TriangleIndexRun> runs;
     for (const std::uint32_t i : ascending) {
         if (!runs.empty() && runs.back().end == i)
             ++runs.back().end;
@@ -138,7 +143,7 @@ std::vector<TriangleRun> group_into_runs(const std::vector<std::uint32_t>& ascen
 
 /// Returns whether every edge has two triangles.
 bool is_closed_mesh(const Mesh& mesh) {
-    const std::vector<std::size_t> first = first_vertex_at_place(mesh.positions);
+    const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
     std::vector<TriangleCorners> triangles;
     for (const uvec3& t : mesh.triangles) triangles.push_back({first[t.x], first[t.y], first[t.z]});
     bool closed = true;
@@ -147,21 +152,21 @@ bool is_closed_mesh(const Mesh& mesh) {
     return closed;
 }
 
-FlatFace make_flat_face(const MeshTriangles& triangles, const FacePlane& plane, double area,
+FlatFace make_flat_face(const MeshTriangles& triangles, const FlatFaceBuilder& plane, double area,
                         bool is_one_sided) {
     FlatFace face{.point = plane.point,
                   .normal = plane.normal,
                   .corners = {},
                   .share = plane.area / area,
                   .is_one_sided = is_one_sided,
-                  .triangles = group_into_runs(plane.triangles)};
+                  .triangles = group_triangles_into_runs(plane.triangles)};
     std::vector<dvec3> points;
     for (const std::uint32_t i : plane.triangles) {
-        face.off = std::max(face.off, triangles.off(i, plane.normal));
+        face.off = std::max(face.off, triangles.max_normal_deviation(i, plane.normal));
         for (int corner = 0; corner < 3; ++corner)
             points.push_back(triangles.places[triangles.mesh.triangles[i][corner]]);
     }
-    face.corners = convex_hull_in_plane(points, plane.normal);
+    face.corners = compute_convex_hull_in_plane(points, plane.normal);
     double size = 0, high = 0;
     for (const dvec3& corner : face.corners)
         size = std::max(size, distance(corner, face.corners.front()));
@@ -182,7 +187,7 @@ double FlatFaces::flat_area_share(double tolerance) const {
 FlatFaces find_flat_faces(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     FlatFaces none;
-    if (reflects_by_lobe(scene, object)) none.misfit = "rough";
+    if (may_reflect_by_lobe(scene, object)) none.misfit = "rough";
     if (scene.materials[object.material].normal_texture) none.misfit = "bumpy";
     if (none.misfit.empty()) return find_flat_faces(mesh, object.world_from_object);
     if (!mesh.triangles.empty())
@@ -204,14 +209,16 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     Bounds<double> box;
     for (const dvec3& place : triangles.places) box.add(place);
     double area = 0;
-    for (std::uint32_t i = 0; i < count; ++i) area += length(triangles.cross_of(i));
-    std::optional<std::vector<FacePlane>> planes;
+    for (std::uint32_t i = 0; i < count; ++i)
+        area += length(triangles.triangle_edge_cross_product(i));
+    std::optional<std::vector<FlatFaceBuilder>> planes;
     if (!box.empty() && area > 0)
         planes = group_triangles_by_plane(triangles, length(box.extent()));
     if (!planes) return found;
-    std::erase_if(*planes,
-                  [&](const FacePlane& plane) { return plane.area < kMinFaceAreaShare * area; });
-    std::ranges::stable_sort(*planes, std::ranges::greater(), &FacePlane::area);
+    std::erase_if(*planes, [&](const FlatFaceBuilder& plane) {
+        return plane.area < kMinFaceAreaShare * area;
+    });
+    std::ranges::stable_sort(*planes, std::ranges::greater(), &FlatFaceBuilder::area);
     if (planes->size() > kMaxFlatFaces) planes->resize(kMaxFlatFaces);
     if (planes->empty()) return found;
     // The normals of a closed body with negative volume point inwards: it is inside out. They are
@@ -220,9 +227,10 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     const bool is_body = is_closed_mesh(mesh);
     double volume = 0;
     for (std::uint32_t i = 0; i < count; ++i)
-        volume += dot(triangles.cross_of(i), triangles.places[mesh.triangles[i].x] - centre);
+        volume += dot(triangles.triangle_edge_cross_product(i),
+                      triangles.places[mesh.triangles[i].x] - centre);
     std::vector<bool> in_face(count);
-    for (FacePlane& plane : *planes) {
+    for (FlatFaceBuilder& plane : *planes) {
         for (const std::uint32_t i : plane.triangles) in_face[i] = true;
         if (volume < 0) plane.normal = -plane.normal;
         found.faces.push_back(make_flat_face(triangles, plane, area, is_body && volume != 0));
@@ -230,18 +238,18 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
     std::vector<std::uint32_t> bent;
     for (std::uint32_t i = 0; i < count; ++i)
         if (!in_face[i]) bent.push_back(i);
-    found.bent = group_into_runs(bent);
+    found.bent = group_triangles_into_runs(bent);
     return found;
 }
 
 std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_from_object) {
     // Most curved meshes are rejected by their first normals, before the whole mesh is tested.
-    const dmat3 turns = normal_matrix(world_from_object);
+    const dmat3 turns = compute_normal_matrix(world_from_object);
     const auto normal_of = [&](std::size_t vertex) {
-        return world_normal(turns, dvec3(mesh.normals[vertex]));
+        return transform_normal_to_world(turns, dvec3(mesh.normals[vertex]));
     };
     for (const uvec3& triangle : mesh.triangles)
-        if (sine_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
+        if (sine_of_angle_between(normal_of(triangle.x), normal_of(mesh.triangles.front().x)) >
             2 * kMaxPlaneDeviation)
             return {};
     FlatFace found;
@@ -250,12 +258,13 @@ std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_fro
     std::vector<dvec3> points;
     for (const uvec3& triangle : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner) {
-            points.push_back(transform_point(world_from_object, mesh.positions[triangle[corner]]));
+            points.push_back(
+                transform_point_to_world(world_from_object, mesh.positions[triangle[corner]]));
             found.off = std::max(found.off,
-                                 sine_between(normal_of(triangle[corner]), found.normal));
+                                 sine_of_angle_between(normal_of(triangle[corner]), found.normal));
         }
     found.point = points.front();
-    found.corners = convex_hull_in_plane(points, found.normal);
+    found.corners = compute_convex_hull_in_plane(points, found.normal);
     double size = 0;
     for (const dvec3& corner : found.corners)
         size = std::max(size, distance(corner, found.corners.front()));

@@ -10,9 +10,9 @@
 namespace catoptric::scene {
 
 /// Consecutive triangles of a mesh, from `first` to before `end`.
-struct TriangleRun {
+struct TriangleIndexRun {
     std::uint32_t first = 0, end = 0;
-    bool operator==(const TriangleRun&) const = default;
+    bool operator==(const TriangleIndexRun&) const = default;
 };
 
 /// Surface, or a face of a surface, that lies nearly in a plane; world units.
@@ -27,13 +27,13 @@ struct FlatFace {
     double share = 1; ///< share of the surface's area, 0 to 1
     /// True for a face of a closed body, which can be seen only from the side of the normal.
     bool is_one_sided = false;
-    std::vector<TriangleRun> triangles; ///< triangles of this face, ascending
+    std::vector<TriangleIndexRun> triangles; ///< triangles of this face, ascending
 };
 
 /// Flat faces of a surface.
 struct FlatFaces {
-    std::vector<FlatFace> faces;   ///< largest first, at most kMaxFlatFaces
-    std::vector<TriangleRun> bent; ///< triangles that lie in no face, ascending
+    std::vector<FlatFace> faces;        ///< largest first, at most kMaxFlatFaces
+    std::vector<TriangleIndexRun> bent; ///< triangles that lie in no face, ascending
     /// Why no mirrored view shows what the surface reflects, although it may be flat: "rough" or
     /// "bumpy". Such a surface has no faces. Empty for any other surface.
     std::string_view misfit = {};

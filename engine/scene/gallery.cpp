@@ -77,7 +77,7 @@ void add_gallery_exhibit(Scene& scene, const GalleryExhibit& exhibit, std::size_
                          std::size_t mirror) {
     const double half = .8 * std::max(exhibit.size, .2);
     Mesh plinth = box(std::string("plinth of ") + exhibit.name,
-                      exhibit.at + dvec3(-half, kFloorGap, -half),
+                      exhibit.at + dvec3(-half, kSupportGap, -half),
                       exhibit.at + dvec3(half, exhibit.plinth, half));
     for (vec2& uv : plinth.uv[0]) uv *= 2;
     add_mesh(scene, std::move(plinth), stone);
@@ -139,9 +139,9 @@ Scene make_gallery() {
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = {15, 14, 12}});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     const dvec3 lo(-2.5, 0, 0), hi(2.5, 3.2, kGalleryLength);
-    for (const int face : {0, 1, 4, 5}) add_mesh(scene, wall(face, lo, hi), wall_paint);
-    add_mesh(scene, wall(2, lo, hi), ceiling);
-    Mesh ground = wall(3, lo, hi);
+    for (const int face : {0, 1, 4, 5}) add_mesh(scene, make_box_wall(face, lo, hi), wall_paint);
+    add_mesh(scene, make_box_wall(2, lo, hi), ceiling);
+    Mesh ground = make_box_wall(3, lo, hi);
     for (const dvec3& p : ground.positions) ground.uv[0].push_back(vec2(dvec2(p.x, p.z) / 2.0));
     add_mesh(scene, std::move(ground), floor);
     for (const GalleryExhibit& exhibit : kGalleryExhibits)
@@ -164,10 +164,11 @@ Scene make_gallery() {
 
 namespace {
 
-const RegisteredScene kGalleryScene{{"gallery",
-                                     "hall with sixteen mirrors of different shape and size; the "
-                                     "camera walks",
-                                     make_gallery, 4}};
+const RegisteredBuiltInScene kGalleryScene{
+    {"gallery",
+     "hall with sixteen mirrors of different shape and size; the "
+     "camera walks",
+     make_gallery, 4}};
 
 } // namespace
 

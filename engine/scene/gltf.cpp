@@ -21,7 +21,7 @@ namespace {
 
 /// Returns whether the node's transform mirrors its mesh. The mirrored triangles are inside out,
 /// and glTF requires us to reverse their winding.
-bool mirrors_its_mesh(const dmat4& world_from_node) {
+bool transform_mirrors_mesh(const dmat4& world_from_node) {
     return glm::determinant(dmat3(world_from_node)) < 0;
 }
 
@@ -39,8 +39,8 @@ RigAttachment make_translation_rig(const Keyframes& frames) {
 
 /// Returns the exact sphere in world space. Returns none unless the mesh's vertices lie on it and
 /// the node scales it uniformly.
-std::optional<Sphere> sphere_in_world_space(const Sphere& sphere, const Mesh& mesh,
-                                            const dmat4& world_from_node) {
+std::optional<Sphere> exact_sphere_in_world_space(const Sphere& sphere, const Mesh& mesh,
+                                                  const dmat4& world_from_node) {
     const dmat3 axes(world_from_node);
     const dvec3 scale(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
     // glTF stores floats. The tolerance is 4 ulp of the largest number in the computation.
@@ -54,28 +54,29 @@ std::optional<Sphere> sphere_in_world_space(const Sphere& sphere, const Mesh& me
          std::abs(glm::dot(axes[2], axes[0])), std::abs(scale.x - scale.y) * scale.x,
          std::abs(scale.x - scale.z) * scale.x});
     if (!(skew <= relative * scale.x * scale.x)) return std::nullopt;
-    return Sphere{transform_point(world_from_node, sphere.centre), sphere.radius * scale.x};
+    return Sphere{transform_point_to_world(world_from_node, sphere.centre),
+                  sphere.radius * scale.x};
 }
 
 /// Turns nodes into objects. Nodes that share a mesh share it in the scene, too.
 struct GltfBuilder {
-    gltf::GltfContext context;
+    gltf::GltfReadContext context;
     Scene scene;
-    std::vector<dmat4> at_rest;                     ///< transform from each node to world space
-    std::vector<std::vector<gltf::MeshPart>> parts; ///< for each mesh
+    std::vector<dmat4> at_rest;                         ///< transform from each node to world space
+    std::vector<std::vector<gltf::GltfMeshPart>> parts; ///< for each mesh
     std::vector<Camera> cameras;
-    struct MeshKey {
+    struct SharedMeshKey {
         std::size_t mesh, part;
         int skin; ///< -1 if the node has none
         bool inside_out;
         std::vector<double> weights; ///< of morph targets
-        auto operator<=>(const MeshKey&) const = default;
+        auto operator<=>(const SharedMeshKey&) const = default;
     };
-    std::map<MeshKey, std::size_t> meshes;
+    std::map<SharedMeshKey, std::size_t> meshes;
 
     std::string node_place(std::size_t node) const;
-    Mesh repaired(const MeshKey& key);
-    std::size_t mesh_for(const MeshKey& key);
+    Mesh repaired(const SharedMeshKey& key);
+    std::size_t mesh_for(const SharedMeshKey& key);
     std::string object_name(std::size_t node, std::size_t mesh, std::size_t part);
     void add_node(std::size_t node, const gltf::PlacedNode& placed);
     void add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part);
@@ -85,26 +86,26 @@ struct GltfBuilder {
 };
 
 std::string GltfBuilder::node_place(std::size_t node) const {
-    return context.document.file + ": " + context.document.label(node);
+    return context.document.file + ": " + context.document.describe_node(node);
 }
 
-Mesh GltfBuilder::repaired(const MeshKey& key) {
+Mesh GltfBuilder::repaired(const SharedMeshKey& key) {
     std::vector<dmat4> joints;
     if (key.skin >= 0) joints = compute_joint_transforms(key.skin, at_rest, context);
     Mesh mesh = build_part_mesh(key.mesh, parts[key.mesh][key.part], key.weights, context,
                                 key.skin >= 0 ? &joints : nullptr);
-    context.account.mesh_vertices.add(count_corners_without_normal(mesh),
-                                      describe_mesh_place(context.document, key.mesh));
+    context.account.mesh_vertices.add_amount(count_corners_without_normal(mesh),
+                                             describe_mesh_place(context.document, key.mesh));
     const std::size_t dropped = repair_mesh(mesh);
-    context.notes.add("triangles without area, left out", "in " + quote_printable(mesh.name),
-                      dropped);
+    context.notes.add_note("triangles without area, left out",
+                           "in " + quote_as_printable_text(mesh.name), dropped);
     // This follows `repair_mesh`, because normals that it adds are those of the file's winding.
     if (key.inside_out)
         for (uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
     return mesh;
 }
 
-std::size_t GltfBuilder::mesh_for(const MeshKey& key) {
+std::size_t GltfBuilder::mesh_for(const SharedMeshKey& key) {
     const auto [entry, is_new] = meshes.try_emplace(key, scene.meshes.size());
     if (is_new) scene.meshes.push_back(repaired(key));
     return entry->second;
@@ -118,16 +119,16 @@ std::string GltfBuilder::object_name(std::size_t node, std::size_t mesh, std::si
     const std::string& own = name.empty() ? model.meshes[mesh].name : name;
     const bool is_one = parts[mesh].size() == 1;
     const std::string& material = scene.materials[parts[mesh][part].material].name;
-    context.account.name_bytes.add(own.size() + (is_one ? 0 : 1 + material.size()),
-                                   node_place(node));
+    context.account.name_bytes.add_amount(own.size() + (is_one ? 0 : 1 + material.size()),
+                                          node_place(node));
     return is_one ? own : own + "/" + material;
 }
 
 void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part) {
     const std::string place = node_place(node);
-    const gltf::NodeExtras& marks = context.document.marks[node];
+    const gltf::GltfNodeExtras& marks = context.document.marks[node];
     const auto its_mesh = std::size_t(context.document.model.nodes[node].mesh);
-    context.account.objects.add(1, place);
+    context.account.objects.add_amount(1, place);
     Object object{.name = object_name(node, its_mesh, part),
                   .material = parts[its_mesh][part].material,
                   .seen_by_camera = marks.seen_by_camera};
@@ -135,18 +136,19 @@ void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, s
     if (skin < 0) // joints place a skinned mesh, not its node
         object.world_from_object = placed.world_from_node, object.motion = placed.motion;
     const std::vector<double>& weights = context.document.node_weights[node];
-    object.mesh = mesh_for({its_mesh, part, skin, mirrors_its_mesh(object.world_from_object),
+    object.mesh = mesh_for({its_mesh, part, skin, transform_mirrors_mesh(object.world_from_object),
                             weights.empty() ? context.document.weights[its_mesh] : weights});
     const Mesh& mesh = scene.meshes[object.mesh];
-    context.account.shown_vertices.add(mesh.positions.size(), place);
-    context.account.shown_triangles.add(mesh.triangles.size(), place);
+    context.account.shown_vertices.add_amount(mesh.positions.size(), place);
+    context.account.shown_triangles.add_amount(mesh.triangles.size(), place);
     if (marks.sphere) {
         const RigAttachment* follows = find_followed_node(object.motion);
         if (!follows || preserves_spheres(*follows))
-            object.sphere = sphere_in_world_space(*marks.sphere, mesh, placed.world_from_node);
+            object.sphere = exact_sphere_in_world_space(*marks.sphere, mesh,
+                                                        placed.world_from_node);
         if (!object.sphere)
-            context.notes.add("nodes marked as a sphere whose mesh or scale is not one",
-                              context.document.label(node));
+            context.notes.add_note("nodes marked as a sphere whose mesh or scale is not one",
+                                   context.document.describe_node(node));
     }
     scene.objects.push_back(std::move(object));
 }
@@ -157,7 +159,7 @@ void GltfBuilder::add_camera(std::size_t node, const gltf::PlacedNode& placed) {
     const std::string place = node_place(node);
     Camera camera = cameras[std::size_t(from.camera)];
     if (!from.name.empty()) camera.name = from.name;
-    context.account.name_bytes.add(camera.name.size(), place);
+    context.account.name_bytes.add_amount(camera.name.size(), place);
     const dmat4& world = placed.world_from_node;
     const dvec3 forward = -normalized_or_zero(dvec3(world[2]));
     const dvec3 up = normalized_or_zero(dvec3(world[1]));
@@ -181,7 +183,7 @@ void GltfBuilder::add_light(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     PunctualLight light = context.document.lights.lights[*context.document.lights.of_node[node]];
     if (!from.name.empty()) light.name = from.name;
-    context.account.name_bytes.add(light.name.size(), node_place(node));
+    context.account.name_bytes.add_amount(light.name.size(), node_place(node));
     light.world_from_light = placed.world_from_node;
     light.motion = placed.motion;
     for (int column = 0; column < 4; ++column)
@@ -197,9 +199,9 @@ void GltfBuilder::add_node(std::size_t node, const gltf::PlacedNode& placed) {
     if (from.camera >= 0) add_camera(node, placed);
     if (context.document.lights.of_node[node]) add_light(node, placed);
     if (from.skin >= 0 && from.mesh >= 0) {
-        context.notes.add("nodes with a skin, posed by its joints at rest",
-                          context.document.label(node));
-        add_unsupported(context.unsupported, "skin", context.document.label(node));
+        context.notes.add_note("nodes with a skin, posed by its joints at rest",
+                               context.document.describe_node(node));
+        add_unsupported_feature(context.unsupported, "skin", context.document.describe_node(node));
     }
 }
 
@@ -214,10 +216,10 @@ void GltfBuilder::check_unshown() {
 
 } // namespace
 
-Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
+Scene load_gltf(const std::filesystem::path& path, const SceneFileOptions& options) {
     const std::string file = path.string();
-    BudgetAccount account(options.budget);
-    SceneFiles files(path, options.root, account);
+    LoadBudgetUsage account(options.budget);
+    SceneFileOpener files(path, options.root, account);
     LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
     const gltf::GltfDocument document = gltf::read_gltf_document(file, files, account, notes,
@@ -234,18 +236,19 @@ Scene load_gltf(const std::filesystem::path& path, const FileOptions& options) {
     builder.cameras = read_cameras(document);
     builder.parts = read_mesh_parts(builder.scene.materials, builder.context);
     builder.at_rest = compute_rest_transforms(document);
-    const std::vector<gltf::PlacedNode> placed = place_nodes(document,
-                                                             read_animation(builder.context));
+    const std::vector<gltf::PlacedNode> placed = compute_placed_nodes(
+        document, read_animation(builder.context));
     for (std::size_t i = 0; i < placed.size(); ++i) {
         const tinygltf::Node& node = document.model.nodes[i];
         if (placed[i].reached)
             builder.add_node(i, placed[i]);
         else if (node.mesh >= 0 || node.camera >= 0)
-            notes.add("nodes outside the scene that is shown, left out", document.label(i));
+            notes.add_note("nodes outside the scene that is shown, left out",
+                           document.describe_node(i));
     }
     builder.check_unshown();
-    finish_loading(builder.scene, file, notes, std::move(unsupported));
-    builder.scene.files = files.found_files();
+    finish_loaded_scene(builder.scene, file, notes, std::move(unsupported));
+    builder.scene.files = files.list_found_files();
     return std::move(builder.scene);
 }
 

@@ -33,8 +33,8 @@ double read_normalised_integer(const AccessorElements& elements, std::size_t ind
     return elements.normalised ? std::max(value / std::numeric_limits<Stored>::max(), -1.0) : value;
 }
 
-AccessorElements elements_of_type(const tinygltf::Model& model, int index, int type,
-                                  const std::string& place) {
+AccessorElements read_accessor_of_type(const tinygltf::Model& model, int index, int type,
+                                       const std::string& place) {
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     check(accessor.type == type, Failure::bad_data, place, ": wanted an accessor of ",
           accessor_type_name(type), ", found ", accessor_type_name(accessor.type));
@@ -42,14 +42,14 @@ AccessorElements elements_of_type(const tinygltf::Model& model, int index, int t
 }
 
 /// Returns whether the components are integers of 8 or 16 bits.
-bool has_short_integers(const AccessorElements& elements) {
+bool has_short_accessor_integers(const AccessorElements& elements) {
     return elements.component >= TINYGLTF_COMPONENT_TYPE_BYTE &&
            elements.component <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
 }
 
 bool is_finite_element(const AccessorElements& elements, std::size_t index) {
     for (int i = 0; i < elements.width; ++i)
-        if (!std::isfinite(read_number(elements, index, i))) return false;
+        if (!std::isfinite(read_accessor_number(elements, index, i))) return false;
     return true;
 }
 
@@ -69,24 +69,24 @@ AccessorElements read_accessor_elements(const tinygltf::Model& model, int index)
             .normalised = accessor.normalized};
 }
 
-AccessorElements GltfContext::floats(int index, int type, LimitedSum& total,
-                                     const std::string& place, AllowedIntegers also) {
-    const AccessorElements elements = elements_of_type(document.model, index, type, place);
-    const bool is_whole = has_short_integers(elements) &&
-                          ((also == AllowedIntegers::normalised && elements.normalised) ||
-                           (also == AllowedIntegers::quantised && document.is_quantised));
+AccessorElements GltfReadContext::floats(int index, int type, BudgetLimitedSum& total,
+                                         const std::string& place, AllowedAccessorIntegers also) {
+    const AccessorElements elements = read_accessor_of_type(document.model, index, type, place);
+    const bool is_whole = has_short_accessor_integers(elements) &&
+                          ((also == AllowedAccessorIntegers::normalised && elements.normalised) ||
+                           (also == AllowedAccessorIntegers::quantised && document.is_quantised));
     check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT || is_whole, Failure::bad_data, place,
           ": wanted floats, found component type ", elements.component);
     if (!finite.insert(index).second) return elements;
-    total.add(elements.count, place);
+    total.add_amount(elements.count, place);
     for (std::size_t i = 0; i < elements.count && !is_whole; ++i)
         check(is_finite_element(elements, i), Failure::bad_data, place, ": element ", i,
               ": wanted finite numbers, found NaN or infinity");
     return elements;
 }
 
-AccessorElements GltfContext::whole(int index, const std::string& place, int type) const {
-    const AccessorElements elements = elements_of_type(document.model, index, type, place);
+AccessorElements GltfReadContext::whole(int index, const std::string& place, int type) const {
+    const AccessorElements elements = read_accessor_of_type(document.model, index, type, place);
     const bool is_unsigned = elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                              elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
@@ -95,7 +95,7 @@ AccessorElements GltfContext::whole(int index, const std::string& place, int typ
     return elements;
 }
 
-double read_number(const AccessorElements& elements, std::size_t index, int component) {
+double read_accessor_number(const AccessorElements& elements, std::size_t index, int component) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
         return read_normalised_integer<std::int8_t>(elements, index, component);
@@ -109,12 +109,13 @@ double read_number(const AccessorElements& elements, std::size_t index, int comp
     }
 }
 
-dvec3 read_vector(const AccessorElements& elements, std::size_t index) {
-    return {read_number(elements, index, 0), read_number(elements, index, 1),
-            read_number(elements, index, 2)};
+dvec3 read_accessor_vector(const AccessorElements& elements, std::size_t index) {
+    return {read_accessor_number(elements, index, 0), read_accessor_number(elements, index, 1),
+            read_accessor_number(elements, index, 2)};
 }
 
-std::uint32_t read_integer(const AccessorElements& elements, std::size_t index, int component) {
+std::uint32_t read_accessor_integer(const AccessorElements& elements, std::size_t index,
+                                    int component) {
     switch (elements.component) {
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
         return read_stored_component<std::uint8_t>(elements, index, component);

@@ -24,10 +24,10 @@ constexpr std::string_view kIgnoredRequiredExtensions[] = {
     "KHR_xmp_json_ld",       "KHR_techniques_webgl", "KHR_technique_webgl"};
 /// Extensions that store geometry or images in a form that is not read. A file that requires one is
 /// refused, because its scene would be incomplete.
-struct UnreadCompression {
+struct UnsupportedCompression {
     std::string_view extension, sentence;
 };
-constexpr UnreadCompression kUnreadCompressions[] = {
+constexpr UnsupportedCompression kUnsupportedCompressions[] = {
     {"KHR_draco_mesh_compression", ": meshes compressed by Draco are not read: wanted a file "
                                    "without it (gltf-transform copy, or export without Draco)"},
     {"EXT_meshopt_compression", ": buffers compressed by meshopt are not read: wanted a file "
@@ -43,7 +43,7 @@ struct GlbChunks {
     std::string_view binary; ///< empty if there is none
 };
 
-std::uint32_t read_word(std::string_view bytes, std::size_t offset) {
+std::uint32_t read_glb_word(std::string_view bytes, std::size_t offset) {
     std::uint32_t word = 0; // glTF and all supported machines are little-endian
     std::memcpy(&word, bytes.data() + offset, sizeof word);
     return word;
@@ -54,31 +54,31 @@ GlbChunks read_glb_chunks(const std::string& file, std::string_view bytes, Loade
     if (!bytes.starts_with("glTF")) return {bytes, {}};
     check(bytes.size() >= 20, Failure::bad_data, file, ": header: wanted 20 bytes, found ",
           bytes.size());
-    check(read_word(bytes, 4) == 2, Failure::bad_data, file,
-          ": header: wanted GLB version 2, found ", read_word(bytes, 4));
-    const std::uint32_t said = read_word(bytes, 8);
+    check(read_glb_word(bytes, 4) == 2, Failure::bad_data, file,
+          ": header: wanted GLB version 2, found ", read_glb_word(bytes, 4));
+    const std::uint32_t said = read_glb_word(bytes, 8);
     check(said >= 20 && said <= bytes.size(), Failure::bad_data, file, ": header: wanted ", said,
           " bytes, found ", bytes.size());
-    notes.add("bytes after the end that the header gives, left out", std::to_string(said),
-              bytes.size() - said);
+    notes.add_note("bytes after the end that the header gives, left out", std::to_string(said),
+                   bytes.size() - said);
     bytes = bytes.substr(0, said);
-    const std::uint32_t length = read_word(bytes, 12);
-    check(read_word(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data,
+    const std::uint32_t length = read_glb_word(bytes, 12);
+    check(read_glb_word(bytes, 16) == kJsonChunk && length <= bytes.size() - 20, Failure::bad_data,
           file, ": first chunk: wanted JSON of at most ", bytes.size() - 20, " bytes, found ",
           length);
     const std::string_view rest = bytes.substr(20 + length);
-    if (rest.size() < 8 || read_word(rest, 4) != kBinaryChunk)
+    if (rest.size() < 8 || read_glb_word(rest, 4) != kBinaryChunk)
         return {bytes.substr(20, length), {}};
-    const std::uint32_t binary = read_word(rest, 0);
+    const std::uint32_t binary = read_glb_word(rest, 0);
     check(binary <= rest.size() - 8, Failure::bad_data, file, ": second chunk: wanted at most ",
           rest.size() - 8, " bytes, found ", binary);
     return {bytes.substr(20, length), rest.substr(8, binary)};
 }
 
 void check_gltf_version(const JsonObject& root) {
-    const std::optional<JsonObject> asset = root.object("asset");
+    const std::optional<JsonObject> asset = root.read_object_member("asset");
     const Json* version = asset ? asset->find("version") : nullptr;
-    root.require(
+    root.require_condition(
         version && version->is_string() && version->get_ref<const std::string&>().starts_with("2."),
         "asset.version: wanted \"2.0\", found ", version ? describe_json_value(*version) : "null");
 }
@@ -86,73 +86,74 @@ void check_gltf_version(const JsonObject& root) {
 void check_required_extensions(const JsonObject& root) {
     const Json* required = root.find("extensionsRequired");
     if (required == nullptr) return;
-    root.require(required->is_array(), "extensionsRequired: wanted an array, found ",
-                 describe_json_value(*required));
+    root.require_condition(required->is_array(), "extensionsRequired: wanted an array, found ",
+                           describe_json_value(*required));
     for (const Json& extension : *required) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "";
-        const auto* const squeezed = std::ranges::find(kUnreadCompressions, name,
-                                                       &UnreadCompression::extension);
-        root.require(squeezed == std::end(kUnreadCompressions),
-                     "extensionsRequired: ", describe_json_value(extension),
-                     squeezed == std::end(kUnreadCompressions) ? "" : squeezed->sentence);
+        const auto* const squeezed = std::ranges::find(kUnsupportedCompressions, name,
+                                                       &UnsupportedCompression::extension);
+        root.require_condition(squeezed == std::end(kUnsupportedCompressions),
+                               "extensionsRequired: ", describe_json_value(extension),
+                               squeezed == std::end(kUnsupportedCompressions) ? ""
+                                                                              : squeezed->sentence);
         const bool is_drawn = name.starts_with("KHR_materials_") ||
                               std::ranges::find(kIgnoredRequiredExtensions, name) !=
                                   std::end(kIgnoredRequiredExtensions);
-        root.require(is_drawn,
-                     "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
-                     "KHR_mesh_quantization or KHR_lights_punctual, found ",
-                     describe_json_value(extension));
+        root.require_condition(is_drawn,
+                               "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
+                               "KHR_mesh_quantization or KHR_lights_punctual, found ",
+                               describe_json_value(extension));
     }
 }
 
-class BufferCollector {
+class GltfBufferCollector {
 public:
-    BufferCollector(GltfContainer& container, SceneFiles& files, std::string_view binary)
-        : container_(container), files_(files), binary_(binary) {}
+    GltfBufferCollector(GltfContainer& container, SceneFileOpener& files, std::string_view binary)
+        : gltf_container_(container), files_(files), binary_(binary) {}
 
-    void add(const JsonObject& buffer) {
-        const std::size_t file = file_of(buffer);
+    void add_buffer(const JsonObject& buffer) {
+        const std::size_t file = find_file_of_buffer(buffer);
         const std::uint64_t length = buffer.whole("byteLength", 0),
-                            size = container_.files[file].size();
-        buffer.require(length >= 1 && length <= size, "byteLength: wanted 1 to ", size,
-                       ", the bytes that are there, found ", length);
-        container_.buffers.push_back({file, length});
+                            size = gltf_container_.files[file].size();
+        buffer.require_condition(length >= 1 && length <= size, "byteLength: wanted 1 to ", size,
+                                 ", the bytes that are there, found ", length);
+        gltf_container_.buffers.push_back({file, length});
     }
 
 private:
-    std::size_t file_of(const JsonObject& buffer) {
-        if (!buffer.has("uri")) {
-            buffer.require(
-                buffer.number_in_list() == 0 && !binary_.empty(),
+    std::size_t find_file_of_buffer(const JsonObject& buffer) {
+        if (!buffer.has_member("uri")) {
+            buffer.require_condition(
+                buffer.index_in_list() == 0 && !binary_.empty(),
                 "wanted a uri, or a GLB's binary chunk and the first place, found neither");
-            return keep({binary_.begin(), binary_.end()});
+            return store_file_bytes({binary_.begin(), binary_.end()});
         }
         const std::string uri = buffer.text("uri");
-        if (is_data_uri(uri)) return keep(decode_data_uri(uri, buffer.place()));
+        if (is_data_uri(uri)) return store_file_bytes(decode_data_uri(uri, buffer.place()));
         const fs::path real = files_.find_required(file_name_from_uri(uri, buffer.place()),
                                                    buffer.place());
-        const auto [entry, is_new] = read_.try_emplace(real, container_.files.size());
+        const auto [entry, is_new] = read_.try_emplace(real, gltf_container_.files.size());
         if (is_new) {
             const std::string bytes = files_.read_file_content(real, buffer.place());
-            keep({bytes.begin(), bytes.end()});
+            store_file_bytes({bytes.begin(), bytes.end()});
         }
         return entry->second;
     }
-    std::size_t keep(ByteList bytes) {
-        container_.files.push_back(std::move(bytes));
-        return container_.files.size() - 1;
+    std::size_t store_file_bytes(ByteList bytes) {
+        gltf_container_.files.push_back(std::move(bytes));
+        return gltf_container_.files.size() - 1;
     }
 
-    GltfContainer& container_;
-    SceneFiles& files_;
+    GltfContainer& gltf_container_;
+    SceneFileOpener& files_;
     std::string_view binary_;
     std::map<fs::path, std::size_t> read_;
 };
 
 } // namespace
 
-GltfContainer read_container(const std::string& file, SceneFiles& files, BudgetAccount& account,
-                             LoaderNotes& notes) {
+GltfContainer read_gltf_container(const std::string& file, SceneFileOpener& files,
+                                  LoadBudgetUsage& account, LoaderNotes& notes) {
     GltfContainer container;
     const std::string bytes = files.read_scene();
     const GlbChunks chunks = read_glb_chunks(file, bytes, notes);
@@ -162,8 +163,8 @@ GltfContainer read_container(const std::string& file, SceneFiles& files, BudgetA
           ": JSON: wanted an object, found ", describe_json_value(container.document));
     check_gltf_version(root);
     check_required_extensions(root);
-    BufferCollector buffers(container, files, chunks.binary);
-    root.each("buffers", [&](const JsonObject& buffer) { buffers.add(buffer); });
+    GltfBufferCollector buffers(container, files, chunks.binary);
+    root.each("buffers", [&](const JsonObject& buffer) { buffers.add_buffer(buffer); });
     return container;
 }
 

@@ -62,15 +62,15 @@ std::optional<double> read_exposure(const JsonObject& root) {
     if (count == 0) return std::nullopt;
     const std::optional<JsonObject> ours = find_catoptric_extras(
         root.at("scenes", root.index("scene", count).value_or(0)));
-    if (!ours || !ours->has("exposure")) return std::nullopt;
+    if (!ours || !ours->has_member("exposure")) return std::nullopt;
     const double stops = ours->number("exposure", 0);
-    ours->require(std::abs(stops) <= kMaxExposureStops, "exposure: wanted ", -kMaxExposureStops,
-                  " to ", kMaxExposureStops, ", found ", stops);
+    ours->require_condition(std::abs(stops) <= kMaxExposureStops, "exposure: wanted ",
+                            -kMaxExposureStops, " to ", kMaxExposureStops, ", found ", stops);
     return stops;
 }
 
 /// Reads whether each animation repeats, from its `extras`: {"repeats": true}.
-std::vector<bool> read_repeats(const JsonObject& root) {
+std::vector<bool> read_animation_repeats(const JsonObject& root) {
     std::vector<bool> repeats;
     root.each("animations", [&](const JsonObject& animation) {
         const std::optional<JsonObject> ours = find_catoptric_extras(animation);
@@ -93,13 +93,14 @@ tinygltf::Model parse_gltf(const std::string& file, GltfContainer& container) {
 
 } // namespace
 
-std::string GltfDocument::label(std::size_t node) const {
-    return label_list_item("nodes", node, model.nodes[node].name);
+std::string GltfDocument::describe_node(std::size_t node) const {
+    return format_list_item_label("nodes", node, model.nodes[node].name);
 }
 
-GltfDocument read_gltf_document(const std::string& file, SceneFiles& files, BudgetAccount& account,
-                                LoaderNotes& notes, std::vector<UnsupportedFeature>& unsupported) {
-    GltfContainer container = read_container(file, files, account, notes);
+GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
+                                LoadBudgetUsage& account, LoaderNotes& notes,
+                                std::vector<UnsupportedFeature>& unsupported) {
+    GltfContainer container = read_gltf_container(file, files, account, notes);
     GltfDocument document{.file = file};
     {
         const JsonObject root(container.document, file);
@@ -111,12 +112,12 @@ GltfDocument read_gltf_document(const std::string& file, SceneFiles& files, Budg
         document.weights = read_morph_weights(root, "meshes");
         document.node_weights = read_morph_weights(root, "nodes");
         document.is_quantised = uses_extension(root, "KHR_mesh_quantization");
-        const MaterialSource source{root, container, files, account, notes, unsupported};
+        const MaterialReadContext source{root, container, files, account, notes, unsupported};
         document.materials = read_materials(source);
         document.lights = read_lights(source);
-        document.repeats = read_repeats(root);
+        document.repeats = read_animation_repeats(root);
     }
-    expand_sparse(container, file, account);
+    expand_sparse_accessors(container, file, account);
     document.model = parse_gltf(file, container);
     return document;
 }

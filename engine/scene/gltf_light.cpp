@@ -13,48 +13,50 @@ namespace {
 constexpr std::string_view kPunctualLightsExtension = "KHR_lights_punctual";
 
 /// Returns the kind that the type names, or that the light's own mark names.
-const LightKind& kind_of(const JsonObject& light) {
+const LightKind& read_light_kind(const JsonObject& light) {
     const std::optional<JsonObject> ours = find_catoptric_extras(light);
     const std::string type = light.text("type");
-    const std::string name = ours && ours->has("light") ? ours->text("light") : type;
+    const std::string name = ours && ours->has_member("light") ? ours->text("light") : type;
     const auto kind = std::ranges::find_if(list_light_kinds(), [&](const LightKind& row) {
-        return row.name == name && gltf_type_of(row) == type;
+        return row.name == name && gltf_type_of_light_kind(row) == type;
     });
-    light.require(kind != list_light_kinds().end(),
-                  "type: wanted point, spot or directional, found ",
-                  describe_json_value(Json(type)));
+    light.require_condition(kind != list_light_kinds().end(),
+                            "type: wanted point, spot or directional, found ",
+                            describe_json_value(Json(type)));
     return *kind;
 }
 
 PunctualLight read_punctual_light(const JsonObject& light) {
-    const LightKind& kind = kind_of(light);
+    const LightKind& kind = read_light_kind(light);
     PunctualLight to{.name = light.name(), .kind = kind.id};
     const std::vector<double> colour = light.numbers("color", 3);
     const double intensity = light.number("intensity", 1);
     to.intensity = vec3(colour.empty() ? dvec3(intensity)
                                        : intensity * dvec3(colour[0], colour[1], colour[2]));
-    light.require(is_valid_radiance(to.intensity),
-                  "wanted an intensity of at least 0 that fits a float, found another");
-    if (light.has("range")) to.range = light.number("range", 0);
-    light.require(to.range > 0, "range: wanted a number above 0, found ", to.range);
+    light.require_condition(is_valid_radiance(to.intensity),
+                            "wanted an intensity of at least 0 that fits a float, found another");
+    if (light.has_member("range")) to.range = light.number("range", 0);
+    light.require_condition(to.range > 0, "range: wanted a number above 0, found ", to.range);
     if (kind.read != nullptr) kind.read(light, to);
     return to;
 }
 
 } // namespace
 
-PunctualLights read_lights(const MaterialSource& source) {
+PunctualLights read_lights(const MaterialReadContext& source) {
     PunctualLights result;
-    const std::optional<JsonObject> extensions = source.root.object("extensions");
-    const std::optional<JsonObject> all = extensions ? extensions->object(kPunctualLightsExtension)
+    const std::optional<JsonObject> extensions = source.root.read_object_member("extensions");
+    const std::optional<JsonObject> all = extensions ? extensions->read_object_member(
+                                                           kPunctualLightsExtension)
                                                      : std::nullopt;
     if (all)
         all->each("lights", [&](const JsonObject& item) {
             result.lights.push_back(read_punctual_light(item));
         });
     source.root.each("nodes", [&](const JsonObject& node) {
-        const std::optional<JsonObject> its = node.object("extensions");
-        const std::optional<JsonObject> use = its ? its->object(kPunctualLightsExtension)
+        const std::optional<JsonObject> its = node.read_object_member("extensions");
+        const std::optional<JsonObject> use = its ? its->read_object_member(
+                                                        kPunctualLightsExtension)
                                                   : std::nullopt;
         result.of_node.push_back(
             use ? std::optional(use->needed_index("light", result.lights.size())) : std::nullopt);

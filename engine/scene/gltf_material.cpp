@@ -15,13 +15,13 @@ namespace catoptric::scene::gltf {
 namespace {
 
 /// A material extension that is not drawn, and the unsupported feature that reports it.
-struct UnreadExtension {
+struct UnsupportedMaterialExtension {
     /// The extension has no effect if its factor is absent or 0. An empty factor name means that
     /// the extension always has an effect.
     std::string_view extension, factor;
     std::string_view gap;
 };
-constexpr UnreadExtension kUnreadMaterialExtensions[] = {
+constexpr UnsupportedMaterialExtension kUnsupportedMaterialExtensions[] = {
     {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
     {"KHR_materials_sheen", "", "sheen"},
     {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
@@ -51,22 +51,24 @@ class MaterialReader {
 public:
     /// `has_colours`: some primitive with this material has vertex colours.
     MaterialReader(const JsonObject& from, std::size_t index, bool has_colours,
-                   const MaterialSource& source, TextureReader& textures)
-        : from_(from), index_(index), has_colours_(has_colours), source_(source),
-          textures_(textures), extensions_(from.object("extensions")) {}
+                   const MaterialReadContext& source, TextureReader& textures)
+        : material_json_(from), index_(index), has_colours_(has_colours), source_(source),
+          textures_(textures), extensions_(from.read_object_member("extensions")) {}
 
     Material read();
 
 private:
-    std::optional<JsonObject> extension(std::string_view name) const {
-        return extensions_ ? extensions_->object(name) : std::nullopt;
+    std::optional<JsonObject> find_material_extension(std::string_view name) const {
+        return extensions_ ? extensions_->read_object_member(name) : std::nullopt;
     }
-    std::optional<Texture> texture(const JsonObject& item, std::string_view key, bool srgb) {
-        const std::optional<JsonObject> use = item.object(key);
+    std::optional<Texture> read_texture_member(const JsonObject& item, std::string_view key,
+                                               bool srgb) {
+        const std::optional<JsonObject> use = item.read_object_member(key);
         return use ? textures_.find_or_read_texture(*use, srgb) : std::nullopt;
     }
-    void report_unsupported(std::string_view id) {
-        add_unsupported_material(source_.unsupported, std::string(id), from_.label(), index_);
+    void report_unsupported_feature(std::string_view id) {
+        add_unsupported_material(source_.unsupported, std::string(id),
+                                 material_json_.describe_place(), index_);
     }
     void base_colour(const JsonObject& item, std::string_view factor, std::string_view texture);
     void factors(std::string_view extension, const JsonObject& item);
@@ -81,10 +83,10 @@ private:
     void turn_into_mirror(const vec3& reflectance, const vec3& diffuse);
     void read_extras();
 
-    const JsonObject& from_;
+    const JsonObject& material_json_;
     std::size_t index_;
     bool has_colours_;
-    const MaterialSource& source_;
+    const MaterialReadContext& source_;
     TextureReader& textures_;
     std::optional<JsonObject> extensions_;
     Material material_;
@@ -97,7 +99,7 @@ void MaterialReader::base_colour(const JsonObject& item, std::string_view factor
         return base.empty() ? 1.0f : static_cast<float>(std::clamp(base[i], 0.0, 1.0));
     };
     material_.albedo = {at(0), at(1), at(2)}, material_.alpha = at(3);
-    material_.albedo_texture = texture(item, map, true);
+    material_.albedo_texture = read_texture_member(item, map, true);
 }
 
 /// Reads the factors that glTF keeps in the extension, or in the core part of a material.
@@ -109,8 +111,8 @@ void MaterialReader::factors(std::string_view extension, const JsonObject& item)
 
 void MaterialReader::read_metallic_roughness(const JsonObject& pbr) {
     base_colour(pbr, "baseColorFactor", "baseColorTexture");
-    factors(kCoreFactors, pbr);
-    material_.roughness_texture = texture(pbr, "metallicRoughnessTexture", false);
+    factors(kCoreMaterialFactors, pbr);
+    material_.roughness_texture = read_texture_member(pbr, "metallicRoughnessTexture", false);
 }
 
 /// Reads the factors and the diffuse texture of KHR_materials_pbrSpecularGlossiness.
@@ -121,15 +123,16 @@ void MaterialReader::read_specular_glossiness(const JsonObject& glossiness) {
     material_.dielectric_f0 = vec3(
         glm::clamp(read_vector_member(glossiness, "specularFactor", 1), 0.0, 1.0));
     material_.dielectric_f90 = vec3(1);
-    if (glossiness.has("specularGlossinessTexture")) report_unsupported("material-extension");
+    if (glossiness.has_member("specularGlossinessTexture"))
+        report_unsupported_feature("material-extension");
 }
 
 void MaterialReader::dielectric() {
-    const std::optional<JsonObject> ior = extension("KHR_materials_ior"),
-                                    specular = extension("KHR_materials_specular");
+    const std::optional<JsonObject> ior = find_material_extension("KHR_materials_ior"),
+                                    specular = find_material_extension("KHR_materials_specular");
     const double n = ior ? ior->number("ior", 1.5) : 1.5;
-    from_.require(n == 0 || n >= 1, "KHR_materials_ior: wanted an ior of 0 or from 1 on, found ",
-                  n);
+    material_json_.require_condition(
+        n == 0 || n >= 1, "KHR_materials_ior: wanted an ior of 0 or from 1 on, found ", n);
     const double f = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
     material_.dielectric_f0 = vec3(ior ? static_cast<float>(f) : kUsualDielectricF0);
     material_.dielectric_f90 = vec3(1);
@@ -139,29 +142,31 @@ void MaterialReader::dielectric() {
                                   dvec3(0));
     material_.dielectric_f0 = vec3(glm::min(f * colour, dvec3(1))) * strength;
     material_.dielectric_f90 = vec3(strength);
-    if (specular->has("specularTexture") || specular->has("specularColorTexture"))
-        report_unsupported("material-extension");
+    if (specular->has_member("specularTexture") || specular->has_member("specularColorTexture"))
+        report_unsupported_feature("material-extension");
 }
 
 void MaterialReader::emission() {
-    const std::optional<JsonObject> strength = extension(kEmissiveStrengthExtension);
+    const std::optional<JsonObject> strength = find_material_extension(kEmissiveStrengthExtension);
     material_.emission = vec3((strength ? strength->number("emissiveStrength", 1) : 1) *
-                              read_vector_member(from_, "emissiveFactor", 0));
-    from_.require(is_valid_radiance(material_.emission),
-                  "wanted an emission of at least 0 that fits a float, found another");
+                              read_vector_member(material_json_, "emissiveFactor", 0));
+    material_json_.require_condition(
+        is_valid_radiance(material_.emission),
+        "wanted an emission of at least 0 that fits a float, found another");
     if (material_.emission != vec3(0))
-        material_.emission_texture = texture(from_, "emissiveTexture", true);
+        material_.emission_texture = read_texture_member(material_json_, "emissiveTexture", true);
 }
 
 void MaterialReader::alpha() {
-    const std::string mode = from_.text("alphaMode", "OPAQUE");
-    const double cutoff = from_.number("alphaCutoff", .5);
-    from_.require(cutoff >= 0, "alphaCutoff: wanted at least 0, found ", cutoff);
+    const std::string mode = material_json_.text("alphaMode", "OPAQUE");
+    const double cutoff = material_json_.number("alphaCutoff", .5);
+    material_json_.require_condition(cutoff >= 0, "alphaCutoff: wanted at least 0, found ", cutoff);
     if (mode == "MASK") material_.alpha_cutoff = static_cast<float>(cutoff);
     if (mode != "BLEND") return;
     material_.alpha_cutoff = .5f;
-    source_.notes.add("materials with alphaMode BLEND, cut where half is left", from_.label());
-    report_unsupported("blend-as-mask");
+    source_.notes.add_note("materials with alphaMode BLEND, cut where half is left",
+                           material_json_.describe_place());
+    report_unsupported_feature("blend-as-mask");
 }
 
 /// Returns whether the whole surface is metal, without any dielectric part.
@@ -175,57 +180,61 @@ bool MaterialReader::is_metal_everywhere() const {
 /// the dielectric part transmits light, so a material that is metal everywhere is not reported.
 void MaterialReader::transmission() {
     if (material_.transmission == 0 || is_metal_everywhere()) return;
-    if (extensions_->has("KHR_materials_ior")) {
-        const double ior = extension("KHR_materials_ior")->number("ior", 1.5);
+    if (extensions_->has_member("KHR_materials_ior")) {
+        const double ior = find_material_extension("KHR_materials_ior")->number("ior", 1.5);
         // glTF's ior of 0 reflects all light.
         material_.ior = ior == 0 ? std::numeric_limits<float>::max() : static_cast<float>(ior);
     }
-    if (const std::optional<JsonObject> volume = extension(kVolumeExtension)) {
-        from_.require(volume->number("thicknessFactor", 0) >= 0,
-                      "thicknessFactor: wanted at least 0, found a negative number");
+    if (const std::optional<JsonObject> volume = find_material_extension(kVolumeExtension)) {
+        material_json_.require_condition(
+            volume->number("thicknessFactor", 0) >= 0,
+            "thicknessFactor: wanted at least 0, found a negative number");
         material_.solid = volume->number("thicknessFactor", 0) > 0;
         const double distance = volume->number("attenuationDistance", 0); // 0: as without
         const dvec3 colour = glm::clamp(read_vector_member(*volume, "attenuationColor", 1),
                                         dvec3(kMinAttenuation), dvec3(1));
-        from_.require(distance >= 0, "attenuationDistance: wanted at least 0, found ", distance);
+        material_json_.require_condition(
+            distance >= 0, "attenuationDistance: wanted at least 0, found ", distance);
         if (material_.solid && distance > 0)
             material_.absorption = vec3(-glm::log(colour) / distance);
-        from_.require(is_valid_radiance(material_.absorption),
-                      "attenuationDistance: wanted an absorption that fits a float, found more");
+        material_json_.require_condition(
+            is_valid_radiance(material_.absorption),
+            "attenuationDistance: wanted an absorption that fits a float, found more");
     }
-    if (extension("KHR_materials_transmission")->has("transmissionTexture"))
-        report_unsupported("material-extension");
-    if (!is_glass(material_)) return report_unsupported("rough-glass");
-    report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
+    if (find_material_extension("KHR_materials_transmission")->has_member("transmissionTexture"))
+        report_unsupported_feature("material-extension");
+    if (!is_glass(material_)) return report_unsupported_feature("rough-glass");
+    report_unsupported_feature("glass-as-diffuse"), report_unsupported_feature("glass-shadow");
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.
 void MaterialReader::other_properties() {
-    if (const std::optional<JsonObject> use = from_.object("normalTexture")) {
+    if (const std::optional<JsonObject> use = material_json_.read_object_member("normalTexture")) {
         material_.normal_texture = textures_.find_or_read_texture(*use, false);
         material_.normal_scale = static_cast<float>(use->number("scale", 1));
     }
-    if (from_.has("occlusionTexture")) {
-        source_.notes.add("materials with an occlusionTexture, drawn without it", from_.label());
-        report_unsupported("occlusion-texture");
+    if (material_json_.has_member("occlusionTexture")) {
+        source_.notes.add_note("materials with an occlusionTexture, drawn without it",
+                               material_json_.describe_place());
+        report_unsupported_feature("occlusion-texture");
     }
     // `technique` comes from the draft KHR_technique_webgl, which kept shaders beside materials.
-    if (from_.has("technique")) report_unsupported("material-extension");
+    if (material_json_.has_member("technique")) report_unsupported_feature("material-extension");
     if (!extensions_) return;
-    for (const auto& [name, value] : extensions_->json().items()) {
+    for (const auto& [name, value] : extensions_->json_value().items()) {
         if (is_factor_extension(name)) {
-            factors(name, *extensions_->object(name));
+            factors(name, *extensions_->read_object_member(name));
             continue;
         }
         bool is_known = std::ranges::find(kMaterialExtensions, name) !=
                         std::end(kMaterialExtensions);
-        for (const auto& [extension, factor, id] : kUnreadMaterialExtensions) {
+        for (const auto& [extension, factor, id] : kUnsupportedMaterialExtensions) {
             if (name != extension) continue;
             is_known = true;
-            if (factor.empty() || extensions_->object(name)->number(factor, 0) != 0)
-                report_unsupported(id);
+            if (factor.empty() || extensions_->read_object_member(name)->number(factor, 0) != 0)
+                report_unsupported_feature(id);
         }
-        if (!is_known) report_unsupported("material-extension");
+        if (!is_known) report_unsupported_feature("material-extension");
     }
 }
 
@@ -241,19 +250,20 @@ void MaterialReader::turn_into_mirror(const vec3& reflectance, const vec3& diffu
 /// The first two make a mirror with the same reflectance at any angle, over a diffuse albedo.
 /// `fixed_normals` makes a surface with two sides but one normal.
 void MaterialReader::read_extras() {
-    const std::optional<JsonObject> ours = find_catoptric_extras(from_);
+    const std::optional<JsonObject> ours = find_catoptric_extras(material_json_);
     const auto colour = [&](std::string_view key, double otherwise) {
         return vec3(glm::clamp(read_vector_member(*ours, key, otherwise), 0.0, 1.0));
     };
-    if (ours && (ours->has("reflectance") || ours->has("diffuse")))
+    if (ours && (ours->has_member("reflectance") || ours->has_member("diffuse")))
         turn_into_mirror(colour("reflectance", 1), colour("diffuse", 0));
     if (ours && ours->flag("fixed_normals", false)) material_.two_sided = false;
 }
 
 Material MaterialReader::read() {
-    material_.name = from_.name();
-    const std::optional<JsonObject> glossiness = extension("KHR_materials_pbrSpecularGlossiness"),
-                                    pbr = from_.object("pbrMetallicRoughness");
+    material_.name = material_json_.name();
+    const std::optional<JsonObject> glossiness = find_material_extension(
+                                        "KHR_materials_pbrSpecularGlossiness"),
+                                    pbr = material_json_.read_object_member("pbrMetallicRoughness");
     material_.metallic = 1, material_.albedo = vec3(1);
     if (glossiness)
         read_specular_glossiness(*glossiness);
@@ -262,11 +272,11 @@ Material MaterialReader::read() {
     if (!glossiness) dielectric();
     emission();
     alpha();
-    const bool doubled = from_.flag("doubleSided", false);
+    const bool doubled = material_json_.flag("doubleSided", false);
     material_.two_sided = doubled, material_.front_only = !doubled;
     other_properties();
     transmission();
-    if (extension("KHR_materials_unlit")) {
+    if (find_material_extension("KHR_materials_unlit")) {
         material_.unlit = true, material_.metallic = 0, material_.roughness = 1;
         material_.emission = vec3(0), material_.emission_texture.reset();
     }
@@ -284,9 +294,10 @@ std::vector<bool> find_vertex_coloured_materials(const JsonObject& root) {
     std::vector<bool> coloured(root.size("materials"));
     root.each("meshes", [&](const JsonObject& mesh) {
         mesh.each("primitives", [&](const JsonObject& primitive) {
-            const std::optional<JsonObject> attributes = primitive.object("attributes");
+            const std::optional<JsonObject> attributes = primitive.read_object_member("attributes");
             const auto material = primitive.index("material", coloured.size());
-            if (material && attributes && attributes->has("COLOR_0")) coloured[*material] = true;
+            if (material && attributes && attributes->has_member("COLOR_0"))
+                coloured[*material] = true;
         });
     });
     return coloured;
@@ -294,7 +305,7 @@ std::vector<bool> find_vertex_coloured_materials(const JsonObject& root) {
 
 } // namespace
 
-std::vector<Material> read_materials(const MaterialSource& source) {
+std::vector<Material> read_materials(const MaterialReadContext& source) {
     std::vector<Material> materials;
     TextureReader textures(source);
     const std::vector<bool> coloured = find_vertex_coloured_materials(source.root);

@@ -16,7 +16,7 @@ enum class GltfObjectKind {
 };
 // clang-format on
 
-enum class MemberKind {
+enum class GltfMemberKind {
     text,
     flag,
     number,
@@ -30,10 +30,10 @@ enum class MemberKind {
 };
 
 /// One row of the member table: the type that a member must have, and how it is used.
-struct MemberRule {
+struct GltfMemberRule {
     GltfObjectKind in;
     std::string_view key;
-    MemberKind kind;
+    GltfMemberKind kind;
     GltfObjectKind is =
         GltfObjectKind::nothing; ///< kind of the object, or of each object of the list
     std::string_view of = {};    ///< the list that the index refers to
@@ -41,47 +41,50 @@ struct MemberRule {
     bool unread = false;         ///< only checked, not passed to tinygltf
     std::string_view note = {};  ///< the note to add if the member is present
     bool made_up = false;        ///< if absent, set to -1 (index) or 0, since tinygltf needs it
-    LimitedSum BudgetAccount::*total = nullptr; ///< counts the objects of the list
-    std::size_t bytes = 0;                      ///< memory for each object of the list
+    BudgetLimitedSum LoadBudgetUsage::*total = nullptr; ///< counts the objects of the list
+    std::size_t bytes = 0;                              ///< memory for each object of the list
 };
 
-constexpr MemberRule vector_member_rule(GltfObjectKind in, std::string_view key,
-                                        std::size_t count) {
-    return {.in = in, .key = key, .kind = MemberKind::numbers, .count = count};
+constexpr GltfMemberRule make_vector_member_rule(GltfObjectKind in, std::string_view key,
+                                                 std::size_t count) {
+    return {.in = in, .key = key, .kind = GltfMemberKind::numbers, .count = count};
 }
-constexpr MemberRule object_member_rule(GltfObjectKind in, std::string_view key,
-                                        std::string_view of, MemberKind kind = MemberKind::index) {
+constexpr GltfMemberRule make_object_member_rule(GltfObjectKind in, std::string_view key,
+                                                 std::string_view of,
+                                                 GltfMemberKind kind = GltfMemberKind::index) {
     return {.in = in, .key = key, .kind = kind, .of = of};
 }
 template <typename Made = char>
-constexpr MemberRule list_member_rule(GltfObjectKind in, std::string_view key, GltfObjectKind is,
-                                      LimitedSum BudgetAccount::*total = nullptr) {
-    return {in, key, MemberKind::list, is, {}, 0, false, {}, false, total, sizeof(Made)};
+constexpr GltfMemberRule make_list_member_rule(GltfObjectKind in, std::string_view key,
+                                               GltfObjectKind is,
+                                               BudgetLimitedSum LoadBudgetUsage::*total = nullptr) {
+    return {in, key, GltfMemberKind::list, is, {}, 0, false, {}, false, total, sizeof(Made)};
 }
-constexpr MemberRule replaceable_member_rule(MemberRule member) {
+constexpr GltfMemberRule make_replaceable_member_rule(GltfMemberRule member) {
     member.made_up = true;
     return member;
 }
-constexpr MemberRule unread_member_rule(MemberRule member, std::string_view note = {}) {
+constexpr GltfMemberRule make_unread_member_rule(GltfMemberRule member,
+                                                 std::string_view note = {}) {
     member.unread = true, member.note = note;
     return member;
 }
 
 using enum GltfObjectKind;
-using enum MemberKind;
+using enum GltfMemberKind;
 
-constexpr MemberRule kMemberRules[] = {
+constexpr GltfMemberRule kGltfMemberRules[] = {
     {file, "asset", object, asset},
     {asset, "version", text},
 
-    list_member_rule<tinygltf::BufferView>(file, "bufferViews", view),
-    object_member_rule(view, "buffer", "buffers", needed_index),
+    make_list_member_rule<tinygltf::BufferView>(file, "bufferViews", view),
+    make_object_member_rule(view, "buffer", "buffers", needed_index),
     {view, "byteOffset", whole},
     {view, "byteLength", whole},
     {view, "byteStride", whole},
 
-    list_member_rule<tinygltf::Accessor>(file, "accessors", accessor),
-    object_member_rule(accessor, "bufferView", "bufferViews"),
+    make_list_member_rule<tinygltf::Accessor>(file, "accessors", accessor),
+    make_object_member_rule(accessor, "bufferView", "bufferViews"),
     {accessor, "byteOffset", whole},
     {accessor, "componentType", whole},
     {accessor, "count", whole},
@@ -91,160 +94,163 @@ constexpr MemberRule kMemberRules[] = {
     {sparse, "count", whole},
     {sparse, "indices", object, sparse_part},
     {sparse, "values", object, sparse_part},
-    object_member_rule(sparse_part, "bufferView", "bufferViews"),
+    make_object_member_rule(sparse_part, "bufferView", "bufferViews"),
     {sparse_part, "byteOffset", whole},
     {sparse_part, "componentType", whole},
 
-    unread_member_rule(
-        list_member_rule<Material>(file, "materials", material, &BudgetAccount::materials)),
+    make_unread_member_rule(
+        make_list_member_rule<Material>(file, "materials", material, &LoadBudgetUsage::materials)),
     {material, "name", text},
     {material, "normalTexture", object, texture_use},
     {material, "occlusionTexture", object, texture_use},
-    object_member_rule(texture_use, "index", "textures", needed_index),
-    unread_member_rule(list_member_rule<tinygltf::Texture>(file, "textures", texture)),
-    object_member_rule(texture, "source", "images"),
-    object_member_rule(texture, "sampler", "samplers"),
-    unread_member_rule(list_member_rule<tinygltf::Image>(file, "images", image)),
-    object_member_rule(image, "bufferView", "bufferViews"),
+    make_object_member_rule(texture_use, "index", "textures", needed_index),
+    make_unread_member_rule(make_list_member_rule<tinygltf::Texture>(file, "textures", texture)),
+    make_object_member_rule(texture, "source", "images"),
+    make_object_member_rule(texture, "sampler", "samplers"),
+    make_unread_member_rule(make_list_member_rule<tinygltf::Image>(file, "images", image)),
+    make_object_member_rule(image, "bufferView", "bufferViews"),
     {image, "uri", text},
 
-    list_member_rule<tinygltf::Camera>(file, "cameras", camera, &BudgetAccount::cameras),
+    make_list_member_rule<tinygltf::Camera>(file, "cameras", camera, &LoadBudgetUsage::cameras),
     {camera, "name", text},
     {camera, "type", text},
-    replaceable_member_rule({camera, "perspective", object, perspective}),
-    replaceable_member_rule({perspective, "yfov", number}),
-    replaceable_member_rule({perspective, "znear", number}),
-    replaceable_member_rule({camera, "orthographic", object, orthographic}),
-    replaceable_member_rule({orthographic, "xmag", number}),
-    replaceable_member_rule({orthographic, "ymag", number}),
-    replaceable_member_rule({orthographic, "zfar", number}),
-    replaceable_member_rule({orthographic, "znear", number}),
+    make_replaceable_member_rule({camera, "perspective", object, perspective}),
+    make_replaceable_member_rule({perspective, "yfov", number}),
+    make_replaceable_member_rule({perspective, "znear", number}),
+    make_replaceable_member_rule({camera, "orthographic", object, orthographic}),
+    make_replaceable_member_rule({orthographic, "xmag", number}),
+    make_replaceable_member_rule({orthographic, "ymag", number}),
+    make_replaceable_member_rule({orthographic, "zfar", number}),
+    make_replaceable_member_rule({orthographic, "znear", number}),
 
-    list_member_rule<tinygltf::Mesh>(file, "meshes", mesh, &BudgetAccount::meshes),
+    make_list_member_rule<tinygltf::Mesh>(file, "meshes", mesh, &LoadBudgetUsage::meshes),
     {mesh, "name", text},
-    list_member_rule<tinygltf::Primitive>(mesh, "primitives", primitive,
-                                          &BudgetAccount::primitives),
-    object_member_rule(primitive, "material", "materials"),
+    make_list_member_rule<tinygltf::Primitive>(mesh, "primitives", primitive,
+                                               &LoadBudgetUsage::primitives),
+    make_object_member_rule(primitive, "material", "materials"),
     {primitive, "mode", whole},
-    replaceable_member_rule({primitive, "attributes", object, attributes}),
-    object_member_rule(attributes, "POSITION", "accessors"),
-    object_member_rule(attributes, "NORMAL", "accessors"),
-    object_member_rule(attributes, "TEXCOORD_0", "accessors"),
-    object_member_rule(attributes, "TEXCOORD_1", "accessors"),
-    object_member_rule(attributes, "COLOR_0", "accessors"),
-    object_member_rule(attributes, "JOINTS_0", "accessors"),
-    object_member_rule(attributes, "WEIGHTS_0", "accessors"),
-    object_member_rule(primitive, "indices", "accessors"),
-    list_member_rule(primitive, "targets", morph),
-    object_member_rule(morph, "POSITION", "accessors"),
-    object_member_rule(morph, "NORMAL", "accessors"),
+    make_replaceable_member_rule({primitive, "attributes", object, attributes}),
+    make_object_member_rule(attributes, "POSITION", "accessors"),
+    make_object_member_rule(attributes, "NORMAL", "accessors"),
+    make_object_member_rule(attributes, "TEXCOORD_0", "accessors"),
+    make_object_member_rule(attributes, "TEXCOORD_1", "accessors"),
+    make_object_member_rule(attributes, "COLOR_0", "accessors"),
+    make_object_member_rule(attributes, "JOINTS_0", "accessors"),
+    make_object_member_rule(attributes, "WEIGHTS_0", "accessors"),
+    make_object_member_rule(primitive, "indices", "accessors"),
+    make_list_member_rule(primitive, "targets", morph),
+    make_object_member_rule(morph, "POSITION", "accessors"),
+    make_object_member_rule(morph, "NORMAL", "accessors"),
 
-    list_member_rule<tinygltf::Node>(file, "nodes", node, &BudgetAccount::nodes),
+    make_list_member_rule<tinygltf::Node>(file, "nodes", node, &LoadBudgetUsage::nodes),
     {node, "name", text},
-    object_member_rule(node, "mesh", "meshes"),
-    object_member_rule(node, "camera", "cameras"),
-    object_member_rule(node, "children", "nodes", indices),
-    vector_member_rule(node, "matrix", 16),
-    vector_member_rule(node, "rotation", 4),
-    vector_member_rule(node, "scale", 3),
-    vector_member_rule(node, "translation", 3),
-    object_member_rule(node, "skin", "skins"),
-    list_member_rule<tinygltf::Skin>(file, "skins", skin),
-    object_member_rule(skin, "joints", "nodes", indices),
-    object_member_rule(skin, "skeleton", "nodes"),
-    object_member_rule(skin, "inverseBindMatrices", "accessors"),
+    make_object_member_rule(node, "mesh", "meshes"),
+    make_object_member_rule(node, "camera", "cameras"),
+    make_object_member_rule(node, "children", "nodes", indices),
+    make_vector_member_rule(node, "matrix", 16),
+    make_vector_member_rule(node, "rotation", 4),
+    make_vector_member_rule(node, "scale", 3),
+    make_vector_member_rule(node, "translation", 3),
+    make_object_member_rule(node, "skin", "skins"),
+    make_list_member_rule<tinygltf::Skin>(file, "skins", skin),
+    make_object_member_rule(skin, "joints", "nodes", indices),
+    make_object_member_rule(skin, "skeleton", "nodes"),
+    make_object_member_rule(skin, "inverseBindMatrices", "accessors"),
 
-    object_member_rule(file, "scene", "scenes"),
-    list_member_rule<tinygltf::Scene>(file, "scenes", scene),
-    object_member_rule(scene, "nodes", "nodes", indices),
+    make_object_member_rule(file, "scene", "scenes"),
+    make_list_member_rule<tinygltf::Scene>(file, "scenes", scene),
+    make_object_member_rule(scene, "nodes", "nodes", indices),
 
-    list_member_rule<tinygltf::Animation>(file, "animations", animation),
+    make_list_member_rule<tinygltf::Animation>(file, "animations", animation),
     {animation, "name", text},
-    list_member_rule<tinygltf::AnimationChannel>(animation, "channels", channel,
-                                                 &BudgetAccount::channels),
+    make_list_member_rule<tinygltf::AnimationChannel>(animation, "channels", channel,
+                                                      &LoadBudgetUsage::channels),
     {channel, "sampler", whole},
     {channel, "target", object, target},
-    object_member_rule(target, "node", "nodes"),
+    make_object_member_rule(target, "node", "nodes"),
     {target, "path", text},
-    list_member_rule<tinygltf::AnimationSampler>(animation, "samplers", sampler),
-    replaceable_member_rule(object_member_rule(sampler, "input", "accessors")),
-    replaceable_member_rule(object_member_rule(sampler, "output", "accessors")),
+    make_list_member_rule<tinygltf::AnimationSampler>(animation, "samplers", sampler),
+    make_replaceable_member_rule(make_object_member_rule(sampler, "input", "accessors")),
+    make_replaceable_member_rule(make_object_member_rule(sampler, "output", "accessors")),
     {sampler, "interpolation", text},
 };
 
-class MemberChecker {
+class GltfMemberChecker {
 public:
-    MemberChecker(const JsonObject& root, BudgetAccount& account, LoaderNotes& notes)
-        : root_(root), account_(account), notes_(notes) {}
+    GltfMemberChecker(const JsonObject& root, LoadBudgetUsage& account, LoaderNotes& notes)
+        : gltf_root_(root), account_(account), notes_(notes) {}
 
-    void object(const JsonObject& item, GltfObjectKind in) {
-        for (const MemberRule& member : kMemberRules)
+    void check_object_members(const JsonObject& item, GltfObjectKind in) {
+        for (const GltfMemberRule& member : kGltfMemberRules)
             if (member.in == in) check_member(item, member);
     }
 
 private:
-    void check_member(const JsonObject& item, const MemberRule& member) {
+    void check_member(const JsonObject& item, const GltfMemberRule& member) {
         const std::string_view key = member.key;
-        if (member.kind == MemberKind::list) return each(item, member);
-        if (member.kind == MemberKind::needed_index) item.needed_index(key, root_.size(member.of));
-        if (!item.has(key)) return;
-        if (member.kind == MemberKind::text) item.text(key);
-        if (member.kind == MemberKind::flag) item.flag(key, false);
-        if (member.kind == MemberKind::number) item.number(key, 0);
-        if (member.kind == MemberKind::numbers) item.numbers(key, member.count);
-        if (member.kind == MemberKind::whole) item.whole(key, 0);
-        if (member.kind == MemberKind::index) item.index(key, root_.size(member.of));
-        if (member.kind == MemberKind::indices) item.indices(key, root_.size(member.of));
-        if (member.kind == MemberKind::object) object(*item.object(key), member.is);
-        if (!member.note.empty()) notes_.add(member.note, item.entry());
+        if (member.kind == GltfMemberKind::list) return each(item, member);
+        if (member.kind == GltfMemberKind::needed_index)
+            item.needed_index(key, gltf_root_.size(member.of));
+        if (!item.has_member(key)) return;
+        if (member.kind == GltfMemberKind::text) item.text(key);
+        if (member.kind == GltfMemberKind::flag) item.flag(key, false);
+        if (member.kind == GltfMemberKind::number) item.number(key, 0);
+        if (member.kind == GltfMemberKind::numbers) item.numbers(key, member.count);
+        if (member.kind == GltfMemberKind::whole) item.whole(key, 0);
+        if (member.kind == GltfMemberKind::index) item.index(key, gltf_root_.size(member.of));
+        if (member.kind == GltfMemberKind::indices) item.indices(key, gltf_root_.size(member.of));
+        if (member.kind == GltfMemberKind::object)
+            check_object_members(*item.read_object_member(key), member.is);
+        if (!member.note.empty()) notes_.add_note(member.note, item.entry());
     }
-    void each(const JsonObject& item, const MemberRule& member) {
+    void each(const JsonObject& item, const GltfMemberRule& member) {
         item.each(member.key, [&](const JsonObject& one) {
-            if (member.total != nullptr) (account_.*member.total).add(1, one.place());
-            account_.json_memory.add(member.bytes, one.place());
-            object(one, member.is);
-            if (!member.note.empty()) notes_.add(member.note, one.entry());
+            if (member.total != nullptr) (account_.*member.total).add_amount(1, one.place());
+            account_.json_memory.add_amount(member.bytes, one.place());
+            check_object_members(one, member.is);
+            if (!member.note.empty()) notes_.add_note(member.note, one.entry());
         });
     }
 
-    const JsonObject& root_;
-    BudgetAccount& account_;
+    const JsonObject& gltf_root_;
+    LoadBudgetUsage& account_;
     LoaderNotes& notes_;
 };
 
-Json read_members(Json& from, GltfObjectKind in);
+Json convert_members_for_tinygltf(Json& from, GltfObjectKind in);
 
 /// Converts a member to a form that tinygltf reads. For example, it does not accept 3.0 as an
 /// integer.
-Json read_member(Json& value, const MemberRule& member) {
+Json convert_member_for_tinygltf(Json& value, const GltfMemberRule& member) {
     if (member.kind == flag) return value.get<bool>();
     const auto counted = [](const Json& number) { return number.get<std::uint64_t>(); };
-    if (member.kind == MemberKind::object) return read_members(value, member.is);
-    if (member.kind == MemberKind::number)
+    if (member.kind == GltfMemberKind::object)
+        return convert_members_for_tinygltf(value, member.is);
+    if (member.kind == GltfMemberKind::number)
         return value.get<double>(); // tinygltf cuts others to 32 bits
-    if (member.kind == MemberKind::list)
-        for (Json& one : value) one = read_members(one, member.is);
-    else if (member.kind == MemberKind::indices)
+    if (member.kind == GltfMemberKind::list)
+        for (Json& one : value) one = convert_members_for_tinygltf(one, member.is);
+    else if (member.kind == GltfMemberKind::indices)
         for (Json& one : value) one = counted(one);
-    else if (member.kind != MemberKind::text && member.kind != MemberKind::numbers)
+    else if (member.kind != GltfMemberKind::text && member.kind != GltfMemberKind::numbers)
         return counted(value);
     return std::move(value);
 }
 
 /// Returns the members of an object that are read. Adds placeholders that tinygltf needs.
-Json read_members(Json& from, GltfObjectKind in) {
+Json convert_members_for_tinygltf(Json& from, GltfObjectKind in) {
     Json to = Json::object();
-    for (const MemberRule& member : kMemberRules) {
+    for (const GltfMemberRule& member : kGltfMemberRules) {
         if (member.in != in || member.unread) continue;
         const auto at = from.find(member.key);
         if (at != from.end()) {
-            to[std::string(member.key)] = read_member(*at, member);
+            to[std::string(member.key)] = convert_member_for_tinygltf(*at, member);
         } else if (member.made_up) {
             Json nothing = Json::object();
-            to[std::string(member.key)] = member.kind == MemberKind::object
-                                              ? read_members(nothing, member.is)
-                                          : member.kind == MemberKind::index ? Json(-1)
-                                                                             : Json(0);
+            to[std::string(member.key)] = member.kind == GltfMemberKind::object
+                                              ? convert_members_for_tinygltf(nothing, member.is)
+                                          : member.kind == GltfMemberKind::index ? Json(-1)
+                                                                                 : Json(0);
         }
     }
     return to;
@@ -252,10 +258,12 @@ Json read_members(Json& from, GltfObjectKind in) {
 
 } // namespace
 
-void check_known_members(const JsonObject& root, BudgetAccount& account, LoaderNotes& notes) {
-    MemberChecker(root, account, notes).object(root, GltfObjectKind::file);
+void check_known_members(const JsonObject& root, LoadBudgetUsage& account, LoaderNotes& notes) {
+    GltfMemberChecker(root, account, notes).check_object_members(root, GltfObjectKind::file);
 }
 
-Json keep_known_members(Json document) { return read_members(document, GltfObjectKind::file); }
+Json keep_known_members(Json document) {
+    return convert_members_for_tinygltf(document, GltfObjectKind::file);
+}
 
 } // namespace catoptric::scene::gltf

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t kMaxNodeDepth = 4096; // levels of nested nodes
 
 double read_positive_number(const JsonObject& item, const Json& value, std::string_view what) {
-    item.require(value.is_number() && value.get<double>() > 0, what,
-                 ": wanted a number above 0, found ", describe_json_value(value));
+    item.require_condition(value.is_number() && value.get<double>() > 0, what,
+                           ": wanted a number above 0, found ", describe_json_value(value));
     return value.get<double>();
 }
 
@@ -23,18 +23,20 @@ std::optional<Sphere> read_sphere_extra(const JsonObject& ours) {
     const Json* value = ours.find("sphere");
     if (value == nullptr || *value == false) return std::nullopt;
     if (*value == true) return Sphere{.radius = 1};
-    ours.require(value->is_array() && value->size() == 4,
-                 "sphere: wanted true, false or [x, y, z, r], found ", describe_json_value(*value));
+    ours.require_condition(value->is_array() && value->size() == 4,
+                           "sphere: wanted true, false or [x, y, z, r], found ",
+                           describe_json_value(*value));
     const std::vector<double> numbers = ours.numbers("sphere", 4);
     return Sphere{.centre = {numbers[0], numbers[1], numbers[2]},
                   .radius = read_positive_number(ours, (*value)[3], "sphere")};
 }
 
-NodeExtras read_node_extras(const JsonObject& node) {
-    NodeExtras marks;
+GltfNodeExtras read_node_extras(const JsonObject& node) {
+    GltfNodeExtras marks;
     const Json* extras = node.find("extras"); // any type; only objects are ours
     if (extras == nullptr || !extras->is_object()) return marks;
-    const std::optional<JsonObject> ours = node.object("extras")->object("catoptric");
+    const std::optional<JsonObject> ours = node.read_object_member("extras")->read_object_member(
+        "catoptric");
     if (!ours) return marks;
     marks.sphere = read_sphere_extra(*ours);
     if (const Json* distance = ours->find("distance"))
@@ -45,8 +47,8 @@ NodeExtras read_node_extras(const JsonObject& node) {
 
 } // namespace
 
-std::vector<NodeExtras> read_all_node_extras(const JsonObject& root) {
-    std::vector<NodeExtras> marks;
+std::vector<GltfNodeExtras> read_all_node_extras(const JsonObject& root) {
+    std::vector<GltfNodeExtras> marks;
     root.each("nodes", [&](const JsonObject& node) { marks.push_back(read_node_extras(node)); });
     return marks;
 }
@@ -56,7 +58,7 @@ std::vector<Camera> read_cameras(const GltfDocument& document) {
     for (const tinygltf::Camera& from : document.model.cameras) {
         const auto require = [&](bool ok, const auto&... parts) {
             check(ok, Failure::bad_data, document.file, ": ",
-                  label_list_item("cameras", cameras.size(), from.name), parts...);
+                  format_list_item_label("cameras", cameras.size(), from.name), parts...);
         };
         Camera camera{.name = from.name};
         if (from.type == "orthographic") {
@@ -85,8 +87,8 @@ dmat4 node_transform_to_parent(const GltfDocument& document, std::size_t index) 
         const glm::dquat rotation(r[3], r[0], r[1], r[2]);
         const double length = glm::length(rotation);
         check(length > 0 && std::isfinite(length), Failure::bad_data, document.file, ": ",
-              document.label(index), ": rotation: wanted a quaternion with a length, found ",
-              length);
+              document.describe_node(index),
+              ": rotation: wanted a quaternion with a length, found ", length);
         result = dmat4(glm::mat3_cast(glm::normalize(rotation)));
     }
     for (int i = 0; i < 3 && !scale.empty(); ++i) result[i] *= scale[std::size_t(i)];
@@ -97,21 +99,22 @@ dmat4 node_transform_to_parent(const GltfDocument& document, std::size_t index) 
 void check_nodes_form_forest(const GltfDocument& document) {
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
     const auto require = [&](bool ok, std::size_t node, const auto&... parts) {
-        if (!ok) fail(Failure::bad_data, document.file, ": ", document.label(node), parts...);
+        if (!ok)
+            fail(Failure::bad_data, document.file, ": ", document.describe_node(node), parts...);
     };
-    constexpr std::size_t kNoParent = ~std::size_t(0);
-    std::vector<std::size_t> parent(nodes.size(), kNoParent), depth(nodes.size(), 0);
+    constexpr std::size_t kNoParentNode = ~std::size_t(0);
+    std::vector<std::size_t> parent(nodes.size(), kNoParentNode), depth(nodes.size(), 0);
     for (std::size_t i = 0; i < nodes.size(); ++i)
         for (const int child : nodes[i].children) {
             std::size_t& its = parent[std::size_t(child)];
-            if (its != kNoParent)
+            if (its != kNoParentNode)
                 require(false, std::size_t(child), ": wanted one parent at most, found ",
-                        document.label(its), " and ", document.label(i));
+                        document.describe_node(its), " and ", document.describe_node(i));
             its = i;
         }
     std::vector<std::size_t> waiting; // nodes with known depth, children not yet visited
     for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (parent[i] == kNoParent) depth[i] = 1, waiting.push_back(i);
+        if (parent[i] == kNoParentNode) depth[i] = 1, waiting.push_back(i);
     while (!waiting.empty()) {
         const std::size_t i = waiting.back();
         waiting.pop_back();

@@ -24,23 +24,23 @@ std::optional<AccessorElements> read_attribute_elements(const tinygltf::Model& m
 }
 
 /// A vertex attribute besides the position, with its allowed types and component types.
-struct AttributeRule {
+struct VertexAttributeRule {
     const char* name;
     std::string_view what;
     int type, other_type;
-    GltfContext::AllowedIntegers also;
+    GltfReadContext::AllowedAccessorIntegers also;
 };
-constexpr AttributeRule kReadAttributes[] = {
+constexpr VertexAttributeRule kSupportedVertexAttributes[] = {
     {"NORMAL", "normals", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC3,
-     GltfContext::AllowedIntegers::quantised},
+     GltfReadContext::AllowedAccessorIntegers::quantised},
     {"TEXCOORD_0", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
-     GltfContext::AllowedIntegers::quantised},
+     GltfReadContext::AllowedAccessorIntegers::quantised},
     {"TEXCOORD_1", "texture coordinates", TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC2,
-     GltfContext::AllowedIntegers::quantised},
+     GltfReadContext::AllowedAccessorIntegers::quantised},
     {"COLOR_0", "colours", TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
-     GltfContext::AllowedIntegers::normalised},
+     GltfReadContext::AllowedAccessorIntegers::normalised},
     {"WEIGHTS_0", "weights", TINYGLTF_TYPE_VEC4, TINYGLTF_TYPE_VEC4,
-     GltfContext::AllowedIntegers::normalised}};
+     GltfReadContext::AllowedAccessorIntegers::normalised}};
 
 void check_element_count(std::size_t found, std::size_t wanted, std::string_view what,
                          const std::string& place) {
@@ -49,19 +49,21 @@ void check_element_count(std::size_t found, std::size_t wanted, std::string_view
 }
 
 void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
-                      const std::string& place, GltfContext& context) {
-    for (const auto& [name, what, type, other, also] : kReadAttributes) {
+                      const std::string& place, GltfReadContext& context) {
+    for (const auto& [name, what, type, other, also] : kSupportedVertexAttributes) {
         const int accessor = find_attribute(primitive.attributes, name);
         if (accessor < 0) continue;
         const int its = context.document.model.accessors[std::size_t(accessor)].type;
         // Normalised texture coordinates need no extension; normals and positions need one.
         const bool is_uv = type == TINYGLTF_TYPE_VEC2;
-        const GltfContext::AllowedIntegers allowed = is_uv && !context.document.is_quantised
-                                                         ? GltfContext::AllowedIntegers::normalised
-                                                         : also;
-        BudgetAccount& account = context.account;
-        LimitedSum& total = also == kReadAttributes[0].also && !is_uv ? account.normals
-                                                                      : account.attributes;
+        const GltfReadContext::AllowedAccessorIntegers allowed =
+            is_uv && !context.document.is_quantised
+                ? GltfReadContext::AllowedAccessorIntegers::normalised
+                : also;
+        LoadBudgetUsage& account = context.account;
+        BudgetLimitedSum& total = also == kSupportedVertexAttributes[0].also && !is_uv
+                                      ? account.normals
+                                      : account.attributes;
         const AccessorElements found = context.floats(accessor, its == other ? other : type, total,
                                                       place + ": " + name, allowed);
         check_element_count(found.count, count, what, place);
@@ -76,7 +78,7 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
                                         .floats(accessor, TINYGLTF_TYPE_VEC3,
                                                 context.account.attributes,
                                                 place + ": targets: " + name,
-                                                GltfContext::AllowedIntegers::quantised)
+                                                GltfReadContext::AllowedAccessorIntegers::quantised)
                                         .count,
                                     count, "morphed ones", place + ": targets");
 }
@@ -84,13 +86,13 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
 } // namespace
 
 void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                     GltfContext& context) {
+                     GltfReadContext& context) {
     const std::string attributes = place + ": attributes";
     const std::size_t count = context
                                   .floats(find_attribute(primitive.attributes, "POSITION"),
                                           TINYGLTF_TYPE_VEC3, context.account.positions,
                                           attributes + ": POSITION",
-                                          GltfContext::AllowedIntegers::quantised)
+                                          GltfReadContext::AllowedAccessorIntegers::quantised)
                                   .count;
     check_attributes(primitive, count, attributes, context);
     const std::size_t corners = primitive.indices < 0
@@ -126,12 +128,14 @@ std::size_t GltfPrimitive::triangle_count() const {
 }
 
 GltfVertex GltfPrimitive::vertex(std::size_t index) const {
-    GltfVertex vertex{read_vector(positions, index),
-                      normals ? normalized_or_zero(read_vector(*normals, index)) : dvec3(0)};
+    GltfVertex vertex{read_accessor_vector(positions, index),
+                      normals ? normalized_or_zero(read_accessor_vector(*normals, index))
+                              : dvec3(0)};
     for (const MorphTarget& morph : morphs) {
-        if (morph.positions) vertex.position += morph.weight * read_vector(*morph.positions, index);
+        if (morph.positions)
+            vertex.position += morph.weight * read_accessor_vector(*morph.positions, index);
         if (morph.normals && normals)
-            vertex.normal += morph.weight * read_vector(*morph.normals, index);
+            vertex.normal += morph.weight * read_accessor_vector(*morph.normals, index);
     }
     return vertex;
 }
@@ -139,7 +143,7 @@ GltfVertex GltfPrimitive::vertex(std::size_t index) const {
 vec4 GltfPrimitive::colour(std::size_t index) const {
     vec4 colour(1);
     for (int i = 0; colours && i < colours->width; ++i)
-        colour[i] = static_cast<float>(read_number(*colours, index, i));
+        colour[i] = static_cast<float>(read_accessor_number(*colours, index, i));
     return colour;
 }
 
@@ -148,16 +152,16 @@ void GltfPrimitive::pose(std::size_t index, const std::vector<dmat4>& world_from
     dmat4 world(0);
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
-        const double weight = read_number(*weights, index, i);
-        const std::uint32_t joint = read_integer(*joints, index, i);
+        const double weight = read_accessor_number(*weights, index, i);
+        const std::uint32_t joint = read_accessor_integer(*joints, index, i);
         if (weight == 0 || joint >= world_from_bound.size()) continue;
         world += weight * world_from_bound[joint];
         sum += weight;
     }
     if (!(sum > 0)) return; // no joint has weight, so the vertex stays
     world /= sum;           // the sum of quantised weights is not exactly 1
-    position = transform_point(world, position);
-    normal = normal_matrix(world) * normal;
+    position = transform_point_to_world(world, position);
+    normal = compute_normal_matrix(world) * normal;
 }
 
 std::vector<std::uint32_t> list_triangle_corners(const GltfPrimitive& primitive,
@@ -169,7 +173,7 @@ std::vector<std::uint32_t> list_triangle_corners(const GltfPrimitive& primitive,
     const std::size_t count = primitive.positions.count;
     for (std::uint32_t& corner : named) {
         if (!primitive.indices) break;
-        corner = read_integer(*primitive.indices, corner);
+        corner = read_accessor_integer(*primitive.indices, corner);
         check(corner < count, Failure::bad_data, place, ": indices: wanted indices below ", count,
               ", found ", corner);
         check(corner != primitive_restart_index(*primitive.indices), Failure::bad_data, place,

@@ -12,7 +12,7 @@ namespace catoptric::scene::gltf {
 /// Checks a primitive's attributes, morph targets and indices. Throws `bad_data` beginning with
 /// `place` if they cannot be drawn.
 void check_primitive(const tinygltf::Primitive& primitive, const std::string& place,
-                     GltfContext& context);
+                     GltfReadContext& context);
 
 struct GltfVertex {
     dvec3 position, normal; ///< a normal of zero means none

@@ -13,42 +13,44 @@ namespace catoptric::scene::gltf {
 namespace {
 
 /// How a node moves, given its own tracks and those of the nodes above it.
-enum class NodeMovement {
+enum class NodeMotionKind {
     still,
     slides, ///< only by one track of translations, on this node or one above it
     turns   ///< in any other way
 };
 
 /// The state of a node that its children continue from.
-struct NodeState {
+struct ParentNodeState {
     PlacedNode placed;
-    NodeMovement going = NodeMovement::still;
+    NodeMotionKind going = NodeMotionKind::still;
     std::optional<std::size_t> rig_node; ///< the nearest animated node, itself or above it
     dmat4 below{1};                      ///< transform from this node to the rig node
 };
 
 /// Visits the nodes from the roots down, without recursion. The nodes form a forest, but a scene
 /// may list a node twice, or list both a node and its parent.
-class NodePlacer {
+class NodePlacementComputer {
 public:
-    NodePlacer(const GltfDocument& document, const NodeAnimation& animation)
-        : document_(document), animation_(animation), placed_(document.model.nodes.size()) {
+    NodePlacementComputer(const GltfDocument& document, const NodeAnimation& animation)
+        : gltf_document_(document), animation_(animation), placed_(document.model.nodes.size()) {
         for (std::size_t i = 0; i < placed_.size(); ++i) // unreached nodes are checked, too
             rest_.push_back(node_transform_to_parent(document, i));
     }
 
-    std::vector<PlacedNode> place_all_nodes() {
-        std::vector<std::pair<std::size_t, NodeState>> waiting; // node, and state of its parent
-        for (const int root : list_root_nodes(document_.model))
+    std::vector<PlacedNode> compute_all_placements() {
+        std::vector<std::pair<std::size_t, ParentNodeState>>
+            waiting; // node, and state of its parent
+        for (const int root : list_root_nodes(gltf_document_.model))
             waiting.push_back({std::size_t(root), {}});
         while (!waiting.empty()) {
             const auto [index, parent] = std::move(waiting.back());
             waiting.pop_back();
-            check(!placed_[index].reached, Failure::bad_data, document_.file, ": ",
-                  document_.label(index), ": wanted one parent at most, found a second way to it");
-            const NodeState way = node_state_of(index, parent);
+            check(!placed_[index].reached, Failure::bad_data, gltf_document_.file, ": ",
+                  gltf_document_.describe_node(index),
+                  ": wanted one parent at most, found a second way to it");
+            const ParentNodeState way = node_state_of(index, parent);
             placed_[index] = way.placed;
-            for (const int child : document_.model.nodes[index].children)
+            for (const int child : gltf_document_.model.nodes[index].children)
                 waiting.push_back({std::size_t(child), way});
         }
         finish();
@@ -56,11 +58,11 @@ public:
     }
 
 private:
-    NodeState node_state_of(std::size_t index, const NodeState& parent);
-    std::size_t add_to_rig(std::size_t index, const NodeState& parent);
+    ParentNodeState node_state_of(std::size_t index, const ParentNodeState& parent);
+    std::size_t add_to_rig(std::size_t index, const ParentNodeState& parent);
     void finish();
 
-    const GltfDocument& document_;
+    const GltfDocument& gltf_document_;
     const NodeAnimation& animation_;
     std::vector<PlacedNode> placed_;
     std::vector<dmat4> rest_;
@@ -69,9 +71,9 @@ private:
 
 /// Adds an animated node to the rig and returns its index. Parts of its transform without a track
 /// keep their values at rest.
-std::size_t NodePlacer::add_to_rig(std::size_t index, const NodeState& parent) {
-    const tinygltf::Node& node = document_.model.nodes[index];
-    const NodeTracks& tracks = animation_.nodes[index];
+std::size_t NodePlacementComputer::add_to_rig(std::size_t index, const ParentNodeState& parent) {
+    const tinygltf::Node& node = gltf_document_.model.nodes[index];
+    const NodeMotionTracks& tracks = animation_.nodes[index];
     NodeRig::RigNode to{.parent = parent.rig_node,
                         .parent_from_space = parent.rig_node ? parent.below
                                                              : parent.placed.world_from_node};
@@ -85,12 +87,13 @@ std::size_t NodePlacer::add_to_rig(std::size_t index, const NodeState& parent) {
     return rig_.nodes.size() - 1;
 }
 
-NodeState NodePlacer::node_state_of(std::size_t index, const NodeState& parent) {
-    NodeState way = parent;
+ParentNodeState NodePlacementComputer::node_state_of(std::size_t index,
+                                                     const ParentNodeState& parent) {
+    ParentNodeState way = parent;
     way.placed.reached = true;
     way.placed.world_from_node = parent.placed.world_from_node * rest_[index];
-    const NodeTracks& tracks = animation_.nodes[index];
-    if (!tracks.is_any()) {
+    const NodeMotionTracks& tracks = animation_.nodes[index];
+    if (!tracks.has_any_track()) {
         way.below = parent.below * rest_[index];
         if (auto* follows = std::get_if<RigAttachment>(&way.placed.motion))
             follows->node_from_object = way.below;
@@ -99,21 +102,21 @@ NodeState NodePlacer::node_state_of(std::size_t index, const NodeState& parent) 
     const bool slides = tracks.translations && !tracks.rotations && !tracks.scales;
     way.rig_node = add_to_rig(index, parent);
     way.below = dmat4(1);
-    if (slides && parent.going == NodeMovement::still) {
-        way.going = NodeMovement::slides;
+    if (slides && parent.going == NodeMotionKind::still) {
+        way.going = NodeMotionKind::slides;
         way.placed.motion = Keyframes{.keys = tracks.translations,
                                       .world_from_keys = dmat3(parent.placed.world_from_node),
                                       .rest = dvec3(rest_[index][3]),
                                       .repeats = animation_.repeats};
         return way;
     }
-    way.going = NodeMovement::turns;
+    way.going = NodeMotionKind::turns;
     way.placed.motion = RigAttachment{.node = *way.rig_node};
     return way;
 }
 
 /// Gives the rig to all nodes that follow it, and sets their transforms at time 0.
-void NodePlacer::finish() {
+void NodePlacementComputer::finish() {
     const bool is_used = std::ranges::any_of(placed_, [](const PlacedNode& placed) {
         return std::holds_alternative<RigAttachment>(placed.motion);
     });
@@ -130,24 +133,25 @@ void NodePlacer::finish() {
 
 } // namespace
 
-std::vector<PlacedNode> place_nodes(const GltfDocument& document, const NodeAnimation& animation) {
-    return NodePlacer(document, animation).place_all_nodes();
+std::vector<PlacedNode> compute_placed_nodes(const GltfDocument& document,
+                                             const NodeAnimation& animation) {
+    return NodePlacementComputer(document, animation).compute_all_placements();
 }
 
 std::vector<dmat4> compute_rest_transforms(const GltfDocument& document) {
-    const NodeAnimation still{.nodes = std::vector<NodeTracks>(document.model.nodes.size())};
+    const NodeAnimation still{.nodes = std::vector<NodeMotionTracks>(document.model.nodes.size())};
     std::vector<dmat4> rest;
-    for (const PlacedNode& placed : place_nodes(document, still))
+    for (const PlacedNode& placed : compute_placed_nodes(document, still))
         rest.push_back(placed.world_from_node);
     return rest;
 }
 
 std::vector<dmat4> compute_joint_transforms(int index, const std::vector<dmat4>& at_rest,
-                                            GltfContext& context) {
+                                            GltfReadContext& context) {
     const GltfDocument& document = context.document;
     const tinygltf::Skin& skin = document.model.skins[std::size_t(index)];
     const std::string place = document.file + ": " +
-                              label_list_item("skins", std::size_t(index), skin.name);
+                              format_list_item_label("skins", std::size_t(index), skin.name);
     std::vector<dmat4> joints;
     for (const int joint : skin.joints) joints.push_back(at_rest[std::size_t(joint)]);
     if (skin.inverseBindMatrices < 0) return joints;
@@ -159,7 +163,7 @@ std::vector<dmat4> compute_joint_transforms(int index, const std::vector<dmat4>&
           inverse.count);
     for (std::size_t i = 0; i < joints.size(); ++i) {
         dmat4 bound;
-        for (int j = 0; j < 16; ++j) bound[j / 4][j % 4] = read_number(inverse, i, j);
+        for (int j = 0; j < 16; ++j) bound[j / 4][j % 4] = read_accessor_number(inverse, i, j);
         joints[i] = joints[i] * bound;
     }
     return joints;

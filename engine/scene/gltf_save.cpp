@@ -25,13 +25,13 @@ namespace {
 using tinygltf::Value;
 
 int write_texture_coordinates(GltfWriter& writer, const std::vector<vec2>& list) {
-    writer.append(list, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return accessor_type_of(writer.model.accessors) - 1;
+    writer.append_accessor(list, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
 }
 
 int write_vertex_colours(GltfWriter& writer, const std::vector<vec4>& list) {
-    writer.append(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return accessor_type_of(writer.model.accessors) - 1;
+    writer.append_accessor(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
 }
 
 int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
@@ -39,11 +39,11 @@ int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
     for (const uvec3& t : mesh.triangles)
         wide.insert(wide.end(), {t.x, inside_out ? t.z : t.y, inside_out ? t.y : t.z});
     if (mesh.positions.size() >= 65535) // index 65535 would mean primitive restart
-        writer.append(wide, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+        writer.append_accessor(wide, TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
     else
-        writer.append(std::vector<std::uint16_t>(wide.begin(), wide.end()), TINYGLTF_TYPE_SCALAR,
-                      TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-    return accessor_type_of(writer.model.accessors) - 1;
+        writer.append_accessor(std::vector<std::uint16_t>(wide.begin(), wide.end()),
+                               TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
 }
 
 /// Returns the glTF mesh of an object, and adds it if it is new. glTF stores the material with the
@@ -52,7 +52,7 @@ int find_or_write_mesh(GltfWriter& writer, const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     tinygltf::Model& model = writer.model;
     const auto [entry, is_new] = writer.meshes.try_emplace(
-        {object.mesh, object.material, inside_out}, accessor_type_of(model.meshes));
+        {object.mesh, object.material, inside_out}, gltf_accessor_type_of_list(model.meshes));
     if (!is_new) return entry->second;
     const Mesh& mesh = writer.scene.meshes[object.mesh];
     tinygltf::Primitive primitive;
@@ -82,7 +82,7 @@ Value make_object_extras(const Object& object) {
     if (object.sphere && object.sphere->centre == dvec3(world[3]) && object.sphere->radius == scale)
         ours["sphere"] = Value(true);
     else if (object.sphere) {
-        const dvec3 centre = transform_point(glm::inverse(world), object.sphere->centre);
+        const dvec3 centre = transform_point_to_world(glm::inverse(world), object.sphere->centre);
         ours["sphere"] = make_number_list(
             {centre.x, centre.y, centre.z, object.sphere->radius / scale});
     }
@@ -93,7 +93,7 @@ Value make_object_extras(const Object& object) {
 /// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
 void add_following_node(GltfWriter& writer, const RigAttachment* follows, tinygltf::Node node) {
     const int parent = follows ? writer.node_of(*follows) : -1;
-    const int index = accessor_type_of(writer.model.nodes);
+    const int index = gltf_accessor_type_of_list(writer.model.nodes);
     writer.model.nodes.push_back(std::move(node));
     if (parent < 0)
         writer.model.scenes[0].nodes.push_back(index);
@@ -103,8 +103,8 @@ void add_following_node(GltfWriter& writer, const RigAttachment* follows, tinygl
 
 /// Adds a node with its transform and motion. A moving node stores its translation separately. If
 /// the rest of its transform is more than a scale, a child node gets the rest.
-void place_object_node(GltfWriter& writer, const dmat4& world, const Motion& motion,
-                       tinygltf::Node node) {
+void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motion,
+                     tinygltf::Node node) {
     tinygltf::Model& model = writer.model;
     if (const RigAttachment* follows = find_followed_node(motion)) {
         node.matrix = matrix_to_numbers(follows->node_from_object);
@@ -113,7 +113,7 @@ void place_object_node(GltfWriter& writer, const dmat4& world, const Motion& mot
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
     const bool is_scale = dmat3(world) == glm::matrixCompMult(dmat3(world), dmat3(1));
     const std::optional<TranslationTrack> keys = motion_to_keys(motion);
-    const int index = accessor_type_of(model.nodes);
+    const int index = gltf_accessor_type_of_list(model.nodes);
     model.scenes[0].nodes.push_back(index);
     if (keys) writer.add_motion(*keys, rest, index);
     if (is_scale && rest != dvec3(0)) node.translation = matrix_to_numbers(rest);
@@ -136,7 +136,7 @@ void add_object(GltfWriter& writer, const Object& object) {
     tinygltf::Node node;
     node.name = object.name, node.mesh = find_or_write_mesh(writer, object),
     node.extras = make_object_extras(object);
-    place_object_node(writer, object.world_from_object, object.motion, std::move(node));
+    add_object_node(writer, object.world_from_object, object.motion, std::move(node));
 }
 
 /// Adds a camera and its node. glTF cameras look along -z with +y up.
@@ -150,7 +150,7 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
                       dvec4(camera.eye, 1));
     const RigAttachment* follows = camera.follows.rig ? &camera.follows : nullptr;
     tinygltf::Node node;
-    node.name = camera.name, node.camera = accessor_type_of(writer.model.cameras);
+    node.name = camera.name, node.camera = gltf_accessor_type_of_list(writer.model.cameras);
     node.matrix = matrix_to_numbers(follows ? follows->node_from_object * world : world);
     node.extras = make_catoptric_extras({{"distance", Value(distance)}});
     add_following_node(writer, follows, std::move(node));
@@ -170,12 +170,12 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
 }
 
 void add_light(GltfWriter& writer, const PunctualLight& light) {
-    const LightKind& kind = light_kind_of(light.kind);
+    const LightKind& kind = find_light_kind(light.kind);
     const std::string extension = "KHR_lights_punctual";
     const double largest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     tinygltf::Light to;
     to.name = light.name;
-    to.type = gltf_type_of(kind);
+    to.type = gltf_type_of_light_kind(kind);
     if (to.type != kind.name)
         to.extras = make_catoptric_extras({{"light", Value(std::string(kind.name))}});
     to.intensity = largest;
@@ -186,9 +186,9 @@ void add_light(GltfWriter& writer, const PunctualLight& light) {
     tinygltf::Node node;
     node.name = light.name;
     node.extensions[extension] = Value(
-        Value::Object{{"light", Value(accessor_type_of(writer.model.lights))}});
+        Value::Object{{"light", Value(gltf_accessor_type_of_list(writer.model.lights))}});
     writer.model.lights.push_back(std::move(to));
-    place_object_node(writer, light.world_from_light, light.motion, std::move(node));
+    add_object_node(writer, light.world_from_light, light.motion, std::move(node));
 }
 
 /// Returns the bytes of a GLB file with the writer's contents. Throws `io` above 4 GiB.
@@ -233,9 +233,10 @@ tinygltf::BufferView& GltfWriter::view(const void* first, std::size_t size) {
 int GltfWriter::vectors(const std::vector<vec3>& list) {
     Bounds<float> box;
     for (const vec3& v : list) box.add(v);
-    tinygltf::Accessor& accessor = append(list, TINYGLTF_TYPE_VEC3, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    tinygltf::Accessor& accessor = append_accessor(list, TINYGLTF_TYPE_VEC3,
+                                                   TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = matrix_to_numbers(box.lo), accessor.maxValues = matrix_to_numbers(box.hi);
-    return accessor_type_of(model.accessors) - 1;
+    return gltf_accessor_type_of_list(model.accessors) - 1;
 }
 
 void GltfWriter::use(const std::string& extension) {

@@ -13,11 +13,11 @@ namespace {
 
 using tinygltf::Value;
 
-int gltf_filter(const Texture& texture) {
+int gltf_filter_of_texture(const Texture& texture) {
     return texture.nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
 }
 
-int gltf_wrap(Texture::Wrap wrap) {
+int gltf_wrap_mode(Texture::Wrap wrap) {
     if (wrap == Texture::Wrap::clamp) return TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
     return wrap == Texture::Wrap::mirrored ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
                                            : TINYGLTF_TEXTURE_WRAP_REPEAT;
@@ -42,7 +42,8 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
     if (largest == 0) return;
     const bool is_common = largest <= 1 && largest > 1e-6;
     to.emissiveFactor = matrix_to_numbers(is_common ? emission : emission / largest);
-    if (material.emission_texture) to.emissiveTexture = writer.texture(*material.emission_texture);
+    if (material.emission_texture)
+        to.emissiveTexture = writer.add_texture_info(*material.emission_texture);
     if (is_common) return;
     const std::string extension(kEmissiveStrengthExtension);
     to.extensions[extension] = Value(Value::Object{{"emissiveStrength", Value(largest)}});
@@ -51,19 +52,20 @@ void write_emission(GltfWriter& writer, const Material& material, tinygltf::Mate
 
 /// Writes the index of refraction of glass, and F0 and F90 by KHR_materials_specular if they differ
 /// from those of a glTF material with this index.
-void write_dielectric(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
+void write_dielectric_reflectance(GltfWriter& writer, const Material& material,
+                                  tinygltf::Material& to) {
     const bool has_ior = material.ior != Material().ior;
     if (has_ior) {
         to.extensions["KHR_materials_ior"] = Value(
-            Value::Object{{"ior", Value(float_to_typed_double(material.ior))}});
+            Value::Object{{"ior", Value(float_to_shortest_double(material.ior))}});
         writer.use("KHR_materials_ior");
     }
-    const float usual = has_ior ? compute_dielectric_f0(float_to_typed_double(material.ior))
+    const float usual = has_ior ? compute_dielectric_f0(float_to_shortest_double(material.ior))
                                 : kUsualDielectricF0;
     if (material.dielectric_f0 == vec3(usual) && material.dielectric_f90 == vec3(1)) return;
     // As in the reader, in double precision.
-    const double f0 = has_ior ? std::pow((float_to_typed_double(material.ior) - 1) /
-                                             (float_to_typed_double(material.ior) + 1),
+    const double f0 = has_ior ? std::pow((float_to_shortest_double(material.ior) - 1) /
+                                             (float_to_shortest_double(material.ior) + 1),
                                          2)
                               : .04;
     const double strength = material.dielectric_f90.x;
@@ -90,14 +92,14 @@ void write_volume(GltfWriter& writer, const Material& material, tinygltf::Materi
 }
 
 /// Writes the factors of extensions that differ from the defaults of Material.
-void write_factors(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
+void write_extension_factors(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
     const Material usual;
     for (const auto& [name, member, extension, key, gltf_default] : kMaterialFactors) {
-        if (extension == kCoreFactors || material.*member == usual.*member) continue;
+        if (extension == kCoreMaterialFactors || material.*member == usual.*member) continue;
         Value& members = to.extensions[std::string(extension)];
         if (!members.IsObject()) members = Value(Value::Object());
         members.Get<Value::Object>()[std::string(key)] = Value(
-            float_to_typed_double(material.*member));
+            float_to_shortest_double(material.*member));
         writer.use(std::string(extension));
     }
 }
@@ -115,31 +117,34 @@ Value make_material_extras(const Material& material) {
 } // namespace
 
 int GltfWriter::image(const Image& image) {
-    const auto [entry, is_new] = images.try_emplace(&image, accessor_type_of(model.images));
+    const auto [entry, is_new] = images.try_emplace(&image,
+                                                    gltf_accessor_type_of_list(model.images));
     if (!is_new) return entry->second;
     const std::string png = encode_image_png(image);
     view(png.data(), png.size());
     tinygltf::Image& to = model.images.emplace_back();
     to.name = image.name, to.mimeType = "image/png";
-    to.bufferView = accessor_type_of(model.bufferViews) - 1;
+    to.bufferView = gltf_accessor_type_of_list(model.bufferViews) - 1;
     return entry->second;
 }
 
 int GltfWriter::sampler(const Texture& texture) {
-    const std::tuple key{gltf_filter(texture), gltf_wrap(texture.wrap_u),
-                         gltf_wrap(texture.wrap_v)};
-    const auto [entry, is_new] = samplers.try_emplace(key, accessor_type_of(model.samplers));
+    const std::tuple key{gltf_filter_of_texture(texture), gltf_wrap_mode(texture.wrap_u),
+                         gltf_wrap_mode(texture.wrap_v)};
+    const auto [entry, is_new] = samplers.try_emplace(key,
+                                                      gltf_accessor_type_of_list(model.samplers));
     if (!is_new) return entry->second;
     tinygltf::Sampler& to = model.samplers.emplace_back();
     std::tie(to.magFilter, to.wrapS, to.wrapT) = key;
     return entry->second;
 }
 
-tinygltf::TextureInfo GltfWriter::texture(const Texture& texture) {
+tinygltf::TextureInfo GltfWriter::add_texture_info(const Texture& texture) {
     tinygltf::Texture to;
     to.source = image(*texture.image), to.sampler = sampler(texture);
     tinygltf::TextureInfo info;
-    info.index = accessor_type_of(model.textures), info.texCoord = static_cast<int>(texture.uv_set);
+    info.index = gltf_accessor_type_of_list(model.textures),
+    info.texCoord = static_cast<int>(texture.uv_set);
     model.textures.push_back(std::move(to));
     if (texture.u_row == vec3(1, 0, 0) && texture.v_row == vec3(0, 1, 0)) return info;
     info.extensions["KHR_texture_transform"] = make_texture_transform(texture);
@@ -152,25 +157,26 @@ void GltfWriter::add_material(const Material& material) {
     tinygltf::Material to;
     to.name = material.name;
     tinygltf::PbrMetallicRoughness& pbr = to.pbrMetallicRoughness;
-    pbr.baseColorFactor = {float_to_typed_double(base.x), float_to_typed_double(base.y),
-                           float_to_typed_double(base.z), float_to_typed_double(material.alpha)};
-    pbr.metallicFactor = material.mirror ? 1 : float_to_typed_double(material.metallic);
-    pbr.roughnessFactor = material.mirror ? 0 : float_to_typed_double(material.roughness);
-    if (material.albedo_texture) pbr.baseColorTexture = texture(*material.albedo_texture);
+    pbr.baseColorFactor = {float_to_shortest_double(base.x), float_to_shortest_double(base.y),
+                           float_to_shortest_double(base.z),
+                           float_to_shortest_double(material.alpha)};
+    pbr.metallicFactor = material.mirror ? 1 : float_to_shortest_double(material.metallic);
+    pbr.roughnessFactor = material.mirror ? 0 : float_to_shortest_double(material.roughness);
+    if (material.albedo_texture) pbr.baseColorTexture = add_texture_info(*material.albedo_texture);
     if (material.roughness_texture)
-        pbr.metallicRoughnessTexture = texture(*material.roughness_texture);
+        pbr.metallicRoughnessTexture = add_texture_info(*material.roughness_texture);
     if (material.normal_texture) {
-        const tinygltf::TextureInfo info = texture(*material.normal_texture);
+        const tinygltf::TextureInfo info = add_texture_info(*material.normal_texture);
         to.normalTexture.index = info.index, to.normalTexture.texCoord = info.texCoord;
         to.normalTexture.extensions = info.extensions;
-        to.normalTexture.scale = float_to_typed_double(material.normal_scale);
+        to.normalTexture.scale = float_to_shortest_double(material.normal_scale);
     }
     to.doubleSided = !is_one_sided(material);
     if (has_alpha_mask(material))
-        to.alphaMode = "MASK", to.alphaCutoff = float_to_typed_double(material.alpha_cutoff);
+        to.alphaMode = "MASK", to.alphaCutoff = float_to_shortest_double(material.alpha_cutoff);
     write_emission(*this, material, to);
-    write_dielectric(*this, material, to);
-    write_factors(*this, material, to);
+    write_dielectric_reflectance(*this, material, to);
+    write_extension_factors(*this, material, to);
     write_volume(*this, material, to);
     if (material.unlit) {
         to.extensions["KHR_materials_unlit"] = Value(Value::Object());

@@ -12,11 +12,11 @@ namespace {
 /// Returns one period as 64 Hermite pieces with the exact derivative at each key. The error is
 /// below (2 pi / 64)^4 / 384 = 2.5e-7 of the amplitude.
 TranslationTrack motion_to_keys(const HarmonicMotion& motion) {
-    constexpr int kHarmonicKeyCount = 64;
+    constexpr int kHarmonicMotionKeyCount = 64;
     TranslationTrack keys{.interpolation = Interpolation::cubic};
-    for (int i = 0; i <= kHarmonicKeyCount; ++i) {
-        const double angle = 2 * std::numbers::pi * i / kHarmonicKeyCount;
-        keys.times.push_back(motion.period * i / kHarmonicKeyCount);
+    for (int i = 0; i <= kHarmonicMotionKeyCount; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kHarmonicMotionKeyCount;
+        keys.times.push_back(motion.period * i / kHarmonicMotionKeyCount);
         keys.values.push_back(motion.amplitude * (1 - std::cos(angle)));
         keys.in_tangents.push_back(motion.amplitude * std::sin(angle) *
                                    (2 * std::numbers::pi / motion.period));
@@ -27,18 +27,18 @@ TranslationTrack motion_to_keys(const HarmonicMotion& motion) {
 
 int write_key_times(GltfWriter& writer, const std::vector<double>& list) {
     const std::vector<float> times(list.begin(), list.end());
-    tinygltf::Accessor& accessor = writer.append(times, TINYGLTF_TYPE_SCALAR,
-                                                 TINYGLTF_COMPONENT_TYPE_FLOAT);
+    tinygltf::Accessor& accessor = writer.append_accessor(times, TINYGLTF_TYPE_SCALAR,
+                                                          TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = {times.front()}, accessor.maxValues = {times.back()};
-    return accessor_type_of(writer.model.accessors) - 1;
+    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
 }
 
 int write_key_values(GltfWriter& writer, const std::vector<vec3>& list) {
     return writer.vectors(list);
 }
 int write_key_values(GltfWriter& writer, const std::vector<vec4>& list) {
-    writer.append(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return accessor_type_of(writer.model.accessors) - 1;
+    writer.append_accessor(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
+    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
 }
 
 bool is_repeating_motion(const Motion& motion) {
@@ -54,7 +54,8 @@ std::optional<TranslationTrack> motion_to_keys(const Motion& motion) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion))
         return motion_to_keys(*harmonic);
     if (const auto* frames = std::get_if<Keyframes>(&motion))
-        if (TranslationTrack keys = keys_in_world_space(*frames); !keys.times.empty()) return keys;
+        if (TranslationTrack keys = motion_keys_in_world_space(*frames); !keys.times.empty())
+            return keys;
     return std::nullopt;
 }
 
@@ -76,7 +77,7 @@ void GltfWriter::add_track(const Track<Value>& track, int node, const std::strin
                             : track.interpolation == step ? "STEP"
                                                           : "LINEAR";
     tinygltf::AnimationChannel channel;
-    channel.sampler = accessor_type_of(motion.samplers);
+    channel.sampler = gltf_accessor_type_of_list(motion.samplers);
     channel.target_node = node, channel.target_path = path;
     motion.samplers.push_back(std::move(sampler));
     motion.channels.push_back(std::move(channel));
@@ -90,7 +91,7 @@ void GltfWriter::add_motion(const TranslationTrack& keys, const dvec3& rest, int
 
 int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
     const auto add = [&](tinygltf::Node to) {
-        const int index = accessor_type_of(model.nodes);
+        const int index = gltf_accessor_type_of_list(model.nodes);
         model.nodes.push_back(std::move(to));
         if (parent < 0)
             model.scenes[0].nodes.push_back(index);

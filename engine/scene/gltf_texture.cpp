@@ -13,26 +13,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kGltfNearestFilter = 9728, kGltfRepeatWrap = 10497, kGltfClampWrap = 33071,
-                        kGltfMirroredWrap = 33648;
+constexpr std::uint64_t kGltfNearestFilterCode = 9728, kGltfRepeatWrap = 10497,
+                        kGltfClampWrap = 33071, kGltfMirroredWrap = 33648;
 
 Texture::Wrap read_wrap_mode(const JsonObject& sampler, std::string_view key) {
     const std::uint64_t mode = sampler.whole(key, kGltfRepeatWrap);
-    sampler.require(mode == kGltfRepeatWrap || mode == kGltfClampWrap || mode == kGltfMirroredWrap,
-                    key, ": wanted 10497, 33071 or 33648, found ", mode);
+    sampler.require_condition(mode == kGltfRepeatWrap || mode == kGltfClampWrap ||
+                                  mode == kGltfMirroredWrap,
+                              key, ": wanted 10497, 33071 or 33648, found ", mode);
     if (mode == kGltfClampWrap) return Texture::Wrap::clamp;
     return mode == kGltfMirroredWrap ? Texture::Wrap::mirrored : Texture::Wrap::repeat;
 }
 
-void read_sampler(const JsonObject& sampler, Texture& texture) {
+void read_texture_sampler(const JsonObject& sampler, Texture& texture) {
     texture.wrap_u = read_wrap_mode(sampler, "wrapS"),
     texture.wrap_v = read_wrap_mode(sampler, "wrapT");
-    texture.nearest = sampler.whole("magFilter", 0) == kGltfNearestFilter;
+    texture.nearest = sampler.whole("magFilter", 0) == kGltfNearestFilterCode;
 }
 
 /// Reads KHR_texture_transform: scale, then rotation, then translation, as in Khronos'
 /// TextureTransformTest.
-void read_transform(const JsonObject& transform, Texture& texture) {
+void read_texture_transform(const JsonObject& transform, Texture& texture) {
     const auto pair = [&](std::string_view key, double otherwise) {
         std::vector<double> list = transform.numbers(key, 2);
         return list.empty() ? std::vector<double>(2, otherwise) : list;
@@ -45,14 +46,14 @@ void read_transform(const JsonObject& transform, Texture& texture) {
     const auto is_finite = [](const vec3& v) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
     };
-    transform.require(is_finite(texture.u_row) && is_finite(texture.v_row),
-                      "wanted numbers that fit a float, found another");
+    transform.require_condition(is_finite(texture.u_row) && is_finite(texture.v_row),
+                                "wanted numbers that fit a float, found another");
 }
 
 /// Returns the index of a texture's image. The WebP image of EXT_texture_webp is preferred.
 std::optional<std::size_t> find_texture_image(const JsonObject& texture, std::size_t count) {
-    if (const auto extensions = texture.object("extensions"))
-        if (const auto webp = extensions->object("EXT_texture_webp"))
+    if (const auto extensions = texture.read_object_member("extensions"))
+        if (const auto webp = extensions->read_object_member("EXT_texture_webp"))
             return webp->index("source", count);
     return texture.index("source", count);
 }
@@ -62,9 +63,9 @@ std::optional<std::size_t> find_texture_image(const JsonObject& texture, std::si
 std::shared_ptr<const Image> TextureReader::report_missing_image(const JsonObject& image,
                                                                  const std::string& why,
                                                                  const JsonObject& use) {
-    source_.notes.add("images that are not there or of a kind that is not read, drawn without",
-                      image.label() + why);
-    add_unsupported(source_.unsupported, "missing-image", use.entry());
+    source_.notes.add_note("images that are not there or of a kind that is not read, drawn without",
+                           image.describe_place() + why);
+    add_unsupported_feature(source_.unsupported, "missing-image", use.entry());
     return nullptr;
 }
 
@@ -73,13 +74,15 @@ std::shared_ptr<const Image> TextureReader::from_file(const JsonObject& image,
     const std::string name = file_name_from_uri(image.text("uri"), image.place());
     const fs::path real = source_.files.find_file(name, image.place());
     if (real.empty())
-        return report_missing_image(image, ": " + quote_printable(name) + " is not there", use);
+        return report_missing_image(image, ": " + quote_as_printable_text(name) + " is not there",
+                                    use);
     const auto [entry, is_new] = files_.try_emplace(real.string());
     if (is_new)
         entry->second = decode_image(source_.files.read_file_content(real, image.place()), name,
-                                     image.place() + ": " + quote_printable(name), source_.account);
+                                     image.place() + ": " + quote_as_printable_text(name),
+                                     source_.account);
     return entry->second ? entry->second
-                         : report_missing_image(image, ": " + quote_printable(name), use);
+                         : report_missing_image(image, ": " + quote_as_printable_text(name), use);
 }
 
 std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
@@ -90,7 +93,7 @@ std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
                                    image.name() + kind, image.place(), source_.account);
         return result ? result : report_missing_image(image, "", use);
     };
-    if (image.has("uri")) {
+    if (image.has_member("uri")) {
         const std::string uri = image.text("uri");
         if (!is_data_uri(uri)) return from_file(image, use);
         const ByteList bytes = decode_data_uri(uri, image.place());
@@ -116,19 +119,20 @@ std::optional<Texture> TextureReader::find_or_read_texture(const JsonObject& use
     const JsonObject from = root.at("textures", use.needed_index("index", root.size("textures")));
     Texture texture{.srgb = srgb};
     std::uint64_t set = use.whole("texCoord", 0);
-    if (const auto extensions = use.object("extensions"))
-        if (const auto transform = extensions->object("KHR_texture_transform")) {
-            read_transform(*transform, texture);
+    if (const auto extensions = use.read_object_member("extensions"))
+        if (const auto transform = extensions->read_object_member("KHR_texture_transform")) {
+            read_texture_transform(*transform, texture);
             set = transform->whole("texCoord", set);
         }
     if (set > 1) {
-        source_.notes.add("textures of a third set of coordinates, drawn without", use.label());
-        add_unsupported(source_.unsupported, "material-extension", use.entry());
+        source_.notes.add_note("textures of a third set of coordinates, drawn without",
+                               use.describe_place());
+        add_unsupported_feature(source_.unsupported, "material-extension", use.entry());
         return std::nullopt;
     }
     texture.uv_set = static_cast<std::uint32_t>(set);
     if (const auto sampler = from.index("sampler", root.size("samplers")))
-        read_sampler(root.at("samplers", *sampler), texture);
+        read_texture_sampler(root.at("samplers", *sampler), texture);
     const auto source = find_texture_image(from, root.size("images"));
     texture.image = source ? image(*source, use) : report_missing_image(from, "", use);
     return texture.image ? std::optional(texture) : std::nullopt;

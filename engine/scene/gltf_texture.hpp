@@ -15,11 +15,11 @@ namespace catoptric::scene::gltf {
 
 /// The inputs and lists that readers of materials and lights use. They run before tinygltf parses
 /// the document.
-struct MaterialSource {
+struct MaterialReadContext {
     const JsonObject& root;
     const GltfContainer& container;
-    SceneFiles& files;
-    BudgetAccount& account;
+    SceneFileOpener& files;
+    LoadBudgetUsage& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
 };
@@ -28,7 +28,7 @@ struct MaterialSource {
 /// each image once.
 class TextureReader {
 public:
-    explicit TextureReader(const MaterialSource& source) : source_(source) {}
+    explicit TextureReader(const MaterialReadContext& source) : source_(source) {}
 
     /// Returns the texture that `use`, a texture reference of a material, names. Returns none if
     /// the image is missing or has an unsupported format, or if `use` names a third set of texture
@@ -43,14 +43,14 @@ private:
     std::shared_ptr<const Image>
     report_missing_image(const JsonObject& image, const std::string& why, const JsonObject& use);
 
-    const MaterialSource& source_;
+    const MaterialReadContext& source_;
     std::map<std::size_t, std::shared_ptr<const Image>> images_;
     std::map<std::string, std::shared_ptr<const Image>> files_; ///< by real path
 };
 
 /// Reads all materials. Throws the same errors as `TextureReader`, and `bad_data` for invalid
 /// factors.
-std::vector<Material> read_materials(const MaterialSource& source);
+std::vector<Material> read_materials(const MaterialReadContext& source);
 
 /// The lights of KHR_lights_punctual in the space of their nodes, and the light of each node, if
 /// any.
@@ -59,6 +59,6 @@ struct PunctualLights {
     std::vector<std::optional<std::size_t>> of_node; ///< index into `lights`
 };
 /// Reads all lights. Throws `bad_data`.
-PunctualLights read_lights(const MaterialSource& source);
+PunctualLights read_lights(const MaterialReadContext& source);
 
 } // namespace catoptric::scene::gltf

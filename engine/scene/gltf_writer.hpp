@@ -13,7 +13,7 @@
 
 namespace catoptric::scene::gltf {
 
-int accessor_type_of(const auto& list) { return static_cast<int>(list.size()); }
+int gltf_accessor_type_of_list(const auto& list) { return static_cast<int>(list.size()); }
 
 template <typename Vector>
 std::vector<double> matrix_to_numbers(const Vector& v) {
@@ -44,10 +44,11 @@ struct GltfWriter {
     tinygltf::BufferView& view(const void* first, std::size_t size);
     /// Appends the elements to the buffer, with a new view, and returns a new accessor of them.
     template <typename Element>
-    tinygltf::Accessor& append(const std::vector<Element>& list, int type, int component) {
+    tinygltf::Accessor& append_accessor(const std::vector<Element>& list, int type, int component) {
         view(list.data(), list.size() * sizeof(Element));
         tinygltf::Accessor& accessor = model.accessors.emplace_back();
-        accessor.bufferView = accessor_type_of(model.bufferViews) - 1, accessor.count = list.size();
+        accessor.bufferView = gltf_accessor_type_of_list(model.bufferViews) - 1,
+        accessor.count = list.size();
         accessor.type = type, accessor.componentType = component;
         return accessor;
     }
@@ -58,7 +59,7 @@ struct GltfWriter {
 
     // gltf_save_material.cpp
     void add_material(const Material& material);
-    tinygltf::TextureInfo texture(const Texture& texture);
+    tinygltf::TextureInfo add_texture_info(const Texture& texture);
     int image(const Image& image);
     int sampler(const Texture& texture);
 

@@ -52,7 +52,7 @@ std::vector<std::uint32_t> pack_texels(const ImageShape& shape,
 } // namespace
 
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, BudgetAccount& account) {
+                                          const std::string& place, LoadBudgetUsage& account) {
     std::string format = detect_image_format(bytes);
     if (format.empty() && is_targa_file(file)) format = "targa";
     if (format.empty()) return nullptr;
@@ -60,17 +60,17 @@ std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::str
         return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
     };
     const MemoryByteSource source(bytes);
-    ImageReader reader(source, format, place, [&](const ImageShape& shape) {
+    ImageReader image_reader(source, format, place, [&](const ImageShape& shape) {
         constexpr std::uint32_t kMaxTextureSide = 65535; // the renderer stores a side in 16 bits
         check(shape.size.x <= kMaxTextureSide && shape.size.y <= kMaxTextureSide, Failure::bad_data,
               place, ": wanted sides of at most ", kMaxTextureSide, " texels, found ", shape.size.x,
               "x", shape.size.y);
-        account.texels.require(texels(shape), place);
+        account.texels.require_amount(texels(shape), place);
     });
-    const ImageShape& shape = reader.shape();
-    account.texels.add(texels(shape), place);
-    return std::make_shared<const Image>(
-        Image{.name = file, .size = shape.size, .texels = pack_texels(shape, reader.bytes())});
+    const ImageShape& shape = image_reader.image_shape();
+    account.texels.add_amount(texels(shape), place);
+    return std::make_shared<const Image>(Image{
+        .name = file, .size = shape.size, .texels = pack_texels(shape, image_reader.bytes())});
 }
 
 std::string encode_image_png(const Image& image) {

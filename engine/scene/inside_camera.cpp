@@ -13,26 +13,27 @@ namespace catoptric::scene {
 
 namespace {
 
-struct SurfaceHit {
+struct RayCastSurfaceHit {
     double distance = 0;   ///< in lengths of the ray's direction
     bool is_front = false; ///< the surface's normal points towards the ray's origin
 };
 
 /// Ray casts through a scene at rest. Each ray is tested against every triangle.
-class RayCaster {
+class SceneRayCaster {
 public:
-    explicit RayCaster(const Scene& scene) : scene_(scene) {
+    explicit SceneRayCaster(const Scene& scene) : scene_(scene) {
         for (const Object& object : scene.objects)
             object_from_world_.push_back(glm::inverse(object.world_from_object));
     }
 
     /// Returns the first surface that a ray from a camera meets.
-    std::optional<SurfaceHit> find_first_hit(const dvec3& origin, const dvec3& direction) const;
+    std::optional<RayCastSurfaceHit> find_first_hit(const dvec3& origin,
+                                                    const dvec3& direction) const;
     /// Returns whether a surface lies between the two places.
-    bool is_blocked(const dvec3& from, const dvec3& to) const {
-        constexpr double kRayEndFactor = 1 - 1e-6; // excludes the surface at `to`
+    bool is_line_of_sight_blocked(const dvec3& from, const dvec3& to) const {
+        constexpr double kShortenedRayFactor = 1 - 1e-6; // excludes the surface at `to`
         const auto met = find_first_hit(from, to - from);
-        return met && met->distance < kRayEndFactor;
+        return met && met->distance < kShortenedRayFactor;
     }
 
 private:
@@ -42,8 +43,8 @@ private:
 
 /// Returns the distance along the ray to a triangle, met from either side (Moeller and Trumbore
 /// 1997). Returns nothing for a triangle behind the origin.
-std::optional<double> distance_to_triangle(const dvec3& a, const dvec3& b, const dvec3& c,
-                                           const dvec3& origin, const dvec3& direction) {
+std::optional<double> ray_distance_to_triangle(const dvec3& a, const dvec3& b, const dvec3& c,
+                                               const dvec3& origin, const dvec3& direction) {
     const dvec3 ab = b - a, ac = c - a, p = cross(direction, ac);
     const double volume = dot(ab, p);
     if (volume == 0) return std::nullopt;
@@ -54,32 +55,32 @@ std::optional<double> distance_to_triangle(const dvec3& a, const dvec3& b, const
     return distance;
 }
 
-std::optional<SurfaceHit> RayCaster::find_first_hit(const dvec3& origin,
-                                                    const dvec3& direction) const {
-    std::optional<SurfaceHit> nearest;
+std::optional<RayCastSurfaceHit> SceneRayCaster::find_first_hit(const dvec3& origin,
+                                                                const dvec3& direction) const {
+    std::optional<RayCastSurfaceHit> nearest;
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
         const Object& object = scene_.objects[i];
         if (!object.seen_by_camera) continue;
         const Mesh& mesh = scene_.meshes[object.mesh];
         const bool has_back = is_mirror(scene_, object) ||
                               !is_one_sided(scene_.materials[object.material]);
-        const dvec3 from = transform_point(object_from_world_[i], origin);
+        const dvec3 from = transform_point_to_world(object_from_world_[i], origin);
         const dvec3 along = dmat3(object_from_world_[i]) * direction;
         for (const uvec3& t : mesh.triangles) {
-            const auto distance = distance_to_triangle(mesh.positions[t.x], mesh.positions[t.y],
-                                                       mesh.positions[t.z], from, along);
+            const auto distance = ray_distance_to_triangle(mesh.positions[t.x], mesh.positions[t.y],
+                                                           mesh.positions[t.z], from, along);
             if (!distance || (nearest && *distance >= nearest->distance)) continue;
             const dvec3 normal = dvec3(mesh.normals[t.x]) + dvec3(mesh.normals[t.y]) +
                                  dvec3(mesh.normals[t.z]);
             const bool is_front = dot(normal, along) < 0;
-            if (is_front || has_back) nearest = SurfaceHit{*distance, is_front};
+            if (is_front || has_back) nearest = RayCastSurfaceHit{*distance, is_front};
         }
     }
     return nearest;
 }
 
 /// Returns directions spread evenly over the sphere, on a spiral with golden angles.
-std::vector<dvec3> spread_directions(int count) {
+std::vector<dvec3> list_evenly_spread_directions(int count) {
     std::vector<dvec3> all;
     for (int i = 0; i < count; ++i) {
         const double y = 1 - (2 * i + 1) / static_cast<double>(count),
@@ -90,26 +91,26 @@ std::vector<dvec3> spread_directions(int count) {
     return all;
 }
 
-bool is_closed_around(const RayCaster& rays, const dvec3& centre) {
-    constexpr int kEnclosureRays = 64, kMaxMissedRays = 3;
+bool is_scene_closed_around(const SceneRayCaster& rays, const dvec3& centre) {
+    constexpr int kEnclosureTestRays = 64, kMaxMissedRays = 3;
     int misses = 0;
-    for (const dvec3& direction : spread_directions(kEnclosureRays))
+    for (const dvec3& direction : list_evenly_spread_directions(kEnclosureTestRays))
         if (!rays.find_first_hit(centre, direction) && ++misses > kMaxMissedRays) return false;
     return true;
 }
 
 /// Returns whether nearly all surfaces that the camera sees turn their backs, over a grid of its
 /// picture.
-bool sees_mostly_back_faces(const RayCaster& rays, const Camera& camera) {
-    constexpr int kRaysPerSide = 12;
+bool sees_mostly_back_faces(const SceneRayCaster& rays, const Camera& camera) {
+    constexpr int kCameraRaysPerSide = 12;
     constexpr double kMaxBackFaceShare = .9;
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), upward = cross(right, forward);
     const double slope = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     int all = 0, backs = 0;
-    for (int i = 0; i < kRaysPerSide * kRaysPerSide; ++i) {
-        const double x = 2 * (i % kRaysPerSide + .5) / kRaysPerSide - 1,
-                     y = 2 * (i / kRaysPerSide + .5) / kRaysPerSide - 1;
+    for (int i = 0; i < kCameraRaysPerSide * kCameraRaysPerSide; ++i) {
+        const double x = 2 * (i % kCameraRaysPerSide + .5) / kCameraRaysPerSide - 1,
+                     y = 2 * (i / kCameraRaysPerSide + .5) / kCameraRaysPerSide - 1;
         const auto met = rays.find_first_hit(camera.eye,
                                              forward + slope * (x * right + y * upward));
         all += met.has_value();
@@ -132,7 +133,7 @@ std::vector<dvec3> list_places_of_interest(const Scene& scene) {
                                  kMaxInterestPlaces;
         for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
             const uvec3& t = mesh.triangles[i];
-            places.push_back(transform_point(
+            places.push_back(transform_point_to_world(
                 object.world_from_object,
                 (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0));
         }
@@ -140,33 +141,33 @@ std::vector<dvec3> list_places_of_interest(const Scene& scene) {
     return places;
 }
 
-bool hides_places_of_interest(const RayCaster& rays, const std::vector<dvec3>& places,
-                              const dvec3& eye, const dvec3& centre) {
+bool hides_objects_of_interest(const SceneRayCaster& rays, const std::vector<dvec3>& places,
+                               const dvec3& eye, const dvec3& centre) {
     const auto seen_from = [&](const dvec3& from) {
-        return std::ranges::any_of(places,
-                                   [&](const dvec3& to) { return !rays.is_blocked(from, to); });
+        return std::ranges::any_of(
+            places, [&](const dvec3& to) { return !rays.is_line_of_sight_blocked(from, to); });
     };
     return seen_from(centre) && !seen_from(eye);
 }
 
 /// Returns the share of the places that the camera sees unhidden, within a cone as wide as its
 /// vertical field of view.
-double visible_share(const RayCaster& rays, const std::vector<dvec3>& places,
-                     const Camera& camera) {
+double compute_visible_share_of_places(const SceneRayCaster& rays, const std::vector<dvec3>& places,
+                                       const Camera& camera) {
     const dvec3 forward = normalize(camera.target - camera.eye);
     const double least = std::cos(glm::radians(camera.vertical_fov_degrees) / 2);
     const auto seen = std::ranges::count_if(places, [&](const dvec3& place) {
         return dot(normalized_or_zero(place - camera.eye), forward) >= least &&
-               !rays.is_blocked(camera.eye, place);
+               !rays.is_line_of_sight_blocked(camera.eye, place);
     });
     return places.empty() ? 0 : static_cast<double>(seen) / static_cast<double>(places.size());
 }
 
 /// Returns the summed distance from a place to the surfaces that rays from it meet. A ray that
 /// meets nothing counts as 0.
-double sum_free_distances(const RayCaster& rays, const dvec3& place) {
+double sum_distances_to_surfaces(const SceneRayCaster& rays, const dvec3& place) {
     double sum = 0;
-    for (const dvec3& direction : spread_directions(24)) {
+    for (const dvec3& direction : list_evenly_spread_directions(24)) {
         const auto met = rays.find_first_hit(place, direction);
         sum += met ? met->distance : 0;
     }
@@ -175,7 +176,7 @@ double sum_free_distances(const RayCaster& rays, const dvec3& place) {
 
 /// Returns the point rounded to about a thousandth of the extent. This is exact enough for an eye's
 /// position and short to type.
-dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
+dvec3 round_to_thousandth(const dvec3& point, double extent) {
     const double unit = std::pow(10, 3 - std::floor(std::log10(extent)));
     return glm::round(point * unit) / unit;
 }
@@ -185,24 +186,25 @@ dvec3 rounded_to_thousandth(const dvec3& point, double extent) {
 std::optional<Camera> find_inside_camera(const Scene& scene, const Camera& outside) {
     const Bounds<double> box = bounds(scene);
     if (box.empty() || triangle_count(scene) > kMaxTestedTriangles) return std::nullopt;
-    const RayCaster rays(scene);
+    const SceneRayCaster rays(scene);
     const double extent = length(box.extent());
-    const dvec3 centre = rounded_to_thousandth(box.centre(), extent);
-    if (!is_closed_around(rays, centre)) return std::nullopt;
+    const dvec3 centre = round_to_thousandth(box.centre(), extent);
+    if (!is_scene_closed_around(rays, centre)) return std::nullopt;
     const std::vector<dvec3> places = list_places_of_interest(scene);
     if (!sees_mostly_back_faces(rays, outside) &&
-        !hides_places_of_interest(rays, places, outside.eye, centre))
+        !hides_objects_of_interest(rays, places, outside.eye, centre))
         return std::nullopt;
     Camera camera{.name = "default", .target = centre, .vertical_fov_degrees = 60}, tried = camera;
     double best = -1;
-    constexpr double kSidewaysOffset = .35,
+    constexpr double kEyeSidewaysOffset = .35,
                      kUpwardOffset = .15; // offset from the centre, in extents of the bounds
     for (int i = 0; i < 8; ++i) {
-        const dvec3 side(i & 1 ? -kSidewaysOffset : kSidewaysOffset, i & 4 ? 0 : kUpwardOffset,
-                         i & 2 ? -kSidewaysOffset : kSidewaysOffset);
-        tried.eye = rounded_to_thousandth(centre + side * box.extent(), extent);
-        const double worth = sum_free_distances(rays, tried.eye) *
-                             (1 + visible_share(rays, places, tried));
+        const dvec3 side(i & 1 ? -kEyeSidewaysOffset : kEyeSidewaysOffset,
+                         i & 4 ? 0 : kUpwardOffset,
+                         i & 2 ? -kEyeSidewaysOffset : kEyeSidewaysOffset);
+        tried.eye = round_to_thousandth(centre + side * box.extent(), extent);
+        const double worth = sum_distances_to_surfaces(rays, tried.eye) *
+                             (1 + compute_visible_share_of_places(rays, places, tried));
         if (worth > best) best = worth, camera = tried;
     }
     return camera;

@@ -7,36 +7,38 @@
 
 namespace catoptric::scene::gltf {
 
-Json parse_json(const std::string& file, std::string_view text, BudgetAccount& account) {
-    account.json_bytes.add(text.size(), file);
+Json parse_json(const std::string& file, std::string_view text, LoadBudgetUsage& account) {
+    account.json_bytes.add_amount(text.size(), file);
     return catoptric::parse_json<Json>(
-        file, text, [&](std::uint64_t bytes) { account.json_memory.add(bytes, file); });
+        file, text, [&](std::uint64_t bytes) { account.json_memory.add_amount(bytes, file); });
 }
 
 std::string describe_json_value(const Json& value) {
     if (value.is_array()) return "an array";
     if (value.is_object()) return "an object";
     if (!value.is_string()) return value.dump();
-    std::string text = quote_printable(value.get_ref<const std::string&>());
+    std::string text = quote_as_printable_text(value.get_ref<const std::string&>());
     text[0] = '"';
     text[text.rfind('\'')] = '"';
     return text;
 }
 
-std::string label_list_item(std::string_view list, std::size_t index, const std::string& name) {
+std::string format_list_item_label(std::string_view list, std::size_t index,
+                                   const std::string& name) {
     return std::string(list) + "[" + std::to_string(index) + "]" +
-           (name.empty() ? "" : " " + quote_printable(name));
+           (name.empty() ? "" : " " + quote_as_printable_text(name));
 }
 
-std::string JsonObject::label(std::string_view before, std::size_t steps) const {
+std::string JsonObject::describe_place(std::string_view before, std::size_t steps) const {
     std::string text;
     for (std::size_t i = 0; i < steps; ++i) {
         const auto& [key, index, json] = way_[i];
         text += i == 0 ? before : std::string_view(": ");
         const auto name = json->find("name"); // `end` for values that are not objects
         const bool is_named = name != json->end() && name->is_string();
-        text += index ? label_list_item(key, *index, is_named ? name->get<std::string>() : "")
-                      : key;
+        text += index
+                    ? format_list_item_label(key, *index, is_named ? name->get<std::string>() : "")
+                    : key;
     }
     return text;
 }
@@ -44,7 +46,7 @@ std::string JsonObject::label(std::string_view before, std::size_t steps) const 
 std::string JsonObject::entry() const {
     std::size_t steps = steps_;
     while (steps > 0 && !way_[steps - 1].index) --steps;
-    return label("", steps);
+    return describe_place("", steps);
 }
 
 JsonObject JsonObject::to(const JsonPathStep& step) const {
@@ -61,17 +63,19 @@ const Json* JsonObject::find(std::string_view key) const {
     return at == json_->end() ? nullptr : &*at;
 }
 
-std::optional<JsonObject> JsonObject::object(std::string_view key) const {
+std::optional<JsonObject> JsonObject::read_object_member(std::string_view key) const {
     const Json* value = find(key);
     if (value == nullptr) return std::nullopt;
-    require(value->is_object(), key, ": wanted an object, found ", describe_json_value(*value));
+    require_condition(value->is_object(), key, ": wanted an object, found ",
+                      describe_json_value(*value));
     return to({key, std::nullopt, value});
 }
 
 const Json* JsonObject::list(std::string_view key) const {
     const Json* value = find(key);
     if (value != nullptr)
-        require(value->is_array(), key, ": wanted an array, found ", describe_json_value(*value));
+        require_condition(value->is_array(), key, ": wanted an array, found ",
+                          describe_json_value(*value));
     return value;
 }
 
@@ -95,14 +99,14 @@ std::uint64_t JsonObject::whole_of(const Json& value, std::string_view key) cons
     const double number = value.is_number_float() ? value.get<double>() : -1;
     if (number >= 0 && number <= kMaxExactInteger && number == std::floor(number))
         return static_cast<std::uint64_t>(number);
-    require(value.is_number_unsigned(), key, ": wanted a whole number of at least 0, found ",
-            describe_json_value(value));
+    require_condition(value.is_number_unsigned(), key,
+                      ": wanted a whole number of at least 0, found ", describe_json_value(value));
     return value.get<std::uint64_t>();
 }
 
 std::size_t JsonObject::index_of(const Json& value, std::string_view key, std::size_t count) const {
     const std::uint64_t index = whole_of(value, key);
-    require(index < count, key, ": wanted an index below ", count, ", found ", index);
+    require_condition(index < count, key, ": wanted an index below ", count, ", found ", index);
     return index;
 }
 
@@ -113,7 +117,7 @@ std::optional<std::size_t> JsonObject::index(std::string_view key, std::size_t c
 
 std::size_t JsonObject::needed_index(std::string_view key, std::size_t count) const {
     const std::optional<std::size_t> given = index(key, count);
-    require(given.has_value(), key, ": wanted an index, found none");
+    require_condition(given.has_value(), key, ": wanted an index, found none");
     return *given;
 }
 
@@ -132,22 +136,24 @@ std::uint64_t JsonObject::whole(std::string_view key, std::uint64_t otherwise) c
 double JsonObject::number(std::string_view key, double otherwise) const {
     const Json* value = find(key);
     if (value == nullptr) return otherwise;
-    require(value->is_number(), key, ": wanted a number, found ", describe_json_value(*value));
+    require_condition(value->is_number(), key, ": wanted a number, found ",
+                      describe_json_value(*value));
     return value->get<double>();
 }
 
 bool JsonObject::flag(std::string_view key, bool otherwise) const {
     const Json* value = find(key);
     if (value == nullptr) return otherwise;
-    require(value->is_boolean(), key, ": wanted true or false, found ",
-            describe_json_value(*value));
+    require_condition(value->is_boolean(), key, ": wanted true or false, found ",
+                      describe_json_value(*value));
     return value->get<bool>();
 }
 
 std::string JsonObject::text(std::string_view key, std::string_view otherwise) const {
     const Json* value = find(key);
     if (value == nullptr) return std::string(otherwise);
-    require(value->is_string(), key, ": wanted a text, found ", describe_json_value(*value));
+    require_condition(value->is_string(), key, ": wanted a text, found ",
+                      describe_json_value(*value));
     return value->get<std::string>();
 }
 
@@ -155,9 +161,11 @@ std::vector<double> JsonObject::numbers(std::string_view key, std::size_t count)
     std::vector<double> numbers;
     const Json* values = list(key);
     if (values == nullptr) return numbers;
-    require(values->size() == count, key, ": wanted ", count, " numbers, found ", values->size());
+    require_condition(values->size() == count, key, ": wanted ", count, " numbers, found ",
+                      values->size());
     for (const Json& value : *values) {
-        require(value.is_number(), key, ": wanted numbers, found ", describe_json_value(value));
+        require_condition(value.is_number(), key, ": wanted numbers, found ",
+                          describe_json_value(value));
         numbers.push_back(value.get<double>());
     }
     return numbers;
@@ -166,7 +174,7 @@ std::vector<double> JsonObject::numbers(std::string_view key, std::size_t count)
 std::optional<JsonObject> find_catoptric_extras(const JsonObject& item) {
     const Json* extras = item.find("extras");
     if (extras == nullptr || !extras->is_object()) return std::nullopt;
-    return item.object("extras")->object("catoptric");
+    return item.read_object_member("extras")->read_object_member("catoptric");
 }
 
 } // namespace catoptric::scene::gltf

@@ -19,13 +19,14 @@ using Json = nlohmann::json;
 
 /// Parses JSON. Throws `bad_data` naming `file` for invalid JSON, for values nested 64 deep or
 /// more, or for text over the budget.
-Json parse_json(const std::string& file, std::string_view text, BudgetAccount& account);
+Json parse_json(const std::string& file, std::string_view text, LoadBudgetUsage& account);
 
 /// Returns a short description of a value for messages: `"text"`, `3.5`, `an array`.
 std::string describe_json_value(const Json& value);
 
 /// Returns "nodes[3] 'lamp'", or "nodes[3]" without a name.
-std::string label_list_item(std::string_view list, std::size_t index, const std::string& name = {});
+std::string format_list_item_label(std::string_view list, std::size_t index,
+                                   const std::string& name = {});
 
 /// An object of the document and the path to it. An absent member gives a default. A member of the
 /// wrong type throws `bad_data` with its place, the expected type and the value found. Valid while
@@ -35,22 +36,22 @@ public:
     JsonObject(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
 
     /// Returns the object's place for messages: "FILE: nodes[3] 'lamp': mesh".
-    std::string place() const { return *file_ + label(": ", steps_); }
+    std::string place() const { return *file_ + describe_place(": ", steps_); }
     /// Returns the place without the file: "nodes[3] 'lamp': mesh".
-    std::string label() const { return label("", steps_); }
+    std::string describe_place() const { return describe_place("", steps_); }
     /// Returns the label up to its last list element: "nodes[3] 'lamp'".
     std::string entry() const;
     template <typename... Parts>
-    void require(bool ok, const Parts&... parts) const {
+    void require_condition(bool ok, const Parts&... parts) const {
         if (!ok) fail(Failure::bad_data, place(), ": ", parts...);
     }
 
-    bool has(std::string_view key) const { return find(key) != nullptr; }
+    bool has_member(std::string_view key) const { return find(key) != nullptr; }
     /// Returns the member `key`, or null if it is absent.
     const Json* find(std::string_view key) const;
-    const Json& json() const { return *json_; }
+    const Json& json_value() const { return *json_; }
 
-    std::optional<JsonObject> object(std::string_view key) const;
+    std::optional<JsonObject> read_object_member(std::string_view key) const;
     /// Returns the number of objects in the list `key`, 0 if it is absent.
     std::size_t size(std::string_view key) const;
     /// Returns one object of the list `key`, which must exist and be longer than `index`.
@@ -61,7 +62,7 @@ public:
         for (std::size_t i = 0, count = size(key); i < count; ++i) body(at(key, i));
     }
     /// Returns this object's index in the list that holds it, or 0 if no list does.
-    std::size_t number_in_list() const { return way_[steps_ - 1].index.value_or(0); }
+    std::size_t index_in_list() const { return way_[steps_ - 1].index.value_or(0); }
 
     /// Returns an integer from 0 to `count` - 1, or none if it is absent.
     std::optional<std::size_t> index(std::string_view key, std::size_t count) const;
@@ -88,7 +89,7 @@ private:
     static constexpr std::size_t kMaxPathSteps = 8; // nested extensions need no more steps
 
     JsonObject to(const JsonPathStep& step) const;
-    std::string label(std::string_view before, std::size_t steps) const;
+    std::string describe_place(std::string_view before, std::size_t steps) const;
     std::uint64_t whole_of(const Json& value, std::string_view key) const;
     std::size_t index_of(const Json& value, std::string_view key, std::size_t count) const;
     const Json* list(std::string_view key) const;

@@ -19,22 +19,24 @@ namespace catoptric::scene {
 namespace {
 
 /// Sets of vertices that triangles connect. At first, each vertex is a set of its own.
-class VertexIslands {
+class ConnectedVertexSets {
 public:
-    explicit VertexIslands(std::size_t count) : parent_(count) {
+    explicit ConnectedVertexSets(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), std::size_t(0));
     }
-    std::size_t find_root(std::size_t vertex) {
+    std::size_t find_set_root(std::size_t vertex) {
         while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
         return vertex;
     }
-    void join_islands(std::size_t a, std::size_t b) { parent_[find_root(a)] = find_root(b); }
+    void join_vertex_sets(std::size_t a, std::size_t b) {
+        parent_[find_set_root(a)] = find_set_root(b);
+    }
 
 private:
     std::vector<std::size_t> parent_;
 };
 
-struct LightSums {
+struct LampComponentSums {
     dvec3 positions{0}, normals{0};
     double position_count = 0, normal_count = 0, area = 0;
     dmat3 facets{0}; ///< outer products of the facets' unit normals, times their areas
@@ -49,7 +51,7 @@ struct LightSums {
 /// Returns whether the mean normal is zero. The mean of float unit normals that should cancel
 /// differs from zero by their rounding, 2^-24 for each component. The limit is 16 times this
 /// rounding, still far below any real mean.
-bool has_zero_mean_normal(const LightSums& sums) {
+bool has_zero_mean_normal(const LampComponentSums& sums) {
     const double rounding = 16 * std::ldexp(1.0, -24);
     return !(glm::length(sums.normals) > rounding * sums.normal_count);
 }
@@ -73,23 +75,23 @@ void diagonalise_matrix(dmat3& matrix, dmat3& axes) {
 
 /// Returns the mean over all directions of the length of `cosines * direction`.
 double mean_projected_length(const dvec3& cosines) {
-    constexpr int kOctantSteps = 64; // steps across an octant, in each direction
+    constexpr int kDirectionStepsPerOctant = 64; // steps across an octant, in each direction
     double sum = 0;
-    for (int i = 0; i < kOctantSteps; ++i)
-        for (int j = 0; j < kOctantSteps; ++j) {
-            const double z = (i + .5) / kOctantSteps,
-                         turn = (j + .5) / kOctantSteps * std::numbers::pi / 2;
+    for (int i = 0; i < kDirectionStepsPerOctant; ++i)
+        for (int j = 0; j < kDirectionStepsPerOctant; ++j) {
+            const double z = (i + .5) / kDirectionStepsPerOctant,
+                         turn = (j + .5) / kDirectionStepsPerOctant * std::numbers::pi / 2;
             const double flat = std::sqrt(1 - z * z);
             sum += glm::length(cosines * dvec3(flat * std::cos(turn), flat * std::sin(turn), z));
         }
-    return sum / (kOctantSteps * kOctantSteps);
+    return sum / (kDirectionStepsPerOctant * kDirectionStepsPerOctant);
 }
 
 /// Sets `axes` and `cosines` of an open two-sided lamp. The mean |cosine| of its facets to a
 /// direction d is near the root of their mean square cosine, a quadratic form of d. The root is
 /// exact for a board. For a tube and a ball it is the true mean times a constant. The constant
 /// follows from the mean over all directions, which is a half for any surface.
-void set_two_sided_axes(PointLight& light, const LightSums& sums) {
+void set_two_sided_axes(PointLight& light, const LampComponentSums& sums) {
     dmat3 squares = sums.facets / sums.area;
     light.axes = dmat3(1);
     diagonalise_matrix(squares, light.axes);
@@ -105,7 +107,7 @@ void set_two_sided_axes(PointLight& light, const LightSums& sums) {
     light.cosines = cosines * (.5 / mean_projected_length(cosines));
 }
 
-PointLight make_point_light(const LightSums& sums, const Material& material) {
+PointLight make_point_light(const LampComponentSums& sums, const Material& material) {
     PointLight light{.position = sums.positions / sums.position_count,
                      .area = sums.area,
                      .is_lamp = true,
@@ -129,17 +131,18 @@ double compute_triangle_area(const std::vector<dvec3>& world, const uvec3& t) {
 
 /// Sums of each connected component, in the order of their first vertices, and the component of
 /// each triangle with an area.
-struct MeshComponents {
-    std::vector<LightSums> sums;
+struct ConnectedMeshComponents {
+    std::vector<LampComponentSums> sums;
     std::vector<std::optional<std::size_t>> of_triangles;
 };
 
-MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_object) {
+ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_object) {
     std::vector<dvec3> world;
-    for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
-    const std::vector<std::size_t> first = first_vertex_at_place(mesh.positions);
+    for (const dvec3& p : mesh.positions)
+        world.push_back(transform_point_to_world(world_from_object, p));
+    const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
 
-    VertexIslands islands(world.size());
+    ConnectedVertexSets islands(world.size());
     std::vector<double> area(world.size(), 0); // of the triangles whose first corner is the vertex
     std::vector<dmat3> facets(world.size(), dmat3(0));
     std::vector<bool> used(world.size(), false);
@@ -148,22 +151,22 @@ MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_ob
         corners.push_back({first[t.x], first[t.y], first[t.z]});
         const double triangle_area = compute_triangle_area(world, t);
         if (!(triangle_area > 0)) continue;
-        islands.join_islands(first[t.x], first[t.y]);
-        islands.join_islands(first[t.x], first[t.z]);
+        islands.join_vertex_sets(first[t.x], first[t.y]);
+        islands.join_vertex_sets(first[t.x], first[t.z]);
         used[t.x] = used[t.y] = used[t.z] = true;
         area[t.x] += triangle_area;
         const dvec3 facet = normalized_or_zero(triangle_cross_product(world, t));
         facets[t.x] += triangle_area * glm::outerProduct(facet, facet);
     }
 
-    const dmat3 normal_to_world = normal_matrix(world_from_object);
+    const dmat3 normal_to_world = compute_normal_matrix(world_from_object);
     std::map<std::size_t, std::size_t> index_of_root;
-    MeshComponents components;
-    std::vector<LightSums>& sums = components.sums;
+    ConnectedMeshComponents components;
+    std::vector<LampComponentSums>& sums = components.sums;
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (!used[i]) continue;
-        const std::size_t root = islands.find_root(first[i]);
+        const std::size_t root = islands.find_set_root(first[i]);
         const std::size_t index = index_of_root.try_emplace(root, sums.size()).first->second;
         if (index == sums.size()) sums.emplace_back();
         const dvec3 normal = normalized_or_zero(normal_to_world * dvec3(mesh.normals[i]));
@@ -175,14 +178,14 @@ MeshComponents find_mesh_components(const Mesh& mesh, const dmat4& world_from_ob
     for_each_edge(list_triangle_edges(corners), [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 2) return;
         for (const std::size_t end : {edge[0].low, edge[0].high})
-            if (const auto index = index_of_root.find(islands.find_root(end));
+            if (const auto index = index_of_root.find(islands.find_set_root(end));
                 index != index_of_root.end())
                 sums[index->second].closed = false;
     });
     for (const uvec3& t : mesh.triangles)
         components.of_triangles.push_back(
             compute_triangle_area(world, t) > 0
-                ? std::optional(index_of_root.at(islands.find_root(first[t.x])))
+                ? std::optional(index_of_root.at(islands.find_set_root(first[t.x])))
                 : std::nullopt);
     return components;
 }
@@ -197,12 +200,12 @@ struct LampFacet {
 /// Returns a number by which facets lie along a curve through space (Morton order). Neighbours on
 /// the curve are near each other. `middle` is between 0 and 1 in each coordinate.
 std::uint64_t morton_code(const dvec3& middle) {
-    constexpr int kMortonBits = 20; // of each coordinate
+    constexpr int kMortonBitsPerAxis = 20; // of each coordinate
     std::uint64_t code = 0;
-    for (int bit = kMortonBits - 1; bit >= 0; --bit)
+    for (int bit = kMortonBitsPerAxis - 1; bit >= 0; --bit)
         for (int axis = 0; axis < 3; ++axis) {
             const auto cell = static_cast<std::uint64_t>(std::clamp(middle[axis], 0.0, 1.0) *
-                                                         ((1 << kMortonBits) - 1));
+                                                         ((1 << kMortonBitsPerAxis) - 1));
             code = code << 1 | (cell >> bit & 1);
         }
     return code;
@@ -231,10 +234,11 @@ void sort_facets_in_space(std::vector<LampFacet>& facets) {
 /// Returns the triangles of the mesh by component.
 std::vector<std::vector<LampFacet>> list_lamp_facets(const Mesh& mesh,
                                                      const dmat4& world_from_object,
-                                                     const MeshComponents& components) {
+                                                     const ConnectedMeshComponents& components) {
     std::vector<dvec3> world;
-    for (const dvec3& p : mesh.positions) world.push_back(transform_point(world_from_object, p));
-    const dmat3 normal_to_world = normal_matrix(world_from_object);
+    for (const dvec3& p : mesh.positions)
+        world.push_back(transform_point_to_world(world_from_object, p));
+    const dmat3 normal_to_world = compute_normal_matrix(world_from_object);
     std::vector<std::vector<LampFacet>> facets(components.sums.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (!components.of_triangles[i]) continue;
@@ -279,7 +283,7 @@ void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& la
                          .closed = lamp.closed,
                          .emission = lamp.emission};
         if (two_sided && !lamp.closed) {
-            LightSums one;
+            LampComponentSums one;
             one.area = light.area;
             one.facets = light.area * glm::outerProduct(facet->normal, facet->normal);
             set_two_sided_axes(light, one);
@@ -293,7 +297,7 @@ void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& la
 }
 
 PointLight make_point_light(const PunctualLight& punctual) {
-    const LightKind& kind = light_kind_of(punctual.kind);
+    const LightKind& kind = find_light_kind(punctual.kind);
     PointLight light{.position = dvec3(punctual.world_from_light[3]),
                      .area = 1,
                      .emission = punctual.intensity,
@@ -308,12 +312,12 @@ PointLight make_point_light(const PunctualLight& punctual) {
 
 } // namespace
 
-std::vector<std::optional<std::size_t>> light_index_per_triangle(const Mesh& mesh,
-                                                                 const dmat4& world_from_object) {
+std::vector<std::optional<std::size_t>>
+find_light_of_each_triangle(const Mesh& mesh, const dmat4& world_from_object) {
     return find_mesh_components(mesh, world_from_object).of_triangles;
 }
 
-double light_share_towards(const PointLight& light, const dvec3& along) {
+double light_share_in_direction(const PointLight& light, const dvec3& along) {
     if (light.normal != dvec3(0)) return std::max(0.0, glm::dot(light.normal, along));
     if (light.cosines != dvec3(0)) return glm::length(light.cosines * (along * light.axes));
     return light.is_lamp ? .25 : 1;
@@ -325,7 +329,8 @@ std::vector<PointLight> list_lights(const Scene& scene) {
         const Material& material = scene.materials[object.material];
         if (scene::emitted_radiance(material) == vec3(0)) continue;
         const Mesh& mesh = scene.meshes[object.mesh];
-        const MeshComponents components = find_mesh_components(mesh, object.world_from_object);
+        const ConnectedMeshComponents components = find_mesh_components(mesh,
+                                                                        object.world_from_object);
         std::vector<std::vector<LampFacet>> facets;
         if (scene.light_samples > 1)
             facets = list_lamp_facets(mesh, object.world_from_object, components);

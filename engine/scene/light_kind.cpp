@@ -8,7 +8,7 @@
 namespace catoptric::scene {
 
 RegisteredLightKind::RegisteredLightKind(const LightKind& kind) {
-    registered_rows<LightKind>().push_back(kind);
+    get_registered_rows<LightKind>().push_back(kind);
 }
 
 const std::vector<LightKind>& list_light_kinds() {
@@ -21,18 +21,18 @@ const std::vector<LightKind>& list_light_kinds() {
     return kSortedLightKinds;
 }
 
-const LightKind& light_kind_of(PunctualLight::Kind id) {
+const LightKind& find_light_kind(PunctualLight::Kind id) {
     const auto kind = std::ranges::find(list_light_kinds(), id, &LightKind::id);
     check(kind != list_light_kinds().end(), Failure::internal, "there is no kind of light ",
           static_cast<int>(id));
     return *kind;
 }
 
-std::string_view gltf_type_of(const LightKind& kind) {
+std::string_view gltf_type_of_light_kind(const LightKind& kind) {
     return kind.gltf_type.empty() ? kind.name : kind.gltf_type;
 }
 
-bool emit_alike(const PunctualLight& a, const PunctualLight& b) {
+bool have_equal_emission(const PunctualLight& a, const PunctualLight& b) {
     const auto& [name, kind, intensity, range, cos_inner, cos_outer, world_from_light, motion] = a;
     return kind == b.kind && intensity == b.intensity && range == b.range &&
            cos_inner == b.cos_inner && cos_outer == b.cos_outer &&

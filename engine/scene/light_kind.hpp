@@ -18,7 +18,7 @@ class JsonObject;
 
 /// The two numbers of a light whose meaning depends on its kind: `cos_outer` and `sharpness` of
 /// shared::Light.
-struct ShaderNumbers {
+struct LightShaderNumbers {
     float cos_outer = -3; ///< no cosine is below it, so all directions are lit
     float sharpness = 1;
 };
@@ -41,7 +41,7 @@ struct LightKind {
     /// axis. Null: 1, and the light has no cone.
     double (*share)(const PointLight& light, double cosine) = nullptr;
     /// Returns the numbers with which the shaders compute the same share. Null: the defaults.
-    ShaderNumbers (*shader_numbers)(const PointLight& light) = nullptr;
+    LightShaderNumbers (*shader_numbers)(const PointLight& light) = nullptr;
     /// Reads the kind's parameters from a light of KHR_lights_punctual. Throws `bad_data`. May be
     /// null. save_glb writes a cone for each light with the type "spot".
     void (*read)(const gltf::JsonObject& light, PunctualLight& to) = nullptr;
@@ -56,9 +56,9 @@ struct RegisteredLightKind {
 /// Returns all kinds by `id`.
 const std::vector<LightKind>& list_light_kinds();
 /// Returns the row of a kind. Throws `internal` for a kind that is not in the table.
-const LightKind& light_kind_of(PunctualLight::Kind id);
+const LightKind& find_light_kind(PunctualLight::Kind id);
 /// Returns the type of a kind in KHR_lights_punctual.
-std::string_view gltf_type_of(const LightKind& kind);
+std::string_view gltf_type_of_light_kind(const LightKind& kind);
 
 /// Reads the angles of the object "spot". Throws `bad_data`.
 void read_spot_cone(const gltf::JsonObject& light, PunctualLight& to);
@@ -66,14 +66,14 @@ void read_spot_cone(const gltf::JsonObject& light, PunctualLight& to);
 /// Calls `visit` with each member of a light, in the order of declaration. Hashes follow from these
 /// lists; a member that is missing here does not compile.
 template <typename Visit>
-inline void visit_members(const PunctualLight& light, Visit&& visit) {
+inline void visit_light_members(const PunctualLight& light, Visit&& visit) {
     const auto& [name, kind, intensity, range, cos_inner, cos_outer, world_from_light,
                  motion] = light;
     visit(name), visit(kind), visit(intensity), visit(range), visit(cos_inner), visit(cos_outer);
     visit(world_from_light), visit(motion);
 }
 template <typename Visit>
-inline void visit_members(const PointLight& light, Visit&& visit) {
+inline void visit_light_members(const PointLight& light, Visit&& visit) {
     const auto& [position, normal, area, is_lamp, closed, axes, cosines, emission, axis, range,
                  cos_inner, cos_outer, directional, kind] = light;
     visit(position), visit(normal), visit(area), visit(is_lamp), visit(closed), visit(axes);
@@ -83,6 +83,6 @@ inline void visit_members(const PointLight& light, Visit&& visit) {
 
 /// Returns whether two lights shine in the same way. Compares lights as scene::scene_at_time leaves
 /// them: without motion. Names do not count.
-bool emit_alike(const PunctualLight& a, const PunctualLight& b);
+bool have_equal_emission(const PunctualLight& a, const PunctualLight& b);
 
 } // namespace catoptric::scene

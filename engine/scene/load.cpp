@@ -22,17 +22,17 @@ std::string lower_case_extension(const std::filesystem::path& path) {
     return extension;
 }
 
-Scene classify_mirrors(Scene scene) {
+Scene classify_scene_mirrors(Scene scene) {
     find_mirrors(scene);
     scene.meshes.shrink_to_fit(), scene.objects.shrink_to_fit(); // no more are added
     return scene;
 }
 
 /// Throws if the options choose an animation of a scene that has none.
-void check_no_animation_chosen(const std::string& scene, const FileOptions& options) {
+void check_no_animation_chosen(const std::string& scene, const SceneFileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ",
-          quote_printable(options.animation), ": wanted one of none");
+          quote_as_printable_text(options.animation), ": wanted one of none");
 }
 
 [[noreturn]] void fail_unknown_scene(const std::string& word) {
@@ -42,14 +42,14 @@ void check_no_animation_chosen(const std::string& scene, const FileOptions& opti
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
-    fail(Failure::usage, "scene ", quote_printable(word), ": wanted a built-in scene (", list,
-         ") or a .glb, .gltf or .obj file", suggest_name(word, names));
+    fail(Failure::usage, "scene ", quote_as_printable_text(word), ": wanted a built-in scene (",
+         list, ") or a .glb, .gltf or .obj file", suggest_nearest_name(word, names));
 }
 
 } // namespace
 
-RegisteredScene::RegisteredScene(BuiltInScene scene) {
-    registered_rows<BuiltInScene>().push_back(std::move(scene));
+RegisteredBuiltInScene::RegisteredBuiltInScene(BuiltInScene scene) {
+    get_registered_rows<BuiltInScene>().push_back(std::move(scene));
 }
 
 const std::vector<BuiltInScene>& list_built_in_scenes() {
@@ -59,21 +59,21 @@ const std::vector<BuiltInScene>& list_built_in_scenes() {
 }
 
 Scene load(const std::string& name_or_path, const LoadOptions& options) {
-    return load_file(name_or_path, {.root = options.root, .animation = options.animation});
+    return load_scene_file(name_or_path, {.root = options.root, .animation = options.animation});
 }
 
-Scene load_file(const std::string& name_or_path, const FileOptions& options) {
+Scene load_scene_file(const std::string& name_or_path, const SceneFileOptions& options) {
     for (const BuiltInScene& scene : list_built_in_scenes())
         if (scene.name == name_or_path) {
             check_no_animation_chosen(name_or_path, options);
-            return classify_mirrors(scene.make());
+            return classify_scene_mirrors(scene.make());
         }
     const std::string extension = lower_case_extension(name_or_path);
     if (extension == ".glb" || extension == ".gltf")
-        return classify_mirrors(load_gltf(name_or_path, options));
+        return classify_scene_mirrors(load_gltf(name_or_path, options));
     if (extension == ".obj") {
         check_no_animation_chosen(name_or_path, options);
-        return classify_mirrors(load_obj(name_or_path, options));
+        return classify_scene_mirrors(load_obj(name_or_path, options));
     }
     fail_unknown_scene(name_or_path);
 }

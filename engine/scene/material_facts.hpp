@@ -12,15 +12,15 @@ namespace catoptric::scene {
 struct MaterialFactor {
     std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
     float Material::*member;
-    std::string_view extension; ///< glTF extension, or kCoreFactors
+    std::string_view extension; ///< glTF extension, or kCoreMaterialFactors
     std::string_view key;       ///< member of that extension
     float gltf_default;         ///< value without this key
 };
 /// The part of a glTF material that holds the factors of glTF itself.
-inline constexpr std::string_view kCoreFactors = "pbrMetallicRoughness";
+inline constexpr std::string_view kCoreMaterialFactors = "pbrMetallicRoughness";
 inline constexpr MaterialFactor kMaterialFactors[] = {
-    {"metallic", &Material::metallic, kCoreFactors, "metallicFactor", 1},
-    {"roughness", &Material::roughness, kCoreFactors, "roughnessFactor", 1},
+    {"metallic", &Material::metallic, kCoreMaterialFactors, "metallicFactor", 1},
+    {"roughness", &Material::roughness, kCoreMaterialFactors, "roughnessFactor", 1},
     {"transmission", &Material::transmission, "KHR_materials_transmission", "transmissionFactor",
      0},
 };
@@ -32,7 +32,7 @@ inline constexpr float kUsualDielectricF0 = .04f;
 /// Calls `visit` with each member of a material, in the order of declaration. Hashes follow from
 /// this list; a member that is missing here does not compile.
 template <typename Visit>
-inline void visit_members(const Material& material, Visit&& visit) {
+inline void visit_material_members(const Material& material, Visit&& visit) {
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
                  metallic, roughness, dielectric_f0, dielectric_f90, transmission, ior, solid,
                  absorption, alpha, alpha_cutoff, albedo_texture, emission_texture,
@@ -51,7 +51,7 @@ inline void visit_members(const Material& material, Visit&& visit) {
 bool is_one_sided(const Material& material);
 /// Returns whether the surface has a specular part, sharp or rough: it is no Lambertian surface.
 /// False for `mirror`, whose reflectance is another member.
-bool is_specular(const Material& material);
+bool has_specular_part(const Material& material);
 /// Returns whether rays pass through the surface: it transmits at least half of the light, is
 /// smooth everywhere and has no metal. Glass casts no shadow.
 bool is_glass(const Material& material);

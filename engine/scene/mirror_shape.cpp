@@ -12,40 +12,41 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr double kFlatTolerance = 1e-4;         // share of the extent
+constexpr double kFlatnessTolerance = 1e-4;     // share of the extent
 constexpr double kSphereVertexTolerance = 1e-3; // vertices: share of the radius
-constexpr double kMostBendingShare = .95;       // share of all bending (angle times length)
+constexpr double kMinBendingShare = .95;        // share of all bending (angle times length)
 constexpr double kFacetRadiusTolerance = .1;    // facets: share of the radius
-constexpr double kNormalTolerance = .01;        // normals: radians
+constexpr double kNormalAngleTolerance = .01;   // normals: radians
 
 /// Triangles of an object in the world, relative to the centre of its bounds. Each place has one
 /// number.
-struct CentredTriangles {
+struct CentredObjectTriangles {
     std::vector<dvec3> places;
     std::vector<TriangleCorners> triangles;
     dvec3 centre{0};
     double extent = 0; ///< longest side of the bounds
 
-    dvec3 cross_of(const TriangleCorners& t) const {
+    dvec3 triangle_edge_cross_product(const TriangleCorners& t) const {
         return glm::cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
     }
 };
 
-CentredTriangles make_centred_triangles(const Scene& scene, const Object& object) {
+CentredObjectTriangles make_centred_triangles(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const Bounds<double> box = bounds(scene, object);
-    CentredTriangles soup;
+    CentredObjectTriangles soup;
     if (box.empty()) return soup;
     soup.centre = box.centre();
     soup.extent = std::max({box.extent().x, box.extent().y, box.extent().z});
-    const std::vector<std::size_t> first = first_vertex_at_place(mesh.positions);
+    const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
     std::vector<std::size_t> place(first.size(), soup.places.max_size());
     const auto place_of = [&](std::uint32_t vertex) {
         std::size_t& number = place[first[vertex]];
         if (number == soup.places.max_size()) {
             number = soup.places.size();
             const dvec3& p = mesh.positions[first[vertex]];
-            soup.places.push_back(transform_point(object.world_from_object, p) - soup.centre);
+            soup.places.push_back(transform_point_to_world(object.world_from_object, p) -
+                                  soup.centre);
         }
         return number;
     };
@@ -56,24 +57,24 @@ CentredTriangles make_centred_triangles(const Scene& scene, const Object& object
     return soup;
 }
 
-bool are_triangles_flat(const CentredTriangles& soup) {
+bool are_triangles_coplanar(const CentredObjectTriangles& soup) {
     dvec3 sum(0);
-    for (const TriangleCorners& t : soup.triangles) sum += soup.cross_of(t);
+    for (const TriangleCorners& t : soup.triangles) sum += soup.triangle_edge_cross_product(t);
     const dvec3 normal = normalized_or_zero(sum);
     if (normal == dvec3(0)) return false;
     const double height = glm::dot(normal, soup.places[soup.triangles.front()[0]]);
     return std::ranges::all_of(soup.triangles, [&](const TriangleCorners& t) {
         const bool in_plane = std::ranges::all_of(t, [&](std::size_t i) {
             return std::abs(glm::dot(normal, soup.places[i]) - height) <=
-                   kFlatTolerance * soup.extent;
+                   kFlatnessTolerance * soup.extent;
         });
-        return in_plane && glm::dot(normal, soup.cross_of(t)) > 0;
+        return in_plane && glm::dot(normal, soup.triangle_edge_cross_product(t)) > 0;
     });
 }
 
 /// Returns the sphere that fits the places best by least squares. |p|^2 = 2 c.p + (r^2 - |c|^2) is
 /// linear in c and in the bracket. Solved in units of the extent.
-std::optional<Sphere> fit_sphere(const CentredTriangles& soup) {
+std::optional<Sphere> fit_sphere(const CentredObjectTriangles& soup) {
     dmat4 matrix(0);
     dvec4 wanted(0);
     for (const dvec3& place : soup.places) {
@@ -92,12 +93,12 @@ std::optional<Sphere> fit_sphere(const CentredTriangles& soup) {
 
 /// Returns the largest distance of a vertex from the sphere, in radii. Returns 1 if facets cut off
 /// so much that the mesh is a cube rather than a ball.
-double max_distance_from_sphere(const Sphere& sphere, const CentredTriangles& soup) {
+double max_distance_from_sphere(const Sphere& sphere, const CentredObjectTriangles& soup) {
     double farthest = 0;
     for (const dvec3& place : soup.places)
         farthest = std::max(farthest, std::abs(glm::length(place - sphere.centre) - sphere.radius));
     for (const TriangleCorners& t : soup.triangles) {
-        const dvec3 normal = normalized_or_zero(soup.cross_of(t));
+        const dvec3 normal = normalized_or_zero(soup.triangle_edge_cross_product(t));
         const double height = std::abs(glm::dot(normal, soup.places[t[0]] - sphere.centre));
         if (!(height >= (1 - kFacetRadiusTolerance) * sphere.radius)) return 1;
     }
@@ -108,14 +109,14 @@ double max_distance_from_sphere(const Sphere& sphere, const CentredTriangles& so
 /// with flat-shaded facets reflects as its facets do, not as a sphere.
 bool has_sphere_normals(const Sphere& sphere, const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
-    const dmat3 turns = normal_matrix(object.world_from_object);
+    const dmat3 turns = compute_normal_matrix(object.world_from_object);
     return std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
         return std::ranges::all_of(std::array{t.x, t.y, t.z}, [&](std::uint32_t i) {
             const dvec3 out = normalized_or_zero(
-                            transform_point(object.world_from_object, mesh.positions[i]) -
+                            transform_point_to_world(object.world_from_object, mesh.positions[i]) -
                             sphere.centre),
-                        normal = world_normal(turns, dvec3(mesh.normals[i]));
-            return glm::length(glm::cross(out, normal)) <= kNormalTolerance;
+                        normal = transform_normal_to_world(turns, dvec3(mesh.normals[i]));
+            return glm::length(glm::cross(out, normal)) <= kNormalAngleTolerance;
         });
     });
 }
@@ -128,26 +129,31 @@ bool may_be_sphere(const Scene& scene, const Object& object) {
     const dvec3 centre = box.centre();
     const double radius = std::max({box.extent().x, box.extent().y, box.extent().z}) / 2;
     return std::ranges::all_of(scene.meshes[object.mesh].positions, [&](const dvec3& p) {
-        const double far = glm::distance(transform_point(object.world_from_object, p), centre);
+        const double far = glm::distance(transform_point_to_world(object.world_from_object, p),
+                                         centre);
         return std::abs(far - radius) <= kFacetRadiusTolerance * radius;
     });
 }
 
 /// Sums over the edges at which triangles meet.
-struct EdgeBendSums {
+struct EdgeBendingSums {
     bool closed = true;
     double outwards = 0, inwards = 0; ///< bend angles times lengths of the edges
 
-    bool is_mostly(double bends) const { return bends >= kMostBendingShare * (outwards + inwards); }
+    bool is_most_of_bending(double bends) const {
+        return bends >= kMinBendingShare * (outwards + inwards);
+    }
 };
 
 /// Returns how the edges bend. An edge bends inwards if the tip of a triangle lies above the plane
 /// of its neighbour.
-EdgeBendSums measure_edge_bends(const CentredTriangles& soup) {
-    EdgeBendSums edges;
+EdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
+    EdgeBendingSums edges;
     const auto add = [&](const TriangleEdge& here, const TriangleEdge& there) {
-        const dvec3 normal = normalized_or_zero(soup.cross_of(soup.triangles[here.triangle]));
-        const dvec3 other = normalized_or_zero(soup.cross_of(soup.triangles[there.triangle]));
+        const dvec3 normal = normalized_or_zero(
+            soup.triangle_edge_cross_product(soup.triangles[here.triangle]));
+        const dvec3 other = normalized_or_zero(
+            soup.triangle_edge_cross_product(soup.triangles[there.triangle]));
         const double above = glm::dot(normal, soup.places[there.tip] - soup.places[here.low]);
         const double angle = std::atan2(glm::length(glm::cross(normal, other)),
                                         glm::dot(normal, other));
@@ -163,10 +169,10 @@ EdgeBendSums measure_edge_bends(const CentredTriangles& soup) {
 }
 
 /// Returns whether most of the area faces away from a point.
-bool faces_away_from_point(const CentredTriangles& soup, const dvec3& point) {
+bool faces_away_from_point(const CentredObjectTriangles& soup, const dvec3& point) {
     double area = 0;
     for (const TriangleCorners& t : soup.triangles) {
-        const dvec3 cross = soup.cross_of(t);
+        const dvec3 cross = soup.triangle_edge_cross_product(t);
         area += glm::dot(cross, soup.places[t[0]] - point) > 0 ? glm::length(cross)
                                                                : -glm::length(cross);
     }
@@ -176,13 +182,13 @@ bool faces_away_from_point(const CentredTriangles& soup, const dvec3& point) {
 } // namespace
 
 MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
-    using enum MirrorShape::Kind;
-    const CentredTriangles soup = make_centred_triangles(scene, object);
+    using enum MirrorShape::ShapeKind;
+    const CentredObjectTriangles soup = make_centred_triangles(scene, object);
     MirrorShape shape;
     if (soup.triangles.empty()) return shape;
-    const EdgeBendSums edges = measure_edge_bends(soup);
+    const EdgeBendingSums edges = measure_edge_bends(soup);
     shape.is_closed = edges.closed;
-    if (are_triangles_flat(soup)) {
+    if (are_triangles_coplanar(soup)) {
         shape.kind = flat;
         return shape;
     }
@@ -203,9 +209,9 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
         shape.kind = faces_away_from_point(soup, shape.fit->centre - soup.centre) ? convex
                                                                                   : concave;
     else
-        shape.kind = edges.is_mostly(edges.outwards)  ? convex
-                     : edges.is_mostly(edges.inwards) ? concave
-                                                      : other;
+        shape.kind = edges.is_most_of_bending(edges.outwards)  ? convex
+                     : edges.is_most_of_bending(edges.inwards) ? concave
+                                                               : other;
     return shape;
 }
 
@@ -217,17 +223,17 @@ void find_exact_spheres(Scene& scene) {
             (follows && !preserves_spheres(*follows)) || !may_be_sphere(scene, object))
             continue;
         const MirrorShape shape = classify_mirror_shape(scene, object);
-        if (shape.kind == MirrorShape::Kind::sphere) object.sphere = shape.fit;
+        if (shape.kind == MirrorShape::ShapeKind::sphere) object.sphere = shape.fit;
     }
 }
 
-const char* name_of(MirrorShape::Kind kind) {
+const char* mirror_shape_kind_name(MirrorShape::ShapeKind kind) {
     switch (kind) {
-    case MirrorShape::Kind::flat: return "flat";
-    case MirrorShape::Kind::sphere: return "sphere";
-    case MirrorShape::Kind::convex: return "convex";
-    case MirrorShape::Kind::concave: return "concave";
-    case MirrorShape::Kind::other: break;
+    case MirrorShape::ShapeKind::flat: return "flat";
+    case MirrorShape::ShapeKind::sphere: return "sphere";
+    case MirrorShape::ShapeKind::convex: return "convex";
+    case MirrorShape::ShapeKind::concave: return "concave";
+    case MirrorShape::ShapeKind::other: break;
     }
     return "other";
 }

@@ -6,8 +6,8 @@ namespace catoptric::scene {
 
 /// Kind of surface of an object, independent of its material.
 struct MirrorShape {
-    enum class Kind { flat, sphere, convex, concave, other };
-    Kind kind = Kind::other;
+    enum class ShapeKind { flat, sphere, convex, concave, other };
+    ShapeKind kind = ShapeKind::other;
     bool is_closed = false; ///< every edge belongs to two triangles
     /// Sphere that fits the vertices, also of an open surface. `tolerance` is the largest distance
     /// of a vertex from this sphere, in radii. Facets may lie farther inside.
@@ -31,6 +31,6 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object);
 void find_exact_spheres(Scene& scene);
 
 /// Returns "flat", "sphere", "convex", "concave" or "other".
-const char* name_of(MirrorShape::Kind kind);
+const char* mirror_shape_kind_name(MirrorShape::ShapeKind kind);
 
 } // namespace catoptric::scene

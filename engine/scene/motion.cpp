@@ -18,7 +18,7 @@ namespace catoptric::scene {
 namespace {
 
 /// Returns the time wrapped into [0, end]. After the end, the motion starts again at 0.
-double wrap_time(double seconds, double end) {
+double wrap_time_into_motion(double seconds, double end) {
     if (!(end > 0) || (seconds >= 0 && seconds <= end)) return seconds;
     const double rest = std::fmod(seconds, end);
     return rest < 0 ? rest + end : rest;
@@ -62,15 +62,15 @@ Value track_value_at(const Track<Value>& track, double time) {
 }
 
 template <typename Value>
-double track_end(const std::shared_ptr<const Track<Value>>& track) {
+double track_end_time(const std::shared_ptr<const Track<Value>>& track) {
     return track == nullptr || track->times.empty() ? 0 : std::max(track->times.back(), 0.0);
 }
 
-double track_end(const NodeRig& rig) {
+double track_end_time(const NodeRig& rig) {
     double end = 0;
     for (const NodeRig::RigNode& node : rig.nodes)
-        end = std::max(
-            {end, track_end(node.translations), track_end(node.rotations), track_end(node.scales)});
+        end = std::max({end, track_end_time(node.translations), track_end_time(node.rotations),
+                        track_end_time(node.scales)});
     return end;
 }
 
@@ -89,9 +89,9 @@ dmat4 rig_node_transform_to_parent(const NodeRig::RigNode& node, double time) {
 }
 
 /// Transforms of the nodes of rigs at one instant. Each rig is computed once.
-class RigPoses {
+class RigNodeTransforms {
 public:
-    explicit RigPoses(double seconds) : seconds_(seconds) {}
+    explicit RigNodeTransforms(double seconds) : seconds_(seconds) {}
     dmat4 world_from_node(const RigAttachment& follows) {
         std::vector<dmat4>& pose = poses_[follows.rig.get()];
         if (pose.empty()) pose = compute_node_transforms(*follows.rig, seconds_);
@@ -103,26 +103,27 @@ private:
     std::map<const NodeRig*, std::vector<dmat4>> poses_;
 };
 
-dvec3 harmonic_offset_at(const HarmonicMotion& motion, double seconds) {
+dvec3 motion_offset_at_time(const HarmonicMotion& motion, double seconds) {
     // 1 - cos(a) = 2 sin^2(a/2) keeps its digits near zero. The remainder is exact.
     const double phase = std::remainder(seconds, motion.period) / motion.period;
     const double sine = std::sin(std::numbers::pi * phase);
     return motion.amplitude * (2 * sine * sine);
 }
 
-dvec3 harmonic_offset_at(const Keyframes& motion, double seconds) {
+dvec3 motion_offset_at_time(const Keyframes& motion, double seconds) {
     if (motion.keys == nullptr || motion.keys->times.empty()) return dvec3(0);
     const TranslationTrack& keys = *motion.keys;
-    const double time = motion.repeats ? wrap_time(seconds, keys.times.back()) : seconds;
+    const double time = motion.repeats ? wrap_time_into_motion(seconds, keys.times.back())
+                                       : seconds;
     return motion.world_from_keys * (track_value_at(keys, time) - motion.rest);
 }
 
 /// Returns the translation of a motion that keeps the object's axes; zero for any other motion.
-dvec3 motion_translation(const Motion& motion, double seconds) {
+dvec3 motion_translation_at_time(const Motion& motion, double seconds) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion))
-        return harmonic_offset_at(*harmonic, seconds);
+        return motion_offset_at_time(*harmonic, seconds);
     if (const auto* frames = std::get_if<Keyframes>(&motion))
-        return harmonic_offset_at(*frames, seconds);
+        return motion_offset_at_time(*frames, seconds);
     return dvec3(0);
 }
 
@@ -130,7 +131,7 @@ dvec3 motion_translation(const Motion& motion, double seconds) {
 /// scaled.
 Camera move_camera_with_node(const Camera& camera, const dmat4& now_from_rest) {
     Camera result = camera;
-    result.eye = transform_point(now_from_rest, camera.eye);
+    result.eye = transform_point_to_world(now_from_rest, camera.eye);
     const dvec3 ahead = normalized_or_zero(dmat3(now_from_rest) * (camera.target - camera.eye));
     result.target = result.eye + glm::distance(camera.target, camera.eye) * ahead;
     result.up = normalized_or_zero(dmat3(now_from_rest) * camera.up);
@@ -145,7 +146,7 @@ const RigAttachment* find_followed_node(const Motion& motion) {
     return follows && follows->rig ? follows : nullptr;
 }
 
-TranslationTrack keys_in_world_space(const Keyframes& motion) {
+TranslationTrack motion_keys_in_world_space(const Keyframes& motion) {
     TranslationTrack keys = motion.keys ? *motion.keys : TranslationTrack();
     for (dvec3& value : keys.values) value = motion.world_from_keys * (value - motion.rest);
     for (dvec3& tangent : keys.in_tangents) tangent = motion.world_from_keys * tangent;
@@ -154,7 +155,7 @@ TranslationTrack keys_in_world_space(const Keyframes& motion) {
 }
 
 std::vector<dmat4> compute_node_transforms(const NodeRig& rig, double seconds) {
-    const double time = rig.repeats ? wrap_time(seconds, track_end(rig)) : seconds;
+    const double time = rig.repeats ? wrap_time_into_motion(seconds, track_end_time(rig)) : seconds;
     std::vector<dmat4> world;
     world.reserve(rig.nodes.size());
     for (const NodeRig::RigNode& node : rig.nodes) {
@@ -166,12 +167,12 @@ std::vector<dmat4> compute_node_transforms(const NodeRig& rig, double seconds) {
 
 double motion_period(const Motion& motion) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion)) return harmonic->period;
-    if (const auto* frames = std::get_if<Keyframes>(&motion)) return track_end(frames->keys);
+    if (const auto* frames = std::get_if<Keyframes>(&motion)) return track_end_time(frames->keys);
     const RigAttachment* follows = find_followed_node(motion);
-    return follows ? track_end(*follows->rig) : 0;
+    return follows ? track_end_time(*follows->rig) : 0;
 }
 
-double period(const Scene& scene) {
+double compute_scene_period(const Scene& scene) {
     double longest = 0;
     const NodeRig* last =
         nullptr; // skips neighbours that follow the same rig, as a rig may be long
@@ -187,9 +188,10 @@ double period(const Scene& scene) {
     return longest;
 }
 
-Camera camera_at(const Camera& camera, double seconds) {
+Camera camera_at_time(const Camera& camera, double seconds) {
     return camera.follows.rig
-               ? move_camera_with_node(camera, RigPoses(seconds).world_from_node(camera.follows))
+               ? move_camera_with_node(camera,
+                                       RigNodeTransforms(seconds).world_from_node(camera.follows))
                : camera;
 }
 
@@ -198,26 +200,26 @@ void check_scene_time(double seconds) {
           seconds);
 }
 
-void pose_scene(Scene& still, const Scene& scene, double seconds) {
+void move_scene_to_time(Scene& still, const Scene& scene, double seconds) {
     check_scene_time(seconds);
     still.objects = scene.objects, still.punctual = scene.punctual, still.cameras = scene.cameras;
-    RigPoses poses(seconds);
-    const auto move = [&](dmat4& place, const Motion& motion) {
+    RigNodeTransforms poses(seconds);
+    const auto apply_motion = [&](dmat4& place, const Motion& motion) {
         if (const RigAttachment* follows = find_followed_node(motion))
             place = poses.world_from_node(*follows);
-        const dvec3 offset = motion_translation(motion, seconds);
+        const dvec3 offset = motion_translation_at_time(motion, seconds);
         place[3] += dvec4(offset, 0);
         return offset;
     };
     for (Object& object : still.objects) {
         if (const RigAttachment* follows = find_followed_node(object.motion))
-            object.sphere = moved_sphere(object, poses.world_from_node(*follows));
-        const dvec3 offset = move(object.world_from_object, object.motion);
+            object.sphere = transform_exact_sphere(object, poses.world_from_node(*follows));
+        const dvec3 offset = apply_motion(object.world_from_object, object.motion);
         if (object.sphere) object.sphere->centre += offset;
         object.motion = std::monostate();
     }
     for (PunctualLight& light : still.punctual) {
-        move(light.world_from_light, light.motion);
+        apply_motion(light.world_from_light, light.motion);
         light.motion = std::monostate();
     }
     for (Camera& camera : still.cameras)
@@ -225,14 +227,14 @@ void pose_scene(Scene& still, const Scene& scene, double seconds) {
             camera = move_camera_with_node(camera, poses.world_from_node(camera.follows));
 }
 
-SceneAt::SceneAt(const Scene& scene, double seconds) : scene_(scene) {
+SceneAtTime::SceneAtTime(const Scene& scene, double seconds) : scene_(scene) {
     check_scene_time(seconds);
     if (is_animated(scene)) moved_ = scene_at_time(scene, seconds);
 }
 
 Scene scene_at_time(const Scene& scene, double seconds) {
     Scene still = scene;
-    pose_scene(still, scene, seconds);
+    move_scene_to_time(still, scene, seconds);
     return still;
 }
 

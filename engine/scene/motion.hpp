@@ -32,7 +32,7 @@ struct NodeRig {
 
 /// Returns the keys with positions and tangents in world space, relative to the object's place at
 /// rest.
-TranslationTrack keys_in_world_space(const Keyframes& motion);
+TranslationTrack motion_keys_in_world_space(const Keyframes& motion);
 
 /// Returns the world transform of each node of the rig. Throws nothing; costs a few hundred
 /// operations a node.

@@ -9,7 +9,7 @@ namespace catoptric::scene {
 namespace {
 
 template <typename Real>
-std::string shortest_text(Real number) {
+std::string format_shortest_text(Real number) {
     if (number == 0) return "0";
     char text[32];
     const std::to_chars_result end = std::to_chars(text, text + sizeof text, number);
@@ -18,11 +18,11 @@ std::string shortest_text(Real number) {
 
 } // namespace
 
-std::string format_shortest_number(double number) { return shortest_text(number); }
-std::string format_shortest_number(float number) { return shortest_text(number); }
+std::string format_shortest_number(double number) { return format_shortest_text(number); }
+std::string format_shortest_number(float number) { return format_shortest_text(number); }
 
-double float_to_typed_double(float number) {
-    return parse_number(shortest_text(number)).value_or(double(number));
+double float_to_shortest_double(float number) {
+    return parse_number(format_shortest_text(number)).value_or(double(number));
 }
 
 std::optional<double> parse_number(std::string_view text) {

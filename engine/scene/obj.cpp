@@ -24,11 +24,12 @@ struct CornerIndices {
     auto operator<=>(const CornerIndices&) const = default;
 };
 
-CornerIndices corner_indices(const tinyobj::index_t& corner) {
+CornerIndices to_corner_indices(const tinyobj::index_t& corner) {
     return {corner.vertex_index, corner.normal_index, corner.texcoord_index};
 }
 
-void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::ObjText& text, bool has_uv) {
+void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::RewrittenObjText& text,
+                bool has_uv) {
     const auto& [position, normal, uv] = vertex;
     mesh.positions.push_back(text.positions[std::size_t(position)]);
     mesh.normals.push_back(
@@ -41,24 +42,24 @@ void add_vertex(Mesh& mesh, const CornerIndices& vertex, const obj::ObjText& tex
 
 /// Builds a mesh with one vertex for each distinct triple among the corners. Each three corners are
 /// a triangle. Vertices are sorted by the index of position, then normal, then texture coordinates.
-Mesh build_obj_mesh(const obj::ObjText& text, const std::vector<tinyobj::index_t>& corners,
-                    std::string name, LimitedSum& vertices, const std::string& place) {
-    struct CornerUse {
+Mesh build_obj_mesh(const obj::RewrittenObjText& text, const std::vector<tinyobj::index_t>& corners,
+                    std::string name, BudgetLimitedSum& vertices, const std::string& place) {
+    struct MeshCornerUse {
         CornerIndices triple;
         std::uint32_t corner;
-        auto operator<=>(const CornerUse&) const = default;
+        auto operator<=>(const MeshCornerUse&) const = default;
     };
-    std::vector<CornerUse> uses;
+    std::vector<MeshCornerUse> uses;
     uses.reserve(corners.size());
     for (const tinyobj::index_t& corner : corners)
-        uses.push_back({corner_indices(corner), static_cast<std::uint32_t>(uses.size())});
+        uses.push_back({to_corner_indices(corner), static_cast<std::uint32_t>(uses.size())});
     std::ranges::sort(uses);
     const auto is_first = [&](std::size_t i) {
         return i == 0 || uses[i].triple != uses[i - 1].triple;
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < uses.size(); ++i) count += is_first(i);
-    vertices.add(count, place);
+    vertices.add_amount(count, place);
     Mesh mesh{.name = std::move(name)};
     const bool has_uv = std::ranges::any_of(
         corners, [](const tinyobj::index_t& corner) { return corner.texcoord_index >= 0; });
@@ -76,26 +77,26 @@ Mesh build_obj_mesh(const obj::ObjText& text, const std::vector<tinyobj::index_t
 
 struct ObjBuilder {
     const std::string& file;
-    const obj::ObjText& text;
-    obj::ObjContext& context;
+    const obj::RewrittenObjText& text;
+    obj::ObjReadContext& context;
     Scene scene;
     /// Material of faces without one. Set on first use.
     std::optional<std::size_t> without_material;
 
     /// The triangles of a shape with the same material.
-    struct ShapePart {
+    struct ObjShapePart {
         int material; ///< -1 if there is none
         std::vector<tinyobj::index_t> corners;
     };
-    static std::vector<ShapePart> parts_of(const tinyobj::mesh_t& mesh);
+    static std::vector<ObjShapePart> parts_of(const tinyobj::mesh_t& mesh);
     void add_shape(const tinyobj::shape_t& shape);
-    void add_object(const std::string& shape, ShapePart part, bool is_only);
+    void add_object(const std::string& shape, ObjShapePart part, bool is_only);
     std::size_t material_index(int material);
 };
 
 /// Returns the parts of a shape, in the order of first use of their materials.
-std::vector<ObjBuilder::ShapePart> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
-    std::vector<ShapePart> parts;
+std::vector<ObjBuilder::ObjShapePart> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
+    std::vector<ObjShapePart> parts;
     std::unordered_map<int, std::size_t> part_of;
     for (std::size_t i = 0; i < mesh.material_ids.size(); ++i) {
         const auto [entry, is_new] = part_of.try_emplace(mesh.material_ids[i], parts.size());
@@ -119,8 +120,8 @@ std::size_t ObjBuilder::material_index(int material) {
     return *without_material;
 }
 
-void apply_object_remarks(const obj::CatoptricRemarks& remarks, const std::string& group,
-                          Object& object) {
+void apply_object_comments(const obj::ObjCatoptricComments& remarks, const std::string& group,
+                           Object& object) {
     if (const auto at = remarks.motions.find(group); at != remarks.motions.end())
         object.motion = at->second;
     if (const auto at = remarks.spheres.find(group); at != remarks.spheres.end())
@@ -128,45 +129,45 @@ void apply_object_remarks(const obj::CatoptricRemarks& remarks, const std::strin
     object.seen_by_camera = !remarks.hidden.contains(group);
 }
 
-void ObjBuilder::add_object(const std::string& shape, ShapePart part, bool is_only) {
-    BudgetAccount& account = context.account;
-    account.objects.add(1, file, ": object ", quote_printable(shape));
+void ObjBuilder::add_object(const std::string& shape, ObjShapePart part, bool is_only) {
+    LoadBudgetUsage& account = context.account;
+    account.objects.add_amount(1, file, ": object ", quote_as_printable_text(shape));
     Object object{
         .name = shape, .mesh = scene.meshes.size(), .material = material_index(part.material)};
     const std::string& material = scene.materials[object.material].name;
-    account.name_bytes.add(2 * (shape.size() + 1 + material.size()), file, ": object ",
-                           quote_printable(shape));
+    account.name_bytes.add_amount(2 * (shape.size() + 1 + material.size()), file, ": object ",
+                                  quote_as_printable_text(shape));
     if (!is_only) object.name += "/" + material;
-    apply_object_remarks(text.remarks, shape, object);
+    apply_object_comments(text.remarks, shape, object);
 
     Mesh mesh = build_obj_mesh(text, part.corners, object.name, account.mesh_vertices, file);
     part.corners = {};
-    account.mesh_vertices.add(count_corners_without_normal(mesh), file, ": object ",
-                              quote_printable(shape));
+    account.mesh_vertices.add_amount(count_corners_without_normal(mesh), file, ": object ",
+                                     quote_as_printable_text(shape));
     const std::size_t dropped = repair_mesh(mesh);
-    context.notes.add("triangles without area, left out", "in " + quote_printable(object.name),
-                      dropped);
+    context.notes.add_note("triangles without area, left out",
+                           "in " + quote_as_printable_text(object.name), dropped);
     scene.meshes.push_back(std::move(mesh));
     scene.objects.push_back(std::move(object));
 }
 
 void ObjBuilder::add_shape(const tinyobj::shape_t& shape) {
-    std::vector<ShapePart> parts = parts_of(shape.mesh);
-    for (ShapePart& part : parts)
+    std::vector<ObjShapePart> parts = parts_of(shape.mesh);
+    for (ObjShapePart& part : parts)
         add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
 }
 
-void check_object_names(const obj::ObjText& text) {
+void check_object_names(const obj::RewrittenObjText& text) {
     const std::unordered_set<std::string> known(text.names.begin(), text.names.end());
     for (const auto& [name, where] : text.remarks.named_at)
         if (!known.contains(name))
             fail(Failure::bad_data, where, ": wanted the name of an object with faces, found ",
-                 quote_printable(name), suggest_name(name, text.names));
+                 quote_as_printable_text(name), suggest_nearest_name(name, text.names));
 }
 
 /// Returns a material library for tinyobjloader, in which each material is only named by its
 /// number.
-std::string make_name_only_library(const obj::MaterialLibrary& library) {
+std::string make_library_of_names(const obj::MtlLibrary& library) {
     std::string text;
     for (std::size_t i = 0; i < library.drafts.size(); ++i)
         text += "newmtl " + std::to_string(i) + "\n";
@@ -175,9 +176,9 @@ std::string make_name_only_library(const obj::MaterialLibrary& library) {
 
 /// Parses the statements with tinyobjloader. Moves them out of `text`, because they may be long.
 struct ParsedObj {
-    ParsedObj(obj::ObjText& text, const std::string& file) {
+    ParsedObj(obj::RewrittenObjText& text, const std::string& file) {
         std::istringstream statements(std::move(text.statements)),
-            library(make_name_only_library(text.library));
+            library(make_library_of_names(text.library));
         tinyobj::MaterialStreamReader libraries(library);
         tinyobj::attrib_t attributes;
         std::vector<tinyobj::material_t> materials;
@@ -192,14 +193,14 @@ struct ParsedObj {
 
 } // namespace
 
-Scene load_obj(const std::filesystem::path& path, const FileOptions& options) {
+Scene load_obj(const std::filesystem::path& path, const SceneFileOptions& options) {
     const std::string file = path.string();
-    BudgetAccount account(options.budget);
-    SceneFiles files(path, options.root, account);
+    LoadBudgetUsage account(options.budget);
+    SceneFileOpener files(path, options.root, account);
     LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
-    obj::ObjContext context{files, account, notes, unsupported};
-    obj::ObjText text = obj::read_obj_text(file, context);
+    obj::ObjReadContext context{files, account, notes, unsupported};
+    obj::RewrittenObjText text = obj::read_obj_text(file, context);
     check_object_names(text);
     const ParsedObj parsed(text, file);
     ObjBuilder builder{.file = file, .text = text, .context = context};
@@ -207,9 +208,9 @@ Scene load_obj(const std::filesystem::path& path, const FileOptions& options) {
                      .materials = make_library_materials(text.library, context),
                      .cameras = text.remarks.cameras,
                      .exposure = text.remarks.exposure,
-                     .files = files.found_files()};
+                     .files = files.list_found_files()};
     for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
-    finish_loading(builder.scene, file, notes, std::move(unsupported));
+    finish_loaded_scene(builder.scene, file, notes, std::move(unsupported));
     return std::move(builder.scene);
 }
 

@@ -20,7 +20,8 @@ std::string_view trim_blanks(std::string_view text) {
 
 /// Removes one line from the front of `text` and returns it, trimmed. Lines that end in a backslash
 /// are joined with the next in `joined`. Adds the number of lines read to `number`.
-std::string_view take_line(std::string_view& text, std::size_t& number, std::string& joined) {
+std::string_view remove_first_line(std::string_view& text, std::size_t& number,
+                                   std::string& joined) {
     joined.clear();
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
@@ -38,7 +39,7 @@ std::string_view take_line(std::string_view& text, std::size_t& number, std::str
 
 } // namespace
 
-std::string_view take_word(std::string_view& text) {
+std::string_view remove_first_word(std::string_view& text) {
     text = trim_blanks(text);
     const std::string_view word = text.substr(0, text.find_first_of(kBlankCharacters));
     text = trim_blanks(text.substr(word.size()));
@@ -52,11 +53,11 @@ void for_each_obj_line(const std::string& file, std::string_view text,
     std::string joined, remark;
     for (std::size_t number = 0; !text.empty();) {
         const std::size_t first = number + 1;
-        std::string_view rest = take_line(text, number, joined);
-        std::string_view keyword = take_word(rest);
-        if (keyword == "#" && take_word(rest) == "catoptric" && !rest.empty()) {
+        std::string_view rest = remove_first_line(text, number, joined);
+        std::string_view keyword = remove_first_word(rest);
+        if (keyword == "#" && remove_first_word(rest) == "catoptric" && !rest.empty()) {
             remark = "#";
-            remark += take_word(rest);
+            remark += remove_first_word(rest);
             keyword = remark;
         } else if (keyword.empty() || keyword.front() == '#') {
             continue;
@@ -69,27 +70,27 @@ std::vector<std::string_view> split_words(const ObjLine& line) {
     std::vector<std::string_view> list;
     std::string_view rest = line.rest;
     while (!rest.empty() && rest.front() != '#' && list.size() < kMaxWordsPerLine)
-        list.push_back(take_word(rest));
+        list.push_back(remove_first_word(rest));
     return list;
 }
 
 std::size_t count_words(std::string_view text) {
     std::size_t count = 0;
-    for (; !text.empty() && text.front() != '#'; ++count) take_word(text);
+    for (; !text.empty() && text.front() != '#'; ++count) remove_first_word(text);
     return count;
 }
 
 double parse_word_number(const ObjLine& line, std::string_view word) {
     if (const std::optional<double> number = parse_number(word)) return *number;
-    fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants finite numbers, found ",
-         quote_printable(word));
+    fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword,
+         "' wants finite numbers, found ", quote_as_printable_text(word));
 }
 
 std::vector<double> parse_word_numbers(const ObjLine& line,
                                        const std::vector<std::string_view>& words,
                                        std::size_t first, std::size_t count) {
     if (words.size() < first + count)
-        fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants ", count,
+        fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword, "' wants ", count,
              " numbers, found ", words.size() - std::min(first, words.size()));
     std::vector<double> list;
     for (std::size_t i = first; i < first + count; ++i)
@@ -97,20 +98,22 @@ std::vector<double> parse_word_numbers(const ObjLine& line,
     return list;
 }
 
-void UnreadStatements::add(const ObjLine& line) {
+void UnreadStatementCounts::count_statement(const ObjLine& line) {
     auto at = counts_.find(line.keyword);
     if (at == counts_.end())
         at = counts_
-                 .try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "", KeywordCount())
+                 .try_emplace(counts_.size() < 40 ? std::string(line.keyword) : "",
+                              ObjKeywordCount())
                  .first;
     if (at->second.lines++ == 0) at->second.first = line.number;
 }
 
-void UnreadStatements::report_unread(const std::string& file, LoaderNotes& notes) const {
+void UnreadStatementCounts::report_unread(const std::string& file, LoaderNotes& notes) const {
     for (const auto& [keyword, count] : counts_)
-        notes.add(keyword.empty() ? "other statements, not read"
-                                  : "statements " + quote_printable(keyword) + ", not read",
-                  file + ":" + std::to_string(count.first), count.lines);
+        notes.add_note(keyword.empty()
+                           ? "other statements, not read"
+                           : "statements " + quote_as_printable_text(keyword) + ", not read",
+                       file + ":" + std::to_string(count.first), count.lines);
 }
 
 dvec3 parse_line_vector(const ObjLine& line) {
@@ -118,9 +121,9 @@ dvec3 parse_line_vector(const ObjLine& line) {
     std::string_view rest = line.rest;
     for (int i = 0; i < 3; ++i) {
         if (rest.empty() || rest.front() == '#')
-            fail(Failure::bad_data, line.where(), ": '", line.keyword, "' wants 3 numbers, found ",
-                 i);
-        vector[i] = parse_word_number(line, take_word(rest));
+            fail(Failure::bad_data, line.describe_line_place(), ": '", line.keyword,
+                 "' wants 3 numbers, found ", i);
+        vector[i] = parse_word_number(line, remove_first_word(rest));
     }
     return vector;
 }

@@ -19,9 +19,9 @@ namespace {
 
 /// Returns whether a statement names a texture map, such as "map_Kd", "bump", "norm" or "refl".
 bool is_map_statement(std::string_view keyword) {
-    constexpr std::string_view kMapStatements[] = {"bump", "disp", "decal", "refl", "norm"};
+    constexpr std::string_view kMtlMapStatements[] = {"bump", "disp", "decal", "refl", "norm"};
     return keyword.starts_with("map_") ||
-           std::ranges::find(kMapStatements, keyword) != std::end(kMapStatements);
+           std::ranges::find(kMtlMapStatements, keyword) != std::end(kMtlMapStatements);
 }
 
 bool is_bump_statement(std::string_view keyword) {
@@ -32,7 +32,7 @@ bool is_bump_statement(std::string_view keyword) {
 /// forms "spectral" and "xyz".
 std::optional<dvec3> parse_colour(const ObjLine& line) {
     std::string_view rest = line.rest;
-    const std::string_view first = take_word(rest);
+    const std::string_view first = remove_first_word(rest);
     if (first == "spectral" || first == "xyz") return std::nullopt;
     if (rest.empty() || rest.front() == '#') return dvec3(parse_word_number(line, first));
     return parse_line_vector(line);
@@ -44,22 +44,22 @@ double parse_line_number(const ObjLine& line) {
 
 /// Reads a map's options and file name. `-s`, `-o` and `-clamp` change the lookup; other options
 /// are skipped.
-ObjMapUse parse_map(const ObjLine& line) {
-    ObjMapUse map;
+ObjTextureUse parse_map_statement(const ObjLine& line) {
+    ObjTextureUse map;
     std::string_view rest = line.rest;
     while (rest.starts_with('-')) {
-        const std::string_view option = take_word(rest);
+        const std::string_view option = remove_first_word(rest);
         const bool takes_word = option == "-type" || option == "-imfchan" || option == "-clamp" ||
                                 option == "-blendu" || option == "-blendv" || option == "-cc";
         std::string_view after = rest;
         if (takes_word) {
-            const bool is_on = take_word(rest) == "on";
+            const bool is_on = remove_first_word(rest) == "on";
             if (option == "-clamp") map.is_clamped = is_on;
             continue;
         }
         std::array<double, 3> values{};
         std::size_t count = 0;
-        while (const auto value = parse_number(take_word(after))) {
+        while (const auto value = parse_number(remove_first_word(after))) {
             if (count < values.size()) values[count] = *value;
             ++count, rest = after;
         }
@@ -74,7 +74,7 @@ ObjMapUse parse_map(const ObjLine& line) {
 
 /// Returns the real path of a map, or an empty path if it is missing. Backslashes are read as
 /// slashes. If the path is absolute or does not exist, the file name is looked up beside the scene.
-fs::path find_map_file(const std::string& name, const std::string& place, SceneFiles& files) {
+fs::path find_map_file(const std::string& name, const std::string& place, SceneFileOpener& files) {
     std::string slashed = name;
     std::ranges::replace(slashed, '\\', '/');
     const bool is_absolute = slashed.starts_with('/') ||
@@ -86,12 +86,12 @@ fs::path find_map_file(const std::string& name, const std::string& place, SceneF
     return real;
 }
 
-void add_map_to_draft(const ObjLine& line, ObjContext& context, MaterialLibrary& library) {
-    ObjMapUse map = parse_map(line);
+void add_map_to_mtl_material(const ObjLine& line, ObjReadContext& context, MtlLibrary& library) {
+    ObjTextureUse map = parse_map_statement(line);
     if (map.file.empty()) return;
-    map.real = find_map_file(map.file, line.where(), context.files);
-    map.place = line.where();
-    MaterialDraft& draft = library.drafts.back();
+    map.real = find_map_file(map.file, line.describe_line_place(), context.files);
+    map.place = line.describe_line_place();
+    MtlMaterial& draft = library.drafts.back();
     if (line.keyword == "map_Kd")
         draft.colour = std::move(map);
     else if (line.keyword == "map_d")
@@ -102,38 +102,37 @@ void add_map_to_draft(const ObjLine& line, ObjContext& context, MaterialLibrary&
         add_unsupported_material(context.unsupported,
                                  is_bump_statement(line.keyword) ? "normal-texture"
                                                                  : "material-extension",
-                                 line.where(), library.drafts.size() - 1);
+                                 line.describe_line_place(), library.drafts.size() - 1);
 }
 
 /// A statement with one number, and the member that it sets.
-struct NumberStatement {
+struct MtlNumberStatement {
     std::string_view keyword;
-    std::optional<double> MaterialDraft::*member;
+    std::optional<double> MtlMaterial::*member;
 };
-constexpr NumberStatement kNumberStatements[] = {
-    {"Ns", &MaterialDraft::shininess}, {"Ni", &MaterialDraft::ior},
-    {"Pr", &MaterialDraft::roughness}, {"Pm", &MaterialDraft::metallic},
-    {"illum", &MaterialDraft::kind},   {"d", &MaterialDraft::alpha}};
+constexpr MtlNumberStatement kMtlNumberStatements[] = {
+    {"Ns", &MtlMaterial::shininess}, {"Ni", &MtlMaterial::ior},     {"Pr", &MtlMaterial::roughness},
+    {"Pm", &MtlMaterial::metallic},  {"illum", &MtlMaterial::kind}, {"d", &MtlMaterial::alpha}};
 
-void add_radiance_to_draft(const ObjLine& line, const dvec3& radiance, MaterialDraft& draft) {
+void add_radiance_to_mtl_material(const ObjLine& line, const dvec3& radiance, MtlMaterial& draft) {
     draft.emission = vec3(radiance);
-    check(is_valid_radiance(draft.emission), Failure::bad_data, line.where(),
+    check(is_valid_radiance(draft.emission), Failure::bad_data, line.describe_line_place(),
           ": 'Ke' wants radiance of at least 0 that fits a float, found ",
-          quote_printable(line.rest));
+          quote_as_printable_text(line.rest));
 }
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
-bool add_statement_to_draft(const ObjLine& line, MaterialDraft& draft) {
-    const auto* const number = std::ranges::find(kNumberStatements, line.keyword,
-                                                 &NumberStatement::keyword);
-    if (number != std::end(kNumberStatements)) {
+bool add_statement_to_mtl_material(const ObjLine& line, MtlMaterial& draft) {
+    const auto* const number = std::ranges::find(kMtlNumberStatements, line.keyword,
+                                                 &MtlNumberStatement::keyword);
+    if (number != std::end(kMtlNumberStatements)) {
         // The number may follow an option: "d -halo .5".
         std::string_view rest = line.rest;
         const ObjLine of{line.file, line.number, line.keyword,
-                         take_word(rest) == "-halo" ? rest : line.rest};
+                         remove_first_word(rest) == "-halo" ? rest : line.rest};
         const double value = parse_line_number(of);
         check(line.keyword != "illum" || (value >= 0 && value <= 10 && value == std::floor(value)),
-              Failure::bad_data, line.where(),
+              Failure::bad_data, line.describe_line_place(),
               ": 'illum' wants a whole number from 0 to 10, found ", value);
         draft.*(number->member) = value;
         return true;
@@ -146,37 +145,40 @@ bool add_statement_to_draft(const ObjLine& line, MaterialDraft& draft) {
     if (!colour) return false;
     if (line.keyword == "Kd") draft.diffuse = colour;
     if (line.keyword == "Ks") draft.specular = colour;
-    if (line.keyword == "Ke") add_radiance_to_draft(line, *colour, draft);
+    if (line.keyword == "Ke") add_radiance_to_mtl_material(line, *colour, draft);
     return true;
 }
 
-void add_library_statement(MaterialLibrary& library, const ObjLine& line, UnreadStatements& unread,
-                           ObjContext& context, bool& is_in_material) {
+void add_mtl_statement(MtlLibrary& library, const ObjLine& line, UnreadStatementCounts& unread,
+                       ObjReadContext& context, bool& is_in_material) {
     if (line.keyword == "newmtl") {
-        context.account.materials.add(1, line.where());
-        library.drafts.push_back({.name = std::string(line.rest), .place = line.where()});
+        context.account.materials.add_amount(1, line.describe_line_place());
+        library.drafts.push_back(
+            {.name = std::string(line.rest), .place = line.describe_line_place()});
         is_in_material = true;
     } else if (!is_in_material) {
-        context.notes.add("statements before the first newmtl, left out", line.where());
-    } else if (!add_statement_to_draft(line, library.drafts.back())) {
-        if (line.keyword != "map_Kd" && line.keyword != "Ka") unread.add(line);
-        if (is_map_statement(line.keyword)) add_map_to_draft(line, context, library);
+        context.notes.add_note("statements before the first newmtl, left out",
+                               line.describe_line_place());
+    } else if (!add_statement_to_mtl_material(line, library.drafts.back())) {
+        if (line.keyword != "map_Kd" && line.keyword != "Ka") unread.count_statement(line);
+        if (is_map_statement(line.keyword)) add_map_to_mtl_material(line, context, library);
     }
 }
 
 /// Reads the images of materials. Decodes each image once.
-class MaterialMaps {
+class MtlImageReader {
 public:
-    explicit MaterialMaps(ObjContext& context) : context_(context) {}
+    explicit MtlImageReader(ObjReadContext& context) : context_(context) {}
 
-    std::optional<Texture> map_texture(const ObjMapUse& map, bool srgb = true) {
-        const std::shared_ptr<const Image> image = image_of(map);
+    std::optional<Texture> read_map_texture(const ObjTextureUse& map, bool srgb = true) {
+        const std::shared_ptr<const Image> image = read_image_of_map(map);
         if (!image) {
-            context_.notes.add("images that are not there or of a kind that is not read, drawn "
-                               "without",
-                               map.place + ": " + quote_printable(map.file));
-            add_unsupported(context_.unsupported, "missing-image",
-                            map.place + ": " + quote_printable(map.file));
+            context_.notes.add_note(
+                "images that are not there or of a kind that is not read, drawn "
+                "without",
+                map.place + ": " + quote_as_printable_text(map.file));
+            add_unsupported_feature(context_.unsupported, "missing-image",
+                                    map.place + ": " + quote_as_printable_text(map.file));
             return std::nullopt;
         }
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
@@ -191,77 +193,81 @@ public:
     }
 
 private:
-    std::shared_ptr<const Image> image_of(const ObjMapUse& map) {
+    std::shared_ptr<const Image> read_image_of_map(const ObjTextureUse& map) {
         if (map.real.empty()) return nullptr;
         const auto [entry, is_new] = images_.try_emplace(map.real.string());
         if (is_new)
-            entry->second = decode_image(context_.files.read_file_content(map.real, map.place),
-                                         map.file, map.place + ": " + quote_printable(map.file),
-                                         context_.account);
+            entry->second = decode_image(
+                context_.files.read_file_content(map.real, map.place), map.file,
+                map.place + ": " + quote_as_printable_text(map.file), context_.account);
         return entry->second;
     }
 
-    ObjContext& context_;
+    ObjReadContext& context_;
     std::map<std::string, std::shared_ptr<const Image>> images_;
 };
 
 constexpr double kUsualGlassIor = 1.5; // of a material without Ni
 
-vec3 clamp_to_fraction(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
+vec3 clamp_colour_to_unit_range(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
 
 /// Turns a draft into an engine material, as scene.md describes under "Surface".
-class MaterialMaker {
+class MtlMaterialConverter {
 public:
-    MaterialMaker(const MaterialDraft& draft, std::size_t index, MaterialMaps& maps,
-                  ObjContext& context)
-        : draft_(draft), index_(index), maps_(maps), context_(context) {}
+    MtlMaterialConverter(const MtlMaterial& draft, std::size_t index, MtlImageReader& maps,
+                         ObjReadContext& context)
+        : mtl_material_(draft), index_(index), maps_(maps), context_(context) {}
 
     Material make_material() {
-        kind_ = static_cast<int>(draft_.kind.value_or(0));
-        material_ = {.name = draft_.name, .emission = draft_.emission};
+        kind_ = static_cast<int>(mtl_material_.kind.value_or(0));
+        material_ = {.name = mtl_material_.name, .emission = mtl_material_.emission};
         // Without Kd the albedo is white under a map, black if emissive or illum 3, else grey.
-        const bool shines = draft_.emission != vec3(0) || kind_ == 3;
-        material_.albedo = clamp_to_fraction(draft_.diffuse.value_or(draft_.colour ? dvec3(1)
-                                                                     : shines      ? dvec3(0)
-                                                                                   : dvec3(0.8)));
-        if (draft_.colour) material_.albedo_texture = maps_.map_texture(*draft_.colour);
-        if (draft_.normals) material_.normal_texture = maps_.map_texture(*draft_.normals, false);
-        set_sidedness();
-        transparency();
+        const bool shines = mtl_material_.emission != vec3(0) || kind_ == 3;
+        material_.albedo = clamp_colour_to_unit_range(
+            mtl_material_.diffuse.value_or(mtl_material_.colour ? dvec3(1)
+                                           : shines             ? dvec3(0)
+                                                                : dvec3(0.8)));
+        if (mtl_material_.colour)
+            material_.albedo_texture = maps_.read_map_texture(*mtl_material_.colour);
+        if (mtl_material_.normals)
+            material_.normal_texture = maps_.read_map_texture(*mtl_material_.normals, false);
+        set_one_or_two_sided();
+        set_transparency();
         if (is_glass_)
             set_glass();
-        else if (draft_.roughness || draft_.metallic)
+        else if (mtl_material_.roughness || mtl_material_.metallic)
             set_physical_factors();
         else
-            reflection();
+            set_reflection();
         return material_;
     }
 
 private:
-    void report_unsupported(const char* id) {
-        add_unsupported_material(context_.unsupported, id, draft_.place, index_);
+    void report_unsupported_feature(const char* id) {
+        add_unsupported_material(context_.unsupported, id, mtl_material_.place, index_);
     }
 
-    void set_sidedness() {
-        const bool is_lamp = draft_.emission != vec3(0);
-        material_.two_sided = is_lamp ? draft_.two_sided : !draft_.fixed_normals;
+    void set_one_or_two_sided() {
+        const bool is_lamp = mtl_material_.emission != vec3(0);
+        material_.two_sided = is_lamp ? mtl_material_.two_sided : !mtl_material_.fixed_normals;
     }
 
-    void transparency() {
-        const double alpha = std::clamp(draft_.alpha.value_or(1), 0.0, 1.0);
+    void set_transparency() {
+        const double alpha = std::clamp(mtl_material_.alpha.value_or(1), 0.0, 1.0);
         const bool is_glass = kind_ == 4 || kind_ == 6 || kind_ == 7 || kind_ == 9 ||
-                              (alpha < 1 && draft_.ior.value_or(1) > 1.01);
+                              (alpha < 1 && mtl_material_.ior.value_or(1) > 1.01);
         if (is_glass) {
             is_glass_ = true;
-            return report_unsupported("glass-as-diffuse"), report_unsupported("glass-shadow");
+            return report_unsupported_feature("glass-as-diffuse"),
+                   report_unsupported_feature("glass-shadow");
         }
-        const bool is_cut = draft_.cut && material_.albedo_texture &&
-                            draft_.cut->real == draft_.colour->real;
-        if (draft_.cut && !is_cut) report_unsupported("material-extension");
+        const bool is_cut = mtl_material_.cut && material_.albedo_texture &&
+                            mtl_material_.cut->real == mtl_material_.colour->real;
+        if (mtl_material_.cut && !is_cut) report_unsupported_feature("material-extension");
         if (alpha == 1 && !is_cut) return;
-        context_.notes.add("materials that let light through, cut where half is left",
-                           draft_.place);
-        report_unsupported("blend-as-mask");
+        context_.notes.add_note("materials that let light through, cut where half is left",
+                                mtl_material_.place);
+        report_unsupported_feature("blend-as-mask");
         material_.alpha = static_cast<float>(alpha);
         material_.alpha_cutoff = .5f;
     }
@@ -269,16 +275,18 @@ private:
     /// Makes a smooth body of glass. Kd tints it, unless Kd is black.
     void set_glass() {
         material_.transmission = 1, material_.roughness = 0, material_.solid = true;
-        material_.ior = static_cast<float>(std::max(draft_.ior.value_or(kUsualGlassIor), 1.0));
+        material_.ior = static_cast<float>(
+            std::max(mtl_material_.ior.value_or(kUsualGlassIor), 1.0));
         material_.dielectric_f0 = vec3(compute_dielectric_f0(material_.ior));
         material_.dielectric_f90 = vec3(1);
         if (material_.albedo == vec3(0)) material_.albedo = vec3(1);
     }
 
     void set_physical_factors() {
-        material_.metallic = static_cast<float>(std::clamp(draft_.metallic.value_or(0), 0.0, 1.0));
+        material_.metallic = static_cast<float>(
+            std::clamp(mtl_material_.metallic.value_or(0), 0.0, 1.0));
         material_.roughness = static_cast<float>(
-            std::clamp(draft_.roughness.value_or(1), 0.0, 1.0));
+            std::clamp(mtl_material_.roughness.value_or(1), 0.0, 1.0));
         material_.dielectric_f0 = vec3(kUsualDielectricF0), material_.dielectric_f90 = vec3(1);
     }
 
@@ -287,25 +295,25 @@ private:
     /// sharp from Ns 100 on and without an Ns. A rough surface has the lobe of width alpha whose
     /// density of normals falls off near the normal as that of Blinn and Phong: alpha^2 = 2 / (Ns +
     /// 2) (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007).
-    void reflection() {
+    void set_reflection() {
         const bool reflects_scene = kind_ == 3 || kind_ == 5 || kind_ == 8;
-        if (!reflects_scene && draft_.kind.value_or(2) != 2) return;
-        const vec3 f0 = clamp_to_fraction(draft_.specular.value_or(dvec3(0)));
-        const bool is_sharp = reflects_scene && draft_.shininess.value_or(100) >= 100;
+        if (!reflects_scene && mtl_material_.kind.value_or(2) != 2) return;
+        const vec3 f0 = clamp_colour_to_unit_range(mtl_material_.specular.value_or(dvec3(0)));
+        const bool is_sharp = reflects_scene && mtl_material_.shininess.value_or(100) >= 100;
         if (kind_ != 5 && is_sharp && largest_channel(f0) >= kMinMirrorF0) {
             material_.mirror = true, material_.reflectance = f0;
             return;
         }
-        const double shininess = std::max(draft_.shininess.value_or(0), 0.0);
+        const double shininess = std::max(mtl_material_.shininess.value_or(0), 0.0);
         material_.roughness = is_sharp ? 0 : static_cast<float>(std::pow(2 / (shininess + 2), .25));
         material_.dielectric_f0 = f0;
         material_.dielectric_f90 = kind_ == 5 ? vec3(1) : f0;
     }
 
-    const MaterialDraft& draft_;
+    const MtlMaterial& mtl_material_;
     std::size_t index_;
-    MaterialMaps& maps_;
-    ObjContext& context_;
+    MtlImageReader& maps_;
+    ObjReadContext& context_;
     Material material_;
     int kind_ = 0;
     bool is_glass_ = false;
@@ -313,22 +321,23 @@ private:
 
 } // namespace
 
-void read_material_library(const fs::path& real, const std::string& place, ObjContext& context,
-                           MaterialLibrary& library) {
-    UnreadStatements unread;
+void read_material_library(const fs::path& real, const std::string& place, ObjReadContext& context,
+                           MtlLibrary& library) {
+    UnreadStatementCounts unread;
     bool is_in_material = false;
     const std::string file = real.string();
     for_each_obj_line(file, context.files.read_file_content(real, place), [&](const ObjLine& line) {
-        add_library_statement(library, line, unread, context, is_in_material);
+        add_mtl_statement(library, line, unread, context, is_in_material);
     });
     unread.report_unread(file, context.notes);
 }
 
-std::vector<Material> make_library_materials(const MaterialLibrary& library, ObjContext& context) {
+std::vector<Material> make_library_materials(const MtlLibrary& library, ObjReadContext& context) {
     std::vector<Material> materials;
-    MaterialMaps maps(context);
-    for (const MaterialDraft& draft : library.drafts)
-        materials.push_back(MaterialMaker(draft, materials.size(), maps, context).make_material());
+    MtlImageReader maps(context);
+    for (const MtlMaterial& draft : library.drafts)
+        materials.push_back(
+            MtlMaterialConverter(draft, materials.size(), maps, context).make_material());
     return materials;
 }
 

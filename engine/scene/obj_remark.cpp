@@ -17,7 +17,7 @@ dvec3 parse_vector_at(const std::vector<double>& list, std::size_t first) {
     return {list[first], list[first + 1], list[first + 2]};
 }
 
-Camera parse_camera_remark(const ObjLine& line, const WordList& words) {
+Camera parse_camera_comment(const ObjLine& line, const WordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 1, 10);
     const Camera camera{.name = std::string(words[0]),
                         .eye = parse_vector_at(n, 0),
@@ -25,45 +25,47 @@ Camera parse_camera_remark(const ObjLine& line, const WordList& words) {
                         .up = parse_vector_at(n, 6),
                         .vertical_fov_degrees = n[9]};
     const dvec3 side = normalized_or_zero(glm::cross(camera.target - camera.eye, camera.up));
-    check(side != dvec3(0), Failure::bad_data, line.where(), ": camera ",
-          quote_printable(camera.name), " wants an up that is not along its view, found none");
-    check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.where(), ": camera ",
-          quote_printable(camera.name), " wants a field of view between 0 and 180 degrees, found ",
-          n[9]);
+    check(side != dvec3(0), Failure::bad_data, line.describe_line_place(), ": camera ",
+          quote_as_printable_text(camera.name),
+          " wants an up that is not along its view, found none");
+    check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.describe_line_place(), ": camera ",
+          quote_as_printable_text(camera.name),
+          " wants a field of view between 0 and 180 degrees, found ", n[9]);
     return camera;
 }
 
-HarmonicMotion parse_harmonic_remark(const ObjLine& line, const WordList& words) {
+HarmonicMotion parse_harmonic_comment(const ObjLine& line, const WordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 2, 4);
-    check(n[3] > 0, Failure::bad_data, line.where(), ": motion of ", quote_printable(words[0]),
-          " wants a period above 0, found ", n[3]);
+    check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": motion of ",
+          quote_as_printable_text(words[0]), " wants a period above 0, found ", n[3]);
     return {.amplitude = parse_vector_at(n, 0), .period = n[3]};
 }
 
 /// Reads a key count, and then time and position of each key. Words are not stored in a list,
 /// because a line may be as long as the file. Throws `bad_data`.
-Keyframes parse_keyframes_remark(const ObjLine& line, std::string_view name, std::string_view rest,
-                                 TranslationTrack::Interpolation interpolation,
-                                 BudgetAccount& account) {
+Keyframes parse_keyframes_comment(const ObjLine& line, std::string_view name, std::string_view rest,
+                                  TranslationTrack::Interpolation interpolation,
+                                  LoadBudgetUsage& account) {
     const bool is_cubic = interpolation == TranslationTrack::Interpolation::cubic;
     const std::size_t stride = is_cubic ? 10 : 4;
-    const double count = parse_word_number(line, take_word(rest));
+    const double count = parse_word_number(line, remove_first_word(rest));
     const std::size_t found = count_words(rest);
-    check(count >= 1 && count * double(stride) == double(found), Failure::bad_data, line.where(),
-          ": motion of ", quote_printable(name), " wants ", stride, " numbers for each of ", count,
-          " keys, found ", found);
-    account.keys.add(found / stride, line.where());
+    check(count >= 1 && count * double(stride) == double(found), Failure::bad_data,
+          line.describe_line_place(), ": motion of ", quote_as_printable_text(name), " wants ",
+          stride, " numbers for each of ", count, " keys, found ", found);
+    account.keys.add_amount(found / stride, line.describe_line_place());
     auto keys = std::make_shared<TranslationTrack>(
         TranslationTrack{.interpolation = interpolation});
     const auto vector = [&] {
-        const double x = parse_word_number(line, take_word(rest)),
-                     y = parse_word_number(line, take_word(rest));
-        return dvec3(x, y, parse_word_number(line, take_word(rest)));
+        const double x = parse_word_number(line, remove_first_word(rest)),
+                     y = parse_word_number(line, remove_first_word(rest));
+        return dvec3(x, y, parse_word_number(line, remove_first_word(rest)));
     };
     for (std::size_t i = 0; i < found / stride; ++i) {
-        const double time = parse_word_number(line, take_word(rest));
-        check(keys->times.empty() || time > keys->times.back(), Failure::bad_data, line.where(),
-              ": motion of ", quote_printable(name), " wants increasing times, found ", time);
+        const double time = parse_word_number(line, remove_first_word(rest));
+        check(keys->times.empty() || time > keys->times.back(), Failure::bad_data,
+              line.describe_line_place(), ": motion of ", quote_as_printable_text(name),
+              " wants increasing times, found ", time);
         keys->times.push_back(time);
         if (is_cubic) keys->in_tangents.push_back(vector());
         keys->values.push_back(vector());
@@ -72,34 +74,35 @@ Keyframes parse_keyframes_remark(const ObjLine& line, std::string_view name, std
     return {.keys = std::move(keys)};
 }
 
-Motion parse_motion_remark(const ObjLine& line, BudgetAccount& account) {
+Motion parse_motion_comment(const ObjLine& line, LoadBudgetUsage& account) {
     using enum TranslationTrack::Interpolation;
     std::string_view rest = line.rest;
-    const std::string_view name = take_word(rest), kind = take_word(rest);
-    if (kind == "harmonic") return parse_harmonic_remark(line, split_words(line));
-    if (kind == "step") return parse_keyframes_remark(line, name, rest, step, account);
-    if (kind == "linear") return parse_keyframes_remark(line, name, rest, linear, account);
-    if (kind == "cubic") return parse_keyframes_remark(line, name, rest, cubic, account);
-    fail(Failure::bad_data, line.where(), ": motion wants harmonic, step, linear or cubic, found ",
-         quote_printable(kind));
+    const std::string_view name = remove_first_word(rest), kind = remove_first_word(rest);
+    if (kind == "harmonic") return parse_harmonic_comment(line, split_words(line));
+    if (kind == "step") return parse_keyframes_comment(line, name, rest, step, account);
+    if (kind == "linear") return parse_keyframes_comment(line, name, rest, linear, account);
+    if (kind == "cubic") return parse_keyframes_comment(line, name, rest, cubic, account);
+    fail(Failure::bad_data, line.describe_line_place(),
+         ": motion wants harmonic, step, linear or cubic, found ", quote_as_printable_text(kind));
 }
 
-Sphere parse_sphere_remark(const ObjLine& line, const WordList& words) {
+Sphere parse_sphere_comment(const ObjLine& line, const WordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 1, 4);
-    check(n[3] > 0, Failure::bad_data, line.where(), ": sphere ", quote_printable(words[0]),
-          " wants a radius above 0, found ", n[3]);
+    check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": sphere ",
+          quote_as_printable_text(words[0]), " wants a radius above 0, found ", n[3]);
     return {parse_vector_at(n, 0), n[3]};
 }
 
 } // namespace
 
-void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, BudgetAccount& account) {
+void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
+                           LoadBudgetUsage& account) {
     const WordList list = split_words(line);
-    check(!list.empty(), Failure::bad_data, line.where(), ": ", quote_printable(line.keyword),
-          " wants a name, found none");
+    check(!list.empty(), Failure::bad_data, line.describe_line_place(), ": ",
+          quote_as_printable_text(line.keyword), " wants a name, found none");
     if (line.keyword == "#exposure") {
         const double stops = parse_word_numbers(line, list, 0, 1)[0];
-        check(std::abs(stops) <= kMaxExposureStops, Failure::bad_data, line.where(),
+        check(std::abs(stops) <= kMaxExposureStops, Failure::bad_data, line.describe_line_place(),
               ": exposure wants ", -kMaxExposureStops, " to ", kMaxExposureStops, ", found ",
               stops);
         remarks.exposure = stops;
@@ -107,24 +110,24 @@ void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, Budget
     }
     const std::string name(list[0]);
     if (line.keyword == "#camera") {
-        account.cameras.add(1, line.where());
-        remarks.cameras.push_back(parse_camera_remark(line, list));
+        account.cameras.add_amount(1, line.describe_line_place());
+        remarks.cameras.push_back(parse_camera_comment(line, list));
         return;
     }
     if (!remarks.named_at.contains(name)) {
-        account.remarks.add(1, line.where());
-        remarks.named_at[name] = line.where();
+        account.remarks.add_amount(1, line.describe_line_place());
+        remarks.named_at[name] = line.describe_line_place();
     }
     if (line.keyword == "#motion")
-        remarks.motions[name] = parse_motion_remark(line, account);
+        remarks.motions[name] = parse_motion_comment(line, account);
     else if (line.keyword == "#sphere")
-        remarks.spheres[name] = parse_sphere_remark(line, list);
+        remarks.spheres[name] = parse_sphere_comment(line, list);
     else if (line.keyword == "#hidden")
         remarks.hidden[name] = true;
     else
-        fail(Failure::bad_data, line.where(),
+        fail(Failure::bad_data, line.describe_line_place(),
              ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",
-             quote_printable(line.keyword.substr(1)));
+             quote_as_printable_text(line.keyword.substr(1)));
 }
 
 } // namespace catoptric::scene::obj

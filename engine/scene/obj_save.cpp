@@ -26,8 +26,8 @@ std::string format_vector(const dvec3& v) {
 
 /// Returns a unique word for a name. Spaces become '_', an empty name becomes `fallback`, and a
 /// second "x" becomes "x-2".
-std::string make_unique_word(std::string name, const std::string& fallback,
-                             std::set<std::string>& taken) {
+std::string make_unique_obj_word(std::string name, const std::string& fallback,
+                                 std::set<std::string>& taken) {
     std::ranges::replace_if(
         name, [](unsigned char c) { return c <= ' ' || c == '#' || c == '\\'; }, '_');
     if (name.empty()) name = fallback;
@@ -41,23 +41,24 @@ std::vector<std::string> make_unique_words(const std::vector<Item>& items,
                                            const std::string& fallback) {
     std::set<std::string> taken;
     std::vector<std::string> names;
-    for (const Item& item : items) names.push_back(make_unique_word(item.name, fallback, taken));
+    for (const Item& item : items)
+        names.push_back(make_unique_obj_word(item.name, fallback, taken));
     return names;
 }
 
-std::string format_motion_remark(const std::monostate&) { return {}; }
+std::string format_motion_comment(const std::monostate&) { return {}; }
 
 /// Returns no motion. .obj has no nodes, so an object that follows one keeps its place at time 0.
-std::string format_motion_remark(const RigAttachment&) { return {}; }
+std::string format_motion_comment(const RigAttachment&) { return {}; }
 
-std::string format_motion_remark(const HarmonicMotion& motion) {
+std::string format_motion_comment(const HarmonicMotion& motion) {
     return "harmonic " + format_vector(motion.amplitude) + " " +
            format_shortest_number(motion.period);
 }
 
-std::string format_motion_remark(const Keyframes& frames) {
+std::string format_motion_comment(const Keyframes& frames) {
     using enum TranslationTrack::Interpolation;
-    const TranslationTrack keys = keys_in_world_space(frames);
+    const TranslationTrack keys = motion_keys_in_world_space(frames);
     const bool is_cubic = keys.interpolation == cubic;
     std::string text = is_cubic ? "cubic " : keys.interpolation == linear ? "linear " : "step ";
     text += std::to_string(keys.times.size());
@@ -70,10 +71,10 @@ std::string format_motion_remark(const Keyframes& frames) {
     return text;
 }
 
-std::string format_object_remarks(const Object& object, const std::string& name) {
+std::string format_object_comments(const Object& object, const std::string& name) {
     std::string text;
-    const std::string motion = std::visit([](const auto& its) { return format_motion_remark(its); },
-                                          object.motion);
+    const std::string motion = std::visit(
+        [](const auto& its) { return format_motion_comment(its); }, object.motion);
     if (!motion.empty()) text += "# catoptric motion " + name + " " + motion + "\n";
     if (object.sphere)
         text += "# catoptric sphere " + name + " " + format_vector(object.sphere->centre) + " " +
@@ -82,7 +83,7 @@ std::string format_object_remarks(const Object& object, const std::string& name)
     return text;
 }
 
-std::string format_camera_remark(const Camera& camera, const std::string& name) {
+std::string format_camera_comment(const Camera& camera, const std::string& name) {
     return "# catoptric camera " + name + " " + format_vector(camera.eye) + " " +
            format_vector(camera.target) + " " + format_vector(camera.up) + " " +
            format_shortest_number(camera.vertical_fov_degrees) + "\n";
@@ -94,8 +95,8 @@ std::string format_obj_geometry(const Mesh& mesh, const dmat4& world_from_object
                                 std::size_t& first) {
     std::string text;
     for (const dvec3& position : mesh.positions)
-        text += "v " + format_vector(transform_point(world_from_object, position)) + "\n";
-    const dmat3 normal_to_world = normal_matrix(world_from_object);
+        text += "v " + format_vector(transform_point_to_world(world_from_object, position)) + "\n";
+    const dmat3 normal_to_world = compute_normal_matrix(world_from_object);
     for (const vec3& normal : mesh.normals)
         text += "vn " + format_vector(vec3(normalized_or_zero(normal_to_world * dvec3(normal)))) +
                 "\n";
@@ -142,12 +143,12 @@ void save_obj(const Scene& scene, const std::filesystem::path& path) {
     if (scene.exposure)
         text += "# catoptric exposure " + format_shortest_number(*scene.exposure) + "\n";
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-        text += format_camera_remark(scene.cameras[i], camera_names[i]);
+        text += format_camera_comment(scene.cameras[i], camera_names[i]);
     std::size_t first = 0;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
         text += "\no " + object_names[i] + "\nusemtl " + material_names[object.material] + "\n" +
-                format_object_remarks(object, object_names[i]) +
+                format_object_comments(object, object_names[i]) +
                 format_obj_geometry(scene.meshes[object.mesh], object.world_from_object, first);
     }
     // The library is written first, because the .obj needs it.

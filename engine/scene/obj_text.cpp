@@ -20,14 +20,14 @@ namespace {
 /// they refer to.
 class ObjReader {
 public:
-    ObjReader(const std::string& file, ObjContext& context) : file_(file), context_(context) {}
+    ObjReader(const std::string& file, ObjReadContext& context) : file_(file), context_(context) {}
 
     /// Reads one line of the first pass: everything but faces, groups and uses of materials.
     void read_definition_line(const ObjLine& line);
     void name_materials();
     /// Reads one line of the second pass: faces, groups and uses of materials.
     void read_use_line(const ObjLine& line);
-    ObjText finish();
+    RewrittenObjText finish();
 
 private:
     void library(const ObjLine& line);
@@ -40,9 +40,9 @@ private:
     void use_material(const ObjLine& line);
 
     const std::string& file_;
-    ObjContext& context_;
-    ObjText text_;
-    UnreadStatements unread_;
+    ObjReadContext& context_;
+    RewrittenObjText text_;
+    UnreadStatementCounts unread_;
     std::unordered_set<std::string> libraries_; ///< real paths of the libraries read so far
     std::unordered_map<std::string, std::size_t> material_of_;
     std::optional<std::size_t> material_;               ///< of the next faces
@@ -52,13 +52,13 @@ private:
 };
 
 void ObjReader::library_file(const ObjLine& line, const std::string& name) {
-    const std::string place = line.where() + ": mtllib";
+    const std::string place = line.describe_line_place() + ": mtllib";
     const fs::path real = context_.files.find_file(name, place);
     if (real.empty()) {
-        context_.notes.add("material libraries that are not there",
-                           place + ": " + quote_printable(name));
-        add_unsupported(context_.unsupported, "missing-material",
-                        line.where() + ": " + quote_printable(name));
+        context_.notes.add_note("material libraries that are not there",
+                                place + ": " + quote_as_printable_text(name));
+        add_unsupported_feature(context_.unsupported, "missing-material",
+                                line.describe_line_place() + ": " + quote_as_printable_text(name));
     } else if (libraries_.insert(real.string()).second)
         read_material_library(real, place, context_, text_.library);
 }
@@ -66,11 +66,12 @@ void ObjReader::library_file(const ObjLine& line, const std::string& name) {
 /// Reads `mtllib`. The line is one name with spaces if such a file exists, else several names.
 void ObjReader::library(const ObjLine& line) {
     const std::vector<std::string_view> names = split_words(line);
-    check(!names.empty(), Failure::bad_data, line.where(),
+    check(!names.empty(), Failure::bad_data, line.describe_line_place(),
           ": mtllib wants a file name, found none");
     const std::string all(line.rest);
-    const bool is_one = names.size() > 1 && all.size() <= SceneFiles::kMaxFileNameLength &&
-                        !context_.files.find_file(all, line.where() + ": mtllib").empty();
+    const bool is_one =
+        names.size() > 1 && all.size() <= SceneFileOpener::kMaxFileNameLength &&
+        !context_.files.find_file(all, line.describe_line_place() + ": mtllib").empty();
     if (is_one) return library_file(line, all);
     for (const std::string_view name : names) library_file(line, std::string(name));
 }
@@ -87,10 +88,11 @@ void ObjReader::use_material(const ObjLine& line) {
     if (found == material_of_.end()) {
         // Without any material, the missing library has been noted already.
         const bool has_any = !text_.library.drafts.empty();
-        context_.notes.add("uses of materials that no library has, drawn grey",
-                           line.where() + ": " + quote_printable(name), has_any ? 1 : 0);
-        add_unsupported(context_.unsupported, "missing-material",
-                        line.where() + ": " + quote_printable(name));
+        context_.notes.add_note("uses of materials that no library has, drawn grey",
+                                line.describe_line_place() + ": " + quote_as_printable_text(name),
+                                has_any ? 1 : 0);
+        add_unsupported_feature(context_.unsupported, "missing-material",
+                                line.describe_line_place() + ": " + quote_as_printable_text(name));
         if (material_) text_.statements += "usemtl none\n";
         material_.reset();
         return;
@@ -107,7 +109,7 @@ void ObjReader::group(const ObjLine& line) {
     if (line.keyword == "g") {
         name.clear();
         for (std::string_view rest = line.rest; !rest.empty();)
-            name.append(name.empty() ? "" : " ").append(take_word(rest));
+            name.append(name.empty() ? "" : " ").append(remove_first_word(rest));
     }
     if (std::exchange(has_faces_, false)) {
         text_.statements += "o " + std::to_string(text_.names.size()) + "\n";
@@ -124,14 +126,14 @@ std::uint32_t parse_obj_index(const ObjLine& line, std::string_view digits, std:
     const char* end = digits.data() + digits.size();
     const auto result = std::from_chars(digits.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || value == 0)
-        fail(Failure::bad_data, line.where(), ": face wants an index other than 0, found ",
-             quote_printable(digits));
+        fail(Failure::bad_data, line.describe_line_place(),
+             ": face wants an index other than 0, found ", quote_as_printable_text(digits));
     if (value < 0 && std::uint64_t(0) - std::uint64_t(value) > so_far)
-        fail(Failure::bad_data, line.where(), ": face wants one of ", so_far,
+        fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", so_far,
              " vertices so far, found ", value);
     if (value > 0 && std::uint64_t(value) > count)
-        fail(Failure::bad_data, line.where(), ": face wants one of ", count, " ", what, ", found ",
-             value);
+        fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", count, " ",
+             what, ", found ", value);
     return static_cast<std::uint32_t>(value > 0 ? value - 1 : std::int64_t(so_far) + value);
 }
 
@@ -140,7 +142,7 @@ ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
     const std::size_t slash = word.find('/'), last = word.rfind('/');
     ObjCorner corner{parse_obj_index(line, word.substr(0, slash), positions_,
                                      text_.positions.size(), "positions"),
-                     kNoIndex, kNoIndex};
+                     kMissingObjIndex, kMissingObjIndex};
     if (last != slash && last + 1 != word.size())
         corner.normal = parse_obj_index(line, word.substr(last + 1), normals_, text_.normals.size(),
                                         "normals");
@@ -155,20 +157,23 @@ ObjCorner ObjReader::corner(const ObjLine& line, std::string_view word) const {
 void ObjReader::face(const ObjLine& line) {
     const std::size_t count = count_words(line.rest);
     if (count < 3) {
-        context_.notes.add("faces of one or two corners, left out", line.where());
-        return add_unsupported(context_.unsupported, "points-lines", line.where());
+        context_.notes.add_note("faces of one or two corners, left out",
+                                line.describe_line_place());
+        return add_unsupported_feature(context_.unsupported, "points-lines",
+                                       line.describe_line_place());
     }
-    context_.account.mesh_triangles.add(count - 2, *line.file, ":", line.number);
+    context_.account.mesh_triangles.add_amount(count - 2, *line.file, ":", line.number);
     polygon_.clear(), triangles_.clear();
     std::string_view rest = line.rest;
-    for (std::size_t i = 0; i < count; ++i) polygon_.push_back(corner(line, take_word(rest)));
+    for (std::size_t i = 0; i < count; ++i)
+        polygon_.push_back(corner(line, remove_first_word(rest)));
     triangulate_polygon(polygon_, text_.positions, context_.account.cuts, line, triangles_);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto [position, normal, uv] = triangles_[i];
         (text_.statements += i % 3 == 0 ? "f " : " ") += std::to_string(position + 1);
-        if (uv != kNoIndex || normal != kNoIndex) text_.statements += '/';
-        if (uv != kNoIndex) text_.statements += std::to_string(uv + 1);
-        if (normal != kNoIndex) (text_.statements += '/') += std::to_string(normal + 1);
+        if (uv != kMissingObjIndex || normal != kMissingObjIndex) text_.statements += '/';
+        if (uv != kMissingObjIndex) text_.statements += std::to_string(uv + 1);
+        if (normal != kMissingObjIndex) (text_.statements += '/') += std::to_string(normal + 1);
         if (i % 3 == 2) text_.statements += '\n';
     }
     has_faces_ = true;
@@ -176,7 +181,7 @@ void ObjReader::face(const ObjLine& line) {
 
 /// Reads a position: x y z, optionally followed by w, r g b, or w r g b. w is ignored.
 void ObjReader::position(const ObjLine& line) {
-    context_.account.positions.add(1, *line.file, ":", line.number);
+    context_.account.positions.add_amount(1, *line.file, ":", line.number);
     text_.positions.push_back(parse_line_vector(line));
     const std::size_t count = count_words(line.rest);
     if (count < 6 && text_.colours.empty()) return;
@@ -188,11 +193,11 @@ void ObjReader::position(const ObjLine& line) {
 }
 
 void ObjReader::texture_coordinates(const ObjLine& line) {
-    context_.account.attributes.add(1, *line.file, ":", line.number);
+    context_.account.attributes.add_amount(1, *line.file, ":", line.number);
     std::string_view rest = line.rest;
-    const double u = parse_word_number(line, take_word(rest));
+    const double u = parse_word_number(line, remove_first_word(rest));
     const bool has_v = !rest.empty() && rest.front() != '#';
-    text_.uv.emplace_back(u, has_v ? parse_word_number(line, take_word(rest)) : 0);
+    text_.uv.emplace_back(u, has_v ? parse_word_number(line, remove_first_word(rest)) : 0);
 }
 
 void ObjReader::read_definition_line(const ObjLine& line) {
@@ -201,17 +206,18 @@ void ObjReader::read_definition_line(const ObjLine& line) {
     } else if (line.keyword == "vt") {
         texture_coordinates(line);
     } else if (line.keyword == "vn") {
-        context_.account.normals.add(1, *line.file, ":", line.number);
+        context_.account.normals.add_amount(1, *line.file, ":", line.number);
         text_.normals.push_back(parse_line_vector(line));
     } else if (line.keyword == "mtllib") {
         library(line);
     } else if (line.keyword.front() == '#') {
-        add_catoptric_remark(text_.remarks, line, context_.account);
+        add_catoptric_comment(text_.remarks, line, context_.account);
     } else if (line.keyword != "f" && line.keyword != "o" && line.keyword != "g" &&
                line.keyword != "usemtl") {
         if (line.keyword == "p" || line.keyword == "l")
-            add_unsupported(context_.unsupported, "points-lines", line.where());
-        unread_.add(line);
+            add_unsupported_feature(context_.unsupported, "points-lines",
+                                    line.describe_line_place());
+        unread_.count_statement(line);
     }
 }
 
@@ -224,7 +230,7 @@ void ObjReader::read_use_line(const ObjLine& line) {
     if (line.keyword == "usemtl") use_material(line);
 }
 
-ObjText ObjReader::finish() {
+RewrittenObjText ObjReader::finish() {
     unread_.report_unread(file_, context_.notes);
     if (!has_faces_) text_.names.pop_back();
     return std::move(text_);
@@ -232,15 +238,16 @@ ObjText ObjReader::finish() {
 
 } // namespace
 
-ObjText read_obj_text(const std::string& file, ObjContext& context) {
-    ObjReader reader(file, context);
+RewrittenObjText read_obj_text(const std::string& file, ObjReadContext& context) {
+    ObjReader obj_reader(file, context);
     const std::string bytes = context.files.read_scene();
     check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
           ": wanted text in UTF-8, found UTF-16");
-    for_each_obj_line(file, bytes, [&](const ObjLine& line) { reader.read_definition_line(line); });
-    reader.name_materials();
-    for_each_obj_line(file, bytes, [&](const ObjLine& line) { reader.read_use_line(line); });
-    return reader.finish();
+    for_each_obj_line(file, bytes,
+                      [&](const ObjLine& line) { obj_reader.read_definition_line(line); });
+    obj_reader.name_materials();
+    for_each_obj_line(file, bytes, [&](const ObjLine& line) { obj_reader.read_use_line(line); });
+    return obj_reader.finish();
 }
 
 } // namespace catoptric::scene::obj

@@ -22,7 +22,7 @@ namespace catoptric::scene::obj {
 /// A line with a statement or a `# catoptric` comment. The views are valid only during the call
 /// that receives the line.
 struct ObjLine {
-    std::string where() const { return *file + ":" + std::to_string(number); }
+    std::string describe_line_place() const { return *file + ":" + std::to_string(number); }
 
     const std::string* file;
     std::size_t number;       ///< number of the line, from 1
@@ -36,7 +36,7 @@ void for_each_obj_line(const std::string& file, std::string_view text,
                        const std::function<void(const ObjLine&)>& body);
 
 /// Removes the first word from the front of `text` and returns it.
-std::string_view take_word(std::string_view& text);
+std::string_view remove_first_word(std::string_view& text);
 
 /// Returns the words of `line.rest` up to a comment, at most 4096 words.
 std::vector<std::string_view> split_words(const ObjLine& line);
@@ -56,22 +56,22 @@ std::vector<double> parse_word_numbers(const ObjLine& line,
 dvec3 parse_line_vector(const ObjLine& line);
 
 /// Counts the statements that are not read, by keyword.
-class UnreadStatements {
+class UnreadStatementCounts {
 public:
-    void add(const ObjLine& line);
+    void count_statement(const ObjLine& line);
     /// Adds a note for each keyword. Keywords after the first 40 share one note.
     void report_unread(const std::string& file, LoaderNotes& notes) const;
 
 private:
-    struct KeywordCount {
+    struct ObjKeywordCount {
         std::uint64_t lines = 0;
         std::size_t first = 0;
     };
-    std::map<std::string, KeywordCount, std::less<>> counts_;
+    std::map<std::string, ObjKeywordCount, std::less<>> counts_;
 };
 
 /// A texture map of a material.
-struct ObjMapUse {
+struct ObjTextureUse {
     std::string file, place;    ///< name in the library; "FILE:LINE" of the statement
     std::filesystem::path real; ///< real path; empty if the file does not exist
     std::array<double, 2> scale{1, 1}, offset{0, 0}; ///< of u and v, with v upwards
@@ -79,24 +79,24 @@ struct ObjMapUse {
 };
 
 /// A material as its library defines it.
-struct MaterialDraft {
+struct MtlMaterial {
     std::string name, place;
     std::optional<dvec3> diffuse, specular;
     vec3 emission{0};
     std::optional<double> shininess, ior, roughness, metallic, kind, alpha;
-    std::optional<ObjMapUse> colour, cut, normals; ///< map_Kd, map_d and norm
-    bool two_sided = false, fixed_normals = false; ///< from `# catoptric` comments
+    std::optional<ObjTextureUse> colour, cut, normals; ///< map_Kd, map_d and norm
+    bool two_sided = false, fixed_normals = false;     ///< from `# catoptric` comments
 };
 
 /// The materials of all libraries of a file.
-struct MaterialLibrary {
-    std::vector<MaterialDraft> drafts;
+struct MtlLibrary {
+    std::vector<MtlMaterial> drafts;
 };
 
 /// The inputs and lists that readers use besides the text.
-struct ObjContext {
-    SceneFiles& files;
-    BudgetAccount& account;
+struct ObjReadContext {
+    SceneFileOpener& files;
+    LoadBudgetUsage& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
 };
@@ -104,10 +104,10 @@ struct ObjContext {
 /// Reads one .mtl file and appends its materials to `library`. Throws `bad_data`, `missing_input`
 /// or `io`.
 void read_material_library(const std::filesystem::path& real, const std::string& place,
-                           ObjContext& context, MaterialLibrary& library);
+                           ObjReadContext& context, MtlLibrary& library);
 /// Builds the materials in file order, as scene.md describes them, and reads their images. Throws
 /// `bad_data` for an image that cannot be decoded.
-std::vector<Material> make_library_materials(const MaterialLibrary& library, ObjContext& context);
+std::vector<Material> make_library_materials(const MtlLibrary& library, ObjReadContext& context);
 
 /// The contents of the `# catoptric` comments, by object name:
 ///   # catoptric camera NAME ex ey ez tx ty tz ux uy uz fov
@@ -117,7 +117,7 @@ std::vector<Material> make_library_materials(const MaterialLibrary& library, Obj
 ///   # catoptric sphere OBJECT cx cy cz r
 ///   # catoptric hidden OBJECT            (camera rays pass through it)
 ///   # catoptric exposure STOPS           (of the scene)
-struct CatoptricRemarks {
+struct ObjCatoptricComments {
     std::optional<double> exposure;
     std::vector<Camera> cameras;
     std::map<std::string, Motion> motions;
@@ -128,37 +128,38 @@ struct CatoptricRemarks {
 };
 
 /// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
-void add_catoptric_remark(CatoptricRemarks& remarks, const ObjLine& line, BudgetAccount& account);
+void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
+                           LoadBudgetUsage& account);
 
 /// A corner of a face, as indices from 0.
 struct ObjCorner {
     std::uint32_t position;
-    std::uint32_t normal; ///< `kNoIndex` if absent
-    std::uint32_t uv;     ///< `kNoIndex` if absent
+    std::uint32_t normal; ///< `kMissingObjIndex` if absent
+    std::uint32_t uv;     ///< `kMissingObjIndex` if absent
 };
-inline constexpr std::uint32_t kNoIndex = ~0u;
+inline constexpr std::uint32_t kMissingObjIndex = ~0u;
 
 /// An .obj file, rewritten for tinyobjloader.
-struct ObjText {
+struct RewrittenObjText {
     /// Holds only `mtllib`, `o NUMBER`, `usemtl`, and triangles `f` with valid indices.
     std::string statements = "mtllib all\no 0\n";
     std::vector<std::string> names{1};     ///< of shapes, by the number of `o`
     std::vector<dvec3> positions, normals; ///< doubles, since tinyobjloader rounds to floats
     std::vector<vec3> colours;             ///< one per position, or empty
     std::vector<vec2> uv;                  ///< with v upwards
-    MaterialLibrary library;
-    CatoptricRemarks remarks;
+    MtlLibrary library;
+    ObjCatoptricComments remarks;
 };
 
 /// Reads an .obj file and its material libraries. Throws `bad_data` with file and line.
-ObjText read_obj_text(const std::string& file, ObjContext& context);
+RewrittenObjText read_obj_text(const std::string& file, ObjReadContext& context);
 
 /// Cuts a polygon into triangles and appends their corners. A convex quad is cut along its shorter
 /// diagonal, any other convex polygon into a fan, and a concave polygon by clipping ears. There are
 /// at most corners - 2 triangles. The work may grow with the cube of the corners; `comparisons`
 /// counts it. Throws `bad_data` naming the line if the count exceeds the budget.
 void triangulate_polygon(std::span<const ObjCorner> polygon, const std::vector<dvec3>& positions,
-                         LimitedSum& comparisons, const ObjLine& line,
+                         BudgetLimitedSum& comparisons, const ObjLine& line,
                          std::vector<ObjCorner>& triangles);
 
 } // namespace catoptric::scene::obj

@@ -7,23 +7,23 @@
 namespace catoptric::scene {
 
 /// Returns one camera `seconds` after the start.
-Camera camera_at(const Camera& camera, double seconds);
+Camera camera_at_time(const Camera& camera, double seconds);
 
 /// Returns whether some object, light or camera moves.
 bool is_animated(const Scene& scene);
 /// Returns the longest period of all motions, in seconds; 0 if nothing moves.
-double period(const Scene& scene);
+double compute_scene_period(const Scene& scene);
 
 /// Sets `still` to what `at` returns for this time, without copying a mesh or a material. `still`
 /// is a copy of the scene or an earlier result of this function. Throws `Failure::usage` for a time
 /// that is not finite.
-void pose_scene(Scene& still, const Scene& scene, double seconds);
+void move_scene_to_time(Scene& still, const Scene& scene, double seconds);
 
 /// Scene at an instant, valid as long as `scene` lives. Only an animated scene is copied, with each
 /// mesh. Throws as `at`.
-class SceneAt {
+class SceneAtTime {
 public:
-    SceneAt(const Scene& scene, double seconds);
+    SceneAtTime(const Scene& scene, double seconds);
     const Scene& operator*() const { return moved_ ? *moved_ : scene_; }
 
 private:

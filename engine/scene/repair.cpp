@@ -48,7 +48,7 @@ void repeat_vertex_element(std::vector<Value>& list, std::uint32_t vertex) {
 }
 
 template <typename Value>
-void keep_used_elements(std::vector<Value>& list, std::size_t to, std::size_t from) {
+void keep_elements_of_used_vertices(std::vector<Value>& list, std::size_t to, std::size_t from) {
     if (!list.empty()) list[to] = list[from];
 }
 
@@ -87,8 +87,9 @@ void drop_unused_vertices(Mesh& mesh) {
         if (renamed[i] == 0) continue;
         mesh.positions[kept] = mesh.positions[i];
         mesh.normals[kept] = mesh.normals[i];
-        keep_used_elements(mesh.uv[0], kept, i), keep_used_elements(mesh.uv[1], kept, i),
-            keep_used_elements(mesh.colours, kept, i);
+        keep_elements_of_used_vertices(mesh.uv[0], kept, i),
+            keep_elements_of_used_vertices(mesh.uv[1], kept, i),
+            keep_elements_of_used_vertices(mesh.colours, kept, i);
         renamed[i] = kept++;
     }
     mesh.positions.resize(kept);
@@ -98,10 +99,10 @@ void drop_unused_vertices(Mesh& mesh) {
     for (uvec3& t : mesh.triangles) t = {renamed[t.x], renamed[t.y], renamed[t.z]};
 }
 
-bool has_area(const Scene& scene, const Object& object) {
+bool has_surface_area(const Scene& scene, const Object& object) {
     const Mesh& mesh = scene.meshes[object.mesh];
     const auto world = [&](std::uint32_t i) {
-        return transform_point(object.world_from_object, mesh.positions[i]);
+        return transform_point_to_world(object.world_from_object, mesh.positions[i]);
     };
     return std::ranges::any_of(mesh.triangles, [&](const uvec3& t) {
         return triangle_normal_direction(world(t.x), world(t.y), world(t.z)) != dvec3(0);
@@ -129,21 +130,23 @@ bool is_valid_radiance(const vec3& emission) {
     return is_finite(emission) && glm::all(glm::greaterThanEqual(emission, vec3(0)));
 }
 
-void finish_loading(Scene& scene, const std::string& file, LoaderNotes& notes,
-                    std::vector<UnsupportedFeature> unsupported) {
+void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& notes,
+                         std::vector<UnsupportedFeature> unsupported) {
     for (const Object& object : scene.objects)
         for (const dvec3& position : scene.meshes[object.mesh].positions)
-            check(is_coordinate_in_range(transform_point(object.world_from_object, position)),
-                  Failure::bad_data, file, ": object ", quote_printable(object.name),
+            check(is_coordinate_in_range(
+                      transform_point_to_world(object.world_from_object, position)),
+                  Failure::bad_data, file, ": object ", quote_as_printable_text(object.name),
                   ": wanted finite world coordinates up to 1e150, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
-        if (has_area(scene, object)) return false;
-        notes.add("objects that have no triangle with an area, left out",
-                  quote_printable(object.name));
+        if (has_surface_area(scene, object)) return false;
+        notes.add_note("objects that have no triangle with an area, left out",
+                       quote_as_printable_text(object.name));
         return true;
     });
-    for (const std::string& name : drop_distant_objects(scene))
-        notes.add("objects farther away than floats reach, left out", quote_printable(name));
+    for (const std::string& name : remove_distant_objects(scene))
+        notes.add_note("objects farther away than floats reach, left out",
+                       quote_as_printable_text(name));
     const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",

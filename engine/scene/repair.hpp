@@ -26,7 +26,7 @@ bool is_valid_radiance(const vec3& emission);
 /// (leave_out_unreachable). Turns `notes` into the scene's warnings and `unsupported` into its
 /// unsupported features. Throws `bad_data`, naming `file`, if no object is left or if coordinates
 /// exceed 1e150.
-void finish_loading(Scene& scene, const std::string& file, LoaderNotes& notes,
-                    std::vector<UnsupportedFeature> unsupported = {});
+void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& notes,
+                         std::vector<UnsupportedFeature> unsupported = {});
 
 } // namespace catoptric::scene

@@ -14,7 +14,7 @@ namespace catoptric::scene {
 
 namespace {
 
-dmat4 place_and_turn(dvec3 at, double degrees = 0) {
+dmat4 make_placement_transform(dvec3 at, double degrees = 0) {
     const double angle = glm::radians(degrees);
     dmat4 world(1);
     world[0] = {std::cos(angle), 0, -std::sin(angle), 0};
@@ -25,7 +25,7 @@ dmat4 place_and_turn(dvec3 at, double degrees = 0) {
 
 /// Returns a wall whose texture repeats `times` a metre and stands upright on the vertical walls.
 Mesh make_papered_wall(int face, dvec3 lo, dvec3 hi, float times) {
-    Mesh mesh = wall(face, lo, hi);
+    Mesh mesh = make_box_wall(face, lo, hi);
     for (const dvec3& p : mesh.positions)
         mesh.uv[0].push_back(times * (face / 2 == 0   ? vec2(p.z, -p.y)
                                       : face / 2 == 1 ? vec2(p.x, p.z)
@@ -77,32 +77,37 @@ void add_furniture(Scene& scene) {
                                                  {{.18, 0, -.22}, {.22, .42, -.18}},
                                                  {{-.22, 0, .18}, {-.18, .42, .22}},
                                                  {{.18, 0, .18}, {.22, .42, .22}}});
-    add_mesh_copies(
-        scene, chair, oak,
-        {place_and_turn({-.45, kFloorGap, .95}), place_and_turn({.45, kFloorGap, .95}),
-         place_and_turn({-.45, kFloorGap, -.35}, 180), place_and_turn({.45, kFloorGap, -.35}, 180),
-         place_and_turn({1.05, kFloorGap, .3}, 90), place_and_turn({1.9, kFloorGap, 1.7}, 130)});
-    Mesh cushion = box("cushion", {-.2, .46 + 2 * kFloorGap, -.2}, {.2, .5, .17});
+    add_mesh_copies(scene, chair, oak,
+                    {make_placement_transform({-.45, kSupportGap, .95}),
+                     make_placement_transform({.45, kSupportGap, .95}),
+                     make_placement_transform({-.45, kSupportGap, -.35}, 180),
+                     make_placement_transform({.45, kSupportGap, -.35}, 180),
+                     make_placement_transform({1.05, kSupportGap, .3}, 90),
+                     make_placement_transform({1.9, kSupportGap, 1.7}, 130)});
+    Mesh cushion = box("cushion", {-.2, .46 + 2 * kSupportGap, -.2}, {.2, .5, .17});
     for (vec2& uv : cushion.uv[0]) uv *= 4;
     add_mesh_copies(scene, cushion, linen,
-                    {place_and_turn({-.45, 0, .95}), place_and_turn({.45, 0, .95}),
-                     place_and_turn({-.45, 0, -.35}, 180), place_and_turn({.45, 0, -.35}, 180)});
+                    {make_placement_transform({-.45, 0, .95}),
+                     make_placement_transform({.45, 0, .95}),
+                     make_placement_transform({-.45, 0, -.35}, 180),
+                     make_placement_transform({.45, 0, -.35}, 180)});
     add_mesh(scene, box("table top", {-.8, .71, -.2}, {.8, .75, .8}), oak);
     add_mesh_copies(
         scene,
         lathe("leg", {{.05, 0}, {.05, .06}, {.025, .12}, {.045, .35}, {.025, .55}, {.05, .71}}, 16),
         oak,
-        {place_and_turn({-.7, 0, -.1}), place_and_turn({.7, 0, -.1}), place_and_turn({-.7, 0, .7}),
-         place_and_turn({.7, 0, .7})});
+        {make_placement_transform({-.7, 0, -.1}), make_placement_transform({.7, 0, -.1}),
+         make_placement_transform({-.7, 0, .7}), make_placement_transform({.7, 0, .7})});
     add_mesh_copies(scene, lathe("bowl", {{0, 0}, {.1, 0}, {.16, .07}, {.2, .16}}, 32), glaze,
-                    {place_and_turn({.15, .75 + kFloorGap, .3})});
+                    {make_placement_transform({.15, .75 + kSupportGap, .3})});
     add_mesh_copies(
         scene,
         lathe("vase", {{0, 0}, {.07, 0}, {.11, .12}, {.08, .26}, {.03, .36}, {.05, .42}}, 32),
         glaze,
-        {place_and_turn({-.45, .75 + kFloorGap, .45}), place_and_turn({2.2, .9 + kFloorGap, -1.2}),
-         place_and_turn({2.2, .9 + kFloorGap, -1.6})});
-    add_mesh(scene, box("sideboard", {1.95, kFloorGap, -2}, {2.45, .9, -.8}), oak);
+        {make_placement_transform({-.45, .75 + kSupportGap, .45}),
+         make_placement_transform({2.2, .9 + kSupportGap, -1.2}),
+         make_placement_transform({2.2, .9 + kSupportGap, -1.6})});
+    add_mesh(scene, box("sideboard", {1.95, kSupportGap, -2}, {2.45, .9, -.8}), oak);
 }
 
 void add_room_lights(Scene& scene) {
@@ -110,13 +115,14 @@ void add_room_lights(Scene& scene) {
         scene, {.name = "bulb", .emission = {2080, 1760, 1280}, .two_sided = true});
     const std::size_t shade = add_material(
         scene, {.name = "shade", .albedo = {.8f, .75f, .62f}, .two_sided = true});
-    const std::vector<dmat4> places{place_and_turn({0, 1.75, .3}), place_and_turn({-2.1, 1.5, 2})};
+    const std::vector<dmat4> places{make_placement_transform({0, 1.75, .3}),
+                                    make_placement_transform({-2.1, 1.5, 2})};
     Mesh lamp = ball("bulb", 2);
     for (dvec3& position : lamp.positions) position *= .04;
     add_mesh_copies(scene, lamp, bulb, places);
     add_mesh_copies(scene, lathe("shade", {{.24, -.12}, {.1, .14}}, 32), shade, places);
     add_mesh_copies(scene, lathe("stand", {{.14, 0}, {.14, .02}, {.012, .04}, {.012, 1.42}}, 12),
-                    shade, {place_and_turn({-2.1, 0, 2})});
+                    shade, {make_placement_transform({-2.1, 0, 2})});
     PunctualLight spot{.name = "spot on the wall",
                        .kind = PunctualLight::Kind::spot,
                        .intensity = {16, 16, 18},
@@ -131,7 +137,7 @@ void add_room_lights(Scene& scene) {
 
 } // namespace
 
-Scene furnished_room() {
+Scene make_furnished_room() {
     Scene scene{.name = "room"};
     const std::size_t parquet = add_material(
         scene, {.name = "parquet",
@@ -149,7 +155,7 @@ Scene furnished_room() {
     for (const int face : {0, 1, 4, 5})
         add_mesh(scene, make_papered_wall(face, lo, hi, 1.6f), paper);
     add_mesh(scene, make_papered_wall(3, lo, hi, .8f), parquet);
-    add_mesh(scene, wall(2, lo, hi), plaster);
+    add_mesh(scene, make_box_wall(2, lo, hi), plaster);
     add_quad(scene, "wall mirror", add_material(scene, {.name = "mirror", .mirror = true}),
              {1.1, .8, 2.48}, {-1.1, .8, 2.48}, {-1.1, 2.2, 2.48}, {1.1, 2.2, 2.48});
     add_furniture(scene);
@@ -167,11 +173,11 @@ Scene furnished_room() {
 
 namespace {
 
-const RegisteredScene kFurnishedRoomScene{
+const RegisteredBuiltInScene kFurnishedRoomScene{
     {"room",
      "furnished room: textures, a wall mirror, a smooth floor, two lamps "
      "and a spot",
-     furnished_room, 3}};
+     make_furnished_room, 3}};
 
 } // namespace
 

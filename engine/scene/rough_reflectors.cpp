@@ -22,14 +22,14 @@ bool is_rough_somewhere(const Material& material) {
 
 } // namespace
 
-bool reflects_by_lobe(const Scene& scene, const Object& object) {
+bool may_reflect_by_lobe(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
-    return is_specular(material) && !material.unlit && is_rough_somewhere(material);
+    return has_specular_part(material) && !material.unlit && is_rough_somewhere(material);
 }
 
 bool has_rough_reflector(const Scene& scene) {
     return std::ranges::any_of(
-        scene.objects, [&](const Object& object) { return reflects_by_lobe(scene, object); });
+        scene.objects, [&](const Object& object) { return may_reflect_by_lobe(scene, object); });
 }
 
 } // namespace catoptric::scene

@@ -8,7 +8,7 @@ namespace catoptric::scene {
 /// Returns whether some part of the object may reflect by a lobe: it is rougher than
 /// shared::kMaxSharpRoughness and not Lambertian. Of a textured material, the whole range of the
 /// texture counts. A Material::mirror is never rough.
-bool reflects_by_lobe(const Scene& scene, const Object& object);
+bool may_reflect_by_lobe(const Scene& scene, const Object& object);
 /// Returns whether any object of the scene reflects by a lobe. Rays of such a scene are drawn at
 /// random.
 bool has_rough_reflector(const Scene& scene);

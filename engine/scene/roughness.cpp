@@ -12,7 +12,7 @@ namespace catoptric::scene {
 
 namespace {
 
-constexpr std::array<float, 6> kRoughnesses{.05f, .1f, .2f, .3f, .45f, .6f};
+constexpr std::array<float, 6> kMirrorRoughnesses{.05f, .1f, .2f, .3f, .45f, .6f};
 constexpr std::array<const char*, 6> kNames{"0.05", "0.1", "0.2", "0.3", "0.45", "0.6"};
 
 /// Adds a slab that leans back against the air, so that it reflects floor and ceiling.
@@ -30,40 +30,40 @@ Scene make_roughness_room() {
     Scene scene{.name = "roughness"};
     scene.mirror_max_roughness = .6f;
     const dvec3 lo(-3.2, 0, -3), hi(3.2, 3, 3);
-    const auto paint = [&](const char* name, vec3 albedo) {
+    const auto add_paint_material = [&](const char* name, vec3 albedo) {
         return add_material(scene, {.name = name, .albedo = albedo});
     };
     const std::size_t floor = add_material(
         scene, {.name = "floor",
                 .albedo = vec3(1),
                 .albedo_texture = make_checker_texture({58, 62, 70}, {205, 200, 190}, 8)});
-    const std::size_t white = paint("white", {.72f, .71f, .68f}),
-                      orange = paint("orange", {.7f, .3f, .08f}),
-                      blue = paint("blue", {.1f, .22f, .5f});
+    const std::size_t white = add_paint_material("white", {.72f, .71f, .68f}),
+                      orange = add_paint_material("orange", {.7f, .3f, .08f}),
+                      blue = add_paint_material("blue", {.1f, .22f, .5f});
     const std::size_t wallpaper = add_material(
         scene, {.name = "wallpaper",
                 .albedo = vec3(1),
                 .albedo_texture = make_wallpaper_texture({196, 190, 170}, {60, 110, 80})});
     for (int face = 0; face < 6; ++face)
-        add_mesh(scene, wall(face, lo, hi),
+        add_mesh(scene, make_box_wall(face, lo, hi),
                  face == 0   ? orange
                  : face == 1 ? blue
                  : face == 3 ? floor
                  : face == 5 ? wallpaper
                              : white);
-    for (std::size_t i = 0; i < kRoughnesses.size(); ++i) {
+    for (std::size_t i = 0; i < kMirrorRoughnesses.size(); ++i) {
         const auto metal = [&](const char* what, vec3 colour) {
             return add_material(scene, {.name = std::string(what) + " of roughness " + kNames[i],
                                         .albedo = colour,
                                         .metallic = 1,
-                                        .roughness = kRoughnesses[i]});
+                                        .roughness = kMirrorRoughnesses[i]});
         };
         const double x = .64 * (static_cast<double>(i) - 2.5);
         // The third ball has the colour of copper.
         const std::size_t material = metal("metal", i == 2 ? vec3(.95f, .64f, .54f) : vec3(.92f));
         add_ball(scene, std::string("ball ") + kNames[i], material, {x, .29, -.4}, .28, 5);
         add_slanted_slab(scene, std::string("slab ") + kNames[i], metal("slab", vec3(.9f)),
-                         {x, kFloorGap, .9});
+                         {x, kSupportGap, .9});
     }
     scene.objects[scene.objects.size() - 6].motion = HarmonicMotion{.amplitude = {0, 0, .25},
                                                                     .period = 4};
@@ -75,8 +75,8 @@ Scene make_roughness_room() {
                                                    .roughness = 1,
                                                    .roughness_texture = worn});
     add_mesh(scene, box("worn plate", {-.9, .01, -1.5}, {.9, .06, -.9}), plate);
-    add_mesh(scene, box("post", {2.5, kFloorGap, -1.6}, {2.8, 1.4, -1.3}), orange);
-    add_mesh(scene, box("block", {-2.9, kFloorGap, -1.8}, {-2.4, .6, -1.3}), blue);
+    add_mesh(scene, box("post", {2.5, kSupportGap, -1.6}, {2.8, 1.4, -1.3}), orange);
+    add_mesh(scene, box("block", {-2.9, kSupportGap, -1.8}, {-2.4, .6, -1.3}), blue);
     add_quad(scene, "lamp", add_material(scene, {.name = "lamp", .emission = {22, 20, 17}}),
              {-.5, 2.99, -.9}, {.5, 2.99, -.9}, {.5, 2.99, .1}, {-.5, 2.99, .1});
     scene.cameras.push_back(
@@ -90,9 +90,9 @@ Scene make_roughness_room() {
 
 namespace {
 
-const RegisteredScene kRoughness{{"roughness",
-                                  "room with balls and slabs of metal, of roughness 0.05 to 0.6",
-                                  make_roughness_room, 6}};
+const RegisteredBuiltInScene kRoughnessScene{
+    {"roughness", "room with balls and slabs of metal, of roughness 0.05 to 0.6",
+     make_roughness_room, 6}};
 
 } // namespace
 

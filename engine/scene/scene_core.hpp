@@ -19,6 +19,6 @@ Bounds<double> compute_core_bounds(const Scene& scene);
 inline constexpr double kMaxSceneRadius = 1e18;
 
 /// Removes the objects that reach farther from the core than kMaxSceneRadius. Returns their names.
-std::vector<std::string> drop_distant_objects(Scene& scene);
+std::vector<std::string> remove_distant_objects(Scene& scene);
 
 } // namespace catoptric::scene

@@ -29,32 +29,33 @@ struct SceneFileKey {
 using gltf::Json;
 using gltf::JsonObject;
 
-std::string read_text(const JsonObject& file, const Json& value, const char* key) {
-    file.require(value.is_string(), key, ": wanted a text, found ",
-                 gltf::describe_json_value(value));
+std::string read_text_member(const JsonObject& file, const Json& value, const char* key) {
+    file.require_condition(value.is_string(), key, ": wanted a text, found ",
+                           gltf::describe_json_value(value));
     return value.get<std::string>();
 }
 
-std::vector<std::string> read_texts(const JsonObject& file, const Json& value, const char* key) {
-    file.require(value.is_array(), key, ": wanted a list of texts, found ",
-                 gltf::describe_json_value(value));
+std::vector<std::string> read_text_list_member(const JsonObject& file, const Json& value,
+                                               const char* key) {
+    file.require_condition(value.is_array(), key, ": wanted a list of texts, found ",
+                           gltf::describe_json_value(value));
     std::vector<std::string> texts;
-    for (const Json& one : value) texts.push_back(read_text(file, one, key));
+    for (const Json& one : value) texts.push_back(read_text_member(file, one, key));
     return texts;
 }
 
 double read_bounded_number(const JsonObject& file, const Json& value, const char* key, double low,
                            double high) {
     const double number = value.is_number() ? value.get<double>() : NAN;
-    file.require(number >= low && number <= high, key, ": wanted a number from ", low, " to ", high,
-                 ", found ", gltf::describe_json_value(value));
+    file.require_condition(number >= low && number <= high, key, ": wanted a number from ", low,
+                           " to ", high, ", found ", gltf::describe_json_value(value));
     return number;
 }
 
 /// Calls `read`, which is shared with the command line, and turns its errors into
 /// errors of the file.
 template <typename Read>
-auto as_bad_data(const JsonObject& file, Read&& read) {
+auto rethrow_as_bad_data(const JsonObject& file, Read&& read) {
     try {
         return read();
     } catch (const Error& error) {
@@ -69,7 +70,7 @@ Json overrides_to_json(const std::optional<Value>& value) {
 
 Json mirror_override_to_json(const MirrorOverride& wish) {
     const vec3& r = wish.reflectance;
-    const auto text = [](float share) { return Json(float_to_typed_double(share)).dump(); };
+    const auto text = [](float share) { return Json(float_to_shortest_double(share)).dump(); };
     return wish.pattern + "=" +
            (r.x == r.y && r.y == r.z ? text(r.x) : text(r.x) + "," + text(r.y) + "," + text(r.z)) +
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
@@ -78,9 +79,9 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
 const std::array<SceneFileKey, 14> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          for (const std::string& text : read_texts(file, value, "mirrors"))
+          for (const std::string& text : read_text_list_member(file, value, "mirrors"))
               overrides.mirrors.push_back(
-                  as_bad_data(file, [&] { return read_mirror_override("mirrors", text); }));
+                  rethrow_as_bad_data(file, [&] { return read_mirror_override("mirrors", text); }));
       },
       [](const SceneOverrides& overrides) {
           Json list = Json::array();
@@ -90,7 +91,7 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
       }},
      {"lights",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.lights = read_texts(file, value, "lights");
+          overrides.lights = read_text_list_member(file, value, "lights");
       },
       [](const SceneOverrides& overrides) {
           return overrides.lights.empty() ? Json() : Json(overrides.lights);
@@ -112,10 +113,10 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
       }},
      {"multiple_scattering",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          const std::string text = read_text(file, value, "multiple_scattering");
-          file.require(text == "none" || text == "turquin",
-                       "multiple_scattering: wanted \"none\" or \"turquin\", found ",
-                       quote_printable(text));
+          const std::string text = read_text_member(file, value, "multiple_scattering");
+          file.require_condition(text == "none" || text == "turquin",
+                                 "multiple_scattering: wanted \"none\" or \"turquin\", found ",
+                                 quote_as_printable_text(text));
           overrides.multiple_scattering = text == "turquin";
       },
       [](const SceneOverrides& overrides) {
@@ -126,14 +127,15 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           const double count = read_bounded_number(file, value, "light_samples", 1,
                                                    kMaxLightSamples);
-          file.require(count == std::floor(count), "light_samples: wanted a whole number, found ",
-                       gltf::describe_json_value(value));
+          file.require_condition(count == std::floor(count),
+                                 "light_samples: wanted a whole number, found ",
+                                 gltf::describe_json_value(value));
           overrides.light_samples = static_cast<int>(count);
       },
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.light_samples); }},
      {"environment",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.environment = read_text(file, value, "environment");
+          overrides.environment = read_text_member(file, value, "environment");
       },
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.environment); }},
      {"environment_scale",
@@ -171,13 +173,13 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
       }},
      {"camera",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.camera = read_text(file, value, "camera");
+          overrides.camera = read_text_member(file, value, "camera");
       },
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.camera); }},
      {"up",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          file.require(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
-                       gltf::describe_json_value(value));
+          file.require_condition(value == "y" || value == "z", "up: wanted \"y\" or \"z\", found ",
+                                 gltf::describe_json_value(value));
           overrides.up = value == "z" ? UpAxis::z : UpAxis::y;
       },
       [](const SceneOverrides& overrides) {
@@ -185,16 +187,16 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
       }},
      {"animation",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          overrides.animation = read_text(file, value, "animation");
+          overrides.animation = read_text_member(file, value, "animation");
       },
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.animation); }}}};
 
 SceneOverrides read_overrides(const std::string& file, const std::string& text,
-                              BudgetAccount& account) {
+                              LoadBudgetUsage& account) {
     const Json document = gltf::parse_json(file, text, account);
     const JsonObject item(document, file);
-    item.require(document.is_object(), "wanted an object, found ",
-                 gltf::describe_json_value(document));
+    item.require_condition(document.is_object(), "wanted an object, found ",
+                           gltf::describe_json_value(document));
     std::vector<std::string> names;
     for (const SceneFileKey& key : kSceneFileKeys) names.emplace_back(key.name);
     SceneOverrides overrides;
@@ -203,15 +205,15 @@ SceneOverrides read_overrides(const std::string& file, const std::string& text,
         if (key == kSceneFileKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-            item.require(false, quote_printable(name), ": wanted one of ", list,
-                         suggest_name(name, names));
+            item.require_condition(false, quote_as_printable_text(name), ": wanted one of ", list,
+                                   suggest_nearest_name(name, names));
         }
         key->read(item, value, overrides);
     }
     return overrides;
 }
 
-bool names_a_file(const std::string& environment) {
+bool is_environment_file_name(const std::string& environment) {
     return environment != "studio" && environment != "none";
 }
 
@@ -222,31 +224,33 @@ fs::path scene_file_path(const fs::path& scene) {
     return path += ".catoptric.json";
 }
 
-std::optional<SceneFile> read_scene_file(const fs::path& scene, const FileOptions& options) {
+std::optional<SceneFile> read_scene_file(const fs::path& scene, const SceneFileOptions& options) {
     SceneFile found{.path = scene_file_path(scene)};
     const std::string place = found.path.string();
-    BudgetAccount account(options.budget);
-    SceneFiles files(scene, options.root, account);
-    if (found.path.filename().string().size() > SceneFiles::kMaxFileNameLength) return std::nullopt;
+    LoadBudgetUsage account(options.budget);
+    SceneFileOpener files(scene, options.root, account);
+    if (found.path.filename().string().size() > SceneFileOpener::kMaxFileNameLength)
+        return std::nullopt;
     const fs::path real = files.find_file(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
     found.overrides = read_overrides(place, files.read_file_content(real, place), account);
     if (std::optional<std::string>& picture = found.overrides.environment;
-        picture && names_a_file(*picture))
+        picture && is_environment_file_name(*picture))
         picture = files.find_required(*picture, place + ": environment").string();
-    found.files = files.found_files();
+    found.files = files.list_found_files();
     return found;
 }
 
 std::string write_scene_file_text(const SceneOverrides& overrides, const fs::path& scene) {
     SceneOverrides relative = overrides;
     if (std::optional<std::string>& picture = relative.environment;
-        picture && names_a_file(*picture)) {
+        picture && is_environment_file_name(*picture)) {
         const fs::path folder = resolve_real_path(scene).parent_path();
         const fs::path name = resolve_real_path(*picture).lexically_relative(folder);
         check(!name.empty() && *name.begin() != "..", Failure::usage,
-              "--environment: ", quote_printable(*picture), ": wanted a picture below ",
-              quote_printable(folder.string()), ", where a file beside the scene may name it");
+              "--environment: ", quote_as_printable_text(*picture), ": wanted a picture below ",
+              quote_as_printable_text(folder.string()),
+              ", where a file beside the scene may name it");
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();

@@ -29,7 +29,7 @@ struct SceneFile {
 /// Reads the scene file of `scene`. Returns nothing if the file does not exist. Throws `bad_data`,
 /// naming file and key, for a value that is not allowed.
 std::optional<SceneFile> read_scene_file(const std::filesystem::path& scene,
-                                         const FileOptions& options);
+                                         const SceneFileOptions& options);
 
 /// Returns the text that `read_scene_file` reads as these overrides. Throws `usage` for a picture
 /// that does not lie below the scene's folder.

@@ -26,7 +26,7 @@ void replace_if_set(std::optional<Value>& value, const std::optional<Value>& str
 
 /// Returns the names by which patterns find an object: its own and its material's. If a node has
 /// several materials, its objects are named "NODE/MATERIAL", and the node's name counts, too.
-std::vector<std::string> object_pattern_names(const Scene& scene, const Object& object) {
+std::vector<std::string> list_object_pattern_names(const Scene& scene, const Object& object) {
     const std::string& material = scene.materials[object.material].name;
     std::vector<std::string> names{object.name, material};
     if (const std::string end = "/" + material; object.name.ends_with(end))
@@ -40,9 +40,9 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
     std::vector<std::size_t> found;
     std::vector<std::string> known;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const std::vector<std::string> names = object_pattern_names(scene, scene.objects[i]);
-        if (std::ranges::any_of(names,
-                                [&](const auto& name) { return matches_pattern(pattern, name); }))
+        const std::vector<std::string> names = list_object_pattern_names(scene, scene.objects[i]);
+        if (std::ranges::any_of(
+                names, [&](const auto& name) { return name_matches_pattern(pattern, name); }))
             found.push_back(i);
         known.insert(known.end(), names.begin(), names.end());
     }
@@ -54,13 +54,13 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
     std::string list;
     constexpr std::size_t kMaxListedNames = 10;
     for (std::size_t i = 0; i < std::min(known.size(), kMaxListedNames); ++i)
-        list += (i ? ", " : "") + quote_printable(known[i]);
+        list += (i ? ", " : "") + quote_as_printable_text(known[i]);
     if (known.size() > kMaxListedNames)
         list += " and " + std::to_string(known.size() - kMaxListedNames) + " more";
-    fail(by.failure, by.where, " ", quote_printable(pattern),
-         ": matches no object or material of scene ", quote_printable(scene.name),
+    fail(by.failure, by.where, " ", quote_as_printable_text(pattern),
+         ": matches no object or material of scene ", quote_as_printable_text(scene.name),
          "; it has: ", list,
-         nearest.empty() ? "" : " (did you mean " + quote_printable(nearest) + "?)");
+         nearest.empty() ? "" : " (did you mean " + quote_as_printable_text(nearest) + "?)");
 }
 
 /// Gives these objects a changed copy of their material. Objects that share a material share its
@@ -94,18 +94,18 @@ std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const Sett
     std::erase_if(objects, [&](std::size_t i) {
         return !is_visibly_emissive(scene.materials[scene.objects[i].material]);
     });
-    check(!objects.empty(), by.failure, by.where, " ", quote_printable(pattern),
+    check(!objects.empty(), by.failure, by.where, " ", quote_as_printable_text(pattern),
           ": wanted something that emits light, found objects that do not");
     return objects;
 }
 
-void keep_matching_lights(Scene& scene, const std::string& pattern) {
-    change_object_materials(scene, find_emitters_by_pattern(scene, {"--light"}, pattern),
-                            [](Material& material) {
-                                material.light = material.emission;
-                                if (material.emission_texture)
-                                    *material.light *= mean_texel(*material.emission_texture);
-                            });
+void keep_lights_matching_pattern(Scene& scene, const std::string& pattern) {
+    change_object_materials(
+        scene, find_emitters_by_pattern(scene, {"--light"}, pattern), [](Material& material) {
+            material.light = material.emission;
+            if (material.emission_texture)
+                *material.light *= mean_texel_colour(*material.emission_texture);
+        });
 }
 
 } // namespace
@@ -142,19 +142,20 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     return both;
 }
 
-bool matches_pattern(const std::string& pattern, const std::string& name) {
+bool name_matches_pattern(const std::string& pattern, const std::string& name) {
     return pattern == name || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
 MirrorOverride read_mirror_override(const std::string& option, const std::string& whole) {
-    constexpr std::string_view kRoughness = ",roughness=";
+    constexpr std::string_view kRoughnessOptionPrefix = ",roughness=";
     MirrorOverride wish;
     std::string text = whole;
-    if (const std::size_t at = text.rfind(kRoughness); at != text.npos) {
+    if (const std::size_t at = text.rfind(kRoughnessOptionPrefix); at != text.npos) {
         const std::optional<double> number = parse_number(
-            std::string_view(text).substr(at + kRoughness.size()));
+            std::string_view(text).substr(at + kRoughnessOptionPrefix.size()));
         check(number && *number >= 0 && *number <= 1, Failure::usage, option,
-              ": wanted a number from 0 to 1 after ',roughness=', found ", quote_printable(whole));
+              ": wanted a number from 0 to 1 after ',roughness=', found ",
+              quote_as_printable_text(whole));
         wish.roughness = static_cast<float>(*number);
         text.resize(at);
     }
@@ -180,7 +181,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
                 Failure::usage, option,
                 ": wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], REFLECTANCE a number or "
                 "r,g,b, all from 0 to 1, found ",
-                quote_printable(text));
+                quote_as_printable_text(text));
             wish.pattern = text.substr(0, at);
             for (int i = 0; i < 3; ++i)
                 wish.reflectance[i] = static_cast<float>(
@@ -188,7 +189,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
         }
     }
     check(!wish.pattern.empty(), Failure::usage, option, ": wanted a name or a pattern, found ",
-          quote_printable(text));
+          quote_as_printable_text(text));
     return wish;
 }
 
@@ -214,7 +215,8 @@ std::string make_mirror_pattern(const std::string& name) {
     return pattern;
 }
 
-void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file) {
+void check_override_patterns(const Scene& scene, const SceneOverrides& overrides,
+                             const std::string& file) {
     for (const MirrorOverride& wish : overrides.mirrors)
         find_objects_by_pattern(scene, {file + ": mirrors", Failure::bad_data}, wish.pattern);
     for (const std::string& pattern : overrides.lights)
@@ -224,14 +226,15 @@ void check_patterns(const Scene& scene, const SceneOverrides& overrides, const s
 void apply_edit(Scene& scene, const SceneOverrides& overrides) {
     if (overrides.up == UpAxis::z) turn_z_up_to_y_up(scene);
     for (const MirrorOverride& wish : overrides.mirrors) apply_mirror_override(scene, wish);
-    for (const std::string& pattern : overrides.lights) keep_matching_lights(scene, pattern);
+    for (const std::string& pattern : overrides.lights)
+        keep_lights_matching_pattern(scene, pattern);
     if (overrides.mirror_max_roughness)
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
     scene.has_multiple_scattering = overrides.multiple_scattering.value_or(
         scene.has_multiple_scattering);
     for (const MirrorOverride& wish : overrides.mirrors)
         check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
-              quote_printable(wish.pattern), ": wanted a roughness of at most ",
+              quote_as_printable_text(wish.pattern), ": wanted a roughness of at most ",
               format_shortest_number(scene.mirror_max_roughness),
               ", above which no surface is a mirror, found ",
               format_shortest_number(wish.roughness), "; raise --mirror-max-roughness");

@@ -15,7 +15,7 @@ namespace catoptric::scene {
 /// Mirror that reflects a constant share of all light. The rest of the object's material is
 /// dropped.
 struct MirrorOverride {
-    std::string pattern; ///< as `matches_pattern` takes it
+    std::string pattern; ///< as `name_matches_pattern` takes it
     vec3 reflectance{1}; ///< in [0,1]; of a rough mirror, seen head-on
     float roughness = 0; ///< in [0,1]; 0: a perfect mirror at every angle, else a metal's lobe
     bool operator==(const MirrorOverride&) const = default;
@@ -62,7 +62,7 @@ struct SceneOverrides {
 SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOverrides& weaker);
 
 /// Returns whether a whole name equals the pattern or matches it (fnmatch: * ? [...]); case counts.
-bool matches_pattern(const std::string& pattern, const std::string& name);
+bool name_matches_pattern(const std::string& pattern, const std::string& name);
 
 /// Reads "PATTERN[=REFLECTANCE][,roughness=NUMBER]", where REFLECTANCE is a number or r,g,b in
 /// [0,1] and NUMBER is in [0,1]. A name may contain '=' as long as no number follows it. `option`
@@ -75,7 +75,8 @@ std::string make_mirror_pattern(const std::string& name);
 
 /// Checks the patterns of mirrors and lights that come from a file. Throws `bad_data`, naming file
 /// and key, for a pattern that `apply_edit` would not accept.
-void check_patterns(const Scene& scene, const SceneOverrides& overrides, const std::string& file);
+void check_override_patterns(const Scene& scene, const SceneOverrides& overrides,
+                             const std::string& file);
 
 /// Applies the overrides of mirrors, lights, roughness and dielectrics, turns the scene if +z is
 /// up, and finds its mirrors again (classify.hpp). Overrides that name a picture are left to

@@ -17,21 +17,22 @@ using EdgeMidpoints = std::map<std::pair<VertexIndex, VertexIndex>, VertexIndex>
 
 /// Returns the vertex on the sphere over the middle of the edge. The first call for an edge
 /// creates the vertex.
-VertexIndex sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, VertexIndex a, VertexIndex b) {
+VertexIndex find_or_add_sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, VertexIndex a,
+                                        VertexIndex b) {
     const auto [entry, is_new] = known.try_emplace(std::minmax(a, b),
                                                    static_cast<VertexIndex>(mesh.positions.size()));
     if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
     return entry->second;
 }
 
-void subdivide_sphere(Mesh& mesh) {
+void subdivide_sphere_triangles(Mesh& mesh) {
     EdgeMidpoints known;
     std::vector<uvec3> finer;
     finer.reserve(4 * mesh.triangles.size());
     for (const uvec3& t : mesh.triangles) {
-        const VertexIndex xy = sphere_midpoint(mesh, known, t.x, t.y);
-        const VertexIndex yz = sphere_midpoint(mesh, known, t.y, t.z);
-        const VertexIndex zx = sphere_midpoint(mesh, known, t.z, t.x);
+        const VertexIndex xy = find_or_add_sphere_midpoint(mesh, known, t.x, t.y);
+        const VertexIndex yz = find_or_add_sphere_midpoint(mesh, known, t.y, t.z);
+        const VertexIndex zx = find_or_add_sphere_midpoint(mesh, known, t.z, t.x);
         finer.insert(finer.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
     }
     mesh.triangles = std::move(finer);
@@ -48,16 +49,18 @@ Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d) {
 }
 
 Mesh box(std::string name, dvec3 lo, dvec3 hi) {
-    Mesh box{.name = std::move(name)};
+    Mesh box_mesh{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
-        const Mesh side = wall(face, hi, lo); // faces outwards because low and high are exchanged
-        const auto first = static_cast<VertexIndex>(box.positions.size());
-        box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
-        box.normals.insert(box.normals.end(), side.normals.begin(), side.normals.end());
-        box.uv[0].insert(box.uv[0].end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
-        for (const uvec3& triangle : side.triangles) box.triangles.push_back(triangle + first);
+        const Mesh side = make_box_wall(face, hi,
+                                        lo); // faces outwards because low and high are exchanged
+        const auto first = static_cast<VertexIndex>(box_mesh.positions.size());
+        box_mesh.positions.insert(box_mesh.positions.end(), side.positions.begin(),
+                                  side.positions.end());
+        box_mesh.normals.insert(box_mesh.normals.end(), side.normals.begin(), side.normals.end());
+        box_mesh.uv[0].insert(box_mesh.uv[0].end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
+        for (const uvec3& triangle : side.triangles) box_mesh.triangles.push_back(triangle + first);
     }
-    return box;
+    return box_mesh;
 }
 
 Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around) {
@@ -111,7 +114,7 @@ Mesh torus(std::string name, double radius, double thickness, int around) {
     return mesh;
 }
 
-Mesh wall(int face, dvec3 lo, dvec3 hi) {
+Mesh make_box_wall(int face, dvec3 lo, dvec3 hi) {
     const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
     std::array<dvec3, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -131,7 +134,7 @@ Mesh ball(std::string name, int levels) {
     mesh.positions = {
         {0, 0, -1}, {0, 2 * s / 3, 1.0 / 3}, {-q / 3, -s / 3, 1.0 / 3}, {q / 3, -s / 3, 1.0 / 3}};
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}; // counter-clockwise from outside
-    for (int level = 0; level < levels; ++level) subdivide_sphere(mesh);
+    for (int level = 0; level < levels; ++level) subdivide_sphere_triangles(mesh);
     mesh.normals.assign(mesh.positions.begin(), mesh.positions.end());
     return mesh;
 }

@@ -7,10 +7,10 @@ namespace catoptric::scene {
 
 /// Height of a part of a built-in scene above its support, in metres. If two surfaces lie in one
 /// plane, chance decides which of them a picture shows.
-inline constexpr double kFloorGap = .001;
+inline constexpr double kSupportGap = .001;
 
 /// Returns the wall of the box [lo, hi] in direction `face`, facing in. The directions are +X -X +Y
 /// -Y +Z -Z, as the faces of a cube map.
-Mesh wall(int face, dvec3 lo, dvec3 hi);
+Mesh make_box_wall(int face, dvec3 lo, dvec3 hi);
 
 } // namespace catoptric::scene

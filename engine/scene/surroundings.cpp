@@ -10,17 +10,17 @@ namespace catoptric::scene {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr uvec2 kStudioSize{512, 256};
+constexpr uvec2 kStudioEnvironmentSize{512, 256};
 
-double environment_angle(const Environment& environment) {
+double environment_rotation_angle(const Environment& environment) {
     return glm::radians(environment.rotation_degrees);
 }
 
 /// Returns the unscaled radiance in a direction that is given in the environment's own axes.
-dvec3 radiance_in_own_axes(const Environment& environment, const dvec3& own) {
+dvec3 radiance_in_environment_axes(const Environment& environment, const dvec3& own) {
     if (environment.studio) return dvec3(f64::studio_radiance(own));
-    const f64::EnvironmentMapPosition at = f64::environment_map_position(own, environment.size.x,
-                                                                         environment.size.y);
+    const f64::EnvironmentMapPosition at = f64::direction_to_environment_map(
+        own, environment.size.x, environment.size.y);
     const auto texel = [&](std::uint32_t column, std::uint32_t row) {
         return dvec3(environment.texels[std::size_t{row} * environment.size.x + column]);
     };
@@ -44,20 +44,20 @@ std::array<double, 9> spherical_harmonics(const dvec3& d) {
 
 /// For each harmonic, its squared normalisation factor times the share of its band that a cosine
 /// lobe keeps: pi, 2 pi / 3, pi / 4.
-constexpr std::array<double, 9> kHarmonicFactors{1. / 4,   1. / 2,  1. / 2,   1. / 2,  15. / 16,
-                                                 15. / 16, 5. / 64, 15. / 16, 15. / 64};
+constexpr std::array<double, 9> kSphericalHarmonicFactors{
+    1. / 4, 1. / 2, 1. / 2, 1. / 2, 15. / 16, 15. / 16, 5. / 64, 15. / 16, 15. / 64};
 
 } // namespace
 
 dvec3 environment_radiance(const Environment& environment, const dvec3& direction) {
-    const double angle = environment_angle(environment);
-    return environment.scale *
-           radiance_in_own_axes(environment, f64::environment_direction(direction, std::cos(angle),
-                                                                        std::sin(angle)));
+    const double angle = environment_rotation_angle(environment);
+    return environment.scale * radiance_in_environment_axes(
+                                   environment, f64::rotate_to_environment_axes(
+                                                    direction, std::cos(angle), std::sin(angle)));
 }
 
 std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environment) {
-    const uvec2 size = environment.studio ? kStudioSize : environment.size;
+    const uvec2 size = environment.studio ? kStudioEnvironmentSize : environment.size;
     const double width = 2 * kPi / size.x, height = kPi / size.y;
     std::array<dvec3, 9> sums{};
     for (std::uint32_t row = 0; row < size.y; ++row) {
@@ -73,12 +73,12 @@ std::array<dvec3, 9> compute_irradiance_coefficients(const Environment& environm
                                     ? dvec3(f64::studio_radiance(at(azimuth)))
                                     : dvec3(environment.texels[std::size_t{row} * size.x + column]);
             const std::array<double, 9> of = spherical_harmonics(
-                at(azimuth + environment_angle(environment)));
+                at(azimuth + environment_rotation_angle(environment)));
             for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += solid_angle * of[i] * light;
         }
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] *= environment.scale * kHarmonicFactors[i];
+        sums[i] *= environment.scale * kSphericalHarmonicFactors[i];
     return sums;
 }
 

@@ -55,7 +55,7 @@ vec4 read_texel(const Texture& texture, const vec2& uv) {
     return decode_texel(texture, image.texels[std::size_t{y} * image.size.x + x]);
 }
 
-vec3 mean_texel(const Texture& texture) {
+vec3 mean_texel_colour(const Texture& texture) {
     dvec3 sum(0);
     for (const std::uint32_t texel : texture.image->texels)
         sum += dvec3(decode_texel(texture, texel));

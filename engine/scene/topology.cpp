@@ -18,20 +18,21 @@ public:
         for (const dvec3& p : positions)
             scale_ = std::max({scale_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (scale_ == 0) scale_ = 1;
-        next_.resize(positions.size(), kNoVertex);
+        next_.resize(positions.size(), kEmptyGridCell);
     }
     /// Returns the first vertex at the same place, or `vertex` if there was none before.
-    std::size_t first_at(std::size_t vertex) {
+    std::size_t find_first_vertex_at_same_place(std::size_t vertex) {
         const dvec3 p = positions_[vertex] / scale_;
-        const glm::i64vec3 low = cube_of(p - kSamePlaceDistance),
-                           high = cube_of(p + kSamePlaceDistance);
+        const glm::i64vec3 low = grid_cell_of_point(p - kSamePlaceDistance),
+                           high = grid_cell_of_point(p + kSamePlaceDistance);
         std::size_t first = vertex;
         for (std::int64_t x = low.x; x <= high.x; ++x)
             for (std::int64_t y = low.y; y <= high.y; ++y)
                 for (std::int64_t z = low.z; z <= high.z; ++z)
-                    first = std::min(first, first_in({x, y, z}, p, vertex));
+                    first = std::min(first, find_first_vertex_in_grid_cell({x, y, z}, p, vertex));
         if (first == vertex) {
-            const auto [entry, is_new] = newest_.try_emplace(key_of(cube_of(p)), vertex);
+            const auto [entry, is_new] = newest_.try_emplace(grid_cell_key(grid_cell_of_point(p)),
+                                                             vertex);
             if (!is_new) next_[vertex] = std::exchange(entry->second, vertex);
         }
         return first;
@@ -39,23 +40,24 @@ public:
 
 private:
     static constexpr double kSamePlaceDistance = 0x1p-21, kGridCellEdge = 8 * kSamePlaceDistance;
-    static constexpr std::size_t kNoVertex = ~std::size_t(0);
+    static constexpr std::size_t kEmptyGridCell = ~std::size_t(0);
 
-    static glm::i64vec3 cube_of(const dvec3& p) {
+    static glm::i64vec3 grid_cell_of_point(const dvec3& p) {
         return glm::i64vec3(glm::floor(p / kGridCellEdge));
     }
-    static std::uint64_t key_of(const glm::i64vec3& cube) {
+    static std::uint64_t grid_cell_key(const glm::i64vec3& cube) {
         std::uint64_t key = 0;
         for (int i = 0; i < 3; ++i)
             key = (key ^ static_cast<std::uint64_t>(cube[i])) * 0x9e3779b97f4a7c15u,
             key ^= key >> 32;
         return key;
     }
-    std::size_t first_in(const glm::i64vec3& cube, const dvec3& p, std::size_t vertex) const {
-        const auto newest = newest_.find(key_of(cube));
+    std::size_t find_first_vertex_in_grid_cell(const glm::i64vec3& cube, const dvec3& p,
+                                               std::size_t vertex) const {
+        const auto newest = newest_.find(grid_cell_key(cube));
         std::size_t first = vertex;
-        for (std::size_t i = newest == newest_.end() ? kNoVertex : newest->second; i != kNoVertex;
-             i = next_[i]) {
+        for (std::size_t i = newest == newest_.end() ? kEmptyGridCell : newest->second;
+             i != kEmptyGridCell; i = next_[i]) {
             const dvec3 way = glm::abs(positions_[i] / scale_ - p);
             if (std::max({way.x, way.y, way.z}) <= kSamePlaceDistance) first = std::min(first, i);
         }
@@ -70,10 +72,11 @@ private:
 
 } // namespace
 
-std::vector<std::size_t> first_vertex_at_place(std::span<const dvec3> positions) {
+std::vector<std::size_t> find_first_vertex_of_each_place(std::span<const dvec3> positions) {
     VertexGrid places(positions);
     std::vector<std::size_t> first(positions.size());
-    for (std::size_t i = 0; i < first.size(); ++i) first[i] = places.first_at(i);
+    for (std::size_t i = 0; i < first.size(); ++i)
+        first[i] = places.find_first_vertex_at_same_place(i);
     return first;
 }
 
@@ -95,7 +98,7 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
 }
 
 bool is_closed_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles) {
-    const std::vector<std::size_t> first = first_vertex_at_place(positions);
+    const std::vector<std::size_t> first = find_first_vertex_of_each_place(positions);
     std::vector<TriangleCorners> corners;
     for (const uvec3& t : triangles) corners.push_back({first[t.x], first[t.y], first[t.z]});
     bool is_closed = true;

@@ -20,10 +20,10 @@ namespace catoptric::graph {
 struct ExternalSemaphores;
 } // namespace catoptric::graph
 namespace catoptric::gpu {
-struct ExternalDevice;
+struct ExternalDeviceHandles;
 } // namespace catoptric::gpu
 namespace catoptric::require {
-struct Model;
+struct RequiredWorkModel;
 } // namespace catoptric::require
 
 // Functions of engines, sessions and frames for the programs and tests of this tree. The headers
@@ -48,7 +48,8 @@ struct EngineHooks {
     /// show pictures on this surface.
     std::vector<std::string> instance_extensions = {};
     std::function<std::uint64_t(void* instance)> make_surface = {};
-    const gpu::ExternalDevice* given = nullptr; ///< device of an embedding program; null: none
+    const gpu::ExternalDeviceHandles* given =
+        nullptr; ///< device of an embedding program; null: none
 };
 
 /// Options of a frame that other programs do not have.
@@ -71,7 +72,7 @@ struct CompiledPipelines {
 enum class PipelineCacheState { none, made, used };
 
 /// Output format of a frame's compiled plan.
-enum class PlanFormat { text, dot, json };
+enum class GraphPlanFormat { text, dot, json };
 
 /// Counters of a session's work so far.
 struct SessionCounters {
@@ -103,7 +104,7 @@ private:
     friend struct Access;
     struct Impl;
     explicit FrameSequence(std::unique_ptr<Impl> impl);
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<Impl> sequence_impl_;
 };
 
 struct Access {
@@ -113,12 +114,12 @@ struct Access {
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
     static CompiledPipelines compiled_pipelines(const Engine& engine);
     static PipelineCacheState cache_use(const Engine& engine);
-    static EngineImpl& impl(const Engine& engine) { return *engine.impl_; }
+    static EngineImpl& engine_impl_of(const Engine& engine) { return *engine.impl_; }
 
     /// Returns whether a technique's picture depends on the frame before.
     static bool depends_on_last_frame(const Frame& frame, std::size_t part = 0);
     /// Returns what was rendered, and what was left out.
-    static const require::Model& rendered_model(const Frame& frame);
+    static const require::RequiredWorkModel& rendered_model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
     static render::CapturedCubes read_captures(const Frame& frame, std::size_t part = 0);
@@ -149,7 +150,7 @@ struct Access {
     /// Returns the plan, written out, of a frame that follows another frame. With
     /// RenderedWork::required, the scene is still and its captures no longer change.
     static std::string format_frame_plan(Session& session, const FrameSpec& spec,
-                                         PlanFormat format);
+                                         GraphPlanFormat format);
     /// Renders a frame that clears the cubes of every mirror, 256 texels an edge, and draws
     /// nothing. The time of this frame is the least that any capture costs. The history of the
     /// session stays.
@@ -160,6 +161,6 @@ struct Access {
 };
 
 /// Returns "everything" or "required".
-std::string name_of(RenderedWork modelling);
+std::string rendered_work_name(RenderedWork modelling);
 
 } // namespace catoptric::app

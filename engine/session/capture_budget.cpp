@@ -4,7 +4,7 @@
 
 namespace catoptric::app {
 
-std::string to_text(const CaptureBudget& slices) {
+std::string describe_capture_budget(const CaptureBudget& slices) {
     const std::uint32_t round = slices.frames_per_cycle(), oldest = round - 1;
     return fmt::format("captures: at most {} of {} mirror{} a frame; none shows what is older than "
                        "{} frame{}, and {} more for each further mirror that it is seen by",

@@ -9,19 +9,19 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::size_t kMedianFrames =
+constexpr std::size_t kCaptureCostFrames =
     9; // odd, for the median; few, because motion changes the cost
 
 } // namespace
 
-void CaptureCost::add(double ms, std::uint32_t mirrors) {
+void CaptureCostEstimate::add(double ms, std::uint32_t mirrors) {
     if (mirrors == 0) return;
-    if (each_ms_.size() == kMedianFrames) each_ms_.erase(each_ms_.begin());
+    if (each_ms_.size() == kCaptureCostFrames) each_ms_.erase(each_ms_.begin());
     each_ms_.push_back(ms / mirrors);
 }
 
-std::uint32_t CaptureCost::count_affordable_captures(double budget_ms,
-                                                     std::uint32_t mirrors) const {
+std::uint32_t CaptureCostEstimate::count_affordable_captures(double budget_ms,
+                                                             std::uint32_t mirrors) const {
     if (each_ms_.empty()) return mirrors;
     const double fit = std::floor(budget_ms / measure::compute_percentile(each_ms_, .5));
     // If a mirror's time is too short to measure, any number fits.

@@ -7,7 +7,7 @@ namespace catoptric::app {
 
 /// Estimate of the time that a mirror's capture takes to draw, from the last frames that drew
 /// captures.
-class CaptureCost {
+class CaptureCostEstimate {
 public:
     /// Adds a frame that took `ms` milliseconds to draw the captures of `mirrors` mirrors. A frame
     /// with 0 mirrors is ignored.

@@ -13,10 +13,10 @@ namespace catoptric::app {
 namespace {
 
 /// Pixels from `low` up to, but without, `high`.
-struct PixelRectangle {
+struct CoveredPixelRectangle {
     ivec2 low{0}, high{0};
 
-    std::uint64_t pixel_count() const {
+    std::uint64_t count_pixels() const {
         const ivec2 side = max(high - low, ivec2(0));
         return std::uint64_t(side.x) * std::uint64_t(side.y);
     }
@@ -25,8 +25,8 @@ struct PixelRectangle {
 /// Returns the pixels whose rays can meet a triangle. Their centres lie within the triangle's
 /// bounds on the screen, or less than half a pixel outside (for rounding errors). Returns all
 /// pixels if a corner lies behind the eye.
-PixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size,
-                                     const std::array<vec3, 3>& corners) {
+CoveredPixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size,
+                                            const std::array<vec3, 3>& corners) {
     dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     int behind = 0;
     for (const vec3& corner : corners) {
@@ -50,15 +50,15 @@ PixelRectangle compute_screen_bounds(const shared::View& view, uvec2 size,
 
 } // namespace
 
-std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geometry& geometry,
+std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameGeometry& geometry,
                                                             const shared::View& view, uvec2 size,
                                                             std::uint64_t most_tests) {
-    struct Pixel {
+    struct PixelCoordinates {
         f32::Ray ray;
-        f32::RayShear shear;
+        f32::TriangleTestRayShear shear;
         float t = std::numeric_limits<float>::max();
     };
-    std::vector<Pixel> pixels;
+    std::vector<PixelCoordinates> pixels;
     for (std::size_t i = 0; i < std::size_t{size.x} * size.y; ++i) {
         const f32::Ray ray = make_camera_ray(view, size, i);
         pixels.push_back({ray, f32::make_ray_shear(ray.direction)});
@@ -66,7 +66,7 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geomet
     std::vector<int> seen(pixels.size(), -1);
     std::uint64_t tests = 0;
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
-        const render::DrawRange& range = geometry.ranges[object];
+        const render::ObjectDrawRange& range = geometry.ranges[object];
         if (!range.seen_by_camera) continue;
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
              k += 3) {
@@ -74,18 +74,19 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geomet
             for (std::uint32_t j = 0; j < 3; ++j)
                 corners[j] = geometry.vertices[geometry.indices[k + j]].position;
             const auto& [a, b, c] = corners;
-            const PixelRectangle box = compute_screen_bounds(view, size, corners);
-            tests += box.pixel_count();
+            const CoveredPixelRectangle box = compute_screen_bounds(view, size, corners);
+            tests += box.count_pixels();
             if (tests > most_tests) return std::nullopt;
             for (int y = box.low.y; y < box.high.y; ++y)
                 for (int x = box.low.x; x < box.high.x; ++x) {
                     const std::size_t i = std::size_t(y) * size.x + std::size_t(x);
-                    Pixel& pixel = pixels[i];
+                    PixelCoordinates& pixel = pixels[i];
                     float t = 0;
                     vec3 weights;
                     if (range.one_sided && f32::hits_back_face(a, b, c, pixel.ray.direction))
                         continue;
-                    if (!f32::triangle_test(a, b, c, pixel.ray.origin, pixel.shear, t, weights) ||
+                    if (!f32::intersect_triangle_watertight(a, b, c, pixel.ray.origin, pixel.shear,
+                                                            t, weights) ||
                         !(t < pixel.t)) // between equal distances the first triangle wins
                         continue;
                     pixel.t = t;

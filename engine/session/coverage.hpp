@@ -14,7 +14,7 @@ namespace catoptric::app {
 /// for the pixels of its bounds on the screen. Costs a projection per triangle, and 32 bytes per
 /// pixel. Returns nothing if more than `most_tests` tests were needed, as for many large triangles
 /// behind each other.
-std::optional<std::vector<int>> find_first_object_per_pixel(const render::Geometry& geometry,
+std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameGeometry& geometry,
                                                             const shared::View& view, uvec2 size,
                                                             std::uint64_t most_tests);
 

@@ -20,9 +20,9 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-struct RequiredWork {
+struct RequiredWorkReport {
     scene::Scene now;
-    require::Model model;
+    require::RequiredWorkModel model;
     require::PlanSuggestion suggestion;
 };
 
@@ -38,25 +38,26 @@ std::optional<measure::UnsupportedFeatureFacts> find_undrawn_reflections(const R
         gap->id, gap->count, gap->first, compute_pixel_share(seen, request.scene, gap->materials)};
 }
 
-RequiredWork find_required_work(const Request& request) {
-    RequiredWork required{
+RequiredWorkReport find_required_work(const Request& request) {
+    RequiredWorkReport required{
         .now = scene::scene_at_time(request.scene, request.time), .model = {}, .suggestion = {}};
-    const scene::Camera camera = scene::camera_at(request.camera, request.time);
-    const require::ModelInput question{required.now, camera, request.size};
+    const scene::Camera camera = scene::camera_at_time(request.camera, request.time);
+    const require::RequiredWorkModelInput question{required.now, camera, request.size};
     required.model = require::make_required_model(question);
-    required.suggestion = require::suggest_plan(question);
+    required.suggestion = require::suggest_technique_plan(question);
     return required;
 }
 
-OrderedJson describe_mirror(const RequiredWork& required, const std::string& name, std::size_t i) {
-    const require::MirrorNeeds& needs = required.model.mirrors[i];
+OrderedJson describe_mirror_as_json(const RequiredWorkReport& required, const std::string& name,
+                                    std::size_t i) {
+    const require::MirrorRequirements& needs = required.model.mirrors[i];
     OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
     if (needs.is_captured) faces = split_text(require::list_face_names(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
             {"seen", needs.is_seen},
-            {"seen_in", needs.seen_in ? OrderedJson(needs.seen_in.number()) : OrderedJson()},
+            {"seen_in", needs.seen_in ? OrderedJson(needs.seen_in.mirror_number()) : OrderedJson()},
             {"captured", needs.is_captured},
             {"faces", faces},
             {"sees", sees},
@@ -69,28 +70,28 @@ constexpr const char* kUndrawnReflectionsRemedy =
 
 } // namespace
 
-std::string explain_culling_as_text(const Request& request,
-                                    const std::optional<CaptureBudget>& slices) {
+std::string format_culling_as_text(const Request& request,
+                                   const std::optional<CaptureBudget>& slices) {
     const auto [now, model, suggestion] = find_required_work(request);
     const std::vector<std::string> names = list_mirror_names(now);
-    std::string text = require::to_text(model, now);
+    std::string text = require::describe_model(model, now);
     if (const auto gap = find_undrawn_reflections(request))
         text += std::string("not drawn\n  ") + kUndrawnReflectionsText + ": " +
                 report::format_fixed(100 * *gap->pixel_share, 1) +
                 " % of the picture (first: " + escape_control_characters(gap->first) +
                 ")\n    why: " + kUndrawnReflectionsRemedy + "\n";
-    if (slices) text += to_text(*slices) + "\n";
+    if (slices) text += describe_capture_budget(*slices) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
-        text += "  mirror " + std::to_string(i + 1) + " " + quote_printable(names[i]) + ": " +
-                suggestion.reasons[i] + "\n";
-    return text + require::to_text(suggestion.candidates);
+        text += "  mirror " + std::to_string(i + 1) + " " + quote_as_printable_text(names[i]) +
+                ": " + suggestion.reasons[i] + "\n";
+    return text + require::format_plan_candidates(suggestion.candidates);
 }
 
-std::string explain_culling_as_json(const Request& request,
-                                    const std::optional<CaptureBudget>& slices) {
-    const RequiredWork required = app::find_required_work(request);
+std::string format_culling_as_json(const Request& request,
+                                   const std::optional<CaptureBudget>& slices) {
+    const RequiredWorkReport required = app::find_required_work(request);
     const std::vector<std::string> names = list_mirror_names(required.now);
     OrderedJson document{
         {"schema", "catoptric/why/1"},       {"mirrors", OrderedJson::array()},
@@ -101,7 +102,7 @@ std::string explain_culling_as_json(const Request& request,
         document["candidates"].push_back(
             {{"name", candidate.name}, {"cost", candidate.cost}, {"flip", candidate.error}});
     for (std::size_t i = 0; i < names.size(); ++i)
-        document["mirrors"].push_back(describe_mirror(required, names[i], i));
+        document["mirrors"].push_back(describe_mirror_as_json(required, names[i], i));
     for (std::size_t i = 0; i < required.model.lights.size(); ++i)
         document["lights"].push_back({{"light", i + 1}, {"map", required.model.lights[i].has_map}});
     for (const require::CulledWork& thing : required.model.left_out)
@@ -118,17 +119,17 @@ std::string explain_culling_as_json(const Request& request,
                                                 {"most", slices->most},
                                                 {"oldest_frames", slices->frames_per_cycle() - 1},
                                                 {"round_frames", slices->frames_per_cycle()},
-                                                {"said", to_text(*slices)}}
+                                                {"said", describe_capture_budget(*slices)}}
                                   : OrderedJson();
     return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request) {
-    constexpr int kMeasuredCuts = 5; // cuts: the first frames compile what they use
+    constexpr int kMeasuredCutCount = 5; // cuts: the first frames compile what they use
     Session session(engine, request.scene);
     FrameSpec spec = request;
     spec.time = request.instant(1);
-    for (int k = 0; k < kMeasuredCuts; ++k) {
+    for (int k = 0; k < kMeasuredCutCount; ++k) {
         session.forget();
         session.frame(spec);
     }

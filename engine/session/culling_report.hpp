@@ -9,13 +9,13 @@
 namespace catoptric::app {
 
 /// Returns the report as text for the user. `slices`: only if there is a budget.
-std::string explain_culling_as_text(const Request& request,
-                                    const std::optional<CaptureBudget>& slices = {});
+std::string format_culling_as_text(const Request& request,
+                                   const std::optional<CaptureBudget>& slices = {});
 /// Returns the report as JSON with a final newline: {"schema": "catoptric/why/1", "mirrors": [...],
 /// "lights": [...], "left_out": [...], "not_drawn": [...], "suggested": PLAN, "captures": SLICES or
 /// null}.
-std::string explain_culling_as_json(const Request& request,
-                                    const std::optional<CaptureBudget>& slices = {});
+std::string format_culling_as_json(const Request& request,
+                                   const std::optional<CaptureBudget>& slices = {});
 /// Renders a few frames and returns how many captures fit into the request's budget. Returns
 /// nothing if no captures are kept.
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request);

@@ -33,7 +33,7 @@ gpu::DeviceOptions to_device_options(const EngineOptions& options, const EngineH
     if (hooks.given) wanted.given = *hooks.given;
     if (hooks.make_surface)
         wanted.make_surface = [make = hooks.make_surface](auto instance) {
-            return gpu::surface_from_number(make(instance));
+            return gpu::surface_from_handle_number(make(instance));
         };
     return wanted;
 }
@@ -56,7 +56,7 @@ std::filesystem::path find_user_folder(const char* variable, const char* in_home
 Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
     : device(to_device_options(options, hooks)),
       pipelines(device, hooks.shader_variants, options.cache),
-      info(to_public_device_info(device.info())) {
+      info(to_public_device_info(device.device_properties())) {
     device.set_variant_choices(choose_shader_variants(options, info));
 }
 
@@ -66,28 +66,30 @@ Engine::Engine(const EngineOptions& options, const EngineHooks& hooks)
 Engine::~Engine() = default;
 
 const DeviceInfo& Engine::device() const { return impl_->info; }
-const std::string& Engine::warning() const { return impl_->pipelines.cache().warning(); }
-bool Engine::usable() const { return !impl_->device.abandoned(); }
+const std::string& Engine::warning() const {
+    return impl_->pipelines.pipeline_cache().cache_warning();
+}
+bool Engine::usable() const { return !impl_->device.is_abandoned(); }
 void Engine::check_validation() const { impl_->device.check_validation(); }
 
 Engine Access::make_engine(const EngineOptions& options, const EngineHooks& hooks) {
     return Engine(options, hooks);
 }
 CompiledPipelines Access::compiled_pipelines(const Engine& engine) {
-    const gpu::Pipelines& pipelines = engine.impl_->pipelines;
-    return {pipelines.made_pipeline_count(), pipelines.compile_ms()};
+    const gpu::PipelineStore& pipelines = engine.impl_->pipelines;
+    return {pipelines.count_made_pipelines(), pipelines.total_compile_ms()};
 }
 PipelineCacheState Access::cache_use(const Engine& engine) {
-    const gpu::PipelineCache& cache = engine.impl_->pipelines.cache();
-    if (!cache.is_persistent()) return PipelineCacheState::none;
-    return cache.loaded_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
+    const gpu::PipelineCache& cache = engine.impl_->pipelines.pipeline_cache();
+    if (!cache.is_stored_in_file()) return PipelineCacheState::none;
+    return cache.loaded_cache_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;
 }
 
 bool has_abandoned_device() { return gpu::has_abandoned_device(); }
 
-std::filesystem::path cache_folder() { return find_user_folder("XDG_CACHE_HOME", ".cache"); }
+std::filesystem::path find_cache_folder() { return find_user_folder("XDG_CACHE_HOME", ".cache"); }
 
-std::filesystem::path profile_folder() {
+std::filesystem::path find_profile_folder() {
     const std::filesystem::path folder = find_user_folder("XDG_CONFIG_HOME", ".config");
     return folder.empty() ? folder : folder / "devices";
 }

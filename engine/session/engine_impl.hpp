@@ -10,8 +10,8 @@ namespace catoptric::app {
 /// State of an engine that its sessions share.
 struct Engine::Impl {
     explicit Impl(const EngineOptions& options, const EngineHooks& hooks = {});
-    gpu::Device device;
-    gpu::Pipelines pipelines;
+    gpu::GpuDevice device;
+    gpu::PipelineStore pipelines;
     DeviceInfo info;
 };
 

@@ -11,7 +11,7 @@
 namespace catoptric::app {
 
 double choose_exposure_for_picture(const measure::Picture& picture) {
-    constexpr double kExposurePercentile = .95, kTargetValue = .8,
+    constexpr double kAutoExposurePercentile = .95, kTargetValue = .8,
                      kStepsPerStop = 3; // kStepsPerStop: per stop
     std::vector<double> luminances;
     for (const vec3& pixel : picture.pixels) {
@@ -19,7 +19,8 @@ double choose_exposure_for_picture(const measure::Picture& picture) {
         if (std::isfinite(its)) luminances.push_back(its);
     }
     if (luminances.empty()) return 0;
-    const double bright = measure::compute_percentile(std::move(luminances), kExposurePercentile);
+    const double bright = measure::compute_percentile(std::move(luminances),
+                                                      kAutoExposurePercentile);
     if (!(bright > 0)) return 0;
     const double stops = std::round(kStepsPerStop * std::log2(kTargetValue / bright)) /
                          kStepsPerStop;

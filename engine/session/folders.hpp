@@ -7,9 +7,9 @@ namespace catoptric::app {
 
 /// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
 /// path.
-std::filesystem::path cache_folder();
+std::filesystem::path find_cache_folder();
 /// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
 /// is an absolute path.
-std::filesystem::path profile_folder();
+std::filesystem::path find_profile_folder();
 
 } // namespace catoptric::app

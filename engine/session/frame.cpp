@@ -14,14 +14,14 @@ FrameTimes to_public_frame_times(const graph::GraphFrameTimes& times) {
     frame.host.compile = times.compile_ms, frame.host.record = times.record_ms;
     for (const graph::GraphPassTime& pass : times.passes) {
         frame.passes.push_back({pass.name, pass.begin_ms, pass.end_ms});
-        frame.passes_ms += pass.ms();
+        frame.passes_ms += pass.elapsed_ms();
     }
     return frame;
 }
 
 const FrameTimes& Frame::times() const {
     if (!impl_->times) {
-        impl_->times = to_public_frame_times(impl_->runner().wait_for_frame(impl_->ticket));
+        impl_->times = to_public_frame_times(impl_->graph_runner().wait_for_frame(impl_->ticket));
         impl_->times->host.update = impl_->update_ms;
         impl_->times->host.hierarchy = impl_->hierarchy_ms;
         impl_->times->host.compile += impl_->declare_ms;
@@ -34,31 +34,35 @@ std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
 bool Access::depends_on_last_frame(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
-    return app::depends_on_previous_frame(self.frame, self.plan(), self.part(part));
+    return app::depends_on_previous_frame(self.frame, self.current_graph_plan(),
+                                          self.technique_part(part));
 }
 
 const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
-    return impl_->part(part).slices;
+    return impl_->technique_part(part).slices;
 }
 
 std::uint32_t Frame::waiting() const {
     std::uint32_t waiting = 0;
-    for (const TechniquePasses& part : impl_->frame.parts)
+    for (const TechniqueGraphPart& part : impl_->frame.parts)
         waiting += part.slices ? part.slices->waiting : 0;
     return waiting;
 }
 
-const require::Model& Access::rendered_model(const Frame& frame) { return *frame.impl_->model; }
+const require::RequiredWorkModel& Access::rendered_model(const Frame& frame) {
+    return *frame.impl_->model;
+}
 
 measure::Picture Frame::hdr(std::size_t part) const {
-    return read_hdr_picture(impl_->runner(), impl_->ticket, impl_->part(part), impl_->spec.size);
+    return read_hdr_picture(impl_->graph_runner(), impl_->ticket, impl_->technique_part(part),
+                            impl_->spec.size);
 }
 
 TechniqueResult Frame::read(std::size_t part) const {
-    if (impl_->spec.with_lookup) impl_->check_last();
-    TechniqueResult read = read_technique_result(impl_->runner(), impl_->ticket, impl_->frame, part,
-                                                 impl_->session->mirrors, *impl_->session->resident,
-                                                 impl_->spec);
+    if (impl_->spec.with_lookup) impl_->check_is_last_frame();
+    TechniqueResult read = read_technique_result(impl_->graph_runner(), impl_->ticket, impl_->frame,
+                                                 part, impl_->session->mirrors,
+                                                 *impl_->session->resident, impl_->spec);
     read.model = impl_->spec.model;
     read.left_out = impl_->model->left_out;
     read.slices = slices(part);
@@ -73,41 +77,43 @@ std::vector<TechniqueResult> Frame::read_all() const {
 
 render::CapturedCubes Access::read_captures(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
-    const std::shared_ptr<const render::Captures>& captures = self.part(part).outputs.captures;
+    const std::shared_ptr<const render::MirrorCaptures>& captures =
+        self.technique_part(part).outputs.captures;
     check(
         self.hooks.with_captures && captures && captures->arrays.size() == 1 &&
             captures->arrays.front().distance,
-        Failure::internal, "'", self.part(part).plan.label,
+        Failure::internal, "'", self.technique_part(part).plan.label,
         "': wanted captures with distances in one array that the frame was asked for, found none");
-    self.check_last();
-    graph::GraphRunner& runner = self.runner();
-    const render::CubeArray& cubes = captures->arrays.front();
+    self.check_is_last_frame();
+    graph::GraphRunner& runner = self.graph_runner();
+    const render::CubeCaptureArray& cubes = captures->arrays.front();
     return {cubes.face, runner.read_resource(self.ticket, cubes.colour),
-            runner.read_resource(self.ticket, *cubes.distance), self.session->resident->space()};
+            runner.read_resource(self.ticket, *cubes.distance),
+            self.session->resident->scene_units()};
 }
 
 std::vector<PassWork> Access::pass_work(const Frame& frame) {
-    return frame.impl_->runner().counted_work(frame.impl_->ticket);
+    return frame.impl_->graph_runner().counted_work(frame.impl_->ticket);
 }
 
 std::vector<std::byte> Access::next_frame_state(const Frame& frame) {
     const Frame::Impl& self = *frame.impl_;
-    self.check_last();
-    graph::GraphRunner& runner = self.runner();
+    self.check_is_last_frame();
+    graph::GraphRunner& runner = self.graph_runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
         const std::vector<std::byte> texels = runner.read_resource(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
-    for (const TechniquePasses& part : self.frame.parts) {
+    for (const TechniqueGraphPart& part : self.frame.parts) {
         if (!part.outputs.kept) continue;
-        for (const render::CubeArray& cubes : part.outputs.captures->arrays) {
+        for (const render::CubeCaptureArray& cubes : part.outputs.captures->arrays) {
             add(cubes.colour);
             if (cubes.distance) add(*cubes.distance);
         }
     }
     if (bytes.empty()) return bytes;
-    for (const TechniquePasses& part : self.frame.parts) add(part.outputs.hdr);
+    for (const TechniqueGraphPart& part : self.frame.parts) add(part.outputs.hdr);
     return bytes;
 }
 

@@ -22,17 +22,18 @@ namespace {
 void count_scene_passes_of_part(const graph::Graph& graph, const graph::GraphPlan& plan,
                                 TechniqueResult& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
-        const graph::Pass& pass = graph.passes()[planned.pass];
-        if (pass.tag != graph::PassTag::scene || !pass.name.starts_with(part.prefix)) continue;
+        const graph::Pass& pass = graph.list_passes()[planned.pass];
+        if (pass.tag != graph::PassPurpose::scene || !pass.name.starts_with(part.prefix)) continue;
         ++part.scene_passes;
         part.scene_draws += static_cast<int>(pass.layer_count);
     }
 }
 
-measure::Picture to_picture(const std::vector<std::byte>& texels, uvec2 size, Format format) {
+measure::Picture texels_to_picture(const std::vector<std::byte>& texels, uvec2 size,
+                                   TexelFormat format) {
     measure::Picture picture(static_cast<int>(size.x), static_cast<int>(size.y));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-        if (format == Format::rgba32f) {
+        if (format == TexelFormat::rgba32f) {
             std::memcpy(&picture.pixels[i], texels.data() + 16 * i, 12);
         } else {
             const auto byte = [&](std::size_t c) {
@@ -82,13 +83,13 @@ void add_ray_counters(const std::vector<std::byte>& bytes, TechniqueResult& part
 
 /// Returns the outcome of captures that are kept under a limit.
 std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs& outputs,
-                                                 const reflect::CaptureHistory& keeping) {
+                                                 const reflect::PreviousCaptureHistory& keeping) {
     if (!outputs.kept || keeping.most == 0) return std::nullopt;
     const render::CaptureCache& kept = *outputs.kept;
     CaptureBudget slices;
     for (std::size_t i = 0; i < kept.options.size(); ++i) {
         slices.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
-        slices.drawn += kept.changes[i] != render::CaptureChange::none;
+        slices.drawn += kept.changes[i] != render::CaptureChangeKind::none;
         slices.waiting += kept.waited[i] > 0;
         slices.longest = std::max(slices.longest, kept.waited[i]);
     }
@@ -100,10 +101,11 @@ std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs
 std::uint64_t count_unused_image_bytes(const graph::GraphRunner& runner,
                                        const graph::Graph& graph) {
     std::uint64_t bytes = 0;
-    for (const auto& [name, kept] : runner.history().persistent) {
-        const bool is_used = std::ranges::find(graph.images(), name, &graph::ImageDesc::name) !=
-                             graph.images().end();
-        if (!is_used) bytes += graph::make_default_sizer().image(kept.desc).bytes;
+    for (const auto& [name, kept] : runner.make_history().persistent) {
+        const bool is_used = std::ranges::find(graph.list_images(), name,
+                                               &graph::ImageDesc::name) !=
+                             graph.list_images().end();
+        if (!is_used) bytes += graph::make_default_requirement_queries().image(kept.desc).bytes;
     }
     return bytes;
 }
@@ -121,13 +123,14 @@ std::size_t count_saturated_texels(const std::vector<std::byte>& bytes) {
 
 } // namespace
 
-std::vector<reflect::TechniquePlan> parse_plans(const std::vector<std::string>& techniques) {
+std::vector<reflect::TechniquePlan>
+parse_technique_plans(const std::vector<std::string>& techniques) {
     check(!techniques.empty(), Failure::usage, "no technique was asked for");
     std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
-        plans.push_back(read_plan(text));
+        plans.push_back(read_technique_plan(text));
         for (std::size_t i = 0; i + 1 < plans.size(); ++i)
-            check(!plans[i].same_as(plans.back()), Failure::usage, "technique '", text,
+            check(!plans[i].is_same_plan_as(plans.back()), Failure::usage, "technique '", text,
                   "' is asked for twice");
     }
     return plans;
@@ -137,16 +140,17 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                const std::vector<reflect::TechniquePlan>& plans,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,
-                               const std::vector<reflect::CaptureHistory>& keeping) {
+                               const std::vector<reflect::PreviousCaptureHistory>& keeping) {
     FrameGraph frame{graph::Graph(std::move(history)), {}};
     scene.begin_frame();
     for (const reflect::TechniquePlan& plan : plans) {
-        const reflect::CaptureHistory& kept = keeping[frame.parts.size()];
+        const reflect::PreviousCaptureHistory& kept = keeping[frame.parts.size()];
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,     prefix,
                                          spec.seed, hooks.ablated, spec.with_lookup};
         const reflect::MirrorAssignment assignment = reflect::replace_unfit_techniques(
-            reflect::assign_mirrors(plan, mirrors), scene.flat_mirrors(), scene.flat_tolerance());
+            reflect::assign_techniques_to_mirrors(plan, mirrors), scene.list_flat_mirror_faces(),
+            scene.flat_mirror_tolerance());
         reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
                                                                       assignment, kept);
         const graph::ImageHandle display = render::add_compose_pass(frame.graph, inputs,
@@ -157,7 +161,7 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
             frame.graph.mark_output(counters);
         if (outputs.lookup) frame.graph.mark_output(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || hooks.with_captures)) {
-            for (const render::CubeArray& cubes : outputs.captures->arrays) {
+            for (const render::CubeCaptureArray& cubes : outputs.captures->arrays) {
                 frame.graph.mark_output(cubes.colour);
                 if (hooks.with_captures && cubes.distance) frame.graph.mark_output(*cubes.distance);
             }
@@ -169,10 +173,10 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
 }
 
 bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
-                               const TechniquePasses& part) {
+                               const TechniqueGraphPart& part) {
     return part.outputs.kept ||
            std::ranges::any_of(plan.passes, [&](const graph::PlannedPass& planned) {
-               const graph::Pass& pass = frame.graph.passes()[planned.pass];
+               const graph::Pass& pass = frame.graph.list_passes()[planned.pass];
                return pass.name.starts_with(part.prefix) &&
                       std::ranges::any_of(pass.images, [](const graph::ImageUse& use) {
                           return use.image.previous;
@@ -180,13 +184,14 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
            });
 }
 
-measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                  const TechniquePasses& declared, uvec2 size) {
-    return to_picture(runner.read_resource(ticket, declared.outputs.hdr), size, Format::rgba32f);
+measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::SubmittedFrameTicket ticket,
+                                  const TechniqueGraphPart& declared, uvec2 size) {
+    return texels_to_picture(runner.read_resource(ticket, declared.outputs.hdr), size,
+                             TexelFormat::rgba32f);
 }
 
 /// Returns how each mirror was drawn, and which rule decided so.
-std::vector<PlanEntry> list_plan_entries(const TechniquePasses& declared,
+std::vector<PlanEntry> list_plan_entries(const TechniqueGraphPart& declared,
                                          const std::vector<std::string>& mirrors) {
     const auto& [choices, of_mirror, patterns, reasons, lacks] = declared.assignment;
     std::vector<PlanEntry> entries;
@@ -198,7 +203,7 @@ std::vector<PlanEntry> list_plan_entries(const TechniquePasses& declared,
         const bool is_left_out = choices.size() > 1 && choice.shared.is_black_in_others;
         if (is_left_out) why += "; black in the captures of others, capture=none";
         entries.push_back({static_cast<std::uint32_t>(i + 1), mirrors[i],
-                           std::string(choice.technique->name), list_settings(choice),
+                           std::string(choice.technique->name), list_knob_settings(choice),
                            std::move(why)});
     }
     return entries;
@@ -206,7 +211,7 @@ std::vector<PlanEntry> list_plan_entries(const TechniquePasses& declared,
 
 /// Returns sentences about mirrors that their technique cannot draw as asked. Mirrors that lack the
 /// same share a sentence, which names the first of them.
-std::vector<std::string> describe_unmet_requests(const TechniquePasses& declared,
+std::vector<std::string> describe_unmet_requests(const TechniqueGraphPart& declared,
                                                  const std::vector<std::string>& mirrors) {
     constexpr std::size_t kMaxNamedMirrors = 3;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> groups;
@@ -222,7 +227,7 @@ std::vector<std::string> describe_unmet_requests(const TechniquePasses& declared
         std::string names;
         for (std::size_t k = 0; k < std::min(kMaxNamedMirrors, lacking.size()); ++k)
             names += (k ? ", " : "") + std::to_string(lacking[k] + 1) + " " +
-                     quote_printable(mirrors[lacking[k]]);
+                     quote_as_printable_text(mirrors[lacking[k]]);
         if (lacking.size() > kMaxNamedMirrors)
             names += " and " + std::to_string(lacking.size() - kMaxNamedMirrors) + " more";
         said.push_back((lacking.size() > 1 ? "mirrors " : "mirror ") + names + ": " + lack);
@@ -230,13 +235,13 @@ std::vector<std::string> describe_unmet_requests(const TechniquePasses& declared
     return said;
 }
 
-TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                      const FrameGraph& frame, std::size_t index,
-                                      const std::vector<std::string>& mirrors,
+TechniqueResult read_technique_result(graph::GraphRunner& runner,
+                                      graph::SubmittedFrameTicket ticket, const FrameGraph& frame,
+                                      std::size_t index, const std::vector<std::string>& mirrors,
                                       const render::GpuScene& scene, const FrameSpec& spec) {
-    const TechniquePasses& declared = frame.parts[index];
+    const TechniqueGraphPart& declared = frame.parts[index];
     const reflect::TechniqueOutputs& outputs = declared.outputs;
-    const graph::GraphPlan& plan = runner.compiled(frame.graph);
+    const graph::GraphPlan& plan = runner.find_or_make_plan(frame.graph);
     TechniqueResult part;
     part.label = declared.plan.label;
     part.prefix = declared.prefix;
@@ -248,17 +253,17 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTi
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
         if (choice.shared.chooses_face)
-            part.auto_face = AutoFace{scene.common_face_edge(), scene.face_needs()};
+            part.auto_face = AutoFace{scene.common_face_edge(), scene.needed_face_edges()};
     for (const graph::BufferHandle counters : outputs.counters)
         add_ray_counters(runner.read_resource(ticket, counters), part);
     const std::vector<std::byte> texels = runner.read_resource(ticket, outputs.hdr);
-    part.hdr = to_picture(texels, spec.size, Format::rgba32f);
+    part.hdr = texels_to_picture(texels, spec.size, TexelFormat::rgba32f);
     if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
-    part.display = to_picture(runner.read_resource(ticket, declared.display), spec.size,
-                              Format::rgba8_unorm);
+    part.display = texels_to_picture(runner.read_resource(ticket, declared.display), spec.size,
+                                     TexelFormat::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
-        for (const render::CubeArray& cubes : outputs.captures->arrays)
-            if (frame.graph.images()[cubes.colour.id].format == Format::rgba16f)
+        for (const render::CubeCaptureArray& cubes : outputs.captures->arrays)
+            if (frame.graph.list_images()[cubes.colour.id].format == TexelFormat::rgba16f)
                 part.saturated = part.saturated.value_or(0) +
                                  count_saturated_texels(runner.read_resource(ticket, cubes.colour));
     if (outputs.lookup)

@@ -13,7 +13,7 @@
 namespace catoptric::app {
 
 /// The part of a frame's graph that belongs to one technique.
-struct TechniquePasses {
+struct TechniqueGraphPart {
     reflect::TechniquePlan plan;
     reflect::MirrorAssignment assignment;
     std::string prefix;
@@ -24,13 +24,14 @@ struct TechniquePasses {
 
 struct FrameGraph {
     graph::Graph graph;
-    std::vector<TechniquePasses> parts;
+    std::vector<TechniqueGraphPart> parts;
     std::shared_ptr<graph::PhysicalImage> target; ///< image of an embedding program; may be null
 };
 
 /// Parses the plans of all techniques. Throws `usage` for an empty list, an unknown technique, and
 /// a technique that is listed twice.
-std::vector<reflect::TechniquePlan> parse_plans(const std::vector<std::string>& techniques);
+std::vector<reflect::TechniquePlan>
+parse_technique_plans(const std::vector<std::string>& techniques);
 
 /// Declares the passes of every technique, the pass that composes its picture, and its outputs.
 /// `mirrors`: names of the mirrors. `keeping`: capture history of each plan. Throws `usage` for a
@@ -39,19 +40,19 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                const std::vector<reflect::TechniquePlan>& plans,
                                const std::vector<std::string>& mirrors,
                                const render::GpuScene& scene, graph::GraphHistory history,
-                               const std::vector<reflect::CaptureHistory>& keeping);
+                               const std::vector<reflect::PreviousCaptureHistory>& keeping);
 
 /// Returns whether the part keeps captures, or one of its passes reads data of the frame before.
 bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
-                               const TechniquePasses& part);
+                               const TechniqueGraphPart& part);
 
-measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                  const TechniquePasses& declared, uvec2 size);
+measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::SubmittedFrameTicket ticket,
+                                  const TechniqueGraphPart& declared, uvec2 size);
 /// Reads the results of a part. `part`: index into the frame's parts. `mirrors`: names of the
 /// mirrors. Throws `exhausted` if rays took more steps than allowed.
-TechniqueResult read_technique_result(graph::GraphRunner& runner, graph::FrameTicket ticket,
-                                      const FrameGraph& frame, std::size_t part,
-                                      const std::vector<std::string>& mirrors,
+TechniqueResult read_technique_result(graph::GraphRunner& runner,
+                                      graph::SubmittedFrameTicket ticket, const FrameGraph& frame,
+                                      std::size_t part, const std::vector<std::string>& mirrors,
                                       const render::GpuScene& scene, const FrameSpec& spec);
 
 } // namespace catoptric::app

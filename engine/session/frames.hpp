@@ -26,19 +26,19 @@ public:
     /// Frees the session for other frames until the next call of `render_next`. That call continues
     /// the sequence as if no other frames had been rendered. Results of the last frame that were
     /// not read by then are lost.
-    void suspend() { aside_.emplace(Access::suspend_sequence(session_)); }
+    void suspend_frame_loop() { aside_.emplace(Access::suspend_sequence(loop_session_)); }
     int rendered_frame_count() const { return number_; } ///< number of the last frame, from 1
     /// Returns the number of frames in all, if the picture does not settle earlier.
     int max_frame_count() const;
-    const Frame& frame() const { return *frame_; }
-    bool has_settled() const { return settled_; }
+    const Frame& current_frame() const { return *frame_; }
+    bool has_capture_settled() const { return settled_; }
     /// Returns the times of the measured frames so far.
-    const std::vector<FrameTimes>& times() const { return times_; }
+    const std::vector<FrameTimes>& list_frame_times() const { return times_; }
     /// Returns the results up to the frame rendered last.
     RunResult result() const;
 
 private:
-    Session& session_;
+    Session& loop_session_;
     const Request& request_;
     FrameHooks hooks_;
     int number_ = 0;

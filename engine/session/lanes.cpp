@@ -12,10 +12,10 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kBitsPerLane = 32;
+constexpr int kVectorBitsPerLane = 32;
 
-int measure_shader_lanes(gpu::Device& device) {
-    gpu::Pipelines pipelines(device); // separate, so that the engine's counts do not change
+int measure_shader_lanes(gpu::GpuDevice& device) {
+    gpu::PipelineStore pipelines(device); // separate, so that the engine's counts do not change
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const graph::BufferHandle lanes = graph.add_buffer({"lanes", 16});
@@ -23,7 +23,7 @@ int measure_shader_lanes(gpu::Device& device) {
         .writes(lanes, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"lanes.comp", {}});
-            commands.bind("Lanes", lanes);
+            commands.bind_resource("Lanes", lanes);
             commands.dispatch(1, 1);
         });
     graph.mark_output(lanes);
@@ -36,13 +36,13 @@ int measure_shader_lanes(gpu::Device& device) {
 } // namespace
 
 int count_shader_lanes(const Engine& engine) {
-    return measure_shader_lanes(EmbeddingAccess::device(engine));
+    return measure_shader_lanes(EmbeddingEngineAccess::device_of_engine(engine));
 }
 
-std::string warn_of_vector_width(const Engine& engine) {
-    const std::optional<long> asked = gpu::requested_vector_bits();
+std::string make_vector_width_warning(const Engine& engine) {
+    const std::optional<long> asked = gpu::read_requested_vector_bits();
     if (!asked || engine.device().type != "cpu") return "";
-    const int bits = kBitsPerLane * count_shader_lanes(engine);
+    const int bits = kVectorBitsPerLane * count_shader_lanes(engine);
     if (*asked == bits) return "";
     return "LP_NATIVE_VECTOR_WIDTH asks for vectors of " + std::to_string(*asked) +
            " bits, the driver runs code of " + std::to_string(bits) +

@@ -9,6 +9,6 @@ int count_shader_lanes(const Engine& engine);
 /// Returns a warning if a software driver uses another vector width than LP_NATIVE_VECTOR_WIDTH
 /// asks for. Returns an empty text if the widths agree or the variable asks for none. Counts lanes
 /// if the variable asks for a width.
-std::string warn_of_vector_width(const Engine& engine);
+std::string make_vector_width_warning(const Engine& engine);
 
 } // namespace catoptric::app

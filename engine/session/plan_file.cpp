@@ -70,7 +70,7 @@ reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place)
 
 } // namespace
 
-reflect::TechniquePlan read_plan(const std::string& text) {
+reflect::TechniquePlan read_technique_plan(const std::string& text) {
     if (!text.starts_with(kPlanFilePrefix)) return reflect::parse_plan(text);
     const std::string file = text.substr(kPlanFilePrefix.size());
     std::error_code error;

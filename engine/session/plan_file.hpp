@@ -13,7 +13,7 @@ namespace catoptric::app {
 /// "settings": {knob: value}}. `settings` is optional; a report's `name` and `why` are ignored.
 /// Throws `missing_input`, `io` and `bad_data` with the place, the wanted and the found value, and
 /// `usage` as parse_plan does.
-reflect::TechniquePlan read_plan(const std::string& text);
+reflect::TechniquePlan read_technique_plan(const std::string& text);
 
 /// Returns the names of the scene's mirrors, in their order.
 std::vector<std::string> list_mirror_names(const scene::Scene& scene);

@@ -70,13 +70,13 @@ double read_machine_load() {
     return ::getloadavg(&load, 1) == 1 ? load : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<ProcessorUse> read_processor_use() {
-    ProcessorUse use{{}, read_busy_seconds()};
+std::optional<ProcessorUsageSoFar> read_processor_use() {
+    ProcessorUsageSoFar use{{}, read_busy_seconds()};
     std::error_code error;
     for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", error)) {
         // The file begins with the nanoseconds that the thread ran, and those that it waited.
         std::ifstream file(task.path() / "schedstat");
-        ThreadTime time;
+        ThreadRunAndWaitTime time;
         if (!(file >> time.ran >> time.waited)) continue; // the thread has ended
         time.ran *= kSecondsPerNanosecond, time.waited *= kSecondsPerNanosecond;
         use.threads.emplace(std::stoi(task.path().filename().string()), time);
@@ -85,15 +85,17 @@ std::optional<ProcessorUse> read_processor_use() {
     return use;
 }
 
-void WaitingTimes::operator+=(const WaitingTimes& more) {
+void ProcessorWaitingTimes::operator+=(const ProcessorWaitingTimes& more) {
     ran += more.ran, waited += more.waited, others += more.others;
 }
 
-WaitingTimes compute_waiting_times(const ProcessorUse& before, const ProcessorUse& after) {
-    WaitingTimes sum;
+ProcessorWaitingTimes compute_waiting_times(const ProcessorUsageSoFar& before,
+                                            const ProcessorUsageSoFar& after) {
+    ProcessorWaitingTimes sum;
     for (const auto& [thread, time] : after.threads) {
         const auto found = before.threads.find(thread);
-        const ThreadTime start = found == before.threads.end() ? ThreadTime{} : found->second;
+        const ThreadRunAndWaitTime start = found == before.threads.end() ? ThreadRunAndWaitTime{}
+                                                                         : found->second;
         sum.ran += time.ran - start.ran;
         sum.waited += time.waited - start.waited;
     }
@@ -101,7 +103,7 @@ WaitingTimes compute_waiting_times(const ProcessorUse& before, const ProcessorUs
     return sum;
 }
 
-double compute_waited_share(const WaitingTimes& waiting) {
+double compute_waited_share(const ProcessorWaitingTimes& waiting) {
     if (!(waiting.waited > 0)) return 0;
     const double share = waiting.waited / (waiting.ran + waiting.waited);
     if (std::isnan(waiting.others)) return share;

@@ -17,35 +17,36 @@ double read_machine_load();
 
 /// Seconds that a thread ran, and seconds that it was ready but waited for a processor, since it
 /// began.
-struct ThreadTime {
+struct ThreadRunAndWaitTime {
     double ran = 0, waited = 0;
 };
 
 /// Use of the machine's processors so far.
-struct ProcessorUse {
-    std::map<int, ThreadTime> threads; ///< threads of this process, by thread number
+struct ProcessorUsageSoFar {
+    std::map<int, ThreadRunAndWaitTime> threads; ///< threads of this process, by thread number
     /// Seconds that all processors worked, for any process. NaN if the system does not report it.
     double busy = 0;
 };
 
 /// Reads /proc/self/task/*/schedstat and /proc/stat. Returns nothing if the system does not report
 /// waiting.
-std::optional<ProcessorUse> read_processor_use();
+std::optional<ProcessorUsageSoFar> read_processor_use();
 
 /// Times between two readings, or sums over several pairs of readings, in seconds.
-struct WaitingTimes {
+struct ProcessorWaitingTimes {
     double ran = 0, waited = 0; ///< all threads of this process together
     double others = 0;          ///< processor time of other processes; NaN: unknown
-    void operator+=(const WaitingTimes& more);
+    void operator+=(const ProcessorWaitingTimes& more);
 };
 /// Returns the times between two readings. Threads that ended in between are not counted.
-WaitingTimes compute_waiting_times(const ProcessorUse& before, const ProcessorUse& after);
+ProcessorWaitingTimes compute_waiting_times(const ProcessorUsageSoFar& before,
+                                            const ProcessorUsageSoFar& after);
 
 /// Returns the share of the time that threads ran or were ready in which they waited for a
 /// processor that others had. Threads of a driver also wait for each other if they outnumber the
 /// processors. Therefore the share of waiting that counts is the share of processor time that
 /// others had. If their time is unknown, all waiting counts.
-double compute_waited_share(const WaitingTimes& waiting);
+double compute_waited_share(const ProcessorWaitingTimes& waiting);
 
 /// Returns whether threads waited for more than 5 % of the time, so that measured times say little.
 bool is_timing_noisy(double waited_share);
@@ -67,7 +68,7 @@ public:
     PinnedThreads(const PinnedThreads&) = delete;
     PinnedThreads& operator=(const PinnedThreads&) = delete;
 
-    std::size_t count() const { return threads_.size(); }
+    std::size_t pinned_thread_count() const { return threads_.size(); }
 
 private:
     std::vector<int> threads_; ///< thread numbers

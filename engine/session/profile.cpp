@@ -21,7 +21,7 @@ constexpr std::uintmax_t kMaxProfileBytes = 1U << 20U;
 
 /// Returns the value as text for messages, without JSON's quotes.
 std::string format_for_message(const Json& value) {
-    return value.is_string() ? quote_printable(value.get<std::string>())
+    return value.is_string() ? quote_as_printable_text(value.get<std::string>())
                              : report::describe_json_value(value);
 }
 
@@ -33,7 +33,7 @@ std::size_t find_variant_index(std::string_view name, Failure failure, const std
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
     }
-    fail(failure, place, ": wanted one of ", known, ", found ", quote_printable(name));
+    fail(failure, place, ": wanted one of ", known, ", found ", quote_as_printable_text(name));
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
@@ -41,8 +41,9 @@ std::uint8_t find_choice_index(const gpu::ShaderVariant& variant, const Json& ch
                                Failure failure, const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
-    fail(failure, place, ".", variant.name, ": wanted ", quote_printable(variant.choices[0]),
-         " or ", quote_printable(variant.choices[1]), ", found ", format_for_message(choice));
+    fail(failure, place, ".", variant.name, ": wanted ",
+         quote_as_printable_text(variant.choices[0]), " or ",
+         quote_as_printable_text(variant.choices[1]), ", found ", format_for_message(choice));
 }
 
 Json make_device_json(const DeviceInfo& device) {
@@ -61,7 +62,7 @@ std::string read_small_file(const fs::path& file) {
 }
 
 gpu::VariantChoices read_profile_if_usable(const fs::path& file, const DeviceInfo& device) {
-    return read_profile(read_small_file(file), file.string(), device);
+    return parse_device_profile(read_small_file(file), file.string(), device);
 }
 
 /// Returns the choices of the folder's profile, or the defaults if there is no usable profile.
@@ -101,27 +102,28 @@ std::string make_profile_file_name(const DeviceInfo& device) {
 }
 
 std::string make_profile_text(const DeviceInfo& device,
-                              const std::vector<measure::TriedVariant>& tried) {
+                              const std::vector<measure::ShaderVariantTrial>& tried) {
     Json document{{"schema", kProfileSchema}, {"version", version()}, {"commit", commit()}};
     document["device"] = make_device_json(device);
     document["variants"] = Json::object();
     document["measured"] = Json::array();
-    for (const measure::TriedVariant& one : tried) {
-        document["variants"][one.variant] = one.is_taken() ? one.choice : one.standard;
-        const measure::CostRatio ratio = one.ratio();
+    for (const measure::ShaderVariantTrial& one : tried) {
+        document["variants"][one.variant] = one.is_faster_than_default() ? one.choice
+                                                                         : one.standard;
+        const measure::CostRatio ratio = one.time_ratio_to_default();
         document["measured"].push_back({{"variant", one.variant},
                                         {"choice", one.choice},
                                         {"against", one.standard},
                                         {"benchmark", one.benchmark},
-                                        {"ratio", report::number_json(ratio.median)},
-                                        {"ci95", report::interval_json(ratio.ci95)},
-                                        {"taken", one.is_taken()}});
+                                        {"ratio", report::make_number_json(ratio.median)},
+                                        {"ci95", report::make_interval_json(ratio.ci95)},
+                                        {"taken", one.is_faster_than_default()}});
     }
     return report::serialise_json(document);
 }
 
-gpu::VariantChoices read_profile(const std::string& text, const std::string& file,
-                                 const DeviceInfo& device) {
+gpu::VariantChoices parse_device_profile(const std::string& text, const std::string& file,
+                                         const DeviceInfo& device) {
     const Json document = parse_json<Json>(file, text);
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();

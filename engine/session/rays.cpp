@@ -4,10 +4,10 @@
 
 namespace catoptric::app {
 
-bvh::Bvh build_bvh_without_object(const render::Geometry& geometry, std::size_t left_out) {
+bvh::Bvh build_bvh_without_object(const render::FrameGeometry& geometry, std::size_t left_out) {
     std::vector<bvh::Triangle> triangles;
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
-        const render::DrawRange& range = geometry.ranges[object];
+        const render::ObjectDrawRange& range = geometry.ranges[object];
         if (object == left_out) continue;
         for (std::uint32_t k = range.first_index; k < range.first_index + range.index_count;
              k += 3) {
@@ -16,11 +16,11 @@ bvh::Bvh build_bvh_without_object(const render::Geometry& geometry, std::size_t 
             };
             triangles.push_back({corner(0), corner(1), corner(2),
                                  static_cast<std::uint32_t>(object),
-                                 (range.seen_by_camera ? 0 : bvh::kHiddenFromCamera) |
-                                     (range.one_sided ? bvh::kOneSided : 0)});
+                                 (range.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
+                                     (range.one_sided ? bvh::kOneSidedFlag : 0)});
         }
     }
-    return bvh::build_bvh(triangles, geometry.core, bvh::DuplicateScope::across_objects);
+    return bvh::build_bvh(triangles, geometry.core, bvh::DuplicateSearchScope::across_objects);
 }
 
 f32::Ray make_camera_ray(const shared::View& view, uvec2 size, std::size_t pixel) {

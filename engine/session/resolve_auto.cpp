@@ -10,10 +10,10 @@ namespace catoptric::app {
 reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scene::Scene& scene,
                                          const FrameSpec& spec) {
     if (!plan.is_auto) return plan;
-    const scene::SceneAt at_time(scene, spec.time);
+    const scene::SceneAtTime at_time(scene, spec.time);
     const scene::Scene& now = *at_time;
-    const scene::Camera camera = scene::camera_at(spec.camera, spec.time);
-    const require::PlanSuggestion suggestion = require::suggest_plan(
+    const scene::Camera camera = scene::camera_at_time(spec.camera, spec.time);
+    const require::PlanSuggestion suggestion = require::suggest_technique_plan(
         {.now = now, .camera = camera, .size = spec.size});
     reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);

@@ -25,7 +25,7 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::size_t kMaxLights = 16;
+constexpr std::size_t kMaxSceneLights = 16;
 constexpr std::size_t kMaxEnvironmentTexels = std::size_t{1} << 25; // 8192 x 4096
 constexpr std::size_t kManyMirrorsLimit = 64; // scenes with more mirrors get a message
 
@@ -35,7 +35,7 @@ bool is_built_in_scene(const std::string& name) {
         [&](const scene::BuiltInScene& scene) { return scene.name == name; });
 }
 
-std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
+std::shared_ptr<scene::Environment> read_environment_picture(const std::string& path) {
     const measure::Picture picture = measure::read_picture(path, [&](int width, int height) {
         check(std::size_t(width) * std::size_t(height) <= kMaxEnvironmentTexels, Failure::bad_data,
               path, ": wanted an environment of at most ", kMaxEnvironmentTexels, " texels, found ",
@@ -58,15 +58,15 @@ std::shared_ptr<scene::Environment> read_environment(const std::string& path) {
 }
 
 /// Returns the environment that `word` names; null for "none".
-std::shared_ptr<scene::Environment> load_environment(const std::string& word) {
+std::shared_ptr<scene::Environment> load_environment_by_name(const std::string& word) {
     if (word == "none") return nullptr;
-    if (word != "studio") return read_environment(word);
+    if (word != "studio") return read_environment_picture(word);
     auto studio = std::make_shared<scene::Environment>();
     studio->name = "studio", studio->studio = true;
     return studio;
 }
 
-void record_scene_file(scene::Scene& scene, const std::filesystem::path& real) {
+void record_scene_file_path(scene::Scene& scene, const std::filesystem::path& real) {
     if (std::ranges::find(scene.files, real) == scene.files.end()) scene.files.push_back(real);
 }
 
@@ -88,13 +88,13 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     std::shared_ptr<scene::Environment> environment;
     if (scene.environment) environment = std::make_shared<scene::Environment>(*scene.environment);
     if (overrides.environment) {
-        environment = load_environment(*overrides.environment);
+        environment = load_environment_by_name(*overrides.environment);
         if (environment && !environment->studio)
-            record_scene_file(scene, resolve_real_path(*overrides.environment));
+            record_scene_file_path(scene, resolve_real_path(*overrides.environment));
     } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
-        environment = load_environment("studio");
-        scene::add_unsupported(scene.unsupported, "added-studio",
-                               "scene " + quote_printable(scene.name));
+        environment = load_environment_by_name("studio");
+        scene::add_unsupported_feature(scene.unsupported, "added-studio",
+                                       "scene " + quote_as_printable_text(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
     if (environment) {
@@ -131,19 +131,19 @@ void apply_light_samples(ResolvedScene& wanted) {
 }
 
 /// Adds a message about the cost of many mirrors.
-void warn_of_many_mirrors(scene::Scene& scene) {
+void warn_of_scene_with_many_mirrors(scene::Scene& scene) {
     // Six faces of 256 texels an edge, kept for the next frame, too. Colour takes half floats. With
     // it come distance and, for one frame, the number of the surface seen.
-    constexpr std::size_t kCubeTexels = 6 * 256 * 256, kBytesPerMebibyte = 1 << 20,
-                          kColourBytes = kCubeTexels * 2 * 8,
-                          kCaptureBytes = kCubeTexels * (2 * (8 + 4) + 8);
+    constexpr std::size_t kTypicalCaptureTexels = 6 * 256 * 256, kBytesPerMebibyte = 1 << 20,
+                          kColourBytes = kTypicalCaptureTexels * 2 * 8,
+                          kCaptureBytes = kTypicalCaptureTexels * (2 * (8 + 4) + 8);
     const std::size_t count = scene::mirrors(scene).size();
     if (count <= kManyMirrorsLimit) return;
     const std::string number = std::to_string(count);
     const auto mebibytes = [&](std::size_t bytes) {
         return std::to_string(count * bytes / kBytesPerMebibyte);
     };
-    scene.warnings.push_back("scene " + quote_printable(scene.name) + " has " + number +
+    scene.warnings.push_back("scene " + quote_as_printable_text(scene.name) + " has " + number +
                              " mirrors: " + number + " captures of six faces a frame, " +
                              mebibytes(kColourBytes) + " to " + mebibytes(kCaptureBytes) +
                              " MiB at face=256; a smaller face=, --plan and --model required "
@@ -166,15 +166,15 @@ std::optional<scene::Camera> find_named_camera(const scene::SceneOverrides& over
 
 /// Copies exposure and camera of the scene file into the scene, and therefore into its hash. The
 /// camera comes first.
-void copy_view_into_scene(ResolvedScene& wanted, const scene::SceneFile& filed,
-                          const std::optional<scene::Camera>& camera) {
+void copy_camera_and_exposure(ResolvedScene& wanted, const scene::SceneFile& filed,
+                              const std::optional<scene::Camera>& camera) {
     scene::Scene& scene = wanted.scene;
     if (filed.overrides.exposure) scene.exposure = filed.overrides.exposure->stops;
     if (camera) {
         std::erase(scene.cameras, *camera);
         scene.cameras.insert(scene.cameras.begin(), *camera);
     }
-    for (const std::filesystem::path& file : filed.files) record_scene_file(scene, file);
+    for (const std::filesystem::path& file : filed.files) record_scene_file_path(scene, file);
 }
 
 /// Applies all overrides to the scene. `said`: those of the command line.
@@ -182,22 +182,22 @@ void apply_scene_overrides(ResolvedScene& wanted, const scene::SceneOverrides& s
                            const std::optional<scene::SceneFile>& filed) {
     scene::Scene& scene = wanted.scene;
     const std::string file = filed ? filed->path.string() : "";
-    if (filed) scene::check_patterns(scene, filed->overrides, file);
+    if (filed) scene::check_override_patterns(scene, filed->overrides, file);
     scene::apply_edit(scene, wanted.overrides);
-    // Finds the camera before `copy_view_into_scene` changes the order of cameras, because an index
-    // counts in the scene's own order.
+    // Finds the camera before `copy_camera_and_exposure` changes the order of cameras, because an
+    // index counts in the scene's own order.
     std::optional<scene::Camera> camera;
     if (filed)
         camera = find_named_camera(filed->overrides, scene, {file + ": camera", Failure::bad_data});
     wanted.camera = said.camera ? find_named_camera(said, scene, {"--camera"}) : camera;
     wanted.is_camera_seeded = wanted.overrides.camera &&
                               is_seeded_camera(*wanted.overrides.camera, scene);
-    if (filed) copy_view_into_scene(wanted, *filed, camera);
+    if (filed) copy_camera_and_exposure(wanted, *filed, camera);
 }
 
 } // namespace
 
-ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& options) {
+ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOptions& options) {
     ResolvedScene wanted{.overrides = options.overrides, .is_file = !is_built_in_scene(name)};
     std::optional<scene::SceneFile> filed;
     if (wanted.is_file && options.use_scene_file)
@@ -216,17 +216,17 @@ ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& 
                 scene::format_shortest_number(scene::Scene().mirror_max_roughness) +
                 " by default)");
     }
-    scene::FileOptions load = options.load;
+    scene::SceneFileOptions load = options.load;
     if (wanted.overrides.animation) load.animation = *wanted.overrides.animation;
     if (filed && !options.overrides.animation)
         load.animation_by = {filed->path.string() + ": animation", Failure::bad_data};
-    wanted.scene = scene::load_file(name, load);
+    wanted.scene = scene::load_scene_file(name, load);
     apply_scene_overrides(wanted, options.overrides, filed);
-    if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxLights);
+    if (wanted.is_file) scene::drop_weakest_lights(wanted.scene, kMaxSceneLights);
     apply_light_samples(wanted);
     apply_environment_overrides(wanted, options.overrides);
     scene::sort_unsupported_features(wanted.scene);
-    warn_of_many_mirrors(wanted.scene);
+    warn_of_scene_with_many_mirrors(wanted.scene);
     return wanted;
 }
 
@@ -240,7 +240,7 @@ std::optional<double> find_exposure(const ResolvedScene& wanted) {
     return wanted.is_file ? std::nullopt : std::optional(0.0);
 }
 
-scene::Camera choose_camera(ResolvedScene& wanted, double aspect) {
+scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
     scene::Scene& scene = wanted.scene;
     if (wanted.camera) return *wanted.camera;
     if (!scene.cameras.empty()) return scene.cameras.front();
@@ -248,8 +248,8 @@ scene::Camera choose_camera(ResolvedScene& wanted, double aspect) {
     const std::optional<scene::Camera> inside = scene::find_inside_camera(scene, outside);
     const scene::Camera camera = inside.value_or(outside);
     if (wanted.is_file)
-        scene::add_unsupported(scene.unsupported, "added-camera",
-                               "scene " + quote_printable(scene.name));
+        scene::add_unsupported_feature(scene.unsupported, "added-camera",
+                                       "scene " + quote_as_printable_text(scene.name));
     wanted.said.push_back(std::string("no camera") + (inside ? ", a closed room" : "") +
                           ": using --camera " + scene::format_camera(camera) +
                           (inside ? " (inside)" : ""));

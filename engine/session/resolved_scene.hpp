@@ -26,7 +26,7 @@ struct ResolvedScene {
 };
 
 struct SceneResolveOptions {
-    scene::FileOptions load;
+    scene::SceneFileOptions load;
     /// Overrides of the command line; they win over those of SCENE.catoptric.json.
     scene::SceneOverrides overrides;
     bool use_scene_file = true; ///< read SCENE.catoptric.json
@@ -37,7 +37,7 @@ struct SceneResolveOptions {
 /// `studio` (gap "added-studio"), unless the user says something about it. Throws as scene::load,
 /// scene::read_scene_file, scene::apply_edit and scene::find_camera_by_name do, and `bad_data` for
 /// a picture that cannot be an environment.
-ResolvedScene resolve_scene(const std::string& name, const SceneResolveOptions& options);
+ResolvedScene load_resolved_scene(const std::string& name, const SceneResolveOptions& options);
 
 /// Returns the ambient light: the user's value, else 0 with an environment and .05 without.
 double choose_ambient_light(const ResolvedScene& wanted);
@@ -47,6 +47,6 @@ std::optional<double> find_exposure(const ResolvedScene& wanted);
 /// Returns the user's camera, or else the scene's first. If there is none, adds a camera (gap
 /// "added-camera") and reports it in `said`: scene::find_inside_camera for a closed room, else
 /// scene::make_default_camera.
-scene::Camera choose_camera(ResolvedScene& wanted, double aspect);
+scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect);
 
 } // namespace catoptric::app

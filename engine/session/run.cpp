@@ -13,7 +13,7 @@
 namespace catoptric::app {
 
 FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks)
-    : session_(session), request_(request), hooks_(hooks) {
+    : loop_session_(session), request_(request), hooks_(hooks) {
     check(request.frames > 0 && request.warmup >= 0, Failure::usage,
           "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
           request.warmup);
@@ -22,13 +22,13 @@ FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks&
 
 bool FrameLoop::render_next() {
     if (settled_ || number_ >= max_frame_count()) return false;
-    if (aside_) Access::resume_sequence(session_, std::move(*aside_));
+    if (aside_) Access::resume_sequence(loop_session_, std::move(*aside_));
     aside_.reset();
     ++number_;
     FrameSpec spec = request_;
     spec.time = request_.instant(number_);
     const double used_before = read_process_seconds();
-    frame_ = Access::render_frame(session_, spec, hooks_);
+    frame_ = Access::render_frame(loop_session_, spec, hooks_);
     // The first measured frame must not wait for the frames before it.
     if (number_ == request_.warmup) frame_->times();
     if (number_ > request_.warmup) {
@@ -59,9 +59,9 @@ RunResult FrameLoop::result() const { return {frame_->read_all(), times_, settle
 
 RunResult run(Session& session, const Request& request, const Watcher& watcher) {
     FrameLoop frames(session, request);
-    check_stopped(watcher);
+    throw_if_stopped(watcher);
     while (frames.render_next())
-        tell_frame(watcher, frames.rendered_frame_count(), frames.max_frame_count());
+        report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     return frames.result();
 }
 

@@ -38,10 +38,10 @@ uvec2 compute_thumbnail_size(uvec2 size) {
 }
 
 std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
-    const scene::SceneAt at_time(request.scene, request.time);
+    const scene::SceneAtTime at_time(request.scene, request.time);
     const scene::Scene& now = *at_time;
     const render::SceneUnits space = render::make_scene_units(request.scene);
-    const render::Geometry geometry = render::make_geometry(now, space);
+    const render::FrameGeometry geometry = render::make_frame_geometry(now, space);
     const shared::View view = render::make_camera_view(request.camera, space, size, 0);
     // More tests than this take longer than building a BVH.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
@@ -51,9 +51,9 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     const bvh::Bvh hierarchy = build_bvh_without_object(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
-        const auto hit = bvh::find_closest_hit<float>(hierarchy, make_camera_ray(view, size, pixel),
-                                                      std::numeric_limits<float>::max(),
-                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
+        const auto hit = bvh::find_closest_hit<float>(
+            hierarchy, make_camera_ray(view, size, pixel), std::numeric_limits<float>::max(),
+            bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
     return seen;
@@ -99,7 +99,7 @@ std::vector<measure::LightFacts> list_light_facts(const scene::Scene& scene) {
                                 .area = light.area};
         if (i >= first_without) {
             const scene::PunctualLight& punctual = scene.punctual[i - first_without];
-            one.kind = scene::light_kind_of(punctual.kind).name,
+            one.kind = scene::find_light_kind(punctual.kind).name,
             one.is_parallel = light.directional;
             one.name = punctual.name, one.direction = light.axis, one.area = 0;
         }

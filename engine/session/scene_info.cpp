@@ -23,7 +23,7 @@ std::uint64_t count_list_bytes(const std::vector<Item>& list) {
 }
 
 std::string classify_material(const scene::Material& material,
-                              const scene::SurfaceShares& surface) {
+                              const scene::SurfaceKindShares& surface) {
     if (material.mirror) return "mirror";
     if (material.unlit) return "unlit";
     if (surface.mirror >= scene::kMinMirrorAreaShare)
@@ -91,7 +91,7 @@ std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vec
         if (material.mirror) {
             info.reflectance = material.reflectance;
         } else {
-            const scene::SurfaceShares surface = scene::measure_surface_kinds(now, object);
+            const scene::SurfaceKindShares surface = scene::measure_surface_kinds(now, object);
             info.reflectance = surface.mirror > 0 ? surface.mirror_f0
                                                   : scene::compute_f0(material, material.albedo,
                                                                       material.metallic);
@@ -135,7 +135,7 @@ SceneInfo make_scene_info(const Request& request) {
     SceneInfo info{.facts = make_scene_facts(request, seen)};
     fill_scene_sizes(info, scene);
     info.materials = list_material_info(scene);
-    info.mirrors = list_mirror_info(*scene::SceneAt(scene, request.time), seen);
+    info.mirrors = list_mirror_info(*scene::SceneAtTime(scene, request.time), seen);
     if (info.mirrors.empty()) info.mirror_options = suggest_mirror_options(scene);
     for (const scene::Camera& camera : scene.cameras)
         info.cameras.push_back(make_device_facts(camera));

@@ -31,12 +31,12 @@ std::vector<std::uint32_t> pack_rgba8(const measure::Picture& display) {
 /// Writes data into a buffer. The buffer grows to a power of two, so that changing sizes seldom
 /// need a new buffer.
 template <typename T>
-void write_to_buffer(gpu::Device& device, gpu::Buffer& buffer, const std::string& name,
+void write_to_buffer(gpu::GpuDevice& device, gpu::GpuBuffer& buffer, const std::string& name,
                      const std::vector<T>& data, gpu::BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
-    if (buffer.bytes() < bytes || !buffer.handle())
-        buffer = gpu::Buffer(device, name, std::bit_ceil(bytes), use);
-    buffer.write(std::span<const T>(data));
+    if (buffer.size_in_bytes() < bytes || !buffer.buffer_handle())
+        buffer = gpu::GpuBuffer(device, name, std::bit_ceil(bytes), use);
+    buffer.write_contents(std::span<const T>(data));
 }
 
 } // namespace
@@ -46,7 +46,7 @@ WindowScreen::Impl::Impl(Access::EngineImpl& engine)
       font(device, "font", 4, gpu::BufferUsage::plain) {}
 
 WindowScreen::Impl::~Impl() {
-    if (device.abandoned()) return;
+    if (device.is_abandoned()) return;
     try {
         swapchain.wait_idle();
     } catch (const std::exception&) {
@@ -54,16 +54,17 @@ WindowScreen::Impl::~Impl() {
     }
 }
 
-WindowScreen::WindowScreen(Engine& engine) : impl_(std::make_unique<Impl>(Access::impl(engine))) {}
+WindowScreen::WindowScreen(Engine& engine)
+    : screen_impl_(std::make_unique<Impl>(Access::engine_impl_of(engine))) {}
 WindowScreen::~WindowScreen() = default;
 
-bool WindowScreen::lost() const { return impl_->swapchain.is_lost(); }
-uvec2 WindowScreen::size() const { return impl_->swapchain.size(); }
-double WindowScreen::acquire_ms() const { return impl_->acquire_ms; }
-double WindowScreen::present_ms() const { return impl_->present_ms; }
+bool WindowScreen::lost() const { return screen_impl_->swapchain.is_surface_lost(); }
+uvec2 WindowScreen::size() const { return screen_impl_->swapchain.size_in_pixels(); }
+double WindowScreen::acquire_ms() const { return screen_impl_->acquire_ms; }
+double WindowScreen::present_ms() const { return screen_impl_->present_ms; }
 
 bool WindowScreen::fit_to_window(uvec2 window) {
-    Impl& self = *impl_;
+    Impl& self = *screen_impl_;
     if (self.fits && window == self.window) return true;
     self.fits = false;
     if (window.x == 0 || window.y == 0) return false;
@@ -71,16 +72,16 @@ bool WindowScreen::fit_to_window(uvec2 window) {
     self.images.clear();
     if (!self.swapchain.create_images(window)) return false;
     self.window = window;
-    const uvec2 size = self.swapchain.size();
-    for (const auto image : self.swapchain.images())
-        self.images.push_back(
-            graph::wrap_external_image({"window", self.swapchain.format(), size.x, size.y}, image));
+    const uvec2 size = self.swapchain.size_in_pixels();
+    for (const auto image : self.swapchain.swapchain_images())
+        self.images.push_back(graph::wrap_external_image(
+            {"window", self.swapchain.texel_format(), size.x, size.y}, image));
     self.fits = true;
     return true;
 }
 
 void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverage) {
-    Impl& self = *impl_;
+    Impl& self = *screen_impl_;
     check(coverage.size() == std::size_t{size.x} * size.y && !coverage.empty(), Failure::usage,
           "a font's picture of ", size.x, "x", size.y, " texels has ", coverage.size(), " bytes");
     self.swapchain.wait_idle();
@@ -92,13 +93,13 @@ void WindowScreen::set_font(uvec2 size, const std::vector<std::uint8_t>& coverag
 
 Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
                              const WindowPictures& showing) {
-    WindowScreen::Impl& onto = *screen.impl_;
+    WindowScreen::Impl& onto = *screen.screen_impl_;
     check(onto.fits, Failure::internal,
           "a frame is shown on a screen that does not fit its window");
     graph::GraphRunner& runner = session.impl_->runner;
     const std::size_t index = std::exchange(onto.next_slot,
                                             (onto.next_slot + 1) % onto.slots.size());
-    WindowScreen::Impl::FrameBuffers& slot = onto.slots[index];
+    WindowScreen::Impl::OverlayFrameBuffers& slot = onto.slots[index];
     if (slot.runner == &runner && !runner.has_ended(slot.ticket))
         runner.wait_for_frame(slot.ticket);
     std::optional<std::uint32_t> image;
@@ -132,7 +133,7 @@ bool WindowScreen::Impl::present() {
 void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
                              const WindowPictures& showing, std::size_t index) {
     using graph::ImageHandle;
-    FrameBuffers& slot = slots[index];
+    OverlayFrameBuffers& slot = slots[index];
     const WindowOverlay& overlay = showing.overlay;
     // The first three indices belong to the triangle that covers the whole window.
     std::vector<std::uint32_t> indices{0, 1, 2};
@@ -144,18 +145,18 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
     if (showing.canvas) canvas = pack_rgba8(*showing.canvas);
     write_to_buffer(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
 
-    const uvec2 size = swapchain.size();
+    const uvec2 size = swapchain.size_in_pixels();
     const auto picture = [&](std::size_t part) {
-        return frame.parts.at(part == WindowPictures::kCanvasTexture ? 0 : part).display;
+        return frame.parts.at(part == WindowPictures::kCanvasTextureIndex ? 0 : part).display;
     };
     const ImageHandle first = picture(showing.first), second = picture(showing.second);
     const shared::ScreenParameters screening{
         spec.size, static_cast<std::uint32_t>(showing.kind),
-        (showing.first == WindowPictures::kCanvasTexture ? 1u : 0u) |
-            (showing.second == WindowPictures::kCanvasTexture ? 2u : 0u),
+        (showing.first == WindowPictures::kCanvasTextureIndex ? 1u : 0u) |
+            (showing.second == WindowPictures::kCanvasTextureIndex ? 2u : 0u),
         showing.divider, showing.gain};
     const ImageHandle target = frame.graph.import_external(
-        {"window", swapchain.format(), size.x, size.y}, &images.at(image), std::nullopt,
+        {"window", swapchain.texel_format(), size.x, size.y}, &images.at(image), std::nullopt,
         graph::ResourceUse::present);
     graph::PassBuilder pass = frame.graph.add_pass("window");
     pass.reads(first, graph::ResourceUse::sampled);
@@ -164,19 +165,19 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
         .record([&slot, this, first, second, screening, size,
                  draws = overlay.draws](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::RasterState{"screen.vert", "screen.frag", {}});
-            commands.bind("first", first);
-            commands.bind("second", second);
-            commands.bind("Canvas", slot.canvas);
+            commands.bind_resource("first", first);
+            commands.bind_resource("second", second);
+            commands.bind_resource("Canvas", slot.canvas);
             commands.push_constants(screening);
             commands.bind_geometry(slot.vertices, slot.indices);
             commands.draw(0, 3);
             if (draws.empty()) return;
             commands.bind_pipeline(gpu::RasterState{
                 .vertex = "overlay.vert", .fragment = "overlay.frag", .blended = true});
-            commands.bind("Corners", slot.vertices);
-            commands.bind("Font", font);
+            commands.bind_resource("Corners", slot.vertices);
+            commands.bind_resource("Font", font);
             commands.push_constants(shared::OverlayParameters{size, font_size});
-            for (const WindowOverlay::OverlayDraw& draw : draws) {
+            for (const WindowOverlay::OverlayDrawRange& draw : draws) {
                 const auto [x, y, width, height] = draw.area;
                 if (x >= size.x || y >= size.y) continue;
                 commands.set_scissor(

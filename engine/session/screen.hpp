@@ -9,19 +9,19 @@ namespace catoptric::app {
 
 /// Triangles over a picture, such as controls and text.
 struct WindowOverlay {
-    struct ScreenVertex {
+    struct OverlayScreenVertex {
         vec2 position;            ///< pixels of the window from its upper left corner
         vec2 uv;                  ///< position in the picture of the font, each coordinate 0 to 1
         std::uint32_t colour = 0; ///< r | g << 8 | b << 16 | a << 24, as the screen shows them
     };
     /// Consecutive indices, whose triangles are clipped to an area.
-    struct OverlayDraw {
+    struct OverlayDrawRange {
         std::uint32_t first = 0, count = 0;
         std::array<std::uint32_t, 4> area{}; ///< x, y, width, height, pixels within the window
     };
-    std::vector<ScreenVertex> vertices;
+    std::vector<OverlayScreenVertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<OverlayDraw> draws;
+    std::vector<OverlayDrawRange> draws;
 };
 
 /// The pictures of a frame that a window shows. They start in the window's upper left corner, and
@@ -32,10 +32,10 @@ struct WindowPictures {
         split, ///< the first picture left of the divider, the second picture right of the divider
         difference ///< difference of the displayed pictures, times `gain`
     };
-    static constexpr std::size_t kCanvasTexture = ~std::size_t{0};
+    static constexpr std::size_t kCanvasTextureIndex = ~std::size_t{0};
 
     PictureArrangement kind = PictureArrangement::one;
-    std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvasTexture
+    std::size_t first = 0, second = 0; ///< index of a part of the frame, or kCanvasTextureIndex
     float divider = 0;                 ///< pixels from the left
     float gain = 1;
     /// Picture of the caller, of the frame's size, encoded as by measure::to_display; null: none.
@@ -74,7 +74,7 @@ public:
 private:
     friend struct Access;
     struct Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<Impl> screen_impl_;
 };
 
 } // namespace catoptric::app

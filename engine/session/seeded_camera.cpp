@@ -17,20 +17,20 @@ namespace catoptric::app {
 namespace {
 
 constexpr int kMaxCameraDraws = 1000;
-constexpr uvec2 kRayGridSize{32, 32};      // rays through the picture
-constexpr std::size_t kMinTargetRays = 11; // of the grid's 1024 rays
-constexpr double kMaxUpComponent = .99;    // component of the view's direction along the up axis
+constexpr uvec2 kCameraRayGridSize{32, 32};   // rays through the picture
+constexpr std::size_t kMinTargetRays = 11;    // of the grid's 1024 rays
+constexpr double kMaxCameraUpComponent = .99; // component of the view's direction along the up axis
 constexpr double kMinTargetDistance = 1.5, kMinFovDegrees = 25, kMaxFovDegrees = 60;
 
 /// Returns a uniform number in [low, high). Distributions of standard libraries differ from each
 /// other.
-double draw_uniform_number(std::mt19937_64& random, double low, double high) {
+double draw_uniform_random_number(std::mt19937_64& random, double low, double high) {
     return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-dvec3 draw_unit_vector(std::mt19937_64& random) {
-    const double y = draw_uniform_number(random, -1, 1),
-                 turn = draw_uniform_number(random, 0, 2 * std::numbers::pi),
+dvec3 draw_random_unit_vector(std::mt19937_64& random) {
+    const double y = draw_uniform_random_number(random, -1, 1),
+                 turn = draw_uniform_random_number(random, 0, 2 * std::numbers::pi),
                  r = std::sqrt(1 - y * y);
     return {r * std::cos(turn), y, r * std::sin(turn)};
 }
@@ -75,10 +75,10 @@ scene::Camera draw_random_camera(std::mt19937_64& random, const Bounds<double>& 
                  farthest = std::max(glm::length(everything.extent()), nearest);
     scene::Camera camera;
     for (int axis = 0; axis < 3; ++axis)
-        camera.target[axis] = draw_uniform_number(random, aim.lo[axis], aim.hi[axis]);
+        camera.target[axis] = draw_uniform_random_number(random, aim.lo[axis], aim.hi[axis]);
     const double distance = nearest *
-                            std::pow(farthest / nearest, draw_uniform_number(random, 0, 1));
-    camera.eye = camera.target + distance * draw_unit_vector(random);
+                            std::pow(farthest / nearest, draw_uniform_random_number(random, 0, 1));
+    camera.eye = camera.target + distance * draw_random_unit_vector(random);
     const int decimals = std::clamp(
         3 - static_cast<int>(std::floor(std::log10(glm::length(everything.extent())))), 0, 300);
     camera.eye = append_rounded_number(camera.eye, decimals, camera.name);
@@ -86,20 +86,21 @@ scene::Camera draw_random_camera(std::mt19937_64& random, const Bounds<double>& 
     camera.target = append_rounded_number(camera.target, decimals, camera.name);
     camera.name += ':';
     camera.vertical_fov_degrees = append_rounded_number(
-        draw_uniform_number(random, kMinFovDegrees, kMaxFovDegrees), 1, camera.name);
+        draw_uniform_random_number(random, kMinFovDegrees, kMaxFovDegrees), 1, camera.name);
     return camera;
 }
 
 /// Counts the rays of the grid that first meet the front of one of the aims.
-std::size_t count_rays_hitting_targets(const render::Geometry& geometry, const bvh::Bvh& hierarchy,
-                                       const shared::View& view,
+std::size_t count_rays_hitting_targets(const render::FrameGeometry& geometry,
+                                       const bvh::Bvh& hierarchy, const shared::View& view,
                                        const std::vector<std::size_t>& aims) {
     std::size_t seen = 0;
-    for (std::size_t pixel = 0; pixel < std::size_t{kRayGridSize.x} * kRayGridSize.y; ++pixel) {
-        const f32::Ray ray = make_camera_ray(view, kRayGridSize, pixel);
-        const auto hit = bvh::find_closest_hit<float>(hierarchy, ray,
-                                                      std::numeric_limits<float>::max(),
-                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
+    for (std::size_t pixel = 0; pixel < std::size_t{kCameraRayGridSize.x} * kCameraRayGridSize.y;
+         ++pixel) {
+        const f32::Ray ray = make_camera_ray(view, kCameraRayGridSize, pixel);
+        const auto hit = bvh::find_closest_hit<float>(
+            hierarchy, ray, std::numeric_limits<float>::max(),
+            bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
         if (!hit || !std::ranges::binary_search(aims, std::size_t{hit->object})) continue;
         const auto normal = [&](std::uint32_t j) {
             return geometry.vertices[geometry.indices[3 * hit->triangle + j]].normal;
@@ -110,27 +111,28 @@ std::size_t count_rays_hitting_targets(const render::Geometry& geometry, const b
 }
 
 /// A scene at an instant, prepared for rays.
-struct TraceableScene {
-    explicit TraceableScene(const scene::Scene& scene, double seconds)
+struct RayTraceableScene {
+    explicit RayTraceableScene(const scene::Scene& scene, double seconds)
         : now(scene::scene_at_time(scene, seconds)), space(render::make_scene_units(scene)),
-          geometry(render::make_geometry(now, space)),
+          geometry(render::make_frame_geometry(now, space)),
           hierarchy(build_bvh_without_object(geometry, geometry.ranges.size())),
           aims(list_camera_targets(now)) {}
 
-    bool sees_a_target(const scene::Camera& camera) const {
-        return count_rays_hitting_targets(geometry, hierarchy,
-                                          render::make_camera_view(camera, space, kRayGridSize, 0),
-                                          aims) >= kMinTargetRays;
+    bool does_camera_see_target(const scene::Camera& camera) const {
+        return count_rays_hitting_targets(
+                   geometry, hierarchy,
+                   render::make_camera_view(camera, space, kCameraRayGridSize, 0),
+                   aims) >= kMinTargetRays;
     }
 
     scene::Scene now;
     render::SceneUnits space;
-    render::Geometry geometry;
+    render::FrameGeometry geometry;
     bvh::Bvh hierarchy;
     std::vector<std::size_t> aims;
 };
 
-scene::Camera draw_camera_for_seed(const TraceableScene& stage, std::uint64_t seed) {
+scene::Camera draw_camera_for_seed(const RayTraceableScene& stage, std::uint64_t seed) {
     const Bounds<double> everything = scene::bounds(stage.now);
     std::mt19937_64 random(seed);
     for (int i = 0; i < kMaxCameraDraws && !stage.aims.empty(); ++i) {
@@ -138,9 +140,9 @@ scene::Camera draw_camera_for_seed(const TraceableScene& stage, std::uint64_t se
         scene::Camera camera = draw_random_camera(random, scene::bounds(stage.now, aim),
                                                   everything);
         const dvec3 along = camera.target - camera.eye;
-        if (!(std::abs(along.y) <= kMaxUpComponent * glm::length(along)) || along == dvec3(0))
+        if (!(std::abs(along.y) <= kMaxCameraUpComponent * glm::length(along)) || along == dvec3(0))
             continue;
-        if (stage.sees_a_target(camera)) return camera;
+        if (stage.does_camera_see_target(camera)) return camera;
     }
     fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", stage.now.name,
          "', found none in ", kMaxCameraDraws, " draws from seed ", seed);
@@ -150,7 +152,7 @@ scene::Camera draw_camera_for_seed(const TraceableScene& stage, std::uint64_t se
 
 std::vector<scene::Camera> make_seeded_cameras(const scene::Scene& scene, double seconds,
                                                std::span<const std::uint64_t> seeds) {
-    const TraceableScene stage(scene, seconds);
+    const RayTraceableScene stage(scene, seconds);
     std::vector<scene::Camera> cameras;
     for (const std::uint64_t seed : seeds) cameras.push_back(draw_camera_for_seed(stage, seed));
     return cameras;

@@ -21,13 +21,14 @@ double compute_milliseconds_since(SteadyClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
 }
 
-SceneKey make_scene_key(const FrameSpec& spec) {
-    return {spec.time, scene::camera_at(spec.camera, spec.time), spec.size, spec.ambient};
+DeviceSceneKey make_scene_key(const FrameSpec& spec) {
+    return {spec.time, scene::camera_at_time(spec.camera, spec.time), spec.size, spec.ambient};
 }
 
 bool have_equal_plans(const std::vector<reflect::TechniquePlan>& a,
                       const std::vector<reflect::TechniquePlan>& b) {
-    return std::ranges::equal(a, b, [](const auto& x, const auto& y) { return x.same_as(y); });
+    return std::ranges::equal(a, b,
+                              [](const auto& x, const auto& y) { return x.is_same_plan_as(y); });
 }
 
 void check_frame_spec(const FrameSpec& spec) {
@@ -40,14 +41,15 @@ void check_frame_spec(const FrameSpec& spec) {
 
 /// Adds the ambient light to the content hashes. It is no part of a scene, but captures depend on
 /// it.
-void hash_ambient_light(require::Model& model, double ambient) {
-    for (require::MirrorNeeds& mirror : model.mirrors)
+void hash_ambient_light(require::RequiredWorkModel& model, double ambient) {
+    for (require::MirrorRequirements& mirror : model.mirrors)
         for (auto* const content_hashes : {&mirror.content_hashes, &mirror.settings})
             for (std::uint64_t& content_hash : *content_hashes)
-                content_hash = ContentHash().add(content_hash).add(ambient).hash_value();
+                content_hash =
+                    ContentHash().add_value(content_hash).add_value(ambient).current_hash();
 }
 
-std::string name_of(RenderedWork modelling) {
+std::string rendered_work_name(RenderedWork modelling) {
     return modelling == RenderedWork::everything ? "everything" : "required";
 }
 
@@ -56,43 +58,43 @@ struct FrameSequence::Impl {
     std::vector<reflect::TechniquePlan> remembered;
     RenderedWork remembered_model = RenderedWork::everything;
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
-    std::vector<CaptureCost> paces;
+    std::vector<CaptureCostEstimate> paces;
     std::vector<double> face_needs;
-    std::optional<SceneKey> scene_key; ///< from which its next frame continues
-    std::uint64_t units = 0;           ///< units in which distances were captured
-    std::uint64_t edits = 0;           ///< number of the scene's edits so far
+    std::optional<DeviceSceneKey> scene_key; ///< from which its next frame continues
+    std::uint64_t units = 0;                 ///< units in which distances were captured
+    std::uint64_t edits = 0;                 ///< number of the scene's edits so far
     std::vector<std::string> texts;
     /// Parsed from `texts`, with the suggestions made for its first frame.
     std::vector<reflect::TechniquePlan> plans;
 };
 
-FrameSequence::FrameSequence(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+FrameSequence::FrameSequence(std::unique_ptr<Impl> impl) : sequence_impl_(std::move(impl)) {}
 FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
 FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
 FrameSequence::~FrameSequence() = default;
 
 void Session::Impl::wait_for_readers(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
-        runner.wait_for_frame(graph::FrameTicket{read_by[of]});
+        runner.wait_for_frame(graph::SubmittedFrameTicket{read_by[of]});
 }
 
-double Session::Impl::update_scene(const SceneKey& wanted) {
-    if (scene_key == wanted && resident->has_face_needs()) return 0;
+double Session::Impl::update_scene(const DeviceSceneKey& wanted) {
+    if (scene_key == wanted && resident->has_needed_face_edges()) return 0;
     // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
     wait_for_readers(next);
     copy = next;
     const SteadyClock::time_point start = SteadyClock::now();
-    if (scene_key && scene_key->size != wanted.size) resident->clear_face_needs();
+    if (scene_key && scene_key->size != wanted.size) resident->discard_face_needs();
     scene_key.reset(); // stays unset if the update throws half-way
     models.clear();
     if (scene::is_animated(scene)) {
         if (!moved) moved = scene;
-        scene::pose_scene(*moved, scene, wanted.time);
+        scene::move_scene_to_time(*moved, scene, wanted.time);
     } else {
         scene::check_scene_time(wanted.time);
     }
-    resident->update(now(), wanted.camera, wanted.size, wanted.ambient,
+    resident->update(scene_at_current_instant(), wanted.camera, wanted.size, wanted.ambient,
                      static_cast<std::uint32_t>(copy));
     scene_key = wanted;
     ++counts.updates;
@@ -101,7 +103,7 @@ double Session::Impl::update_scene(const SceneKey& wanted) {
 
 const std::vector<reflect::TechniquePlan>& Session::Impl::find_plans(const FrameSpec& spec) {
     if (plans.empty() || texts != spec.techniques) {
-        plans = parse_plans(spec.techniques);
+        plans = parse_technique_plans(spec.techniques);
         for (reflect::TechniquePlan& plan : plans)
             plan = resolve_auto_plan(std::move(plan), scene, spec);
         texts = spec.techniques;
@@ -110,25 +112,26 @@ const std::vector<reflect::TechniquePlan>& Session::Impl::find_plans(const Frame
     return plans;
 }
 
-const std::shared_ptr<const require::Model>& Session::Impl::find_model(RenderedWork modelling,
-                                                                       bool is_ablated) {
-    std::shared_ptr<const require::Model>& model = models[{modelling, is_ablated}];
+const std::shared_ptr<const require::RequiredWorkModel>&
+Session::Impl::find_model(RenderedWork modelling, bool is_ablated) {
+    std::shared_ptr<const require::RequiredWorkModel>& model = models[{modelling, is_ablated}];
     if (model) return model;
-    require::ModelInput question{now(), scene_key->camera, scene_key->size};
-    reflect::add_plan_demands(question, plans);
+    require::RequiredWorkModelInput question{scene_at_current_instant(), scene_key->camera,
+                                             scene_key->size};
+    reflect::add_demands_of_plan(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // ablated lookups read places that a search never would
     if (modelling == RenderedWork::required && !requirements) requirements.emplace(scene);
-    require::Model made = modelling == RenderedWork::everything
-                              ? require::make_everything_model(question)
-                              : requirements->model_for(question);
+    require::RequiredWorkModel made = modelling == RenderedWork::everything
+                                          ? require::make_everything_model(question)
+                                          : requirements->model_for(question);
     hash_ambient_light(made, scene_key->ambient);
-    model = std::make_shared<const require::Model>(std::move(made));
+    model = std::make_shared<const require::RequiredWorkModel>(std::move(made));
     return model;
 }
 
 Session::Session(Engine& engine, scene::Scene scene, std::uint32_t in_flight)
-    : impl_(std::make_shared<Impl>(Access::impl(engine), std::move(scene), in_flight)) {}
+    : impl_(std::make_shared<Impl>(Access::engine_impl_of(engine), std::move(scene), in_flight)) {}
 Session::~Session() = default;
 
 const scene::Scene& Session::scene() const { return impl_->scene; }
@@ -137,16 +140,16 @@ SessionCounters Access::session_counters(const Session& session) {
     const Session::Impl& self = *session.impl_;
     SessionCounters counts = self.counts;
     counts.plans = self.runner.planned_shape_count();
-    counts.memory_bytes = self.runner.memory_bytes();
-    counts.uploads = self.resident->uploads();
-    counts.hierarchies_built = self.resident->hierarchies_built();
-    counts.hierarchies_refitted = self.resident->hierarchies_refitted();
+    counts.memory_bytes = self.runner.allocated_device_bytes();
+    counts.uploads = self.resident->device_write_count();
+    counts.hierarchies_built = self.resident->built_bvh_count();
+    counts.hierarchies_refitted = self.resident->refitted_bvh_count();
     return counts;
 }
 
 SetupTimes Access::setup_times(const Session& session) {
     const render::GpuScene& resident = *session.impl_->resident;
-    return {resident.first_upload_ms(), resident.first_build_ms()};
+    return {resident.first_scene_upload_ms(), resident.first_bvh_build_ms()};
 }
 
 Frame Session::frame(const FrameSpec& spec) { return Access::render_frame(*this, spec, {}); }
@@ -176,10 +179,10 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
     }
     const double update_ms = self.update_scene(make_scene_key(spec));
     const SteadyClock::time_point start = SteadyClock::now();
-    const std::shared_ptr<const require::Model> model = self.find_model(spec.model,
-                                                                        hooks.ablated != 0);
+    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_model(
+        spec.model, hooks.ablated != 0);
     FrameGraph frame = declare_frame_graph(spec, hooks, plans, self.mirrors, *self.resident,
-                                           self.runner.history(),
+                                           self.runner.make_history(),
                                            self.find_capture_histories(spec, *model, follows));
     const double declare_ms = compute_milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
@@ -187,7 +190,7 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
     self.resident->prepare_frame();
     const double hierarchy_ms = compute_milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish(frame);
-    const graph::FrameTicket ticket = self.runner.submit_frame(
+    const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(
         frame.graph,
         spec.timing == PassTimingMode::isolated ? graph::PassTiming::isolated
                                                 : graph::PassTiming::pipelined,
@@ -216,7 +219,7 @@ void Session::change(const scene::Edit& edit) {
     scene::apply_edit(edited, edit);
     // If the units of the edited scene are unchanged, resident data and history stay.
     if (render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
-        auto made = std::make_unique<render::GpuScene>(self.engine.device, edited,
+        auto made = std::make_unique<render::GpuScene>(self.engine_impl.device, edited,
                                                        self.read_by.size());
         self.runner.discard_contents(); // waits for frames in flight; captured distances were in
                                         // other units
@@ -236,7 +239,7 @@ void Session::forget() {
     impl_->runner.discard_contents();
     impl_->kept.clear();
     impl_->texts.clear(); // another plan may be suggested
-    impl_->resident->clear_face_needs();
+    impl_->resident->discard_face_needs();
     impl_->scene_key.reset();
 }
 
@@ -245,42 +248,44 @@ FrameSequence Access::suspend_sequence(Session& session) {
     self.read_capture_times();
     auto sequence = std::make_unique<FrameSequence::Impl>(FrameSequence::Impl{
         self.runner.suspend(), std::exchange(self.remembered, {}), self.remembered_model,
-        std::exchange(self.kept, {}), std::exchange(self.paces, {}), self.resident->face_needs(),
-        self.scene_key, self.units, self.edits, std::exchange(self.texts, {}),
-        std::exchange(self.plans, {})});
+        std::exchange(self.kept, {}), std::exchange(self.paces, {}),
+        self.resident->needed_face_edges(), self.scene_key, self.units, self.edits,
+        std::exchange(self.texts, {}), std::exchange(self.plans, {})});
     self.models.clear();
-    self.resident->clear_face_needs();
+    self.resident->discard_face_needs();
     return FrameSequence(std::move(sequence));
 }
 
 void Access::resume_sequence(Session& session, FrameSequence sequence) {
     Session::Impl& self = *session.impl_;
-    if (sequence.impl_->units != self.units) {
+    if (sequence.sequence_impl_->units != self.units) {
         session.forget();
         return;
     }
-    self.runner.resume(std::move(sequence.impl_->leavings));
-    self.remembered = std::move(sequence.impl_->remembered);
-    self.remembered_model = sequence.impl_->remembered_model;
-    self.kept = std::move(sequence.impl_->kept);
-    self.paces = std::move(sequence.impl_->paces);
-    self.resident->set_face_needs(std::move(sequence.impl_->face_needs));
-    if (sequence.impl_->edits == self.edits) {
-        self.texts = std::move(sequence.impl_->texts);
-        self.plans = std::move(sequence.impl_->plans);
+    self.runner.resume(std::move(sequence.sequence_impl_->leavings));
+    self.remembered = std::move(sequence.sequence_impl_->remembered);
+    self.remembered_model = sequence.sequence_impl_->remembered_model;
+    self.kept = std::move(sequence.sequence_impl_->kept);
+    self.paces = std::move(sequence.sequence_impl_->paces);
+    self.resident->set_needed_face_edges(std::move(sequence.sequence_impl_->face_needs));
+    if (sequence.sequence_impl_->edits == self.edits) {
+        self.texts = std::move(sequence.sequence_impl_->texts);
+        self.plans = std::move(sequence.sequence_impl_->plans);
         self.models.clear();
     }
-    if (sequence.impl_->scene_key) self.update_scene(*sequence.impl_->scene_key);
+    if (sequence.sequence_impl_->scene_key) self.update_scene(*sequence.sequence_impl_->scene_key);
 }
 
-std::string Access::format_frame_plan(Session& session, const FrameSpec& spec, PlanFormat format) {
+std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
+                                      GraphPlanFormat format) {
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
     const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
     self.update_scene(make_scene_key(spec));
-    const std::shared_ptr<const require::Model> model = self.find_model(spec.model, false);
-    std::vector<reflect::CaptureHistory> keeping(plans.size(),
-                                                 {*model, nullptr, &self.comparisons});
+    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_model(spec.model,
+                                                                                    false);
+    std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
+                                                         {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident, {},
                                            keeping);
     // If captures are kept, only the second frame compares them. The plan is that of the frame
@@ -288,37 +293,38 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec, P
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
         for (std::size_t i = 0; i < plans.size(); ++i) {
             keeping[i].before = frame.parts[i].outputs.kept;
-            if (k > 0 && keeping[i].before) render::mark_all_unchanged(*keeping[i].before);
+            if (k > 0 && keeping[i].before) render::mark_captures_unchanged(*keeping[i].before);
         }
         frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident,
                                     frame.graph.history_for_next_frame(), keeping);
     }
-    const graph::GraphPlan& plan = self.runner.compiled(frame.graph);
+    const graph::GraphPlan& plan = self.runner.find_or_make_plan(frame.graph);
     switch (format) {
-    case PlanFormat::dot: return graph::to_dot(frame.graph, plan);
-    case PlanFormat::json: return graph::to_json(frame.graph, plan);
-    case PlanFormat::text: break;
+    case GraphPlanFormat::dot: return graph::plan_to_dot(frame.graph, plan);
+    case GraphPlanFormat::json: return graph::plan_to_json(frame.graph, plan);
+    case GraphPlanFormat::text: break;
     }
-    return graph::to_text(frame.graph, plan);
+    return graph::plan_to_text(frame.graph, plan);
 }
 
 FrameTimes Access::clear_cubes(Session& session) {
     Session::Impl& self = *session.impl_;
-    constexpr std::uint32_t kClearedCubeEdge = 256;
+    constexpr std::uint32_t kClearCostCubeEdge = 256;
     const std::uint32_t mirrors = self.resident->mirror_count(),
                         most = self.resident->max_cube_count();
     graph::Graph graph;
     for (std::uint32_t first = 0; first < mirrors; first += most) {
         const std::uint32_t count = std::min(most, mirrors - first);
         const graph::ImageHandle cubes = graph.add_image(
-            {"cubes" + std::to_string(first / most + 1), Format::rgba16f, kClearedCubeEdge,
-             kClearedCubeEdge, 6 * count, true});
+            {"cubes" + std::to_string(first / most + 1), TexelFormat::rgba16f, kClearCostCubeEdge,
+             kClearCostCubeEdge, 6 * count, true});
         for (std::uint32_t cube = 0; cube < count; ++cube) {
             const std::string name = "clear/" + std::to_string(first + cube + 1);
-            const graph::ImageHandle depth = graph.add_image(
-                {name + ".depth", Format::d32f, kClearedCubeEdge, kClearedCubeEdge, 6, true});
+            const graph::ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f,
+                                                              kClearCostCubeEdge,
+                                                              kClearCostCubeEdge, 6, true});
             graph.add_pass(name)
-                .writes(cubes.layers(6 * cube, 6), graph::ResourceUse::colour,
+                .writes(cubes.select_layers(6 * cube, 6), graph::ResourceUse::colour,
                         graph::ClearValue{0, 0, 0, 1})
                 .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
                 .set_layer_count(6)

@@ -35,23 +35,23 @@ void check_capture_limit(const FrameSpec& spec) {
           spec.budget_ms);
 }
 
-std::vector<reflect::CaptureHistory>
-Session::Impl::find_capture_histories(const FrameSpec& spec, const require::Model& model,
-                                      bool follows) {
-    std::vector<reflect::CaptureHistory> keeping(
+std::vector<reflect::PreviousCaptureHistory>
+Session::Impl::find_capture_histories(const FrameSpec& spec,
+                                      const require::RequiredWorkModel& model, bool follows) {
+    std::vector<reflect::PreviousCaptureHistory> keeping(
         plans.size(), {model, nullptr, spec.keeps_history ? nullptr : &comparisons});
     for (std::size_t i = 0; i < plans.size(); ++i) keeping[i].most = most_captures(spec, i, model);
     for (std::size_t i = 0; follows && i < kept.size(); ++i) {
         keeping[i].before = kept[i];
-        render::read_finished_comparisons(
+        render::read_finished_face_comparisons(
             kept[i], [&](std::uint64_t frame) { return runner.has_ended({frame}); });
     }
     return keeping;
 }
 
-void Session::Impl::store_captures(const FrameGraph& frame, graph::FrameTicket ticket) {
+void Session::Impl::store_captures(const FrameGraph& frame, graph::SubmittedFrameTicket ticket) {
     kept.clear();
-    for (const TechniquePasses& part : frame.parts) {
+    for (const TechniqueGraphPart& part : frame.parts) {
         kept.push_back(part.outputs.kept);
         if (!kept.back()) continue;
         kept.back()->frame = ticket.frame;
@@ -61,7 +61,7 @@ void Session::Impl::store_captures(const FrameGraph& frame, graph::FrameTicket t
 
 void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
     const auto must_learn = [&](const std::shared_ptr<render::CaptureCache>& one) {
-        return one && render::must_read_comparisons(*one, has_capture_limit(spec));
+        return one && render::must_read_face_comparisons(*one, has_capture_limit(spec));
     };
     const auto learns = std::ranges::find_if(kept, must_learn);
     if (learns != kept.end() && !runner.has_ended({(*learns)->frame}))
@@ -83,18 +83,18 @@ void Session::Impl::read_capture_times() {
 }
 
 std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t part,
-                                           const require::Model& model) const {
+                                           const require::RequiredWorkModel& model) const {
     if (spec.keeps_history || !has_capture_limit(spec)) return 0;
     if (spec.budget_ms == 0) return spec.most_captures;
     const auto captured = static_cast<std::uint32_t>(
-        std::ranges::count_if(model.mirrors, &require::MirrorNeeds::is_captured));
+        std::ranges::count_if(model.mirrors, &require::MirrorRequirements::is_captured));
     return part < paces.size() ? paces[part].count_affordable_captures(spec.budget_ms, captured)
                                : captured;
 }
 
-void Session::Impl::mark_for_timing(const FrameGraph& frame, graph::FrameTicket ticket) {
+void Session::Impl::mark_for_timing(const FrameGraph& frame, graph::SubmittedFrameTicket ticket) {
     timed = {ticket, {}};
-    for (const TechniquePasses& part : frame.parts)
+    for (const TechniqueGraphPart& part : frame.parts)
         timed->drawn.emplace_back(part.prefix, part.slices ? part.slices->drawn : 0);
 }
 

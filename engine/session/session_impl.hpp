@@ -21,17 +21,17 @@
 namespace catoptric::app {
 
 /// The inputs that determine the device's copy of a scene.
-struct SceneKey {
+struct DeviceSceneKey {
     double time = 0;
     scene::Camera camera;
     uvec2 size{0, 0};
     double ambient = 0;
-    bool operator==(const SceneKey&) const = default;
+    bool operator==(const DeviceSceneKey&) const = default;
 };
 
 struct Session::Impl {
     Impl(Access::EngineImpl& shared, scene::Scene at_rest, std::uint32_t in_flight)
-        : engine(shared), scene(std::move(at_rest)),
+        : engine_impl(shared), scene(std::move(at_rest)),
           resident(std::make_unique<render::GpuScene>(shared.device, scene, in_flight)),
           comparisons(shared.device,
                       [this](std::uint64_t frame) { return runner.has_ended({frame}); }),
@@ -40,10 +40,10 @@ struct Session::Impl {
     }
 
     /// Returns the scene at the instant of `scene_key`. A scene that is not animated is not copied.
-    const scene::Scene& now() const { return moved ? *moved : scene; }
+    const scene::Scene& scene_at_current_instant() const { return moved ? *moved : scene; }
     /// Writes the scene data that `wanted` needs and the device lacks. Returns the milliseconds of
     /// work.
-    double update_scene(const SceneKey& wanted);
+    double update_scene(const DeviceSceneKey& wanted);
     /// Waits until no frame in flight reads copy `of` of the scene data.
     void wait_for_readers(std::size_t of);
     /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
@@ -51,31 +51,32 @@ struct Session::Impl {
     /// frame.
     const std::vector<reflect::TechniquePlan>& find_plans(const FrameSpec& spec);
     /// Returns the model of the scene at its present instant.
-    const std::shared_ptr<const require::Model>& find_model(RenderedWork modelling,
-                                                            bool is_ablated);
+    const std::shared_ptr<const require::RequiredWorkModel>& find_model(RenderedWork modelling,
+                                                                        bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
-    std::vector<reflect::CaptureHistory>
-    find_capture_histories(const FrameSpec& spec, const require::Model& model, bool follows);
+    std::vector<reflect::PreviousCaptureHistory>
+    find_capture_histories(const FrameSpec& spec, const require::RequiredWorkModel& model,
+                           bool follows);
     /// Waits for results of earlier frames that this frame needs.
     void wait_for_needed_results(const FrameSpec& spec);
     /// Returns how many mirrors' captures the frame draws again at most; 0: all.
     std::uint32_t most_captures(const FrameSpec& spec, std::size_t part,
-                                const require::Model& model) const;
+                                const require::RequiredWorkModel& model) const;
     /// Reads how long captures took in the last submitted frame under a budget. Waits for that
     /// frame.
     void read_capture_times();
     /// Marks a submitted frame as the one that `read_capture_times` reads.
-    void mark_for_timing(const FrameGraph& frame, graph::FrameTicket ticket);
+    void mark_for_timing(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
     /// Stores the captures of a submitted frame for the next one.
-    void store_captures(const FrameGraph& frame, graph::FrameTicket ticket);
+    void store_captures(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
 
-    Access::EngineImpl& engine;
+    Access::EngineImpl& engine_impl;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
     render::ComparisonBuffers comparisons;
     graph::GraphRunner runner;
     std::vector<std::string> mirrors; ///< names of the mirrors
-    std::optional<SceneKey> scene_key;
+    std::optional<DeviceSceneKey> scene_key;
     /// `scene` at the instant of `scene_key`, if it is animated.
     std::optional<scene::Scene> moved;
     std::vector<std::string> texts;
@@ -84,18 +85,19 @@ struct Session::Impl {
     RenderedWork remembered_model = RenderedWork::everything;
     /// Captures of `remembered`, by technique.
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
-    std::vector<CaptureCost> paces; ///< costs of captures, by technique
+    std::vector<CaptureCostEstimate> paces; ///< costs of captures, by technique
     /// A frame under a budget whose times were not read yet. `drawn`: for each technique, the
     /// prefix of its passes' names and the number of mirrors it drew.
-    struct TimedFrame {
-        graph::FrameTicket ticket;
+    struct UnreadTimedFrame {
+        graph::SubmittedFrameTicket ticket;
         std::vector<std::pair<std::string, std::uint32_t>> drawn;
     };
-    std::optional<TimedFrame> timed;
-    std::optional<require::ModelBuilder> requirements; ///< computed at first use
+    std::optional<UnreadTimedFrame> timed;
+    std::optional<require::RequiredWorkModelBuilder> requirements; ///< computed at first use
     /// Models of `scene_key` and `plans`.
-    std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::Model>> models;
-    std::optional<graph::FrameTicket> last; ///< ticket of the frame submitted last
+    std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::RequiredWorkModel>>
+        models;
+    std::optional<graph::SubmittedFrameTicket> last; ///< ticket of the frame submitted last
     /// For each copy of the scene data, the last frame that reads the copy.
     std::vector<std::uint64_t> read_by;
     std::size_t copy = 0;    ///< copy that frames read now
@@ -106,19 +108,23 @@ struct Session::Impl {
 
 struct Frame::Impl {
     std::shared_ptr<Access::SessionImpl> session;
-    graph::FrameTicket ticket;
+    graph::SubmittedFrameTicket ticket;
     FrameSpec spec;
     FrameHooks hooks;
     FrameGraph frame;
-    std::shared_ptr<const require::Model> model;
+    std::shared_ptr<const require::RequiredWorkModel> model;
     double update_ms = 0, declare_ms = 0, hierarchy_ms = 0, waited_ms = 0;
     mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
 
-    graph::GraphRunner& runner() const { return session->runner; }
-    const TechniquePasses& part(std::size_t index) const { return frame.parts.at(index); }
-    const graph::GraphPlan& plan() const { return runner().compiled(frame.graph); }
+    graph::GraphRunner& graph_runner() const { return session->runner; }
+    const TechniqueGraphPart& technique_part(std::size_t index) const {
+        return frame.parts.at(index);
+    }
+    const graph::GraphPlan& current_graph_plan() const {
+        return graph_runner().find_or_make_plan(frame.graph);
+    }
     /// Checks that no later frame was submitted, because it overwrites images that outlive a frame.
-    void check_last() const {
+    void check_is_last_frame() const {
         check(session->last && session->last->frame == ticket.frame, Failure::internal, "frame ",
               ticket.frame, " is read after frame ", session->last ? session->last->frame : 0,
               " was rendered over it");

@@ -12,7 +12,7 @@ std::vector<TechniqueInfo> techniques() {
     for (const reflect::Technique* row : reflect::list_techniques()) {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
         const KnobSettings defaults(row->knobs);
-        for (const catoptric::Knob& knob : row->knobs)
+        for (const catoptric::TechniqueKnob& knob : row->knobs)
             info.knobs.push_back({std::string(knob.name),
                                   std::string(knob.help),
                                   knob.low,
@@ -25,10 +25,10 @@ std::vector<TechniqueInfo> techniques() {
     return infos;
 }
 
-std::vector<Setting> list_settings(const reflect::TechniqueChoice& choice) {
+std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice) {
     std::vector<Setting> settings;
     const KnobSettings defaults(choice.technique->knobs);
-    for (const catoptric::Knob& knob : choice.technique->knobs) {
+    for (const catoptric::TechniqueKnob& knob : choice.technique->knobs) {
         const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob);
         const std::string value = choice.settings.format_value(knob);
         settings.push_back(
@@ -40,12 +40,12 @@ std::vector<Setting> list_settings(const reflect::TechniqueChoice& choice) {
 }
 
 TechniqueChoice parse_technique(const std::string& text) {
-    const reflect::TechniquePlan plan = read_plan(text);
+    const reflect::TechniquePlan plan = read_technique_plan(text);
     if (plan.is_auto) return {plan.label, plan.label, plan.file_name(), {}};
     if (!plan.is_technique) return {"plan", plan.label, plan.file_name(), {}};
     const reflect::TechniqueChoice& choice = plan.rules.front().choice;
     return {std::string(choice.technique->name), choice.label, choice.file_name(),
-            list_settings(choice)};
+            list_knob_settings(choice)};
 }
 
 } // namespace catoptric::app

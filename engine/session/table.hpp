@@ -9,6 +9,6 @@
 namespace catoptric::app {
 
 /// Returns all knobs of a technique, with their values.
-std::vector<Setting> list_settings(const reflect::TechniqueChoice& choice);
+std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice);
 
 } // namespace catoptric::app

@@ -16,9 +16,9 @@ namespace catoptric::app {
 namespace {
 
 /// Storage that a row of the technique table points into.
-struct TechniqueStorage {
+struct TechniqueRowStorage {
     Search search;
-    std::vector<Knob> knobs;
+    std::vector<TechniqueKnob> knobs;
     std::vector<std::string_view> compared;
     reflect::Technique row;
 };
@@ -60,11 +60,11 @@ void check_search_definition(const Search& search) {
 
 /// Returns the search's own knobs, then those of all searches. Those of continuing searches come
 /// only if the search continues.
-std::vector<Knob> list_search_knobs(const Search& search) {
+std::vector<TechniqueKnob> list_search_knobs(const Search& search) {
     constexpr std::array<std::string_view, 3> kContinueKnobNames{"continue", "captures", "mirrors"};
-    std::vector<Knob> knobs;
+    std::vector<TechniqueKnob> knobs;
     const auto check_new = [&](std::string_view name) {
-        check(std::ranges::find(knobs, name, &Knob::name) == knobs.end(), Failure::usage,
+        check(std::ranges::find(knobs, name, &TechniqueKnob::name) == knobs.end(), Failure::usage,
               "technique '", search.name, "' has two knobs '", name, "'");
     };
     for (const SearchKnob& own : search.knobs) {
@@ -76,7 +76,7 @@ std::vector<Knob> list_search_knobs(const Search& search) {
                          .value = own.value,
                          .is_real = own.is_real});
     }
-    for (const Knob& knob : reflect::kSearchKnobs) {
+    for (const TechniqueKnob& knob : reflect::kCommonSearchKnobs) {
         // Also if the knob is not offered, because its name would be read as this knob.
         check_new(knob.name);
         if (search.continues ||
@@ -93,10 +93,10 @@ RegisteredShaders::RegisteredShaders(std::span<const Shader> builds) {
 }
 
 void add_search(Search search) {
-    static std::deque<TechniqueStorage> all; // a deque, because rows must not move in memory
+    static std::deque<TechniqueRowStorage> all; // a deque, because rows must not move in memory
     check_search_definition(search);
     static_cast<void>(list_search_knobs(search)); // throws before anything is stored
-    TechniqueStorage& row = all.emplace_back();
+    TechniqueRowStorage& row = all.emplace_back();
     row.search = std::move(search);
     row.knobs = list_search_knobs(row.search);
     if (row.search.compared.empty()) row.search.compared.push_back(row.search.name);

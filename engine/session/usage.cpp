@@ -14,8 +14,8 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::array<std::uint64_t, 2> kPerfEvents{PERF_COUNT_HW_CPU_CYCLES,
-                                                   PERF_COUNT_HW_INSTRUCTIONS};
+constexpr std::array<std::uint64_t, 2> kPerfEventCodes{PERF_COUNT_HW_CPU_CYCLES,
+                                                       PERF_COUNT_HW_INSTRUCTIONS};
 
 /// Opens a counter of the calling thread in user mode. Returns -1 and sets errno on failure.
 int open_perf_counter(std::uint64_t event, bool of_threads_to_come) {
@@ -50,34 +50,34 @@ double read_thread_seconds() {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-std::optional<double> subtract_counts(const std::optional<double>& after,
-                                      const std::optional<double>& before) {
+std::optional<double> subtract_known_counts(const std::optional<double>& after,
+                                            const std::optional<double>& before) {
     return after && before ? std::optional(*after - *before) : std::nullopt;
 }
 
 } // namespace
 
 ProcessorUsage ProcessorUsage::operator-(const ProcessorUsage& before) const {
-    return {cpu_ms - before.cpu_ms, subtract_counts(cycles, before.cycles),
-            subtract_counts(instructions, before.instructions)};
+    return {cpu_ms - before.cpu_ms, subtract_known_counts(cycles, before.cycles),
+            subtract_known_counts(instructions, before.instructions)};
 }
 
-UsageMeter::UsageMeter(CountedThreads of) : of_(of) {
-    for (std::size_t i = 0; i < kPerfEvents.size(); ++i) {
-        counters_[i] = open_perf_counter(kPerfEvents[i], of == CountedThreads::process);
+ProcessorUsageMeter::ProcessorUsageMeter(CountedThreadChoice of) : of_(of) {
+    for (std::size_t i = 0; i < kPerfEventCodes.size(); ++i) {
+        counters_[i] = open_perf_counter(kPerfEventCodes[i], of == CountedThreadChoice::process);
         if (counters_[i] < 0 && uncounted_.empty())
             uncounted_ = "perf_event_open: " + std::generic_category().message(errno);
     }
 }
 
-UsageMeter::~UsageMeter() {
+ProcessorUsageMeter::~ProcessorUsageMeter() {
     for (const int counter : counters_)
         if (counter >= 0) ::close(counter);
 }
 
-ProcessorUsage UsageMeter::read() const {
-    const double seconds = of_ == CountedThreads::process ? read_process_seconds()
-                                                          : read_thread_seconds();
+ProcessorUsage ProcessorUsageMeter::read() const {
+    const double seconds = of_ == CountedThreadChoice::process ? read_process_seconds()
+                                                               : read_thread_seconds();
     return {1e3 * seconds, read_perf_counter(counters_[0]), read_perf_counter(counters_[1])};
 }
 

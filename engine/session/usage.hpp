@@ -18,9 +18,9 @@ struct ProcessorUsage {
 };
 
 /// Meter of the processor time that threads have used.
-class UsageMeter {
+class ProcessorUsageMeter {
 public:
-    enum class CountedThreads : std::uint8_t {
+    enum class CountedThreadChoice : std::uint8_t {
         /// Only the thread that made the meter is measured, and only that thread may read the
         /// meter.
         caller,
@@ -29,18 +29,18 @@ public:
         /// Therefore make the meter before other threads begin.
         process
     };
-    explicit UsageMeter(CountedThreads of);
-    ~UsageMeter();
-    UsageMeter(const UsageMeter&) = delete;
-    UsageMeter& operator=(const UsageMeter&) = delete;
+    explicit ProcessorUsageMeter(CountedThreadChoice of);
+    ~ProcessorUsageMeter();
+    ProcessorUsageMeter(const ProcessorUsageMeter&) = delete;
+    ProcessorUsageMeter& operator=(const ProcessorUsageMeter&) = delete;
 
     /// Returns the usage so far. Costs a few microseconds.
     ProcessorUsage read() const;
     /// Returns why cycles are not counted, in words; empty: they are.
-    const std::string& uncounted() const { return uncounted_; }
+    const std::string& why_not_counted() const { return uncounted_; }
 
 private:
-    CountedThreads of_;
+    CountedThreadChoice of_;
     std::array<int, 2> counters_{-1, -1}; ///< file descriptors: cycles, instructions
     std::string uncounted_;
 };

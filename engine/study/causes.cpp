@@ -45,7 +45,7 @@ constexpr AblatableCause kAblatableCauses[] = {
     {"mirror in mirror", shared::kAblateMirrorReflections | shared::kAblateSelfReflection},
     {"shadow map", shared::kAblateShadows}};
 constexpr std::size_t kAblatableCauseCount = std::size(kAblatableCauses);
-constexpr std::uint32_t kAllCausesMask = (1U << kAblatableCauseCount) - 1;
+constexpr std::uint32_t kAllErrorCausesMask = (1U << kAblatableCauseCount) - 1;
 
 /// Returns the causes that a coalition ablates, a sum of shared::kAblate...; bit i: player i.
 std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
@@ -56,14 +56,14 @@ std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
 }
 
 /// The frames whose history a picture uses and leaves unchanged.
-struct HistorySource {
+struct HistorySourceFrames {
     std::string technique;
     bool is_settled = false; ///< history of this very instant: nothing is a frame late
-    auto operator<=>(const HistorySource&) const = default;
+    auto operator<=>(const HistorySourceFrames&) const = default;
 };
 
 /// Returns the technique with distances stored as 32-bit floats.
-std::string use_float_distances(const std::string& technique) {
+std::string with_float_distances(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
     const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
         return setting.name == "distance" && setting.text != "r32f";
@@ -84,13 +84,13 @@ constexpr int kSettlingFrames =
 
 /// Returns the row's own frames, or frames that are settled at the instant of its last picture.
 /// Returns the settled ones if there is no difference.
-HistorySource choose_history_source(const Request& base, const std::string& technique,
-                                    bool is_settled) {
+HistorySourceFrames choose_history_source(const Request& base, const std::string& technique,
+                                          bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettlingFrames;
     return {technique, is_settled || !may_lag};
 }
 
-Request make_history_request(const Request& base, const HistorySource& history) {
+Request make_history_request(const Request& base, const HistorySourceFrames& history) {
     Request request = base;
     if (!base.animate || history.is_settled) {
         request.time = base.instant(base.total());
@@ -105,15 +105,16 @@ Request make_history_request(const Request& base, const HistorySource& history) 
 
 using MirrorPixelValues = std::vector<double>;
 
-MirrorPixelValues subtract_values(const MirrorPixelValues& from, const MirrorPixelValues& what) {
+MirrorPixelValues subtract_pixel_values(const MirrorPixelValues& from,
+                                        const MirrorPixelValues& what) {
     MirrorPixelValues left(from.size());
     std::ranges::transform(from, what, left.begin(), std::minus());
     return left;
 }
 
 /// Returns the values where `chosen` equals `told`, and 0 elsewhere.
-MirrorPixelValues keep_values_where_equal(const std::vector<bool>& chosen, bool told,
-                                          MirrorPixelValues values) {
+MirrorPixelValues keep_values_of_chosen_pixels(const std::vector<bool>& chosen, bool told,
+                                               MirrorPixelValues values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         if (chosen[i] != told) values[i] = 0;
     return values;
@@ -121,26 +122,27 @@ MirrorPixelValues keep_values_where_equal(const std::vector<bool>& chosen, bool 
 
 /// Histories that pictures of a row use; some may be equal.
 struct HistorySources {
-    HistorySource row, row_settled;
-    HistorySource stored, settled; ///< with distances stored as 32-bit floats
+    HistorySourceFrames row, row_settled;
+    HistorySourceFrames stored, settled; ///< with distances stored as 32-bit floats
 };
 
 HistorySources choose_history_sources(const Request& base, const std::string& technique) {
-    const std::string full = use_float_distances(technique);
+    const std::string full = with_float_distances(technique);
     return {choose_history_source(base, technique, false),
             choose_history_source(base, technique, true), choose_history_source(base, full, false),
             choose_history_source(base, full, true)};
 }
 
 /// Returns the coalitions whose picture is needed with each history.
-std::map<HistorySource, std::vector<std::uint32_t>>
+std::map<HistorySourceFrames, std::vector<std::uint32_t>>
 list_needed_ablations(const HistorySources& histories) {
-    std::map<HistorySource, std::vector<std::uint32_t>> wanted;
-    for (const HistorySource& history : {histories.row, histories.row_settled, histories.stored})
+    std::map<HistorySourceFrames, std::vector<std::uint32_t>> wanted;
+    for (const HistorySourceFrames& history :
+         {histories.row, histories.row_settled, histories.stored})
         wanted[history] = {0};
     for (std::size_t i = 0; i < kAblatableCauseCount; ++i) wanted[histories.row].push_back(1U << i);
     std::vector<std::uint32_t>& all = wanted[histories.settled];
-    all.resize(kAllCausesMask + 1);
+    all.resize(kAllErrorCausesMask + 1);
     std::iota(all.begin(), all.end(), 0U);
     return wanted;
 }
@@ -149,31 +151,32 @@ list_needed_ablations(const HistorySources& histories) {
 struct AblationErrors {
     measure::ShapleyValues shapley; ///< with the history `settled`
     /// Of coalitions that are read one by one.
-    std::map<std::pair<HistorySource, std::uint32_t>, MirrorPixelValues> kept;
+    std::map<std::pair<HistorySourceFrames, std::uint32_t>, MirrorPixelValues> kept;
     measure::Mask off; ///< pixels that are off in the row's own picture
 };
 
-std::vector<measure::PixelCause> compute_cause_shares(const HistorySources& histories,
-                                                      const AblationErrors& errors,
-                                                      const std::vector<bool>& disagree) {
-    const auto of = [&](const HistorySource& history,
+std::vector<measure::PixelErrorCause> compute_cause_shares(const HistorySources& histories,
+                                                           const AblationErrors& errors,
+                                                           const std::vector<bool>& disagree) {
+    const auto of = [&](const HistorySourceFrames& history,
                         std::uint32_t coalition = 0) -> const MirrorPixelValues& {
         return errors.kept.at({history, coalition});
     };
-    const MirrorPixelValues &row = of(histories.row), &left = of(histories.settled, kAllCausesMask),
-                            format = subtract_values(row, of(histories.stored));
-    std::vector<measure::PixelCause> parts{
+    const MirrorPixelValues &row = of(histories.row),
+                            &left = of(histories.settled, kAllErrorCausesMask),
+                            format = subtract_pixel_values(row, of(histories.stored));
+    std::vector<measure::PixelErrorCause> parts{
         {"storage format", format, format},
-        {"last frame", subtract_values(of(histories.stored), of(histories.settled)),
-         subtract_values(row, of(histories.row_settled))}};
+        {"last frame", subtract_pixel_values(of(histories.stored), of(histories.settled)),
+         subtract_pixel_values(row, of(histories.row_settled))}};
     for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
-        parts.push_back(
-            {kAblatableCauses[i].name,
-             subtract_values(MirrorPixelValues(row.size()), errors.shapley.shapley_values_of(i)),
-             subtract_values(row, of(histories.row, 1U << i))});
-    parts.push_back({"silhouettes", keep_values_where_equal(disagree, true, left),
-                     keep_values_where_equal(disagree, true, row)});
-    parts.push_back({"rest", keep_values_where_equal(disagree, false, left), {}});
+        parts.push_back({kAblatableCauses[i].name,
+                         subtract_pixel_values(MirrorPixelValues(row.size()),
+                                               errors.shapley.shapley_values_of(i)),
+                         subtract_pixel_values(row, of(histories.row, 1U << i))});
+    parts.push_back({"silhouettes", keep_values_of_chosen_pixels(disagree, true, left),
+                     keep_values_of_chosen_pixels(disagree, true, row)});
+    parts.push_back({"rest", keep_values_of_chosen_pixels(disagree, false, left), {}});
     return parts;
 }
 
@@ -189,26 +192,26 @@ void check_reference_is_default(const std::string& reference) {
 void check_mirrors_are_sharp(const CompareRequest& request, int, report::Comparison&) {
     const scene::Scene& scene = request.base.scene;
     for (const std::size_t i : scene::mirrors(scene))
-        check(!scene::reflects_by_lobe(scene, scene.objects[i]), Failure::usage,
+        check(!scene::may_reflect_by_lobe(scene, scene.objects[i]), Failure::usage,
               "--causes: wanted mirrors that reflect sharply, found rough mirror ",
-              quote_printable(scene.objects[i].name),
+              quote_as_printable_text(scene.objects[i].name),
               "; causes of error in rough reflections are not known");
 }
 
-void add_causes(const StudyInput& input) {
+void measure_error_causes(const StudyInput& input) {
     const CompareRequest& request = input.request;
     std::vector<report::Row>& rows = input.comparison.rows;
     std::optional<ErrorCauseFinder> finder;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::string& text = request.base.techniques[i];
         // A plan's error belongs to no single search.
-        const bool is_plan = !read_plan(text).is_technique;
+        const bool is_plan = !read_technique_plan(text).is_technique;
         const bool is_twin = request.both_models &&
-                             rows[i].model == name_of(RenderedWork::required);
+                             rows[i].model == rendered_work_name(RenderedWork::required);
         if (!rows[i].lookup || is_plan || is_twin) continue;
-        tell_row(request.watcher, "causes of " + text, i, rows.size());
+        report_row_to_watcher(request.watcher, "causes of " + text, i, rows.size());
         if (!finder)
-            finder.emplace(input.session, request.base, input.truth.find_reference("1").part.hdr,
+            finder.emplace(input.session, request.base, input.truth.get_reference("1").part.hdr,
                            input.truth.find_mirror_hits(), request.watcher);
         rows[i].causes = std::make_shared<report::Causes>(finder->find(text));
         input.tell();
@@ -221,7 +224,7 @@ const RegisteredStudy kCausesStudy{
      .order = 20,
      .check_reference = check_reference_is_default,
      .prepare = check_mirrors_are_sharp,
-     .run = add_causes}};
+     .run = measure_error_causes}};
 
 } // namespace
 
@@ -229,21 +232,21 @@ void render_ablated_pictures(Session& session, const Request& request,
                              const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
                              const Watcher& watcher) {
     FrameLoop frames(session, request);
-    for (int k = 1; k < request.total(); ++k) frames.render_next(), check_stopped(watcher);
+    for (int k = 1; k < request.total(); ++k) frames.render_next(), throw_if_stopped(watcher);
     FrameSpec aside = request;
     aside.time = request.instant(request.total());
     aside.timing = PassTimingMode::pipelined;
     aside.keeps_history = true;
     for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
         visit(entry, Access::render_frame(session, aside, {.ablated = ablated[entry]}).hdr());
-        check_stopped(watcher);
+        throw_if_stopped(watcher);
     }
 }
 
 ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
                                    const measure::Picture& truth,
                                    const std::vector<std::uint32_t>& hits, const Watcher& watcher)
-    : session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
+    : study_session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
       pixels_(measure::list_mirror_pixels(hits)) {
     // This technique follows no ray through other mirrors. Its lookup therefore names the mirror
     // that the rasteriser draws.
@@ -256,7 +259,8 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
         const std::uint32_t drawn = looked.w > 0
                                         ? (static_cast<std::uint32_t>(looked.w) - 1) / 8 + 1
                                         : 0;
-        disagree_.push_back(drawn != measure::first_mirror_of_hit(hits[place]).number());
+        disagree_.push_back(drawn !=
+                            measure::first_mirror_of_hit_word(hits[place]).mirror_number());
     }
 }
 
@@ -278,12 +282,12 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
                 if (history == histories.row && coalition == 0)
                     found.off[place] = measure::differs_visibly(shown, truth);
             }
-            if (history == histories.settled) found.shapley.add(coalition, errors);
-            if (std::popcount(coalition) <= 1 || coalition == kAllCausesMask)
+            if (history == histories.settled) found.shapley.add_coalition(coalition, errors);
+            if (std::popcount(coalition) <= 1 || coalition == kAllErrorCausesMask)
                 found.kept[{history, coalition}] = std::move(errors);
         };
-        render_ablated_pictures(session_, make_history_request(base_, history), ablated, judge,
-                                watcher_);
+        render_ablated_pictures(study_session_, make_history_request(base_, history), ablated,
+                                judge, watcher_);
     }
     return measure::sum_up_error_causes(hits_, found.off, found.kept.at({histories.row, 0}),
                                         compute_cause_shares(histories, found, disagree_));

@@ -38,7 +38,7 @@ public:
     report::Causes find(const std::string& technique) const;
 
 private:
-    Session& session_;
+    Session& study_session_;
     const Request& base_;
     const measure::Picture& truth_;
     const std::vector<std::uint32_t>& hits_;

@@ -39,9 +39,9 @@ namespace {
 
 /// Samples over a pixel's area by which its centre is judged, and the most time for them.
 constexpr const char* kAreaSamples = "16";
-constexpr double kMostAreaSeconds = 10;
+constexpr double kMaxAreaMeasurementSeconds = 10;
 
-bool is_same_choice(const TechniqueChoice& a, const TechniqueChoice& b) {
+bool is_same_technique_choice(const TechniqueChoice& a, const TechniqueChoice& b) {
     return a.technique == b.technique && a.settings == b.settings;
 }
 
@@ -61,44 +61,46 @@ std::string format_current_utc_time() {
 }
 
 /// Returns the request with its reference chosen.
-CompareRequest with_reference(CompareRequest request) {
+CompareRequest with_chosen_reference(CompareRequest request) {
     request.reference = choose_reference(request.reference, request.base.scene);
     return request;
 }
 
 /// Measures rows in rounds, one by one or together in each frame. Judges each against the reference
 /// at its sample count.
-class RowComparer {
+class RowComparisonRunner {
 public:
-    RowComparer(Engine& engine, const CompareRequest& request)
-        : engine_(engine), request_(with_reference(request)),
+    RowComparisonRunner(Engine& engine, const CompareRequest& request)
+        : comparison_engine_(engine), compare_request_(with_chosen_reference(request)),
           compiled_before_(Access::compiled_pipelines(engine)),
-          session_(engine, request_.base.scene),
-          truths_(session_, request_.base, request_.reference, request_.watcher),
-          judge_(session_, truths_, request_.base, request_.watcher) {
-        if (request_.base.techniques.empty())
-            request_.base.techniques = list_default_techniques(request_.base);
-        check_compare_request(request_); // refuses a bad request before any work
-        for (const StudyChoice& choice : asked_studies())
+          shared_session_(engine, compare_request_.base.scene),
+          truths_(shared_session_, compare_request_.base, compare_request_.reference,
+                  compare_request_.watcher),
+          judge_(shared_session_, truths_, compare_request_.base, compare_request_.watcher) {
+        if (compare_request_.base.techniques.empty())
+            compare_request_.base.techniques = list_default_techniques(compare_request_.base);
+        check_compare_request(compare_request_); // refuses a bad request before any work
+        for (const StudyChoice& choice : list_requested_studies())
             if (const Study& study = find_study(choice.name); study.prepare != nullptr)
-                study.prepare(request_, choice.count, comparison_);
+                study.prepare(compare_request_, choice.count, comparison_);
     }
 
-    report::Comparison run_comparison() {
-        resolve_auto_exposure(session_, request_.base);
-        list_rows();
+    report::Comparison run_whole_comparison() {
+        resolve_auto_exposure(shared_session_, compare_request_.base);
+        list_rows_to_measure();
         prepare_comparison();
         try {
-            if (!request_.reference_file.empty()) truths_.keep_in_file(request_.reference_file);
-            fill_reference();
-            measure_rounds();
+            if (!compare_request_.reference_file.empty())
+                truths_.keep_in_file(compare_request_.reference_file);
+            fill_reference_facts();
+            measure_all_rounds();
             reduce_reference_noise();
             measure_pixel_area();
             truths_.write_file();
-            for (const StudyChoice& choice : asked_studies())
+            for (const StudyChoice& choice : list_requested_studies())
                 find_study(choice.name)
-                    .run({.session = session_,
-                          .request = request_,
+                    .run({.session = shared_session_,
+                          .request = compare_request_,
                           .count = choice.count,
                           .texts = choice.texts,
                           .truth = truths_,
@@ -118,128 +120,131 @@ public:
     }
 
 private:
-    void list_rows() {
-        std::vector<std::string>& texts = request_.base.techniques;
+    void list_rows_to_measure() {
+        std::vector<std::string>& texts = compare_request_.base.techniques;
         const std::vector<std::string> asked = std::exchange(texts, {});
         for (const std::string& text : asked) {
             texts.push_back(text);
-            models_.push_back(request_.both_models ? RenderedWork::everything
-                                                   : request_.base.model);
-            if (!request_.both_models) continue;
+            models_.push_back(compare_request_.both_models ? RenderedWork::everything
+                                                           : compare_request_.base.model);
+            if (!compare_request_.both_models) continue;
             texts.push_back(text);
             models_.push_back(RenderedWork::required);
         }
     }
 
     void prepare_comparison() {
-        const Request& base = request_.base;
+        const Request& base = compare_request_.base;
         comparison_.version = version();
         comparison_.commit = commit();
         comparison_.date = format_current_utc_time();
-        comparison_.command = request_.command;
-        comparison_.images = request_.images;
+        comparison_.command = compare_request_.command;
+        comparison_.images = compare_request_.images;
         comparison_.complete = false;
-        comparison_.asked = base.techniques.size() + request_.pictures.size();
-        comparison_.device = make_device_facts(engine_);
+        comparison_.asked = base.techniques.size() + compare_request_.pictures.size();
+        comparison_.device = make_device_facts(comparison_engine_);
         comparison_.scene = make_scene_facts(base);
         comparison_.width = static_cast<int>(base.size.x);
         comparison_.height = static_cast<int>(base.size.y);
         comparison_.frames = base.frames;
         comparison_.warmup = base.warmup;
-        comparison_.rounds = choose_round_count(base.frames, request_.rounds);
+        comparison_.rounds = choose_round_count(base.frames, compare_request_.rounds);
         comparison_.load_start = read_machine_load();
         comparison_.time = base.time;
         comparison_.ambient = base.ambient;
         comparison_.exposure = base.exposure;
         comparison_.timing = base.timing == PassTimingMode::isolated ? "isolated" : "pipelined";
-        comparison_.model = request_.both_models ? "both" : name_of(base.model);
-        comparison_.together = request_.together;
-        for (const StudyChoice& choice : asked_studies())
+        comparison_.model = compare_request_.both_models ? "both" : rendered_work_name(base.model);
+        comparison_.together = compare_request_.together;
+        for (const StudyChoice& choice : list_requested_studies())
             comparison_.studies.push_back(choice.name);
-        if (truths_.is_noisy()) comparison_.studies.emplace_back(measure::kNoise);
+        if (truths_.has_reference_noise())
+            comparison_.studies.emplace_back(measure::kNoiseMetricName);
     }
 
     /// Returns the studies that were asked for, in the order of the table.
-    std::vector<StudyChoice> asked_studies() const {
+    std::vector<StudyChoice> list_requested_studies() const {
         std::vector<StudyChoice> choices;
         for (const Study& study : list_studies())
-            if (const auto choice = std::ranges::find(request_.studies, study.name,
+            if (const auto choice = std::ranges::find(compare_request_.studies, study.name,
                                                       &StudyChoice::name);
-                choice != request_.studies.end())
+                choice != compare_request_.studies.end())
                 choices.push_back(*choice);
         return choices;
     }
 
     /// Fills facts that are known only after rows were measured.
     void fill_run_circumstances() {
-        const SetupTimes setup = Access::setup_times(session_);
-        const CompiledPipelines compiled = Access::compiled_pipelines(engine_);
+        const SetupTimes setup = Access::setup_times(shared_session_);
+        const CompiledPipelines compiled = Access::compiled_pipelines(comparison_engine_);
         constexpr const char* kCacheStateNames[] = {"none", "made",
                                                     "used"}; // indexed by PipelineCacheState
         comparison_.setup = {
-            request_.base.load_ms,
+            compare_request_.base.load_ms,
             setup.upload_ms,
             setup.hierarchy_ms,
             compiled.ms - compiled_before_.ms,
             compiled.pipelines - compiled_before_.pipelines,
-            kCacheStateNames[static_cast<std::size_t>(Access::cache_use(engine_))]};
+            kCacheStateNames[static_cast<std::size_t>(Access::cache_use(comparison_engine_))]};
         comparison_.load_end = read_machine_load();
-        comparison_.warnings = request_.base.scene.warnings;
+        comparison_.warnings = compare_request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)
             comparison_.warnings.insert(comparison_.warnings.end(), warnings.begin(),
                                         warnings.end());
-        comparison_.pareto = measure::find_front(comparison_.rows);
+        comparison_.pareto = measure::find_front_of_rows(comparison_.rows);
     }
 
     /// Measures the cost of clearing the cubes of all mirrors without drawing, for as many frames
     /// as a row has.
     void measure_cube_clear_cost(int round) {
-        const int warmup = round == 0 ? request_.base.warmup : 0;
-        const int frames = count_frames_of_round(request_.base.frames, comparison_.rounds, round);
+        const int warmup = round == 0 ? compare_request_.base.warmup : 0;
+        const int frames = count_frames_of_round(compare_request_.base.frames, comparison_.rounds,
+                                                 round);
         std::vector<double>& samples = clear_ms_.emplace_back();
         for (int k = 0; k < warmup + frames; ++k) {
-            const FrameTimes times = Access::clear_cubes(session_);
+            const FrameTimes times = Access::clear_cubes(shared_session_);
             if (k >= warmup) samples.push_back(times.passes_ms);
-            check_stopped(request_.watcher);
+            throw_if_stopped(compare_request_.watcher);
         }
         comparison_.clear_ms = measure::summarise_samples(clear_ms_);
     }
 
-    void fill_reference() {
-        const TechniqueChoice choice = parse_technique(request_.reference);
+    void fill_reference_facts() {
+        const TechniqueChoice choice = parse_technique(compare_request_.reference);
         comparison_.reference_technique = choice.technique;
         comparison_.reference_label = choice.label;
         comparison_.reference_settings = choice.settings;
-        describe_reference();
+        fill_reference_noise();
     }
 
     /// Fills the figures of the reference that change while its noise is reduced.
-    void describe_reference() {
+    void fill_reference_noise() {
         comparison_.reference_gpu_ms = measure::summarise_samples(
-            truths_.find_reference("1").gpu_ms);
-        comparison_.reference_display = truths_.find_reference("1").part.display;
-        if (!truths_.is_noisy()) return;
+            truths_.get_reference("1").gpu_ms);
+        comparison_.reference_display = truths_.get_reference("1").part.display;
+        if (!truths_.has_reference_noise()) return;
         comparison_.noise = std::make_shared<measure::ReferenceNoise>(truths_.measure_noise("1"));
-        comparison_.noise->most_seconds = request_.reference_seconds;
+        comparison_.noise->most_seconds = compare_request_.reference_seconds;
         std::vector<const report::Row*> rows;
         for (const report::Row& row : comparison_.rows) rows.push_back(&row);
-        comparison_.noise->wanted_floor = measure::choose_wanted_floor(rows);
+        comparison_.noise->wanted_floor = measure::choose_target_noise_floor(rows);
     }
 
     /// Adds frames to a reference with noise, and judges the rows again. Rows that are judged at
     /// other sample counts have references of their own, which share the time.
     void reduce_reference_noise() {
-        if (!truths_.is_noisy()) return;
+        if (!truths_.has_reference_noise()) return;
         std::map<std::string, std::vector<std::size_t>> groups; // rows by sample count
         for (std::size_t i = 0; i < comparison_.rows.size(); ++i)
-            groups[find_sample_count(parse_technique(request_.base.techniques[i]))].push_back(i);
+            groups[find_sample_count(parse_technique(compare_request_.base.techniques[i]))]
+                .push_back(i);
         for (const auto& [samples, rows] : groups)
             while (truths_.grow_reference(
-                samples, request_.reference_seconds / static_cast<double>(groups.size()),
-                choose_wanted_floor(rows))) {
+                samples, compare_request_.reference_seconds / static_cast<double>(groups.size()),
+                choose_target_noise_floor(rows))) {
                 for (const std::size_t row : rows)
-                    judge_row(row, judged_[row].part, judged_[row].number);
-                describe_reference();
+                    judge_measured_row(row, judged_[row].part, judged_[row].number);
+                fill_reference_noise();
                 report_progress();
             }
         judged_.clear();
@@ -248,45 +253,47 @@ private:
     /// Measures the FLIP over the mirrors between the default reference, whose pixels are their
     /// centres, and the mean of kAreaSamples samples over each pixel's area. Does nothing for other
     /// references, which may refuse samples, and if the samples would take longer than
-    /// kMostAreaSeconds.
+    /// kMaxAreaMeasurementSeconds.
     void measure_pixel_area() {
-        if (!is_same_choice(parse_technique(request_.reference), parse_technique(kReference)) ||
-            comparison_.reference_gpu_ms.median * std::stoi(kAreaSamples) > 1000 * kMostAreaSeconds)
+        if (!is_same_technique_choice(parse_technique(compare_request_.reference),
+                                      parse_technique(kReference)) ||
+            comparison_.reference_gpu_ms.median * std::stoi(kAreaSamples) >
+                1000 * kMaxAreaMeasurementSeconds)
             return;
-        const ComparedTruth area = truths_.find_reference(kAreaSamples).truth();
-        const std::vector<float> map = compute_flip_map(truths_.find_reference("1").part.hdr, area,
-                                                        request_.base.exposure);
+        const ComparedReference area = truths_.get_reference(kAreaSamples).compared_reference();
+        const std::vector<float> map = compute_flip_map(truths_.get_reference("1").part.hdr, area,
+                                                        compare_request_.base.exposure);
         comparison_.reference_area_flip = measure::flip_mean(
             map, measure::mask_mirror_pixels(truths_.find_mirror_hits()));
     }
 
-    double choose_wanted_floor(const std::vector<std::size_t>& indices) const {
+    double choose_target_noise_floor(const std::vector<std::size_t>& indices) const {
         std::vector<const report::Row*> rows;
         for (const std::size_t index : indices) rows.push_back(&comparison_.rows[index]);
-        return measure::choose_wanted_floor(rows);
+        return measure::choose_target_noise_floor(rows);
     }
 
     /// The last frame of a row, kept to judge it again.
-    struct JudgedFrame {
+    struct LastJudgedFrame {
         TechniqueResult part;
         int number = 0; ///< from 1
     };
 
-    void judge_row(std::size_t index, const TechniqueResult& part, int number) {
-        row_warnings_[index] = judge_.judge_row(comparison_.rows[index],
-                                                request_.base.techniques[index], part, number);
+    void judge_measured_row(std::size_t index, const TechniqueResult& part, int number) {
+        row_warnings_[index] = judge_.fill_row_errors_and_picture(
+            comparison_.rows[index], compare_request_.base.techniques[index], part, number);
     }
 
-    void add_row(const std::string& text, const TechniqueResult& part) {
+    void add_comparison_row(const std::string& text, const TechniqueResult& part) {
         report::Row row = make_row_description(text, part);
         // If all rows share a frame, the host's work is that of all rows and belongs to none.
-        row.moves = request_.base.animate && !request_.together &&
-                    scene::is_animated(request_.base.scene);
+        row.moves = compare_request_.base.animate && !compare_request_.together &&
+                    scene::is_animated(compare_request_.base.scene);
         const std::string samples = find_sample_count(parse_technique(text));
-        row.is_reference = is_same_choice(
+        row.is_reference = is_same_technique_choice(
             parse_technique(text),
-            parse_technique(set_reference_samples(request_.reference, samples)));
-        if (request_.both_models && part.model == RenderedWork::required) {
+            parse_technique(set_reference_samples(compare_request_.reference, samples)));
+        if (compare_request_.both_models && part.model == RenderedWork::required) {
             row.label += ", model=required";
             row.image += "-required";
         }
@@ -298,14 +305,14 @@ private:
 
     /// Adds the rows whose pictures are files. Studies and rounds leave them out.
     void add_picture_rows() {
-        const ComparedTruth truth = truths_.find_reference("1").truth();
+        const ComparedReference truth = truths_.get_reference("1").compared_reference();
         const std::vector<std::uint32_t>& hits = truths_.find_mirror_hits();
-        const double exposure = request_.base.exposure;
-        for (std::size_t i = 0; i < request_.pictures.size(); ++i) {
-            const auto& [name, file] = request_.pictures[i];
+        const double exposure = compare_request_.base.exposure;
+        for (std::size_t i = 0; i < compare_request_.pictures.size(); ++i) {
+            const auto& [name, file] = compare_request_.pictures[i];
             comparison_.rows.push_back(
                 make_picture_row(name, i, read_row_picture(file, exposure), truth, hits,
-                                 scene::mirrors(request_.base.scene).size(), exposure));
+                                 scene::mirrors(compare_request_.base.scene).size(), exposure));
             row_warnings_.push_back(
                 list_picture_row_warnings(comparison_.rows.back(), truth, hits, exposure));
         }
@@ -313,99 +320,105 @@ private:
 
     void report_progress() {
         fill_run_circumstances();
-        if (request_.on_finished_row) request_.on_finished_row(comparison_);
+        if (compare_request_.on_finished_row) compare_request_.on_finished_row(comparison_);
     }
 
     /// Returns the rows whose frames are measured one by one; with `together` one group of all
     /// rows.
-    std::vector<std::vector<std::string>> group_rows_for_frames() const {
-        const std::vector<std::string>& texts = request_.base.techniques;
-        if (request_.together) return {texts};
+    std::vector<std::vector<std::string>> group_rows_rendered_together() const {
+        const std::vector<std::string>& texts = compare_request_.base.techniques;
+        if (compare_request_.together) return {texts};
         std::vector<std::vector<std::string>> lanes;
         for (const std::string& text : texts) lanes.push_back({text});
         return lanes;
     }
 
-    void measure_rounds() {
+    void measure_all_rounds() {
         const PinnedThreads held;
-        comparison_.device.held_threads = static_cast<int>(held.count());
-        for (int round = 0; round < comparison_.rounds; ++round) measure_round(round);
+        comparison_.device.held_threads = static_cast<int>(held.pinned_thread_count());
+        for (int round = 0; round < comparison_.rounds; ++round) measure_round_of_rows(round);
         runs_.clear(); // frees also the device memory of their histories
     }
 
-    void measure_round(int round) {
+    void measure_round_of_rows(int round) {
         measure_cube_clear_cost(round);
-        const std::vector<std::vector<std::string>> all = group_rows_for_frames();
+        const std::vector<std::vector<std::string>> all = group_rows_rendered_together();
         // Reverses every second round. No row then always follows the same other, whose work may
         // still have an effect.
         for (std::size_t place = 0; place < all.size(); ++place) {
             const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
             const auto rounds = static_cast<std::size_t>(comparison_.rounds);
-            std::string row = request_.together ? "all rows in one frame" : all[lane].front();
-            if (request_.both_models) row += ", model " + name_of(models_[lane]);
-            tell_row(request_.watcher,
-                     row + ", round " + std::to_string(round + 1) + " of " +
-                         std::to_string(comparison_.rounds),
-                     static_cast<std::size_t>(round) * all.size() + place, rounds * all.size());
-            measure_row(lane, all[lane], round);
+            std::string row = compare_request_.together ? "all rows in one frame"
+                                                        : all[lane].front();
+            if (compare_request_.both_models) row += ", model " + rendered_work_name(models_[lane]);
+            report_row_to_watcher(compare_request_.watcher,
+                                  row + ", round " + std::to_string(round + 1) + " of " +
+                                      std::to_string(comparison_.rounds),
+                                  static_cast<std::size_t>(round) * all.size() + place,
+                                  rounds * all.size());
+            measure_round_of_row(lane, all[lane], round);
         }
         if (round > 0) report_progress();
     }
 
     /// Measures a round. Judges rows after the first round, and again by their last picture if it
     /// differs.
-    void measure_row(std::size_t lane, const std::vector<std::string>& texts, int round) {
+    void measure_round_of_row(std::size_t lane, const std::vector<std::string>& texts, int round) {
         const bool first = round == 0, last = round + 1 == comparison_.rounds;
         if (first) {
-            Request request = request_.base;
+            Request request = compare_request_.base;
             request.techniques = texts;
             request.model = models_[lane];
-            runs_.push_back(std::make_unique<RowMeasurement>(session_, request, request_.watcher));
+            runs_.push_back(std::make_unique<RowMeasurement>(shared_session_, request,
+                                                             compare_request_.watcher));
         }
         RowMeasurement& run = *runs_[lane];
         run.measure_one_round(
-            count_frames_of_round(request_.base.frames, comparison_.rounds, round));
-        const std::vector<TechniqueResult> parts = first || last ? run.technique_results()
+            count_frames_of_round(compare_request_.base.frames, comparison_.rounds, round));
+        const std::vector<TechniqueResult> parts = first || last ? run.list_technique_results()
                                                                  : std::vector<TechniqueResult>();
-        run.suspend();
+        run.suspend_frames();
         for (std::size_t i = 0; i < texts.size(); ++i) {
             const std::size_t index = lane + i;
-            if (first) add_row(texts[i], parts[i]);
+            if (first) add_comparison_row(texts[i], parts[i]);
             report::Row& row = comparison_.rows[index];
-            fill_row_times(row, run.rounds(), prefixes_[index], comparison_.device.type == "cpu");
-            row.noisy = run.is_noisy();
-            row.waited = run.mean_waited_share();
+            fill_row_times(row, run.list_rounds(), prefixes_[index],
+                           comparison_.device.type == "cpu");
+            row.noisy = run.has_timing_noise();
+            row.waited = run.mean_share_of_waiting_time();
             const bool changed = last && !first &&
-                                 (request_.base.animate ||
+                                 (compare_request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));
             if (first || changed) {
-                judge_row(index, parts[i], run.rendered_frame_count());
-                if (truths_.is_noisy()) judged_[index] = {parts[i], run.rendered_frame_count()};
+                judge_measured_row(index, parts[i], run.rendered_frame_count());
+                if (truths_.has_reference_noise())
+                    judged_[index] = {parts[i], run.rendered_frame_count()};
             }
             if (first) report_progress();
         }
     }
 
-    Engine& engine_;
-    CompareRequest request_;
+    Engine& comparison_engine_;
+    CompareRequest compare_request_;
     CompiledPipelines compiled_before_; ///< by the engine before this comparison
-    Session session_;                   ///< shared by all rows
+    Session shared_session_;            ///< shared by all rows
     ReferenceCache truths_;
-    RowJudge judge_;
+    RowErrorJudge judge_;
     std::vector<RenderedWork> models_; ///< models of the rows
     std::vector<std::unique_ptr<RowMeasurement>>
         runs_;                                  ///< one per row, or one for all rows together
     std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round
     std::vector<std::vector<std::string>> row_warnings_;
-    std::vector<JudgedFrame> judged_; ///< of each row; empty frames if the reference has no noise
+    std::vector<LastJudgedFrame>
+        judged_; ///< of each row; empty frames if the reference has no noise
     report::Comparison comparison_;
 };
 
 } // namespace
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {
-    return RowComparer(engine, request).run_comparison();
+    return RowComparisonRunner(engine, request).run_whole_comparison();
 }
 
 } // namespace catoptric::app

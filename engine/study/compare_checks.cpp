@@ -17,7 +17,7 @@
 namespace catoptric::app {
 
 std::vector<std::string> list_default_techniques(const Request& base) {
-    const scene::SceneAt at_time(base.scene, base.time);
+    const scene::SceneAtTime at_time(base.scene, base.time);
     const scene::Scene& now = *at_time;
     std::vector<scene::FlatFaces> flats;
     for (const std::size_t object : scene::mirrors(now))
@@ -37,37 +37,37 @@ void check_has_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     std::string lines;
     for (const std::string& option : suggest_mirror_options(scene)) lines += "\n  " + option;
-    fail(Failure::bad_data, "scene ", quote_printable(scene.name),
+    fail(Failure::bad_data, "scene ", quote_as_printable_text(scene.name),
          ": wanted a mirror, whose reflections are what is compared, found none; make one with "
          "--mirror PATTERN[=REFLECTANCE]",
          lines.empty() ? "" : ", such as" + lines);
 }
 
-void check_rounds(int rounds) {
+void check_round_limit(int rounds) {
     check(rounds >= static_cast<int>(measure::kMinIntervalSamples), Failure::usage,
           "rounds: wanted at least ", measure::kMinIntervalSamples,
           ", fewer bound no median, found ", rounds);
 }
 
-void check_rows(const std::vector<std::string>& techniques) {
+void check_row_techniques(const std::vector<std::string>& techniques) {
     std::vector<reflect::TechniquePlan> plans;
     for (const std::string& text : techniques) {
-        reflect::TechniquePlan plan = read_plan(text);
+        reflect::TechniquePlan plan = read_technique_plan(text);
         for (const reflect::TechniquePlan& other : plans)
-            check(!plan.same_as(other), Failure::usage, "technique '", text,
+            check(!plan.is_same_plan_as(other), Failure::usage, "technique '", text,
                   "' is asked for twice");
         plans.push_back(std::move(plan));
     }
 }
 
 void check_compare_request(const CompareRequest& request) {
-    check_rows(request.base.techniques);
+    check_row_techniques(request.base.techniques);
     for (const std::string& text : request.base.techniques)
-        if (const reflect::TechniquePlan plan = read_plan(text); !plan.is_auto)
-            reflect::assign_mirrors(plan, list_mirror_names(request.base.scene));
+        if (const reflect::TechniquePlan plan = read_technique_plan(text); !plan.is_auto)
+            reflect::assign_techniques_to_mirrors(plan, list_mirror_names(request.base.scene));
     check_picture_rows(request);
     check_has_mirror(request.base.scene);
-    check_rounds(request.rounds);
+    check_round_limit(request.rounds);
     for (const StudyChoice& choice : request.studies) check_study(choice, request.reference);
     check(!request.both_models || !request.together, Failure::usage,
           "--model both and --together: rows of one frame have one model");

@@ -15,9 +15,9 @@ std::vector<std::string> list_default_techniques(const Request& base);
 void check_has_mirror(const scene::Scene& scene);
 
 /// Throws `usage` if the rounds are too few for a confidence interval of the median.
-void check_rounds(int rounds);
+void check_round_limit(int rounds);
 /// Throws `usage` for unknown rows, and for two rows with the same settings.
-void check_rows(const std::vector<std::string>& techniques);
+void check_row_techniques(const std::vector<std::string>& techniques);
 
 /// Applies all checks above. Also refuses plans that do not fit the mirrors, and rows that are
 /// asked for in both models and in one frame.

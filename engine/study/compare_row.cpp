@@ -70,15 +70,15 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
                          const std::vector<std::uint32_t>& hits) {
     std::size_t pixels = 0, black = 0, wanted_black = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit(hits[i])) continue;
+        if (!measure::first_mirror_of_hit_word(hits[i])) continue;
         ++pixels;
         black += picture.pixels[i] == vec3(0);
         wanted_black += truth.pixels[i] == vec3(0);
     }
-    constexpr double kBlackShareLimit = .99;
+    constexpr double kMinBlackPixelShare = .99;
     return pixels > 0 &&
-           static_cast<double>(black) >= kBlackShareLimit * static_cast<double>(pixels) &&
-           static_cast<double>(wanted_black) < kBlackShareLimit * static_cast<double>(pixels);
+           static_cast<double>(black) >= kMinBlackPixelShare * static_cast<double>(pixels) &&
+           static_cast<double>(wanted_black) < kMinBlackPixelShare * static_cast<double>(pixels);
 }
 
 /// Sets the row's estimates against the halves of a reference with noise, over all masks.
@@ -86,31 +86,32 @@ void estimate_row_noise(report::Row& row, const measure::ReferenceHalves& halves
                         const std::vector<std::uint32_t>& hits, double exposure) {
     const measure::Picture found = measure::apply_exposure(row.hdr, exposure);
     std::vector<measure::HalvesEstimate> estimates;
-    for (const measure::Mask& mask : measure::list_masks_of_rows(hits))
-        estimates.push_back(measure::estimate_by_halves(found, halves, mask, row.flip_map));
-    measure::set_noise(row, estimates);
+    for (const measure::Mask& mask : measure::list_row_mask_names(hits))
+        estimates.push_back(measure::estimate_error_by_halves(found, halves, mask, row.flip_map));
+    measure::set_noise_of_row(row, estimates);
 }
 
 } // namespace
 
-std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedTruth& truth,
+std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedReference& truth,
                                     double exposure) {
     if (truth.halves != nullptr)
-        return measure::flip_against_halves(picture, *truth.halves, exposure);
+        return measure::compute_flip_against_halves(picture, *truth.halves, exposure);
     return measure::flip(measure::to_unrounded_display(picture, exposure),
                          measure::to_unrounded_display(truth.hdr, exposure));
 }
 
 measure::Difference compute_masked_error(const measure::Picture& picture,
-                                         const ComparedTruth& truth, const measure::Mask& mask,
+                                         const ComparedReference& truth, const measure::Mask& mask,
                                          std::span<const float> flip_map, double exposure) {
     const measure::Picture found = measure::apply_exposure(picture, exposure);
     if (truth.halves != nullptr)
-        return measure::difference_from_halves(found, *truth.halves, mask, flip_map);
+        return measure::compute_difference_from_halves(found, *truth.halves, mask, flip_map);
     return measure::difference(found, measure::apply_exposure(truth.hdr, exposure), mask, flip_map);
 }
 
-measure::Errors compute_masked_errors(const measure::Picture& picture, const ComparedTruth& truth,
+measure::Errors compute_masked_errors(const measure::Picture& picture,
+                                      const ComparedReference& truth,
                                       std::span<const float> flip_map,
                                       const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                                       double exposure) {
@@ -120,15 +121,16 @@ measure::Errors compute_masked_errors(const measure::Picture& picture, const Com
         return compute_masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
     };
     measure::Errors errors;
-    const std::vector<measure::Mask> masks = measure::list_masks_of_rows(hits);
+    const std::vector<measure::Mask> masks = measure::list_row_mask_names(hits);
     for (std::size_t i = 0; i < masks.size(); ++i)
         errors.*measure::list_row_masks()[i].error = against(masks[i]);
     for (std::size_t i = 0; i < mirrors; ++i)
-        errors.error_per_mirror.push_back(against(measure::mask_one_mirror(hits, MirrorId::at(i))));
+        errors.error_per_mirror.push_back(
+            against(measure::mask_one_mirror(hits, MirrorId::of_list_index(i))));
     return errors;
 }
 
-void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedTruth& truth,
+void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedReference& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     row.hdr = part.hdr;
     row.display = part.display;
@@ -149,7 +151,7 @@ report::Row make_row_description(const std::string& text, const TechniqueResult&
     row.settings = choice.settings;
     row.image = choice.file_name;
     row.plan = part.plan;
-    row.model = name_of(part.model);
+    row.model = rendered_work_name(part.model);
     for (const auto& [what, why, saves, error] : part.left_out)
         row.left_out.push_back({what, why, saves, error});
     row.scene_passes = part.scene_passes;

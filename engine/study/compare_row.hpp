@@ -19,7 +19,7 @@ report::Row make_row_description(const std::string& text, const TechniqueResult&
 void fill_row_times(report::Row& row, const std::vector<std::vector<FrameTimes>>& rounds,
                     const std::string& prefix, bool on_processor);
 /// Picture that a row is compared with.
-struct ComparedTruth {
+struct ComparedReference {
     const measure::Picture& hdr; ///< linear; of a reference with noise, the mean of its halves
     /// Halves of a reference with noise, at the comparison's exposure; null: no noise.
     const measure::ReferenceHalves* halves = nullptr;
@@ -27,20 +27,21 @@ struct ComparedTruth {
 
 /// Returns FLIP of both pictures for each pixel, as displayed at `exposure` stops, not rounded to 8
 /// bits. Of a reference with noise, the mean of FLIP against its halves.
-std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedTruth& truth,
+std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedReference& truth,
                                     double exposure);
 /// Returns how far a picture is from the truth, over the pixels of a mask. `flip_map`: of both.
 measure::Difference compute_masked_error(const measure::Picture& picture,
-                                         const ComparedTruth& truth, const measure::Mask& mask,
+                                         const ComparedReference& truth, const measure::Mask& mask,
                                          std::span<const float> flip_map, double exposure);
 /// Returns how far a picture is from the truth, over all masks. `flip_map`: of both pictures.
 /// `hits`: of the same picture, see TechniqueResult::hits. `exposure`: stops.
-measure::Errors compute_masked_errors(const measure::Picture& picture, const ComparedTruth& truth,
+measure::Errors compute_masked_errors(const measure::Picture& picture,
+                                      const ComparedReference& truth,
                                       std::span<const float> flip_map,
                                       const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                                       double exposure);
 /// Fills the row's picture, errors and means. `hits`: of the same instant. `exposure`: stops.
-void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedTruth& truth,
+void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedReference& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure);
 
 } // namespace catoptric::app

@@ -22,40 +22,41 @@ using report::ReportTable;
 constexpr const char* kCostsMetric = "costs";
 
 /// Returns "NAME (literature)". The name stands for a device's costs in all outputs.
-std::string describe_costs(const measure::DeviceCosts& costs) {
-    return costs.device + " (" + std::string(measure::name_of(costs.origin)) + ")";
+std::string describe_device_costs(const measure::DeviceCosts& costs) {
+    return costs.device + " (" + std::string(measure::cost_origin_name(costs.origin)) + ")";
 }
 
-bool contains(const std::vector<std::size_t>& list, std::size_t index) {
+bool list_contains_index(const std::vector<std::size_t>& list, std::size_t index) {
     return std::ranges::find(list, index) != list.end();
 }
 
 void set_row_costs(std::vector<report::Row>& rows, const std::vector<measure::DeviceCosts>& all) {
-    std::vector<std::vector<measure::ValueParts>> lists(rows.size());
+    std::vector<std::vector<measure::MetricValueParts>> lists(rows.size());
     for (const measure::DeviceCosts& costs : all) {
         const measure::PredictedFront front = measure::find_predicted_front(costs, rows);
         for (std::size_t i = 0; i < rows.size(); ++i)
-            lists[i].push_back(
-                {"device",
-                 describe_costs(costs),
-                 {{"ms", front.times[i].ms},
-                  {"low_ms", front.times[i].low},
-                  {"high_ms", front.times[i].high},
-                  {"on_front", contains(front.rows, i)},
-                  {"on_front_if_rays_are_cheap", contains(front.rows_if_rays_are_cheap, i)},
-                  {"on_front_if_rays_are_dear", contains(front.rows_if_rays_are_dear, i)}}});
+            lists[i].push_back({"device",
+                                describe_device_costs(costs),
+                                {{"ms", front.times[i].ms},
+                                 {"low_ms", front.times[i].low},
+                                 {"high_ms", front.times[i].high},
+                                 {"on_front", list_contains_index(front.rows, i)},
+                                 {"on_front_if_rays_are_cheap",
+                                  list_contains_index(front.rows_if_rays_are_cheap, i)},
+                                 {"on_front_if_rays_are_dear",
+                                  list_contains_index(front.rows_if_rays_are_dear, i)}}});
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        measure::set_studied(rows[i], kCostsMetric, std::move(lists[i]));
+        measure::set_study_metric(rows[i], kCostsMetric, std::move(lists[i]));
 }
 
-void predict_costs(const StudyInput& input) {
+void predict_row_times(const StudyInput& input) {
     std::vector<measure::DeviceCosts> all;
     for (const std::string& file : input.texts) {
         all.push_back(report::read_costs_file(file));
-        const std::string name = describe_costs(all.back());
-        check(std::ranges::count(all, name, describe_costs) == 1, Failure::usage, "--costs: '",
-              name, "' is given twice");
+        const std::string name = describe_device_costs(all.back());
+        check(std::ranges::count(all, name, describe_device_costs) == 1, Failure::usage,
+              "--costs: '", name, "' is given twice");
     }
     count_row_work(input);
     set_row_costs(input.comparison.rows, all);
@@ -63,17 +64,17 @@ void predict_costs(const StudyInput& input) {
 }
 
 /// Predicted times of a row on a device, read back from the row.
-struct CostCells {
+struct PredictedCostCells {
     std::string device;
     double ms = 0, low = 0, high = 0;
     bool front = false, cheap = false, dear = false;
 };
 
-std::vector<CostCells> list_cost_cells(const report::Row& row) {
-    std::vector<CostCells> cells;
-    const measure::MetricValue value = measure::studied_value(row, kCostsMetric);
-    if (const auto* list = std::get_if<std::vector<measure::ValueParts>>(&value))
-        for (const measure::ValueParts& parts : *list)
+std::vector<PredictedCostCells> list_cost_cells(const report::Row& row) {
+    std::vector<PredictedCostCells> cells;
+    const measure::MetricValue value = measure::find_study_metric(row, kCostsMetric);
+    if (const auto* list = std::get_if<std::vector<measure::MetricValueParts>>(&value))
+        for (const measure::MetricValueParts& parts : *list)
             cells.push_back(
                 {parts.name, std::get<double>(parts.values[0].second),
                  std::get<double>(parts.values[1].second), std::get<double>(parts.values[2].second),
@@ -82,7 +83,7 @@ std::vector<CostCells> list_cost_cells(const report::Row& row) {
     return cells;
 }
 
-std::string format_cost_cell(const CostCells& cells) {
+std::string format_cost_cell(const PredictedCostCells& cells) {
     std::string text = report::format_ms(cells.ms);
     if (cells.low != cells.high)
         text += " [" + report::format_ms(cells.low) + "–" + report::format_ms(cells.high) + "]";
@@ -97,12 +98,14 @@ std::vector<ReportTable> make_cost_tables(const report::Comparison& comparison) 
                       {},
                       {}};
     for (const report::Row& row : comparison.rows) {
-        const std::vector<CostCells> cells = list_cost_cells(row);
+        const std::vector<PredictedCostCells> cells = list_cost_cells(row);
         if (cells.empty()) continue;
         if (table.rows.empty())
-            for (const CostCells& device : cells) table.columns.emplace_back(device.device);
+            for (const PredictedCostCells& device : cells)
+                table.columns.emplace_back(device.device);
         table.rows.push_back({row.label, report::format_flip(row.error)});
-        for (const CostCells& device : cells) table.rows.back().push_back(format_cost_cell(device));
+        for (const PredictedCostCells& device : cells)
+            table.rows.back().push_back(format_cost_cell(device));
     }
     return {table};
 }
@@ -110,11 +113,11 @@ std::vector<ReportTable> make_cost_tables(const report::Comparison& comparison) 
 /// Returns the labels of the rows for which `is_on`, fastest first, and how many of them read
 /// captures or mirrored views.
 std::string describe_predicted_front(const report::Comparison& comparison, std::size_t device,
-                                     bool CostCells::*is_on) {
+                                     bool PredictedCostCells::*is_on) {
     std::vector<std::pair<double, const report::Row*>> front;
     std::size_t captured = 0;
     for (const report::Row& row : comparison.rows) {
-        const std::vector<CostCells> cells = list_cost_cells(row);
+        const std::vector<PredictedCostCells> cells = list_cost_cells(row);
         if (device >= cells.size() || !(cells[device].*is_on)) continue;
         front.emplace_back(cells[device].ms, &row);
         captured += row.technique != "raytrace";
@@ -122,18 +125,20 @@ std::string describe_predicted_front(const report::Comparison& comparison, std::
     std::ranges::stable_sort(front, {}, [](const auto& one) { return one.first; });
     std::vector<const report::Row*> rows;
     for (const auto& [ms, row] : front) rows.push_back(row);
-    return fmt::format("{} ({} of {} not ray traced alone)", report::join_row_labels(rows),
+    return fmt::format("{} ({} of {} not ray traced alone)", report::join_labels_of_rows(rows),
                        captured, rows.size());
 }
 
 std::vector<std::string> describe_predicted_fronts(const report::Comparison& comparison) {
     std::vector<std::string> sentences;
     if (comparison.rows.empty()) return sentences;
-    const std::vector<CostCells> devices = list_cost_cells(comparison.rows.front());
+    const std::vector<PredictedCostCells> devices = list_cost_cells(comparison.rows.front());
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        const std::string front = describe_predicted_front(comparison, i, &CostCells::front);
-        const std::string cheap = describe_predicted_front(comparison, i, &CostCells::cheap);
-        const std::string dear = describe_predicted_front(comparison, i, &CostCells::dear);
+        const std::string front = describe_predicted_front(comparison, i,
+                                                           &PredictedCostCells::front);
+        const std::string cheap = describe_predicted_front(comparison, i,
+                                                           &PredictedCostCells::cheap);
+        const std::string dear = describe_predicted_front(comparison, i, &PredictedCostCells::dear);
         std::string text = fmt::format("Front on {}: {}.", devices[i].device, front);
         if (cheap != front || dear != front)
             text += fmt::format(" If rays are cheap and other work is dear: {}. If rays are dear "
@@ -160,7 +165,7 @@ const RegisteredStudy kCostsStudy{
              if (std::ranges::find(comparison.studies, "work") == comparison.studies.end())
                  comparison.studies.emplace_back("work");
          },
-     .run = predict_costs,
+     .run = predict_row_times,
      .metrics = {{.name = kCostsMetric,
                   .unit = "ms",
                   .help = "predicted time on each device of --costs, with the ends of its range",

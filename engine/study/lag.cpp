@@ -22,8 +22,8 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kMaxLagFrames = 30;     // frames of a still, and of each side of a cut
-constexpr int kPathWarmupFrames = 16; // frames along the path before the first that counts
+constexpr int kMaxLagFrames = 30;        // frames of a still, and of each side of a cut
+constexpr int kLagPathWarmupFrames = 16; // frames along the path before the first that counts
 // Seconds; a long animation is cut, because a run would take hours.
 constexpr double kMaxPathSeconds = 10;
 constexpr double kFramesPerSecond = 60;
@@ -36,14 +36,16 @@ struct LagInstants {
     int stride = 1;     ///< frames of the fastest speed in a step
     int count = 1;      ///< number of instants
 
-    double length() const { return step * count; }
-    double instant(int i) const { return start + step * i; }
+    double path_length_seconds() const { return step * count; }
+    double instant_seconds(int i) const { return start + step * i; }
     /// Returns the number of frames of a speed in a step.
-    int frames(double speed) const { return stride * static_cast<int>(fastest / speed); }
-    /// Returns the instant of frame f (0 at the start) of a speed, in seconds. Every frames()-th
-    /// frame lies exactly on an instant of the path.
-    double seconds(double speed, int f) const {
-        return start + step * (static_cast<double>(f) / frames(speed));
+    int count_frames_of_step(double speed) const {
+        return stride * static_cast<int>(fastest / speed);
+    }
+    /// Returns the instant of frame f (0 at the start) of a speed, in seconds. Every
+    /// count_frames_of_step()-th frame lies exactly on an instant of the path.
+    double seconds_of_frame(double speed, int f) const {
+        return start + step * (static_cast<double>(f) / count_frames_of_step(speed));
     }
 };
 
@@ -60,13 +62,15 @@ void check_lag_speeds(const std::vector<double>& speeds) {
 
 /// Returns a path with as many instants as the fastest speed has frames, or as are allowed. Returns
 /// one instant if nothing moves.
-LagInstants plan_lag_instants(const LagRequest& request) {
+LagInstants choose_lag_instants(const LagRequest& request) {
     check_lag_speeds(request.speeds);
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
           request.most_instants);
     LagInstants path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
     const double frame = path.fastest / kFramesPerSecond;
-    const double frames = std::min(scene::period(request.base.scene), kMaxPathSeconds) / frame;
+    const double frames = std::min(scene::compute_scene_period(request.base.scene),
+                                   kMaxPathSeconds) /
+                          frame;
     path.stride = std::max(1, static_cast<int>(std::ceil(frames / request.most_instants)));
     path.count = std::max(1, static_cast<int>(std::lround(frames / path.stride)));
     path.step = frames > 0 ? path.stride * frame : 0;
@@ -74,8 +78,8 @@ LagInstants plan_lag_instants(const LagRequest& request) {
 }
 
 /// Returns all figures of the difference. `exposure`: stops.
-measure::Difference compute_difference(const measure::Picture& a, const measure::Picture& b,
-                                       const measure::Mask& mask, double exposure) {
+measure::Difference compute_picture_difference(const measure::Picture& a, const measure::Picture& b,
+                                               const measure::Mask& mask, double exposure) {
     return measure::difference(measure::apply_exposure(a, exposure),
                                measure::apply_exposure(b, exposure), mask,
                                measure::flip(measure::to_unrounded_display(a, exposure),
@@ -97,7 +101,7 @@ bool have_equal_bytes(const measure::Picture& a, const measure::Picture& b) {
 }
 
 /// A technique's picture of an instant, after nothing changes any more.
-struct StillPicture {
+struct SettledPicture {
     TechniqueResult part;
     int frames = 0;     ///< frames until the picture stopped changing
     bool rests = false; ///< false: the picture still changed at the cap
@@ -106,62 +110,65 @@ struct StillPicture {
 class LagMeasurement {
 public:
     LagMeasurement(Session& session, const LagRequest& request, report::LagResults& lag)
-        : session_(session), request_(request), lag_(lag), path_(plan_lag_instants(request)),
+        : lag_session_(session), lag_request_(request), lag_(lag),
+          path_(choose_lag_instants(request)),
           mirrors_(static_cast<int>(scene::mirrors(request.base.scene).size())) {
-        check(!request_.base.techniques.empty(), Failure::usage, "lag: no technique was asked for");
-        for (const std::string& text : request_.base.techniques)
+        check(!lag_request_.base.techniques.empty(), Failure::usage,
+              "lag: no technique was asked for");
+        for (const std::string& text : lag_request_.base.techniques)
             parse_technique(text); // throws before any work
     }
 
     void measure_all_rows() {
-        for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.instant(i));
-        lag_.path = path_.length();
-        lag_.jump_from = path_.start + path_.length() / 2;
+        for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.instant_seconds(i));
+        lag_.path = path_.path_length_seconds();
+        lag_.jump_from = path_.start + path_.path_length_seconds() / 2;
         lag_.frame_cap = kMaxLagFrames;
-        begin_row("reference " + request_.reference, 0, path_.count * kMaxLagFrames);
-        for (int i = 0; i < path_.count; ++i) add_instant(path_.instant(i));
-        for (std::size_t i = 0; i < request_.base.techniques.size(); ++i) {
-            add_technique(i);
-            if (request_.on_finished_row) request_.on_finished_row();
+        begin_row_progress("reference " + lag_request_.reference, 0, path_.count * kMaxLagFrames);
+        for (int i = 0; i < path_.count; ++i) add_reference_instant(path_.instant_seconds(i));
+        for (std::size_t i = 0; i < lag_request_.base.techniques.size(); ++i) {
+            measure_lag_of_technique(i);
+            if (lag_request_.on_finished_row) lag_request_.on_finished_row();
         }
         lag_.complete = true;
     }
 
 private:
     /// The mirrors' pixels and the reference at one instant.
-    struct InstantReference {
+    struct ReferenceAtInstant {
         double seconds = 0;
         measure::Mask mirrors;
         measure::Picture reference;
     };
 
-    void begin_row(const std::string& label, std::size_t index, int frames) {
-        tell_row(request_.watcher, label, index, request_.base.techniques.size() + 1);
+    void begin_row_progress(const std::string& label, std::size_t index, int frames) {
+        report_row_to_watcher(lag_request_.watcher, label, index,
+                              lag_request_.base.techniques.size() + 1);
         frames_done_ = 0;
         frames_expected_ = frames;
     }
 
     /// Renders a frame of the current row.
     Frame render_frame(const std::string& technique, double seconds) {
-        FrameSpec spec = request_.base;
+        FrameSpec spec = lag_request_.base;
         spec.techniques = {technique};
         spec.time = seconds;
         spec.model =
             RenderedWork::required; // gives the same pictures, and their times are not used
-        const Frame made = session_.frame(spec);
-        tell_frame(request_.watcher, ++frames_done_, frames_expected_);
+        const Frame made = lag_session_.frame(spec);
+        report_frame_to_watcher(lag_request_.watcher, ++frames_done_, frames_expected_);
         return made;
     }
     /// Begins with cold history. Counts frames that earlier runs saved as done.
-    void begin_run(int frames_before) {
-        session_.forget();
+    void begin_cold_frame_run(int frames_before) {
+        lag_session_.forget();
         frames_done_ = frames_before;
     }
 
-    StillPicture render_still_picture(const std::string& technique, double seconds) {
+    SettledPicture render_still_picture(const std::string& technique, double seconds) {
         const int before = frames_done_;
-        begin_run(before);
-        StillPicture still;
+        begin_cold_frame_run(before);
+        SettledPicture still;
         int unchanged = 0;
         for (int k = 1; k <= kMaxLagFrames && !still.rests; ++k) {
             TechniqueResult part = render_frame(technique, seconds).read();
@@ -176,8 +183,9 @@ private:
         return still;
     }
 
-    void add_instant(double seconds) {
-        const TechniqueResult reference = render_still_picture(request_.reference, seconds).part;
+    void add_reference_instant(double seconds) {
+        const TechniqueResult reference =
+            render_still_picture(lag_request_.reference, seconds).part;
         const bool traces = !reference.hits.empty();
         instants_.push_back(
             {seconds,
@@ -187,31 +195,33 @@ private:
              reference.hdr});
     }
 
-    void add_technique(std::size_t index) {
-        const std::string& text = request_.base.techniques[index];
+    void measure_lag_of_technique(std::size_t index) {
+        const std::string& text = lag_request_.base.techniques[index];
         const std::string label = parse_technique(text).label;
-        begin_row("lag of " + label, index + 1, count_frames_of_row());
+        begin_row_progress("lag of " + label, index + 1, count_frames_of_row());
         report::LagRow row;
         row.label = label;
         stills_.clear();
-        for (const InstantReference& instant : instants_)
-            if (!add_still(row, text, instant)) return lag_.without_history.push_back(label);
-        row.after_black = measure_settling(text, 0);
-        row.after_jump = measure_settling(text, kMaxLagFrames);
+        for (const ReferenceAtInstant& instant : instants_)
+            if (!add_settled_picture(row, text, instant))
+                return lag_.without_history.push_back(label);
+        row.after_black = measure_settling_after_cut(text, 0);
+        row.after_jump = measure_settling_after_cut(text, kMaxLagFrames);
         lag_.rows.push_back(std::move(row)); // keeps partial results if a signal comes
-        for (const double speed : request_.speeds)
+        for (const double speed : lag_request_.speeds)
             lag_.rows.back().speeds.push_back(measure_lag_at_speed(text, speed));
     }
 
     measure::Difference compute_masked_difference(const measure::Picture& a,
                                                   const measure::Picture& b,
-                                                  const InstantReference& instant) const {
-        return compute_difference(a, b, instant.mirrors, request_.base.exposure);
+                                                  const ReferenceAtInstant& instant) const {
+        return compute_picture_difference(a, b, instant.mirrors, lag_request_.base.exposure);
     }
 
     /// Returns false if the technique reads nothing of the frame before.
-    bool add_still(report::LagRow& row, const std::string& text, const InstantReference& instant) {
-        const StillPicture found = render_still_picture(text, instant.seconds);
+    bool add_settled_picture(report::LagRow& row, const std::string& text,
+                             const ReferenceAtInstant& instant) {
+        const SettledPicture found = render_still_picture(text, instant.seconds);
         if (!found.part.remembers) return false;
         stills_.push_back(found.part.hdr);
         row.still_frames = std::max(row.still_frames, found.frames);
@@ -223,29 +233,31 @@ private:
 
     /// Compares frames at the first instant with its still, after `before` frames at another
     /// instant.
-    report::SettlingAfterCut measure_settling(const std::string& text, int before) {
+    report::SettlingAfterCut measure_settling_after_cut(const std::string& text, int before) {
         report::SettlingAfterCut settling;
-        begin_run(frames_done_);
+        begin_cold_frame_run(frames_done_);
         for (int k = 0; k < before; ++k) render_frame(text, lag_.jump_from);
         for (int k = 0; k < kMaxLagFrames; ++k) {
             const measure::Difference error = compute_difference_without_flip(
                 render_frame(text, path_.start).hdr(), stills_.front(), instants_.front().mirrors,
-                request_.base.exposure);
+                lag_request_.base.exposure);
             settling.rmse.push_back(error.rmse);
             settling.max.push_back(error.max);
         }
-        settling.rmse_settled = measure::find_settled_frame(settling.rmse, measure::kLagErrorLimit);
-        settling.max_settled = measure::find_settled_frame(settling.max, measure::kLagErrorLimit);
+        settling.rmse_settled = measure::find_settled_frame(settling.rmse,
+                                                            measure::kSettledErrorLimit);
+        settling.max_settled = measure::find_settled_frame(settling.max,
+                                                           measure::kSettledErrorLimit);
         return settling;
     }
 
     report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
-        const int between = path_.frames(speed),
-                  count = count_frames_at_speed(speed) - kPathWarmupFrames;
-        begin_run(frames_done_);
-        for (int k = -kPathWarmupFrames; k < count; ++k) {
-            const Frame moving = render_frame(text, path_.seconds(speed, k));
+        const int between = path_.count_frames_of_step(speed),
+                  count = count_frames_at_speed(speed) - kLagPathWarmupFrames;
+        begin_cold_frame_run(frames_done_);
+        for (int k = -kLagPathWarmupFrames; k < count; ++k) {
+            const Frame moving = render_frame(text, path_.seconds_of_frame(speed, k));
             if (k < 0 || k % between != 0) continue;
             const auto i = static_cast<std::size_t>(k / between);
             const measure::Picture picture = moving.hdr();
@@ -257,33 +269,33 @@ private:
     }
 
     int count_frames_at_speed(double speed) const {
-        return kPathWarmupFrames + (path_.count - 1) * path_.frames(speed) + 1;
+        return kLagPathWarmupFrames + (path_.count - 1) * path_.count_frames_of_step(speed) + 1;
     }
     /// Counts every still with the largest number of frames.
     int count_frames_of_row() const {
         int frames = path_.count * kMaxLagFrames + 3 * kMaxLagFrames;
-        for (const double speed : request_.speeds) frames += count_frames_at_speed(speed);
+        for (const double speed : lag_request_.speeds) frames += count_frames_at_speed(speed);
         return frames;
     }
 
-    Session& session_;
-    LagRequest request_;
+    Session& lag_session_;
+    LagRequest lag_request_;
     report::LagResults& lag_;
     LagInstants path_;
     int mirrors_ = 0;
-    std::vector<InstantReference> instants_;
+    std::vector<ReferenceAtInstant> instants_;
     std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant
     int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
 
 /// Returns the reference. If its rays are random, it gets another seed than every row.
-std::string separate_reference_from_rows(const std::string& reference,
+std::string choose_reference_unlike_rows(const std::string& reference,
                                          const std::vector<std::string>& rows) {
     if (!draws_rays_from_lobes(reference)) return reference;
     return set_lobe_seed(reference, ReferenceSeeds(rows).next());
 }
 
-void add_lag(const StudyInput& input) {
+void measure_lag_of_rows(const StudyInput& input) {
     Request base = input.request.base;
     if (input.request.both_models)
         base.techniques.erase(std::unique(base.techniques.begin(), base.techniques.end()),
@@ -291,7 +303,7 @@ void add_lag(const StudyInput& input) {
     measure_lag(
         input.session,
         {.base = base,
-         .reference = separate_reference_from_rows(input.request.reference, base.techniques),
+         .reference = choose_reference_unlike_rows(input.request.reference, base.techniques),
          .watcher = input.request.watcher,
          .on_finished_row = input.tell},
         *(input.comparison.lag = std::make_shared<report::LagResults>()));
@@ -302,7 +314,7 @@ const RegisteredStudy kLagStudy{
      .help = "also measure how far rows that read last frame's captures lag behind a moving scene; "
              "about 2300 frames per row",
      .order = 30,
-     .run = add_lag}};
+     .run = measure_lag_of_rows}};
 
 } // namespace
 

@@ -28,10 +28,10 @@ std::vector<std::uint32_t> list_capture_edges(const report::Row& row) {
 } // namespace
 
 measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
-                                                    const ComparedTruth& truth,
+                                                    const ComparedReference& truth,
                                                     const std::vector<std::uint32_t>& hits,
                                                     const std::vector<vec4>& lookup,
-                                                    const LookupOracle& oracle, double exposure) {
+                                                    const TrueHitFinder& oracle, double exposure) {
     measure::Mask there = oracle.find_pixels_at_light_edges(lookup, list_capture_edges(row));
     measure::Mask elsewhere = measure::mask_mirror_pixels(hits);
     for (std::size_t i = 0; i < there.size(); ++i) {

@@ -15,9 +15,9 @@ namespace catoptric::app {
 /// `hits`: of the same picture (measure/masks.hpp). `lookup`: see TechniqueResult::lookup, at the
 /// oracle's instant. `exposure`: stops. Costs nine rays per mirror pixel.
 measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
-                                                    const ComparedTruth& truth,
+                                                    const ComparedReference& truth,
                                                     const std::vector<std::uint32_t>& hits,
                                                     const std::vector<vec4>& lookup,
-                                                    const LookupOracle& oracle, double exposure);
+                                                    const TrueHitFinder& oracle, double exposure);
 
 } // namespace catoptric::app

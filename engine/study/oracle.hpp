@@ -13,10 +13,10 @@ namespace catoptric::app {
 /// Finds what rays really meet in a request's scene at its instant, on the CPU with the device's
 /// own mathematics. The result tells where a mirror pixel should have looked, and what the pixel
 /// looked at instead.
-class LookupOracle {
+class TrueHitFinder {
 public:
     /// Traces a ray through every pixel centre. Costs about a microsecond per ray.
-    explicit LookupOracle(const Request& request);
+    explicit TrueHitFinder(const Request& request);
 
     /// Judges the first-order mirror pixels of `lookup`, a row-major picture of where mirrors
     /// looked (shaders/lib/mirror.glsl). Each pixel is judged in the capture that the row looked
@@ -38,7 +38,7 @@ private:
         /// Point that the reflected ray meets; the ray's direction if the ray meets nothing.
         dvec3 place{0};
     };
-    static constexpr int kNoObject = -1;
+    static constexpr int kNoObjectIndex = -1;
 
     void trace_request(const Request& request);
     /// Returns the object that the capture of `mirror` shows in a direction, in its first or second
@@ -46,7 +46,7 @@ private:
     int find_captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,
                              bool left_out) const;
 
-    render::Geometry geometry_;
+    render::FrameGeometry geometry_;
     std::vector<bool> emits_; ///< whether each object emits light
     std::vector<std::size_t> mirror_objects_;
     std::vector<vec3> centres_; ///< centres of the captures

@@ -17,14 +17,14 @@ namespace catoptric::app {
 
 namespace {
 
-measure::SampleSummary unknown_time() {
+measure::SampleSummary make_unknown_time() {
     measure::SampleSummary time;
     time.median = time.p05 = time.p95 = time.mad = NAN;
     return time;
 }
 
 /// Returns the picture with its rows in reverse order.
-measure::Picture turn_upside_down(const measure::Picture& picture) {
+measure::Picture flip_picture_vertically(const measure::Picture& picture) {
     measure::Picture turned(picture.width, picture.height);
     for (int y = 0; y < picture.height; ++y)
         std::copy_n(&picture.at(0, y), picture.width, &turned.at(0, picture.height - 1 - y));
@@ -32,7 +32,7 @@ measure::Picture turn_upside_down(const measure::Picture& picture) {
 }
 
 /// Returns the mean square difference over the pixels of the mask, after exposure and clamping.
-double mean_square_error(const measure::Picture& picture, const ComparedTruth& truth,
+double mean_square_error(const measure::Picture& picture, const ComparedReference& truth,
                          const measure::Mask& mask, double exposure) {
     const std::vector<float> no_flip(picture.pixels.size());
     const double rmse = compute_masked_error(picture, {truth.hdr}, mask, no_flip, exposure).rmse;
@@ -41,7 +41,7 @@ double mean_square_error(const measure::Picture& picture, const ComparedTruth& t
 
 } // namespace
 
-std::string picture_row_image(const std::string& name, std::size_t index) {
+std::string picture_row_image_name(const std::string& name, std::size_t index) {
     std::string safe;
     for (const char c : name.substr(0, 40)) {
         const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
@@ -56,14 +56,14 @@ void check_picture_rows(const CompareRequest& request) {
     for (const std::string& text : request.base.techniques)
         names.push_back(parse_technique(text).label);
     for (const auto& [name, file] : request.pictures) {
-        check(!name.empty(), Failure::usage, "--row ", quote_printable("=" + file),
+        check(!name.empty(), Failure::usage, "--row ", quote_as_printable_text("=" + file),
               ": wanted NAME=FILE with a name, found none");
         check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ",
-              quote_printable(name), ": wanted a name that no other row has");
+              quote_as_printable_text(name), ": wanted a name that no other row has");
         names.push_back(name);
         const auto width = static_cast<int>(request.base.size.x),
                    height = static_cast<int>(request.base.size.y);
-        measure::PictureReader reader(file, [&](int columns, int rows) {
+        measure::PictureReader picture_reader(file, [&](int columns, int rows) {
             check(columns == width && rows == height, Failure::bad_data, file,
                   ": wanted a picture of ", width, "x", height,
                   " pixels, as the comparison (--size), found ", columns, "x", rows);
@@ -77,17 +77,17 @@ measure::Picture read_row_picture(const std::string& file, double exposure) {
 }
 
 report::Row make_picture_row(const std::string& name, std::size_t index,
-                             const measure::Picture& picture, const ComparedTruth& truth,
+                             const measure::Picture& picture, const ComparedReference& truth,
                              const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                              double exposure) {
     report::Row row;
     row.technique = "picture";
     row.label = name;
-    row.image = picture_row_image(name, index);
+    row.image = picture_row_image_name(name, index);
     for (measure::SampleSummary report::Row::*time :
          {&report::Row::gpu_ms, &report::Row::frame_ms, &report::Row::cpu_record_ms,
           &report::Row::wall_ms, &report::Row::cpu_ms})
-        row.*time = unknown_time();
+        row.*time = make_unknown_time();
     TechniqueResult part;
     part.hdr = picture;
     part.display = measure::to_display(picture, exposure);
@@ -96,7 +96,7 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
 }
 
 std::vector<std::string> list_picture_row_warnings(const report::Row& row,
-                                                   const ComparedTruth& truth,
+                                                   const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure) {
     measure::Mask beside = measure::mask_mirror_pixels(hits);
@@ -104,7 +104,8 @@ std::vector<std::string> list_picture_row_warnings(const report::Row& row,
     const std::string begin = "'" + row.label + "': ";
     std::vector<std::string> warnings;
     const double error = mean_square_error(row.hdr, truth, beside, exposure),
-                 turned = mean_square_error(turn_upside_down(row.hdr), truth, beside, exposure);
+                 turned = mean_square_error(flip_picture_vertically(row.hdr), truth, beside,
+                                            exposure);
     if (turned < error / 4)
         warnings.push_back(begin + "its picture is upside down, as far as the pixels beside the "
                                    "mirrors tell");

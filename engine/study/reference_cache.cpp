@@ -17,8 +17,8 @@ namespace catoptric::app {
 namespace {
 
 /// Returns the rmse between two halves that the variance of their frames predicts, not clamped.
-double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mask,
-                           double exposure) {
+double predict_rmse_between_halves(const NoisyReference& noisy, const measure::Mask& mask,
+                                   double exposure) {
     const measure::Picture a = noisy.a.variance(), b = noisy.b.variance();
     double sum = 0, pixels = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -32,11 +32,11 @@ double predict_halves_rmse(const NoisyReference& noisy, const measure::Mask& mas
 } // namespace
 
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
-                             PixelTruth truth) {
+                             ReferencePixelKind truth) {
     if (!asked.empty()) return asked;
-    if (truth == PixelTruth::paths) return kPathReference;
+    if (truth == ReferencePixelKind::paths) return kPathReference;
     const bool is_rough = scene::has_rough_reflector(scene);
-    if (truth == PixelTruth::converged)
+    if (truth == ReferencePixelKind::converged)
         return is_rough ? kConvergedRoughReference : kConvergedReference;
     return is_rough ? kRoughReference : kReference;
 }
@@ -67,10 +67,10 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
         request.animate = false;
         request.warmup = 0, request.frames = 1;
     }
-    return run(session_, request, watcher_);
+    return run(reference_session_, request, watcher_);
 }
 
-bool ReferenceCache::is_noisy() const {
+bool ReferenceCache::has_reference_noise() const {
     if (!noisy_)
         noisy_ = traces_paths(reference_) ||
                  (draws_rays_from_lobes(reference_) && scene::has_rough_reflector(base_.scene));
@@ -89,8 +89,8 @@ void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& 
     for (measure::PictureMean* half : {&noisy.a, &noisy.b}) {
         noisy.used.push_back(noisy.seeds.next());
         request.techniques = {set_lobe_seed(technique, noisy.used.back())};
-        RunResult result = run(session_, request, watcher_);
-        half->add(result.parts.front().hdr);
+        RunResult result = run(reference_session_, request, watcher_);
+        half->add_picture(result.parts.front().hdr);
         reference.gpu_ms.push_back(result.frames.front().gpu_ms);
         if (reference.part.hdr.pixels.empty()) reference.part = std::move(result.parts.front());
     }
@@ -101,21 +101,22 @@ void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& 
 
 void ReferenceCache::update_picture(ReferencePicture& reference) const {
     NoisyReference& noisy = *reference.noisy;
-    noisy.halves = measure::make_halves(noisy.a.mean(), noisy.b.mean(), base_.exposure);
+    noisy.halves = measure::make_reference_halves(noisy.a.mean(), noisy.b.mean(), base_.exposure);
     // The mean of both halves, before exposure.
     measure::PictureMean both;
-    both.add(noisy.a.mean());
-    both.add(noisy.b.mean());
+    both.add_picture(noisy.a.mean());
+    both.add_picture(noisy.b.mean());
     reference.part.hdr = both.mean();
     reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
 }
 
 void ReferenceCache::read_frames(ReferencePicture& reference) const {
-    StoredReference stored = read_reference(make_reference_key(base_, reference_), file_);
+    StoredReference stored = read_reference_file(make_reference_key(base_, reference_), file_);
     NoisyReference& noisy = *reference.noisy;
     for (const int seed : stored.seeds)
-        check(noisy.seeds.take(seed), Failure::usage, file_.string(), ": a frame has the seed ",
-              seed, ", which a row has as well; choose another seed for the row");
+        check(noisy.seeds.mark_seed_as_used(seed), Failure::usage, file_.string(),
+              ": a frame has the seed ", seed,
+              ", which a row has as well; choose another seed for the row");
     noisy.used = std::move(stored.seeds);
     noisy.a = std::move(stored.a), noisy.b = std::move(stored.b);
     reference.gpu_ms = std::move(stored.gpu_ms);
@@ -124,7 +125,7 @@ void ReferenceCache::read_frames(ReferencePicture& reference) const {
 }
 
 void ReferenceCache::keep_in_file(const std::filesystem::path& file) {
-    check(is_noisy(), Failure::usage, "--reference ", file.string(),
+    check(has_reference_noise(), Failure::usage, "--reference ", file.string(),
           ": wanted a reference with noise, which draws rays from the lobes of rough surfaces; "
           "found one without");
     file_ = file;
@@ -132,10 +133,10 @@ void ReferenceCache::keep_in_file(const std::filesystem::path& file) {
 
 void ReferenceCache::write_file() {
     if (file_.empty()) return;
-    const ReferencePicture& reference = find_reference("1");
+    const ReferencePicture& reference = get_reference("1");
     const NoisyReference& noisy = *reference.noisy;
-    write_reference({noisy.a, noisy.b, noisy.used, reference.gpu_ms},
-                    make_reference_key(base_, reference_), file_);
+    write_reference_file({noisy.a, noisy.b, noisy.used, reference.gpu_ms},
+                         make_reference_key(base_, reference_), file_);
 }
 
 ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& samples, int number) {
@@ -144,7 +145,7 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
     if (found != truths_.end()) return found->second;
     const std::string technique = set_reference_samples(reference_, samples);
     ReferencePicture made;
-    if (is_noisy()) {
+    if (has_reference_noise()) {
         std::vector<std::string> rows = base_.techniques;
         rows.push_back(reference_);
         made.noisy = std::make_shared<NoisyReference>(ReferenceSeeds(rows));
@@ -162,12 +163,12 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
     return truths_.emplace(key, std::move(made)).first->second;
 }
 
-const ReferencePicture& ReferenceCache::find_reference(const std::string& samples, int number) {
+const ReferencePicture& ReferenceCache::get_reference(const std::string& samples, int number) {
     return find_reference_to_change(samples, number);
 }
 
 bool ReferenceCache::grow_reference(const std::string& samples, double seconds, double wanted) {
-    if (!is_noisy()) return false;
+    if (!has_reference_noise()) return false;
     ReferencePicture& reference = find_reference_to_change(samples, base_.total());
     const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
     const auto is_done = [&] {
@@ -177,31 +178,32 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds, 
     bool has_grown = false;
     const auto whole = static_cast<std::size_t>(std::max(std::ceil(seconds), 1.0));
     for (; !is_done(); has_grown = true) {
-        tell_row(watcher_,
-                 "reference " + reference_ + ", " + std::to_string(reference.noisy->a.count()) +
-                     " frames a half",
-                 has_grown ? static_cast<std::size_t>(reference.noisy->seconds) : 0, whole);
+        report_row_to_watcher(
+            watcher_,
+            "reference " + reference_ + ", " + std::to_string(reference.noisy->a.picture_count()) +
+                " frames a half",
+            has_grown ? static_cast<std::size_t>(reference.noisy->seconds) : 0, whole);
         add_frames(reference, set_reference_samples(reference_, samples), base_.total());
     }
     return has_grown;
 }
 
 measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples) {
-    const ReferencePicture& reference = find_reference(samples);
+    const ReferencePicture& reference = get_reference(samples);
     check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
     const NoisyReference& noisy = *reference.noisy;
     const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
-    const measure::HalvesEstimate between = measure::estimate_by_halves(
+    const measure::HalvesEstimate between = measure::estimate_error_by_halves(
         noisy.halves.a, noisy.halves, mirrors, noisy.halves.floor_map);
-    return {.frames = noisy.a.count(),
+    return {.frames = noisy.a.picture_count(),
             .seconds = noisy.seconds,
             .flip_floor = between.flip_floor,
             .halves_rmse = between.halves_rmse,
-            .predicted_rmse = predict_halves_rmse(noisy, mirrors, base_.exposure)};
+            .predicted_rmse = predict_rmse_between_halves(noisy, mirrors, base_.exposure)};
 }
 
 const std::vector<std::uint32_t>& ReferenceCache::find_mirror_hits(int number) {
-    const std::vector<std::uint32_t>& known = find_reference("1", number).part.hits;
+    const std::vector<std::uint32_t>& known = get_reference("1", number).part.hits;
     if (!known.empty()) return known;
     // A reference that traces no rays, or draws them, has no hits. Then a ray-traced picture
     // provides them.

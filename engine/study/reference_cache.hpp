@@ -21,20 +21,20 @@ namespace catoptric::app {
 /// Rays from each rough surface in a frame of the default reference of scenes with rough mirrors.
 inline constexpr const char* kRoughReference = "raytrace:depth=16,rays=64";
 /// What the pixels of the reference show.
-enum class PixelTruth {
+enum class ReferencePixelKind {
     centre,    ///< what one camera ray through the pixel's centre meets, as the techniques do
     converged, ///< the mean over the pixel's area, by many camera rays
     paths      ///< as `centre`, by path tracing: with light that no technique models
 };
-/// Reference of PixelTruth::paths. Each of its rays follows at most 16 reflections.
+/// Reference of ReferencePixelKind::paths. Each of its rays follows at most 16 reflections.
 inline constexpr const char* kPathReference = "raytrace:depth=16,rays=64,indirect=paths";
-/// References of PixelTruth::converged, for scenes without and with rough mirrors.
+/// References of ReferencePixelKind::converged, for scenes without and with rough mirrors.
 inline constexpr const char* kConvergedReference = "raytrace:depth=16,samples=256";
 inline constexpr const char* kConvergedRoughReference = "raytrace:depth=16,samples=64,rays=1";
 /// Returns the reference of a comparison: the one that was asked for, or the one for these pixels
 /// and for this scene, which may have rough mirrors.
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
-                             PixelTruth truth = PixelTruth::centre);
+                             ReferencePixelKind truth = ReferencePixelKind::centre);
 
 /// Two means of frames of a reference with noise. The frames of both have different seeds.
 struct NoisyReference {
@@ -53,7 +53,9 @@ struct ReferencePicture {
     std::vector<double> gpu_ms;
     std::shared_ptr<NoisyReference> noisy; ///< null: the reference has no noise
 
-    ComparedTruth truth() const { return {part.hdr, noisy ? &noisy->halves : nullptr}; }
+    ComparedReference compared_reference() const {
+        return {part.hdr, noisy ? &noisy->halves : nullptr};
+    }
 };
 
 /// Returns the sample count of a row as text; "1" for rows without the knob `samples`.
@@ -72,22 +74,22 @@ public:
     /// session shows, and its techniques are the rows.
     ReferenceCache(Session& session, const Request& base, const std::string& reference,
                    const Watcher& watcher)
-        : session_(session), base_(base), reference_(reference), watcher_(watcher) {}
+        : reference_session_(session), base_(base), reference_(reference), watcher_(watcher) {}
 
     /// Returns the reference of a row's last frame. Valid as long as the cache. Throws as the
     /// watcher does.
-    const ReferencePicture& find_reference(const std::string& samples) {
-        return find_reference(samples, base_.total());
+    const ReferencePicture& get_reference(const std::string& samples) {
+        return get_reference(samples, base_.total());
     }
     /// Returns the reference of a row's frame `number`, from 1.
-    const ReferencePicture& find_reference(const std::string& samples, int number);
+    const ReferencePicture& get_reference(const std::string& samples, int number);
     /// Returns what one ray through each pixel centre meets: first mirror | second mirror << 16.
     /// Valid as long as the cache.
     const std::vector<std::uint32_t>& find_mirror_hits() { return find_mirror_hits(base_.total()); }
     const std::vector<std::uint32_t>& find_mirror_hits(int number);
 
     /// Returns whether the reference has noise.
-    bool is_noisy() const;
+    bool has_reference_noise() const;
     /// Adds frames to both halves of the reference of a row's last frame, until the FLIP between
     /// the halves over the mirrors is at most `wanted` or the reference took `seconds` in all.
     /// Reports progress to the watcher. Returns whether any frame was added. Does nothing for a
@@ -114,7 +116,7 @@ private:
     void read_frames(ReferencePicture& reference) const;
     ReferencePicture& find_reference_to_change(const std::string& samples, int number);
 
-    Session& session_;
+    Session& reference_session_;
     const Request& base_;
     const std::string& reference_;
     const Watcher& watcher_;

@@ -23,7 +23,7 @@ std::string format_point(const dvec3& point) {
 }
 
 /// Returns the file's description. Throws `bad_data` if it is not one of a reference.
-Json parse_description(const std::string& text, const std::string& file) {
+Json parse_reference_description(const std::string& text, const std::string& file) {
     Json json = Json::parse(text, nullptr, false);
     const bool is_ours = json.is_object() && json.contains("schema") &&
                          json["schema"] == kReferenceSchema && json.contains("key") &&
@@ -36,7 +36,7 @@ Json parse_description(const std::string& text, const std::string& file) {
 
 /// Returns a list of numbers. Throws `bad_data` for another value.
 template <typename Number>
-std::vector<Number> read_list(const Json& json, const char* name, const std::string& file) {
+std::vector<Number> read_number_list(const Json& json, const char* name, const std::string& file) {
     try {
         return json.at(name).get<std::vector<Number>>();
     } catch (const Json::exception&) {
@@ -60,32 +60,32 @@ ReferenceKey make_reference_key(const Request& base, const std::string& techniqu
             {"seed", std::to_string(base.seed)}};
 }
 
-void write_reference(const StoredReference& reference, const ReferenceKey& key,
-                     const std::filesystem::path& path) {
+void write_reference_file(const StoredReference& reference, const ReferenceKey& key,
+                          const std::filesystem::path& path) {
     Json json{{"schema", kReferenceSchema}};
     for (const auto& [name, value] : key) json["key"][name] = value;
     json["seeds"] = reference.seeds;
     json["gpu_ms"] = reference.gpu_ms;
-    measure::write_layers({{{kLayers[0], reference.a.mean()},
-                            {kLayers[1], reference.b.mean()},
-                            {kLayers[2], reference.a.variance()},
-                            {kLayers[3], reference.b.variance()}},
-                           json.dump()},
-                          path);
+    measure::write_picture_layers({{{kLayers[0], reference.a.mean()},
+                                    {kLayers[1], reference.b.mean()},
+                                    {kLayers[2], reference.a.variance()},
+                                    {kLayers[3], reference.b.variance()}},
+                                   json.dump()},
+                                  path);
 }
 
-StoredReference read_reference(const ReferenceKey& key, const std::filesystem::path& path) {
+StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const measure::LayeredFile stored = measure::read_layers(path, kLayers);
-    const Json json = parse_description(stored.description, file);
+    const measure::LayeredPictureFile stored = measure::read_picture_layers(path, kLayers);
+    const Json json = parse_reference_description(stored.description, file);
     for (const auto& [name, value] : key) {
         const Json found = json["key"].contains(name) ? json["key"][name] : Json();
         check(found == Json(value), Failure::bad_data, file, ": wanted a reference for the ", name,
               " ", value, ", found one for ", report::describe_json_value(found));
     }
     StoredReference reference;
-    reference.seeds = read_list<int>(json, "seeds", file);
-    reference.gpu_ms = read_list<double>(json, "gpu_ms", file);
+    reference.seeds = read_number_list<int>(json, "seeds", file);
+    reference.gpu_ms = read_number_list<double>(json, "gpu_ms", file);
     const int frames = static_cast<int>(reference.seeds.size() / 2);
     check(frames > 0 && !reference.gpu_ms.empty(), Failure::bad_data, file,
           ": wanted seeds and times of at least one frame a half, found ", reference.seeds.size(),

@@ -27,10 +27,10 @@ struct StoredReference {
 /// Writes the halves as OpenEXR, with the layers A, B, variance_A and variance_B. The variances are
 /// those of the means. The key, the seeds and the times stand in the file's ImageDescription as
 /// JSON.
-void write_reference(const StoredReference& reference, const ReferenceKey& key,
-                     const std::filesystem::path& path);
+void write_reference_file(const StoredReference& reference, const ReferenceKey& key,
+                          const std::filesystem::path& path);
 /// Reads such a file. Throws `missing_input`, and `bad_data` for another file or for a file whose
 /// key differs, with the part that differs.
-StoredReference read_reference(const ReferenceKey& key, const std::filesystem::path& path);
+StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path);
 
 } // namespace catoptric::app

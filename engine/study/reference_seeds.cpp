@@ -9,10 +9,10 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr std::string_view kSeed = "seed";
+constexpr std::string_view kSeedKnobName = "seed";
 
 /// Returns the value of a knob that holds whole numbers, or 0 if the technique lacks the knob.
-double find_number(const TechniqueChoice& choice, std::string_view knob) {
+double find_knob_number(const TechniqueChoice& choice, std::string_view knob) {
     const auto setting = std::ranges::find(choice.settings, knob, &Setting::name);
     return setting == choice.settings.end() ? 0 : setting->number.value_or(0);
 }
@@ -22,9 +22,10 @@ double find_number(const TechniqueChoice& choice, std::string_view knob) {
 std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     std::set<int> seeds{0};
     for (const std::string& row : rows)
-        for (const reflect::PlanRule& rule : read_plan(row).rules)
-            for (const Knob& knob : rule.choice.settings.knobs())
-                if (knob.name == kSeed) seeds.insert(rule.choice.settings.integer_value(knob));
+        for (const reflect::PlanRule& rule : read_technique_plan(row).rules)
+            for (const TechniqueKnob& knob : rule.choice.settings.list_knobs())
+                if (knob.name == kSeedKnobName)
+                    seeds.insert(rule.choice.settings.knob_value_as_integer(knob));
     return seeds;
 }
 
@@ -37,7 +38,7 @@ int ReferenceSeeds::next() {
 
 bool draws_rays_from_lobes(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
-    return choice.technique == "raytrace" && find_number(choice, "rays") > 0;
+    return choice.technique == "raytrace" && find_knob_number(choice, "rays") > 0;
 }
 
 bool traces_paths(const std::string& technique) {
@@ -51,7 +52,7 @@ std::string set_lobe_seed(const std::string& technique, int seed) {
     std::string text = choice.technique;
     char separator = ':';
     for (const Setting& setting : choice.settings) {
-        const bool is_seed = setting.name == kSeed;
+        const bool is_seed = setting.name == kSeedKnobName;
         if (!is_seed && !setting.changed) continue;
         text += separator + setting.name + "=" + (is_seed ? std::to_string(seed) : setting.text);
         separator = ',';

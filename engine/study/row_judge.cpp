@@ -22,7 +22,7 @@ bool has_knob_value(const report::Row& row, std::string_view knob, std::string_v
 } // namespace
 
 /// Returns a request for what frame `number` shows, with the scene still.
-Request RowJudge::make_still_request(int number) const {
+Request RowErrorJudge::make_still_request(int number) const {
     Request request = base_;
     request.time = base_.instant(number);
     request.animate = false;
@@ -31,30 +31,34 @@ Request RowJudge::make_still_request(int number) const {
 
 /// Renders where the row's mirrors looked, and what its captures cut off. This is a run of its own,
 /// because recording costs time. The lookup is empty for rows that do not look into captures.
-TechniqueResult RowJudge::render_lookups(const std::string& text, int number) {
+TechniqueResult RowErrorJudge::render_lookups(const std::string& text, int number) {
     Request request = make_still_request(number);
     request.techniques = {text};
     request.frames = 1;
     request.warmup = 1;
     request.with_lookup = true;
-    TechniqueResult part = std::move(run(session_, request, watcher_).parts.front());
+    TechniqueResult part = std::move(run(judge_session_, request, watcher_).parts.front());
     const bool looks = std::ranges::any_of(part.lookup,
                                            [](const vec4& pixel) { return pixel.w > 0; });
     if (!looks) part.lookup.clear();
     return part;
 }
 
-const LookupOracle& RowJudge::find_oracle(int number) {
+const TrueHitFinder& RowErrorJudge::find_oracle(int number) {
     if (!oracle_ || (base_.animate && number != oracle_frame_))
         oracle_.emplace(make_still_request(number));
     oracle_frame_ = number;
     return *oracle_;
 }
 
-std::vector<std::string> RowJudge::judge_row(report::Row& row, const std::string& text,
-                                             const TechniqueResult& part, int number) {
-    const ComparedTruth truth =
-        truths_.find_reference(find_sample_count(parse_technique(text)), number).truth();
+std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row& row,
+                                                                    const std::string& text,
+                                                                    const TechniqueResult& part,
+                                                                    int number) {
+    const ComparedReference truth = truths_
+                                        .get_reference(find_sample_count(parse_technique(text)),
+                                                       number)
+                                        .compared_reference();
     const std::vector<std::uint32_t>& hits = truths_.find_mirror_hits(number);
     row.pictured = number;
     fill_row_errors(row, part, truth, hits, scene::mirrors(base_.scene).size(), base_.exposure);
@@ -62,7 +66,7 @@ std::vector<std::string> RowJudge::judge_row(report::Row& row, const std::string
                                                                       : TechniqueResult();
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
-        const LookupOracle& oracle = find_oracle(number);
+        const TrueHitFinder& oracle = find_oracle(number);
         row.lookup = measure::summarise_lookup_errors(
             oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out")));
         row.light_edges = split_error_at_light_edges(row, truth, hits, looked.lookup, oracle,

@@ -11,29 +11,30 @@
 namespace catoptric::app {
 
 /// Finds the errors of a comparison's rows.
-class RowJudge {
+class RowErrorJudge {
 public:
     /// All objects passed by reference must outlive the judge. `base` shows the session's scene.
     /// `truths` uses the same session and base.
-    RowJudge(Session& session, ReferenceCache& truths, const Request& base, const Watcher& watcher)
-        : session_(session), truths_(truths), base_(base), watcher_(watcher) {}
+    RowErrorJudge(Session& session, ReferenceCache& truths, const Request& base,
+                  const Watcher& watcher)
+        : judge_session_(session), truths_(truths), base_(base), watcher_(watcher) {}
 
     /// Fills the row's picture and all its figures from `part`, the row's frame `number`. Returns
     /// warnings for the user. The session begins another sequence. Costs a frame that records where
     /// mirrors looked, and nine rays per mirror pixel.
-    std::vector<std::string> judge_row(report::Row& row, const std::string& text,
-                                       const TechniqueResult& part, int number);
+    std::vector<std::string> fill_row_errors_and_picture(report::Row& row, const std::string& text,
+                                                         const TechniqueResult& part, int number);
 
 private:
     Request make_still_request(int number) const;
     TechniqueResult render_lookups(const std::string& text, int number);
-    const LookupOracle& find_oracle(int number);
+    const TrueHitFinder& find_oracle(int number);
 
-    Session& session_;
+    Session& judge_session_;
     ReferenceCache& truths_;
     const Request& base_;
     const Watcher& watcher_;
-    std::optional<LookupOracle> oracle_;
+    std::optional<TrueHitFinder> oracle_;
     int oracle_frame_ = 0; ///< frame whose instant `oracle_` describes
 };
 

@@ -26,29 +26,29 @@ int count_frames_of_round(int frames, int rounds, int index) {
 int choose_round_count(int frames, int asked) { return std::min(frames, asked); }
 
 RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher)
-    : request_(std::move(request)), watcher_(watcher), frames_(session, request_) {}
+    : row_request_(std::move(request)), watcher_(watcher), frames_(session, row_request_) {}
 
 void RowMeasurement::measure_one_round(int frames) {
     const auto render = [&](int count) {
         for (int k = 0; k < count && frames_.render_next(); ++k)
-            tell_frame(watcher_, frames_.rendered_frame_count(), request_.total());
+            report_frame_to_watcher(watcher_, frames_.rendered_frame_count(), row_request_.total());
     };
     if (rounds_.empty()) {
         noisy_ = !read_processor_use() &&
                  app::is_timing_noisy(read_machine_load(), read_process_seconds(),
                                       measure_elapsed_seconds());
-        render(request_.warmup);
+        render(row_request_.warmup);
     }
-    const std::size_t before = frames_.times().size();
-    const std::optional<ProcessorUse> start = read_processor_use();
+    const std::size_t before = frames_.list_frame_times().size();
+    const std::optional<ProcessorUsageSoFar> start = read_processor_use();
     render(frames);
-    if (const std::optional<ProcessorUse> end = read_processor_use(); start && end) {
+    if (const std::optional<ProcessorUsageSoFar> end = read_processor_use(); start && end) {
         waiting_ += compute_waiting_times(*start, *end);
         waited_ = compute_waited_share(waiting_);
         noisy_ = app::is_timing_noisy(waited_);
     }
-    rounds_.emplace_back(frames_.times().begin() + static_cast<std::ptrdiff_t>(before),
-                         frames_.times().end());
+    rounds_.emplace_back(frames_.list_frame_times().begin() + static_cast<std::ptrdiff_t>(before),
+                         frames_.list_frame_times().end());
 }
 
 } // namespace catoptric::app

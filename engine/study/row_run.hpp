@@ -28,24 +28,24 @@ public:
     /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure_one_round(int frames);
     /// Returns the results of the last frame. Call before `suspend`.
-    std::vector<TechniqueResult> technique_results() const { return frames_.result().parts; }
+    std::vector<TechniqueResult> list_technique_results() const { return frames_.result().parts; }
     /// Frees the session for other frames until the next `measure_one_round`.
-    void suspend() { frames_.suspend(); }
+    void suspend_frames() { frames_.suspend_frame_loop(); }
 
     /// Returns the number of the last frame, from 1.
     int rendered_frame_count() const { return frames_.rendered_frame_count(); }
-    const std::vector<std::vector<FrameTimes>>& rounds() const { return rounds_; }
+    const std::vector<std::vector<FrameTimes>>& list_rounds() const { return rounds_; }
     /// Returns waited_share over all rounds; NaN if the system does not report waiting.
-    double mean_waited_share() const { return waited_; }
+    double mean_share_of_waiting_time() const { return waited_; }
     /// Returns whether the row's threads had to wait for a processor that others had.
-    bool is_noisy() const { return noisy_; }
+    bool has_timing_noise() const { return noisy_; }
 
 private:
-    Request request_;
+    Request row_request_;
     const Watcher& watcher_;
     FrameLoop frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
-    WaitingTimes waiting_; ///< sum over all rounds
+    ProcessorWaitingTimes waiting_; ///< sum over all rounds
     double waited_ = std::numeric_limits<double>::quiet_NaN();
     bool noisy_ = false;
 };

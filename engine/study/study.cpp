@@ -16,7 +16,7 @@ RegisteredStudy::RegisteredStudy(Study study) {
     }
     study.part.name = study.name;
     if (study.part.tables != nullptr) const report::RegisteredReportPart registers(study.part);
-    registered_rows<Study>().push_back(std::move(study));
+    get_registered_rows<Study>().push_back(std::move(study));
 }
 
 const std::vector<Study>& list_studies() {
@@ -30,7 +30,7 @@ const Study& find_study(std::string_view name) {
         if (study.name == name) return study;
         names.emplace_back(study.name);
     }
-    fail(Failure::usage, "no study '", name, "'", suggest_name(name, names));
+    fail(Failure::usage, "no study '", name, "'", suggest_nearest_name(name, names));
 }
 
 void check_study(const StudyChoice& choice, const std::string& reference) {

@@ -52,7 +52,8 @@ Request make_view_request(const Request& base, const measure::View& view) {
     return request;
 }
 
-measure::Picture place_side_by_side(const measure::Picture& left, const measure::Picture& right) {
+measure::Picture place_pictures_side_by_side(const measure::Picture& left,
+                                             const measure::Picture& right) {
     measure::Picture both(left.width + kPictureGapColumns + right.width, left.height);
     std::ranges::fill(both.pixels, vec3(1));
     for (int y = 0; y < left.height; ++y) {
@@ -65,13 +66,15 @@ measure::Picture place_side_by_side(const measure::Picture& left, const measure:
 
 void add_view_errors(report::Row& row, const TechniqueResult& part, const ReferencePicture& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
-    const std::vector<float> flip_map = compute_flip_map(part.hdr, truth.truth(), exposure);
-    row.views.push_back(
-        compute_masked_errors(part.hdr, truth.truth(), flip_map, hits, mirrors, exposure));
+    const std::vector<float> flip_map = compute_flip_map(part.hdr, truth.compared_reference(),
+                                                         exposure);
+    row.views.push_back(compute_masked_errors(part.hdr, truth.compared_reference(), flip_map, hits,
+                                              mirrors, exposure));
     const double flip = row.views.back().error.flip;
     // A view without judged pixels is never the worst.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
-        row.worst = {row.views.size() - 1, place_side_by_side(part.display, truth.part.display)};
+        row.worst = {row.views.size() - 1,
+                     place_pictures_side_by_side(part.display, truth.part.display)};
 }
 
 void check_view_count(std::string_view option, int count) {
@@ -81,7 +84,7 @@ void check_view_count(std::string_view option, int count) {
           ", since fewer bound no median with 95 % confidence, found ", count);
 }
 
-void add_views(const StudyInput& input) {
+void measure_drawn_views(const StudyInput& input) {
     if (!input.comparison.views.empty())
         measure_views(input.session,
                       {.base = input.request.base,
@@ -104,7 +107,7 @@ const RegisteredStudy kViewsStudy{
          [](const CompareRequest& request, int count, report::Comparison& comparison) {
              comparison.views = draw_random_views(request.base, count);
          },
-     .run = add_views}};
+     .run = measure_drawn_views}};
 
 } // namespace
 
@@ -112,7 +115,7 @@ std::vector<measure::View> draw_random_views(const Request& request, int count) 
     check_view_count("views", count);
     std::vector<measure::View> views(count > 1 ? static_cast<std::size_t>(count) : 0);
     if (views.empty()) return views;
-    const double period = scene::period(request.scene);
+    const double period = scene::compute_scene_period(request.scene);
     std::mt19937_64 random(request.seed);
     std::vector<std::uint64_t> seeds;
     for (measure::View& view : views) {
@@ -141,7 +144,8 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
         const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
         Request at_view = make_view_request(request.base, comparison.views[i]);
         ReferenceCache truths(session, at_view, request.reference, request.watcher);
-        tell_row(request.watcher, label + ": reference", i * pictures, count * pictures);
+        report_row_to_watcher(request.watcher, label + ": reference", i * pictures,
+                              count * pictures);
         const std::vector<std::uint32_t> hits = truths.find_mirror_hits();
         std::set<std::string> sample_counts;
         for (const std::string& text : texts)
@@ -150,18 +154,18 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
             truths.grow_reference(samples,
                                   request.reference_seconds /
                                       static_cast<double>(count * sample_counts.size()),
-                                  measure::choose_wanted_floor(rows));
+                                  measure::choose_target_noise_floor(rows));
         for (std::size_t k = 0; k < texts.size(); ++k) {
-            tell_row(request.watcher, label + ": " + comparison.rows[k].label, i * pictures + k + 1,
-                     count * pictures);
+            report_row_to_watcher(request.watcher, label + ": " + comparison.rows[k].label,
+                                  i * pictures + k + 1, count * pictures);
             Request one = at_view;
             one.techniques = {texts[k]};
-            one.model = comparison.rows[k].model == name_of(RenderedWork::required)
+            one.model = comparison.rows[k].model == rendered_work_name(RenderedWork::required)
                             ? RenderedWork::required
                             : RenderedWork::everything;
             const RunResult result = run(session, one, request.watcher);
             add_view_errors(comparison.rows[k], result.parts.front(),
-                            truths.find_reference(find_sample_count(parse_technique(texts[k]))),
+                            truths.get_reference(find_sample_count(parse_technique(texts[k]))),
                             hits, mirrors, request.base.exposure);
         }
         if (request.on_finished_view) request.on_finished_view();

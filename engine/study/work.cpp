@@ -22,7 +22,7 @@ std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) 
     std::vector<std::size_t> kinds;
     for (std::size_t kind = 0; kind < kWorkKindCount; ++kind)
         for (const report::Row& row : comparison.rows)
-            if (measure::work_of_row(row).values[kind].value_or(0) > 0) {
+            if (measure::total_work_of_row(row).values[kind].value_or(0) > 0) {
                 kinds.push_back(kind);
                 break;
             }
@@ -32,8 +32,8 @@ std::vector<ReportTable> make_work_tables(const report::Comparison& comparison) 
                       std::string(kWorkKinds[kind].help);
     }
     for (const report::Row& row : comparison.rows) {
-        if (!measure::has_work(row)) continue;
-        const WorkCounts counts = measure::work_of_row(row);
+        if (!measure::has_counted_work(row)) continue;
+        const WorkCounts counts = measure::total_work_of_row(row);
         std::vector<std::string> cells{row.label};
         for (const std::size_t kind : kinds)
             cells.push_back(counts.values[kind] ? std::to_string(*counts.values[kind])
@@ -57,12 +57,13 @@ const RegisteredStudy kWorkStudy{
 void count_row_work(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (measure::has_work(rows[i])) continue;
-        tell_row(input.request.watcher, rows[i].label + ": work", i, rows.size());
+        if (measure::has_counted_work(rows[i])) continue;
+        report_row_to_watcher(input.request.watcher, rows[i].label + ": work", i, rows.size());
         Request request = input.request.base;
         request.techniques = {input.request.base.techniques[i]};
-        request.model = rows[i].model == name_of(RenderedWork::required) ? RenderedWork::required
-                                                                         : RenderedWork::everything;
+        request.model = rows[i].model == rendered_work_name(RenderedWork::required)
+                            ? RenderedWork::required
+                            : RenderedWork::everything;
         measure::set_row_work(rows[i],
                               count_frame_work(input.session, request, input.request.watcher));
         input.tell();

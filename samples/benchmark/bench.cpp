@@ -16,16 +16,16 @@ namespace catoptric::app {
 
 namespace {
 
-using measure::Benchmark;
+using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 
 /// Sums over the iterations of one round.
-struct RoundSums {
+struct RoundMeasurementSums {
     double real_ms = 0, host_ms = 0;
     ProcessorUsage process, caller;
     std::map<std::string, double> counters;
 
-    void add(const IterationFigures& iteration) {
+    void add_iteration(const IterationMeasurements& iteration) {
         host_ms += iteration.host_ms;
         for (const auto& [name, value] : iteration.counters) counters[name] += value;
     }
@@ -46,9 +46,9 @@ BenchmarkRound divide_by_iterations(int iterations, double real_ms, const Proces
 
 class BenchmarkRunner {
 public:
-    BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const UsageMeter& meter,
+    BenchmarkRunner(const std::vector<BenchmarkSubject>& subjects, const ProcessorUsageMeter& meter,
                     const BenchOptions& options)
-        : subjects_(subjects), meter_(meter), options_(options),
+        : benchmark_subjects_(subjects), meter_(meter), options_(options),
           rounds_(choose_round_count(options.iterations, options.rounds)) {
         std::set<std::string> names;
         for (const BenchmarkSubject& subject : subjects) {
@@ -59,58 +59,62 @@ public:
         }
     }
 
-    std::vector<Benchmark> run_all_rounds() {
-        for (std::size_t i = 0; i < subjects_.size(); ++i) warm_up(i);
+    std::vector<BenchmarkResult> run_all_rounds() {
+        for (std::size_t i = 0; i < benchmark_subjects_.size(); ++i) warm_up_subject(i);
         const PinnedThreads held;
         for (int round = 0; round < rounds_; ++round)
-            for (std::size_t place = 0; place < subjects_.size(); ++place)
+            for (std::size_t place = 0; place < benchmark_subjects_.size(); ++place)
                 // Reverses every second round. No subject then always follows the same other, whose
                 // work may still have an effect.
-                measure_subject(round % 2 == 0 ? place : subjects_.size() - 1 - place, round);
-        for (Benchmark& caller : callers_)
+                measure_subject_round(
+                    round % 2 == 0 ? place : benchmark_subjects_.size() - 1 - place, round);
+        for (BenchmarkResult& caller : callers_)
             if (!caller.name.empty()) list_.push_back(std::move(caller));
         return std::move(list_);
     }
 
 private:
     void report_progress(std::size_t index, const std::string& doing) const {
-        const std::size_t steps = subjects_.size() * (static_cast<std::size_t>(rounds_) + 1);
-        tell_row(options_.watcher, subjects_[index].name + doing, done_, steps);
+        const std::size_t steps = benchmark_subjects_.size() *
+                                  (static_cast<std::size_t>(rounds_) + 1);
+        report_row_to_watcher(options_.watcher, benchmark_subjects_[index].name + doing, done_,
+                              steps);
     }
 
-    void finish_subject(const BenchmarkSubject& subject) {
+    void report_finished_subject(const BenchmarkSubject& subject) {
         if (subject.leave) subject.leave();
         ++done_;
     }
 
-    void warm_up(std::size_t index) {
-        const BenchmarkSubject& subject = subjects_[index];
+    void warm_up_subject(std::size_t index) {
+        const BenchmarkSubject& subject = benchmark_subjects_[index];
         report_progress(index, ", warm-up");
         for (int k = 1; k <= subject.warmup; ++k) {
             subject.work();
-            tell_frame(options_.watcher, k, subject.warmup);
+            report_frame_to_watcher(options_.watcher, k, subject.warmup);
         }
-        finish_subject(subject);
+        report_finished_subject(subject);
     }
 
-    void measure_subject(std::size_t index, int round) {
-        const BenchmarkSubject& subject = subjects_[index];
+    void measure_subject_round(std::size_t index, int round) {
+        const BenchmarkSubject& subject = benchmark_subjects_[index];
         report_progress(index,
                         ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
         const int iterations = count_frames_of_round(options_.iterations, rounds_, round);
-        RoundSums sums;
+        RoundMeasurementSums sums;
         const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
         {
             const Stopwatch watch(sums.real_ms);
-            for (int k = 0; k < iterations; ++k) sums.add(subject.work());
+            for (int k = 0; k < iterations; ++k) sums.add_iteration(subject.work());
         }
         sums.caller = caller_meter_.read() - caller, sums.process = meter_.read() - process;
-        store_round(index, iterations, sums);
-        finish_subject(subject);
-        tell_frame(options_.watcher, iterations, iterations);
+        store_round_of_subject(index, iterations, sums);
+        report_finished_subject(subject);
+        report_frame_to_watcher(options_.watcher, iterations, iterations);
     }
 
-    void store_round(std::size_t index, int iterations, const RoundSums& sums) {
+    void store_round_of_subject(std::size_t index, int iterations,
+                                const RoundMeasurementSums& sums) {
         BenchmarkRound round = divide_by_iterations(iterations, sums.real_ms, sums.process);
         for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
         list_[index].rounds.push_back(std::move(round));
@@ -118,16 +122,16 @@ private:
             divide_by_iterations(iterations, sums.host_ms, sums.caller));
     }
 
-    const std::vector<BenchmarkSubject>& subjects_;
-    const UsageMeter& meter_;
-    const UsageMeter caller_meter_{UsageMeter::CountedThreads::caller};
+    const std::vector<BenchmarkSubject>& benchmark_subjects_;
+    const ProcessorUsageMeter& meter_;
+    const ProcessorUsageMeter caller_meter_{ProcessorUsageMeter::CountedThreadChoice::caller};
     const BenchOptions& options_;
     int rounds_;
     std::size_t done_ = 0;
-    std::vector<Benchmark> list_, callers_;
+    std::vector<BenchmarkResult> list_, callers_;
 };
 
-std::string current_date() {
+std::string format_current_date() {
     const std::time_t now = std::time(nullptr);
     std::tm local{};
     ::localtime_r(&now, &local);
@@ -137,38 +141,38 @@ std::string current_date() {
 
 } // namespace
 
-BenchmarkSubject make_subject(std::string name, std::function<void()> work, int warmup) {
+BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> work, int warmup) {
     return {.name = std::move(name),
             .work =
                 [work = std::move(work)] {
                     work();
-                    return IterationFigures();
+                    return IterationMeasurements();
                 },
             .warmup = warmup,
             .leave = {},
             .caller = {}};
 }
 
-std::vector<measure::Benchmark> measure_in_rounds(const std::vector<BenchmarkSubject>& subjects,
-                                                  const UsageMeter& meter,
-                                                  const BenchOptions& options) {
+std::vector<measure::BenchmarkResult>
+measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects,
+                             const ProcessorUsageMeter& meter, const BenchOptions& options) {
     return BenchmarkRunner(subjects, meter, options).run_all_rounds();
 }
 
 measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
-                                     const UsageMeter& meter, const BenchOptions& options,
+                                     const ProcessorUsageMeter& meter, const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command) {
     measure::BenchmarkRun run;
-    run.version = version(), run.commit = commit(), run.date = current_date();
+    run.version = version(), run.commit = commit(), run.date = format_current_date();
     run.command = std::move(command);
     run.device = device;
     run.processors = static_cast<int>(std::thread::hardware_concurrency());
-    run.uncounted = meter.uncounted();
+    run.uncounted = meter.why_not_counted();
     run.load = read_machine_load();
-    const std::optional<ProcessorUse> before = read_processor_use();
-    run.benchmarks = measure_in_rounds(subjects, meter, options);
-    if (const std::optional<ProcessorUse> after = read_processor_use(); before && after)
+    const std::optional<ProcessorUsageSoFar> before = read_processor_use();
+    run.benchmarks = measure_benchmarks_in_rounds(subjects, meter, options);
+    if (const std::optional<ProcessorUsageSoFar> after = read_processor_use(); before && after)
         run.noisy = is_timing_noisy(compute_waited_share(compute_waiting_times(*before, *after)));
     return run;
 }

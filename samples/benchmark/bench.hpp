@@ -14,7 +14,7 @@
 namespace catoptric::app {
 
 /// Figures that one iteration reports. A round stores their mean.
-struct IterationFigures {
+struct IterationMeasurements {
     double host_ms = 0; ///< wall-clock time of the work that BenchmarkSubject::caller names
     std::map<std::string, double> counters;
 };
@@ -22,8 +22,8 @@ struct IterationFigures {
 /// Work that a benchmark repeats.
 struct BenchmarkSubject {
     std::string name;
-    std::function<IterationFigures()> work; ///< runs one iteration; its costs are measured
-    int warmup = 1;                         ///< iterations before the first round, not measured
+    std::function<IterationMeasurements()> work; ///< runs one iteration; its costs are measured
+    int warmup = 1; ///< iterations before the first round, not measured
     /// Called after the warm-up and after each round, not measured; may be empty.
     std::function<void()> leave;
     /// Name of a second benchmark, which holds the work of the calling thread alone. Empty: none.
@@ -31,7 +31,8 @@ struct BenchmarkSubject {
 };
 
 /// Makes a subject of work that reports no figures of its own.
-BenchmarkSubject make_subject(std::string name, std::function<void()> work, int warmup = 1);
+BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> work,
+                                        int warmup = 1);
 
 struct BenchOptions {
     int iterations = 20; ///< of each subject over all rounds; frames_of_round distributes them
@@ -41,14 +42,14 @@ struct BenchOptions {
 
 /// Measures every subject in rounds, after all subjects have warmed up. Every second round visits
 /// the subjects in reverse order. Costs what the work costs. `meter`: counts the whole process.
-std::vector<measure::Benchmark> measure_in_rounds(const std::vector<BenchmarkSubject>& subjects,
-                                                  const UsageMeter& meter,
-                                                  const BenchOptions& options);
+std::vector<measure::BenchmarkResult>
+measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects,
+                             const ProcessorUsageMeter& meter, const BenchOptions& options);
 
-/// Measures as measure_in_rounds does and adds the program's version, the device and the
+/// Measures as measure_benchmarks_in_rounds does and adds the program's version, the device and the
 /// circumstances. `command`: the program's command line.
 measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjects,
-                                     const UsageMeter& meter, const BenchOptions& options,
+                                     const ProcessorUsageMeter& meter, const BenchOptions& options,
                                      const measure::DeviceFacts& device,
                                      std::vector<std::string> command);
 

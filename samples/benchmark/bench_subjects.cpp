@@ -20,16 +20,16 @@ namespace {
 class FrameBenchmark {
 public:
     FrameBenchmark(std::shared_ptr<Session> session, Request request)
-        : session_(std::move(session)), request_(std::move(request)) {}
+        : benchmark_session_(std::move(session)), request_(std::move(request)) {}
 
-    IterationFigures render_next() {
+    IterationMeasurements render_next_frames() {
         // Only now, because Frames begins with a cut.
-        if (!frames_) frames_.emplace(*session_, request_);
+        if (!frames_) frames_.emplace(*benchmark_session_, request_);
         check(frames_->render_next(), Failure::internal,
               "a benchmark went on after its last frame");
-        const FrameTimes& times = frames_->frame().times();
-        IterationFigures iteration{times.host.sum(),
-                                   {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
+        const FrameTimes& times = frames_->current_frame().times();
+        IterationMeasurements iteration{times.host.sum(),
+                                        {{"gpu_ms", times.gpu_ms}, {"record_ms", times.record_ms}}};
         if (rays_) iteration.counters["rays"] = *rays_;
         iteration.counters.insert(work_.begin(), work_.end());
         return iteration;
@@ -38,23 +38,23 @@ public:
     void suspend_frames() {
         if (!frames_) return;
         if (!is_read_)
-            if (const auto rays = frames_->frame().read().rays)
+            if (const auto rays = frames_->current_frame().read().rays)
                 rays_ = static_cast<double>(rays->primary + rays->mirror + rays->shadow);
-        frames_->suspend();
-        if (!is_read_) count_work();
+        frames_->suspend_frame_loop();
+        if (!is_read_) count_work_of_frames();
         is_read_ = true;
     }
 
 private:
-    void count_work() {
-        const WorkCounts work = sum_work(count_frame_work(*session_, request_));
+    void count_work_of_frames() {
+        const WorkCounts work = sum_work_of_passes(count_frame_work(*benchmark_session_, request_));
         for (std::size_t i = 0; i < kWorkKindCount; ++i)
             if (work.values[i])
                 work_[measure::kWorkCounterPrefix + std::string(kWorkKinds[i].name)] =
                     static_cast<double>(*work.values[i]);
     }
 
-    std::shared_ptr<Session> session_;
+    std::shared_ptr<Session> benchmark_session_;
     Request request_;
     std::optional<FrameLoop> frames_;
     bool is_read_ = false;
@@ -64,28 +64,28 @@ private:
 
 } // namespace
 
-BenchmarkSubject make_session_subject(Engine& engine, const scene::Scene& scene) {
-    return make_subject("session/" + scene.name,
-                        [&engine, scene] { const Session session(engine, scene); });
+BenchmarkSubject make_session_benchmark_subject(Engine& engine, const scene::Scene& scene) {
+    return make_benchmark_subject("session/" + scene.name,
+                                  [&engine, scene] { const Session session(engine, scene); });
 }
 
-BenchmarkSubject make_hierarchy_subject(const scene::Scene& scene) {
-    const auto geometry = std::make_shared<render::Geometry>(
-        render::make_geometry(scene::scene_at_time(scene, 0), render::make_scene_units(scene)));
+BenchmarkSubject make_bvh_benchmark_subject(const scene::Scene& scene) {
+    const auto geometry = std::make_shared<render::FrameGeometry>(render::make_frame_geometry(
+        scene::scene_at_time(scene, 0), render::make_scene_units(scene)));
     const auto triangles = static_cast<double>(geometry->indices.size() / 3);
     return {.name = "hierarchy/" + scene.name,
             .work =
                 [geometry, triangles] {
                     build_bvh_without_object(*geometry, geometry->ranges.size());
-                    return IterationFigures{0, {{"triangles", triangles}}};
+                    return IterationMeasurements{0, {{"triangles", triangles}}};
                 },
             .warmup = 1,
             .leave = {},
             .caller = {}};
 }
 
-BenchmarkSubject make_frame_subject(std::shared_ptr<Session> session, Request request,
-                                    int iterations) {
+BenchmarkSubject make_frame_benchmark_subject(std::shared_ptr<Session> session, Request request,
+                                              int iterations) {
     const std::string place = request.scene.name + "/" + std::to_string(request.size.x) + "x" +
                               std::to_string(request.size.y) + "/" +
                               parse_technique(request.techniques.front()).label;
@@ -94,7 +94,7 @@ BenchmarkSubject make_frame_subject(std::shared_ptr<Session> session, Request re
     request.scene = scene::Scene(); // the session has its own copy
     const auto work = std::make_shared<FrameBenchmark>(std::move(session), std::move(request));
     return {.name = "frame/" + place,
-            .work = [work] { return work->render_next(); },
+            .work = [work] { return work->render_next_frames(); },
             .warmup = warmup,
             .leave = [work] { work->suspend_frames(); },
             .caller = "host/" + place};

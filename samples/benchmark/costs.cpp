@@ -12,14 +12,14 @@ namespace catoptric::app {
 
 namespace {
 
-std::string name_sample(const Request& request) {
+std::string make_cost_sample_name(const Request& request) {
     return request.scene.name + "/" + std::to_string(request.size.x) + "x" +
-           std::to_string(request.size.y) + "/" + name_of(request.model) + "/" +
+           std::to_string(request.size.y) + "/" + rendered_work_name(request.model) + "/" +
            parse_technique(request.techniques.front()).label;
 }
 
 /// Returns one request for each technique.
-std::vector<Request> split_by_technique(const Request& request) {
+std::vector<Request> split_request_by_technique(const Request& request) {
     std::vector<Request> rows;
     for (const std::string& technique : request.techniques) {
         rows.push_back(request);
@@ -41,9 +41,9 @@ double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& ro
 }
 
 /// Measures the rows of one size and model, and appends them to `samples`.
-void measure_rows(Session& session, const Request& request, int threads,
-                  const BenchOptions& options, std::vector<measure::CostSample>& samples) {
-    const std::vector<Request> rows = split_by_technique(request);
+void measure_cost_rows(Session& session, const Request& request, int threads,
+                       const BenchOptions& options, std::vector<measure::TimedRowSample>& samples) {
+    const std::vector<Request> rows = split_request_by_technique(request);
     const int rounds = choose_round_count(options.iterations, options.rounds);
     std::vector<std::unique_ptr<RowMeasurement>> runs;
     for (int round = 0; round < rounds; ++round)
@@ -52,41 +52,42 @@ void measure_rows(Session& session, const Request& request, int threads,
             const std::size_t i = round % 2 == 0 ? place : rows.size() - 1 - place;
             if (round == 0)
                 runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher));
-            tell_row(options.watcher, name_sample(rows[i]),
-                     static_cast<std::size_t>(round) * rows.size() + place,
-                     static_cast<std::size_t>(rounds) * rows.size());
+            report_row_to_watcher(options.watcher, make_cost_sample_name(rows[i]),
+                                  static_cast<std::size_t>(round) * rows.size() + place,
+                                  static_cast<std::size_t>(rounds) * rows.size());
             runs[i]->measure_one_round(count_frames_of_round(options.iterations, rounds, round));
-            runs[i]->suspend();
+            runs[i]->suspend_frames();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        samples.push_back({name_sample(rows[i]),
-                           sum_work(count_frame_work(session, rows[i], options.watcher)),
-                           compute_median_device_time(runs[i]->rounds(), threads)});
+        samples.push_back({make_cost_sample_name(rows[i]),
+                           sum_work_of_passes(count_frame_work(session, rows[i], options.watcher)),
+                           compute_median_device_time(runs[i]->list_rounds(), threads)});
 }
 
 } // namespace
 
-std::vector<measure::CostSample> measure_cost_samples(Engine& engine, const Request& request,
-                                                      const BenchOptions& options) {
+std::vector<measure::TimedRowSample> measure_cost_samples(Engine& engine, const Request& request,
+                                                          const BenchOptions& options) {
     Session session(engine, request.scene);
-    std::vector<measure::CostSample> samples;
+    std::vector<measure::TimedRowSample> samples;
     for (const RenderedWork model : {RenderedWork::everything, RenderedWork::required})
         for (const std::uint32_t divisor : {1u, 2u}) {
             Request part = request;
             part.model = model;
             part.size = glm::max(request.size / divisor, uvec2(1));
             part.frames = options.iterations;
-            measure_rows(session, part, engine.device().threads, options, samples);
+            measure_cost_rows(session, part, engine.device().threads, options, samples);
         }
     return samples;
 }
 
-std::vector<measure::CostSample> count_work_samples(Engine& engine, const Request& request,
-                                                    const Watcher& watcher) {
+std::vector<measure::TimedRowSample> count_work_samples(Engine& engine, const Request& request,
+                                                        const Watcher& watcher) {
     Session session(engine, request.scene);
-    std::vector<measure::CostSample> samples;
-    for (const Request& row : split_by_technique(request))
-        samples.push_back({name_sample(row), sum_work(count_frame_work(session, row, watcher)), 0});
+    std::vector<measure::TimedRowSample> samples;
+    for (const Request& row : split_request_by_technique(request))
+        samples.push_back({make_cost_sample_name(row),
+                           sum_work_of_passes(count_frame_work(session, row, watcher)), 0});
     return samples;
 }
 

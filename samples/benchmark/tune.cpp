@@ -10,14 +10,14 @@ namespace catoptric::app {
 
 namespace {
 
-std::vector<double> list_device_times(const measure::Benchmark& benchmark) {
+std::vector<double> list_device_times(const measure::BenchmarkResult& benchmark) {
     std::vector<double> ms;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         ms.push_back(round.counters.at("gpu_ms"));
     return ms;
 }
 
-std::string benchmark_name(const Request& request) {
+std::string make_tuning_benchmark_name(const Request& request) {
     return "frame/" + request.scene.name + "/" + std::to_string(request.size.x) + "x" +
            std::to_string(request.size.y) + "/" + kTuningTechnique;
 }
@@ -26,13 +26,14 @@ std::string benchmark_name(const Request& request) {
 
 TuningResult tune_shader_variants(Engine& engine, const Request& request,
                                   const BenchOptions& options) {
-    const UsageMeter meter(UsageMeter::CountedThreads::process);
+    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
     const auto session = std::make_shared<Session>(engine, request.scene);
     std::vector<BenchmarkSubject> subjects;
     const auto add = [&](const std::string& name, const gpu::VariantChoices& choices) {
-        BenchmarkSubject subject = make_frame_subject(session, request, options.iterations);
+        BenchmarkSubject subject = make_frame_benchmark_subject(session, request,
+                                                                options.iterations);
         subject.work = [&engine, choices, work = std::move(subject.work)] {
-            EmbeddingAccess::choose_variants(engine, choices);
+            EmbeddingEngineAccess::choose_engine_shader_variants(engine, choices);
             return work();
         };
         subject.name = name;
@@ -47,14 +48,14 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
         add(std::string(gpu::list_shader_variants()[i].name), choices);
     }
     const measure::BenchmarkRun run = run_benchmarks(subjects, meter, options, {}, {});
-    EmbeddingAccess::choose_variants(engine, defaults);
+    EmbeddingEngineAccess::choose_engine_shader_variants(engine, defaults);
     TuningResult tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
     for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
         const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
         tuned.tried.push_back({.variant = std::string(variant.name),
                                .choice = std::string(variant.choices[1 - defaults[i]]),
                                .standard = std::string(variant.choices[defaults[i]]),
-                               .benchmark = benchmark_name(request),
+                               .benchmark = make_tuning_benchmark_name(request),
                                .ms = list_device_times(run.benchmarks[i + 1]),
                                .standard_ms = list_device_times(run.benchmarks.front())});
     }

@@ -11,7 +11,7 @@ namespace catoptric::app {
 inline constexpr const char* kTuningTechnique = "raytrace:depth=4";
 
 struct TuningResult {
-    std::vector<measure::TriedVariant> tried; ///< in the table's order
+    std::vector<measure::ShaderVariantTrial> tried; ///< in the table's order
     /// Other processes were at work and may have caused the ratios.
     bool noisy = false;
 };

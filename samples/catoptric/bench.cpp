@@ -73,13 +73,13 @@ struct BenchArguments {
 };
 
 /// A scene and the techniques to measure.
-struct SceneSelection {
+struct BenchSceneSelection {
     CommonOptions common;
     std::vector<std::string> techniques;
 };
 
-std::vector<SceneSelection> list_requested_scenes(const BenchArguments& options) {
-    std::vector<SceneSelection> list;
+std::vector<BenchSceneSelection> list_requested_scenes(const BenchArguments& options) {
+    std::vector<BenchSceneSelection> list;
     std::vector<std::string> scenes = options.scenes;
     if (scenes.empty()) scenes.push_back(options.common.scene);
     for (const std::string& scene : scenes) {
@@ -98,58 +98,60 @@ int choose_frame_count(const BenchArguments& options) {
     return options.common.frames.value_or(app::Request().frames);
 }
 
-void reload_scene(const CommonOptions& common) {
-    app::resolve_scene(common.scene, {.load = load_options(common),
-                                      .overrides = common.overrides,
-                                      .use_scene_file = common.use_scene_file});
+void load_scene_without_cache(const CommonOptions& common) {
+    app::load_resolved_scene(common.scene, {.load = make_scene_file_options(common),
+                                            .overrides = common.overrides,
+                                            .use_scene_file = common.use_scene_file});
 }
 
 /// Adds the subjects to measure for one scene.
-void add_benchmark_subjects(app::Engine& engine, const SceneSelection& asked, app::Request request,
-                            int iterations, std::vector<app::BenchmarkSubject>& subjects) {
+void add_benchmark_subjects(app::Engine& engine, const BenchSceneSelection& asked,
+                            app::Request request, int iterations,
+                            std::vector<app::BenchmarkSubject>& subjects) {
     const CommonOptions common = asked.common;
-    subjects.push_back(
-        app::make_subject("load/" + request.scene.name, [common] { reload_scene(common); }));
-    subjects.push_back(app::make_session_subject(engine, request.scene));
-    subjects.push_back(app::make_hierarchy_subject(request.scene));
+    subjects.push_back(app::make_benchmark_subject("load/" + request.scene.name,
+                                                   [common] { load_scene_without_cache(common); }));
+    subjects.push_back(app::make_session_benchmark_subject(engine, request.scene));
+    subjects.push_back(app::make_bvh_benchmark_subject(request.scene));
     const auto session = std::make_shared<app::Session>(engine, request.scene);
     for (const std::string& technique : asked.techniques) {
         request.techniques = {technique};
-        subjects.push_back(app::make_frame_subject(session, request, iterations));
+        subjects.push_back(app::make_frame_benchmark_subject(session, request, iterations));
     }
 }
 
-void check_output(const BenchArguments& options, const std::vector<std::filesystem::path>& inputs,
-                  const std::string& read) {
+void check_output_options(const BenchArguments& options,
+                          const std::vector<std::filesystem::path>& inputs,
+                          const std::string& read) {
     if (options.output.empty()) return;
     check_file_can_be_made(options.output);
     check_outputs_differ_from_inputs({kStdoutPath, options.output}, inputs, read);
 }
 
 /// Writes the result to stdout, and also to a file if the user asks for one.
-void write_result(const BenchArguments& options, const std::string& json,
-                  const std::string& table) {
+void write_bench_result(const BenchArguments& options, const std::string& json,
+                        const std::string& table) {
     print_result(options.common.manners.json ? json : table);
     if (options.output.empty()) return;
     write_file(options.output, json);
-    print_note(options.common.manners, "written: " + options.output);
+    print_note_unless_quiet(options.common.manners, "written: " + options.output);
 }
 
 int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
-    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
+    const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
     check(!options.common.both_models, Failure::usage, kOneModelMessage);
     check_techniques_hold_no_scene(options.techniques);
-    app::check_rows(options.techniques);
-    const std::vector<SceneSelection> list = list_requested_scenes(options);
+    app::check_row_techniques(options.techniques);
+    const std::vector<BenchSceneSelection> list = list_requested_scenes(options);
     std::vector<app::Request> requests;
     std::vector<std::filesystem::path> inputs;
-    for (const SceneSelection& asked : list) {
-        requests.push_back(make_request(asked.common));
+    for (const BenchSceneSelection& asked : list) {
+        requests.push_back(make_render_request_of_options(asked.common));
         const std::vector<std::filesystem::path>& files = requests.back().scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
-    check_output(options, inputs, ", which the scene is read from");
+    check_output_options(options, inputs, ", which the scene is read from");
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);
     const int iterations = choose_frame_count(options);
@@ -164,14 +166,14 @@ int run_measurement(const BenchArguments& options) {
          .watcher = make_progress_watcher(progress)},
         app::make_device_facts(engine), options.command);
     progress.clear();
-    write_result(options, report::to_json(run), make_bench_table(run));
+    write_bench_result(options, report::to_json(run), make_bench_table(run));
     if (options.common.device.validate) engine.check_validation();
     return 0;
 }
 
 /// Warns of reasons other than the program for a difference.
-void warn_of_circumstances(const measure::BenchmarkRun& before,
-                           const measure::BenchmarkRun& after) {
+void warn_of_different_circumstances(const measure::BenchmarkRun& before,
+                                     const measure::BenchmarkRun& after) {
     if (before.device.name != after.device.name || before.device.driver != after.device.driver)
         print_warning("the devices differ: " + before.device.name + ", " + before.device.driver +
                       " and " + after.device.name + ", " + after.device.driver);
@@ -179,9 +181,9 @@ void warn_of_circumstances(const measure::BenchmarkRun& before,
         print_warning("others were at work beside what was measured; times are not to be trusted");
 }
 
-int judge_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
-                  const measure::BenchmarkRun& after) {
-    warn_of_circumstances(before, after);
+int find_exit_code_of_changes(const BenchArguments& options, const measure::BenchmarkRun& before,
+                              const measure::BenchmarkRun& after) {
+    warn_of_different_circumstances(before, after);
     const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(before, after);
     if (options.against.empty() &&
         std::ranges::any_of(changes.list, [](const measure::BenchmarkChange& change) {
@@ -191,7 +193,7 @@ int judge_changes(const BenchArguments& options, const measure::BenchmarkRun& be
         print_warning(
             "the files hold times, not cycles: what the machine did otherwise when the second was "
             "measured is in the ratios; --against measures two programs in turn");
-    write_result(options, report::to_json(changes), make_changes_table(changes));
+    write_bench_result(options, report::to_json(changes), make_changes_table(changes));
     const std::string slower = describe_slower_benchmarks(changes);
     const std::string grown = describe_grown_work(changes);
     check(slower.empty() && grown.empty(), Failure::threshold,
@@ -204,29 +206,29 @@ int compare_benchmark_files(const BenchArguments& options) {
     const std::vector<std::string>& files = options.before_and_after;
     check(files.size() == 2, Failure::usage, "--compare: wanted OLD and NEW, found ", files.size(),
           files.size() == 1 ? " file" : " files");
-    check_output(options, {files.begin(), files.end()}, ", which is compared");
+    check_output_options(options, {files.begin(), files.end()}, ", which is compared");
     std::vector<measure::BenchmarkRun> runs;
     for (const std::string& file : files)
         runs.push_back(report::read_benchmarks(read_file(file), file));
-    return judge_changes(options, runs[0], runs[1]);
+    return find_exit_code_of_changes(options, runs[0], runs[1]);
 }
 
 int run_against_program(const BenchArguments& options) {
-    app::check_rounds(options.rounds);
-    check_output(options, {options.against}, ", which is run");
+    app::check_round_limit(options.rounds);
+    check_output_options(options, {options.against}, ", which is run");
     const std::string own = std::filesystem::read_symlink("/proc/self/exe").string();
     const int frames = std::max(1, (choose_frame_count(options) + options.rounds - 1) /
                                        options.rounds);
     const std::vector<std::string> words(options.command.begin() + 2, options.command.end());
     ProgressPrinter progress(options.common.manners);
     const std::array runs = bench_programs_in_turn({options.against, own},
-                                                   command_words_for_round(words, frames),
+                                                   make_command_words_for_round(words, frames),
                                                    options.rounds, make_progress_watcher(progress));
     progress.clear();
-    return judge_changes(options, runs[0], runs[1]);
+    return find_exit_code_of_changes(options, runs[0], runs[1]);
 }
 
-int run_tuning(const BenchArguments& options) {
+int run_shader_tuning(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
           "--tune: wanted at most one SCENE and no --techniques, since ", app::kTuningTechnique,
           " is what is measured");
@@ -255,7 +257,7 @@ int run_bench(const BenchArguments& options) {
                              .times = options.times,
                              .output = options.output,
                              .rounds = options.rounds});
-    if (options.tunes) return run_tuning(options);
+    if (options.tunes) return run_shader_tuning(options);
     return compares  ? compare_benchmark_files(options)
            : in_turn ? run_against_program(options)
                      : run_measurement(options);
@@ -266,7 +268,7 @@ int run_bench(const BenchArguments& options) {
 void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<BenchArguments>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add(
+    CommandVerb& verb = program.add_verb(
         "bench", "measure times of frames and scenes; compare with another run or build");
     verb.examples(kBenchExamples);
     verb.arguments(
@@ -309,7 +311,7 @@ void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
                 "with --costs: fit the costs of another device to its times in FILE",
                 options->times);
     add_common_options_without_scene(verb, options->common);
-    verb.set_action([options] { return run_bench(*options); });
+    verb.set_verb_action([options] { return run_bench(*options); });
 }
 
 } // namespace catoptric::cli

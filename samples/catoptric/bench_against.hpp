@@ -12,7 +12,8 @@ namespace catoptric::cli {
 /// Returns the command-line words for one round of one of the two programs. `words` are those after
 /// "bench" of a `bench --against` line. Words about output files and repetitions are removed, and
 /// "--json" and the number of frames are added.
-std::vector<std::string> command_words_for_round(const std::vector<std::string>& words, int frames);
+std::vector<std::string> make_command_words_for_round(const std::vector<std::string>& words,
+                                                      int frames);
 
 /// Runs `PROGRAM bench WORDS...` of both programs for this number of rounds, and returns the
 /// measurements of each over all rounds. The order of the two alternates between rounds. Throws as

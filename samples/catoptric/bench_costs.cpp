@@ -21,7 +21,7 @@ namespace catoptric::cli {
 namespace {
 
 /// Number of measured frames of each row, and frames before them in which captures settle.
-constexpr int kCostFrames = 12, kCostWarmupFrames = 14;
+constexpr int kCostFitFrames = 12, kCostWarmupFrames = 14;
 
 /// Returns one request per scene.
 std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
@@ -33,8 +33,8 @@ std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
     for (const std::string& scene : scenes) {
         CommonOptions common = arguments.common;
         common.scene = scene;
-        app::Request request = make_request(common, app::check_has_mirror);
-        request.frames = common.frames.value_or(kCostFrames);
+        app::Request request = make_render_request_of_options(common, app::check_has_mirror);
+        request.frames = common.frames.value_or(kCostFitFrames);
         request.warmup = common.warmup.value_or(kCostWarmupFrames);
         request.techniques = arguments.techniques.empty() ? app::list_default_techniques(request)
                                                           : arguments.techniques;
@@ -46,38 +46,40 @@ std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
 measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments, app::Engine& engine,
                                               const std::vector<app::Request>& requests,
                                               const app::Watcher& watcher) {
-    std::vector<measure::CostSample> samples;
+    std::vector<measure::TimedRowSample> samples;
     for (const app::Request& request : requests)
-        for (measure::CostSample& sample : app::measure_cost_samples(
+        for (measure::TimedRowSample& sample : app::measure_cost_samples(
                  engine, request,
                  {.iterations = request.frames, .rounds = arguments.rounds, .watcher = watcher}))
             samples.push_back(std::move(sample));
     const measure::DeviceFacts device = app::make_device_facts(engine);
-    return measure::fit_costs(device.name + ", " + device.driver, std::move(samples),
-                              app::list_fitted_kinds());
+    return measure::fit_unit_costs(device.name + ", " + device.driver, std::move(samples),
+                                   app::list_fitted_kinds());
 }
 
 /// Fits the costs of the device whose times the file has, to work that is counted on this device.
 measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments, app::Engine& engine,
                                                app::Request request, const app::Watcher& watcher) {
-    const report::TimesElsewhere times = report::read_times_file(arguments.times);
+    const report::OtherDeviceTimes times = report::read_times_file(arguments.times);
     request.techniques.clear();
-    for (const report::TimesElsewhere::TimedRow& row : times.rows)
+    for (const report::OtherDeviceTimes::TimedRowElsewhere& row : times.rows)
         request.techniques.push_back(row.technique);
-    std::vector<measure::CostSample> samples = app::count_work_samples(engine, request, watcher);
+    std::vector<measure::TimedRowSample> samples = app::count_work_samples(engine, request,
+                                                                           watcher);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ms = times.rows[i].ms;
-    measure::DeviceCosts costs = measure::fit_costs(times.device, std::move(samples), times.kinds);
+    measure::DeviceCosts costs = measure::fit_unit_costs(times.device, std::move(samples),
+                                                         times.kinds);
     costs.note = times.note;
     return costs;
 }
 
 std::string make_costs_text(const measure::DeviceCosts& costs) {
     std::string text = costs.device + "\n";
-    for (const measure::UnitCost& unit : costs.units) {
+    for (const measure::WorkUnitCost& unit : costs.units) {
         const WorkKindFacts& kind = kWorkKinds[static_cast<std::size_t>(unit.kind)];
         text += fmt::format("  {:<17} {:>12.5g} ns  {}\n", kind.name, unit.ns, kind.help);
     }
-    const measure::CostFit& fit = *costs.fit;
+    const measure::CostFitQuality& fit = *costs.fit;
     text += fmt::format("{} rows, each predicted by costs that were fitted to the others: {:.0f} % "
                         "within 20 %, {:.0f} % within 50 %\n",
                         fit.samples.size(), 100 * fit.fraction_within(1.2),
@@ -117,7 +119,7 @@ int run_cost_fit(const CostsArguments& arguments) {
     print_result(asked.common.manners.json ? json : make_costs_text(costs));
     if (asked.output.empty()) return 0;
     write_file(asked.output, json);
-    print_note(asked.common.manners, "written: " + asked.output);
+    print_note_unless_quiet(asked.common.manners, "written: " + asked.output);
     return 0;
 }
 

@@ -18,7 +18,7 @@ struct CostsArguments {
 
 /// Runs `bench --costs`: fits the costs of a device to the times and the counted work of rows,
 /// prints them and writes them. Returns the exit code. Throws as app::measure_cost_samples and
-/// measure::fit_costs do.
+/// measure::fit_unit_costs do.
 int run_cost_fit(const CostsArguments& arguments);
 
 } // namespace catoptric::cli

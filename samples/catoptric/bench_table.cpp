@@ -13,8 +13,8 @@ namespace catoptric::cli {
 
 namespace {
 
-using measure::Benchmark;
 using measure::BenchmarkChange;
+using measure::BenchmarkResult;
 using measure::BenchmarkRun;
 using measure::CostKind;
 
@@ -26,10 +26,10 @@ std::string format_benchmark_number(double value) { return fmt::format("{:.3f}",
 void add_median_cells(std::vector<std::string>& cells, const std::vector<double>& values,
                       double unit = 1) {
     cells.push_back(format_benchmark_number(measure::compute_percentile(values, .5) / unit));
-    cells.push_back(format_interval(measure::median_interval(values), unit));
+    cells.push_back(format_interval(measure::median_confidence_interval(values), unit));
 }
 
-std::vector<std::string> benchmark_cells(const Benchmark& benchmark, bool counted) {
+std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, bool counted) {
     std::vector<std::string> cells{escape_control_characters(benchmark.name)};
     add_median_cells(cells, list_round_costs(benchmark, CostKind::real_time));
     add_median_cells(cells, list_round_costs(benchmark, CostKind::cpu_time));
@@ -42,13 +42,13 @@ std::vector<std::string> benchmark_cells(const Benchmark& benchmark, bool counte
     return cells;
 }
 
-bool is_counted(CostKind cost) {
+bool is_counted_cost(CostKind cost) {
     return cost == CostKind::cycles || cost == CostKind::instructions;
 }
 
 /// Returns a cost as text, in millions of cycles or instructions, or in milliseconds.
 std::string format_cost(double cost, CostKind of) {
-    return format_benchmark_number(is_counted(of) ? cost / 1e6 : cost);
+    return format_benchmark_number(is_counted_cost(of) ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost that the list compares.
@@ -57,8 +57,8 @@ std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     for (const CostKind cost :
          {CostKind::cycles, CostKind::instructions, CostKind::cpu_time, CostKind::real_time})
         if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
-            text += (text.empty() ? "" : " or ") + name_of(cost) +
-                    (is_counted(cost) ? " in user mode, millions" : ", ms");
+            text += (text.empty() ? "" : " or ") + cost_kind_name(cost) +
+                    (is_counted_cost(cost) ? " in user mode, millions" : ", ms");
     return text;
 }
 
@@ -68,7 +68,7 @@ std::string format_count_changes(const measure::BenchmarkChanges& changes) {
     TableCells cells{{"counted work", "count", "before", "after", "ratio"}};
     for (const BenchmarkChange& change : changes.list) {
         compared += change.compared_counts;
-        for (const measure::CountChange& count : change.counts)
+        for (const measure::CountedWorkChange& count : change.counts)
             cells.push_back(
                 {escape_control_characters(change.name), escape_control_characters(count.name),
                  fmt::format("{:.0f}", count.before), fmt::format("{:.0f}", count.after),
@@ -98,9 +98,9 @@ std::string make_bench_table(const BenchmarkRun& run) {
     if (counted)
         for (const char* title : {"Mcycles", "[95 %]", "Minstr"}) cells.front().emplace_back(title);
     std::size_t rounds = 0;
-    for (const Benchmark& benchmark : run.benchmarks) {
+    for (const BenchmarkResult& benchmark : run.benchmarks) {
         rounds = std::max(rounds, benchmark.rounds.size());
-        cells.push_back(benchmark_cells(benchmark, counted));
+        cells.push_back(make_benchmark_cells(benchmark, counted));
     }
     const std::string caution =
         run.noisy.value_or(false)
@@ -123,7 +123,7 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes) {
              format_cost(change.medians[1], change.cost),
              format_benchmark_number(change.ratio.median), format_interval(change.ratio.ci95),
              format_benchmark_number(change.real_ratio.median),
-             format_interval(change.real_ratio.ci95), name_of(change.outcome())});
+             format_interval(change.real_ratio.ci95), benchmark_outcome_name(change.outcome())});
     return (changes.list.empty()
                 ? "nothing is in both\n"
                 : "compared by " + list_cost_kinds(changes) + "\n" + align_columns(cells, 7)) +
@@ -134,8 +134,8 @@ std::string make_changes_table(const measure::BenchmarkChanges& changes) {
 std::string describe_grown_work(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const BenchmarkChange& change : changes.list)
-        for (const measure::CountChange& count : change.counts)
-            if (count.is_growth())
+        for (const measure::CountedWorkChange& count : change.counts)
+            if (count.is_work_growth())
                 text += fmt::format("{}{} {} {:.0f} instead of {:.0f}", text.empty() ? "" : ", ",
                                     change.name, count.name, count.after, count.before);
     return text;
@@ -144,7 +144,7 @@ std::string describe_grown_work(const measure::BenchmarkChanges& changes) {
 std::string describe_slower_benchmarks(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const BenchmarkChange& change : changes.list)
-        if (change.outcome() == BenchmarkChange::ChangeOutcome::slower)
+        if (change.outcome() == BenchmarkChange::BenchmarkChangeOutcome::slower)
             text += fmt::format("{}{} {:.3f} {}", text.empty() ? "" : ", ", change.name,
                                 change.ratio.median, format_interval(change.ratio.ci95));
     return text;

@@ -27,7 +27,7 @@ fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& d
                              const std::vector<fs::path>& inputs) {
     fs::path place = output;
     if (output.empty()) {
-        const fs::path folder = app::profile_folder();
+        const fs::path folder = app::find_profile_folder();
         check(!folder.empty(), Failure::cannot_create,
               "no folder for the device's profile: wanted XDG_CONFIG_HOME or HOME to be an "
               "absolute path; -o FILE writes it elsewhere");
@@ -43,13 +43,14 @@ fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& d
 } // namespace
 
 std::string make_tuning_table(const app::DeviceInfo& device,
-                              const std::vector<measure::TriedVariant>& tried) {
+                              const std::vector<measure::ShaderVariantTrial>& tried) {
     std::vector<std::vector<std::string>> cells{
         {"variant", "choice", "default", "ratio", "[95 %]", ""}};
-    for (const measure::TriedVariant& one : tried) {
-        const measure::CostRatio ratio = one.ratio();
+    for (const measure::ShaderVariantTrial& one : tried) {
+        const measure::CostRatio ratio = one.time_ratio_to_default();
         cells.push_back({one.variant, one.choice, one.standard, fmt::format("{:.3f}", ratio.median),
-                         format_interval(ratio.ci95), one.is_taken() ? "taken" : "not taken"});
+                         format_interval(ratio.ci95),
+                         one.is_faster_than_default() ? "taken" : "not taken"});
     }
     return fmt::format("{}, {}; {}, {} rounds; device time over the default's\n", device.name,
                        device.driver, escape_control_characters(tried.front().benchmark),
@@ -58,10 +59,10 @@ std::string make_tuning_table(const app::DeviceInfo& device,
 }
 
 int run_device_tuning(const CommonOptions& common, int rounds, const std::string& output) {
-    app::check_rounds(rounds);
+    app::check_round_limit(rounds);
     check(common.device.profile.empty(), Failure::usage,
           "--tune and --device-profile: wanted one of them, found both");
-    app::Request request = make_request(common);
+    app::Request request = make_render_request_of_options(common);
     request.techniques = {app::kTuningTechnique};
     app::EngineOptions opened = make_engine_options(common.device);
     opened.profiles.clear(); // tuning starts from the defaults
@@ -83,7 +84,7 @@ int run_device_tuning(const CommonOptions& common, int rounds, const std::string
     const std::string text = app::make_profile_text(device, tuned.tried);
     print_result(common.manners.json ? text : make_tuning_table(device, tuned.tried));
     write_file(place, text);
-    print_note(common.manners, "written: " + place.string());
+    print_note_unless_quiet(common.manners, "written: " + place.string());
     if (common.device.validate) engine.check_validation();
     return 0;
 }

@@ -56,7 +56,7 @@ public:
     std::string read_output(const app::Watcher& watcher) const {
         std::string text;
         for (;;) {
-            check_stopped(watcher);
+            throw_if_stopped(watcher);
             pollfd ready{out_, POLLIN, 0};
             if (::poll(&ready, 1, kStopCheckMilliseconds) <= 0) continue;
             std::array<char, 1 << 16> block{};
@@ -68,7 +68,7 @@ public:
             text.append(block.data(), static_cast<std::size_t>(count));
         }
     }
-    void check_exit() {
+    void check_exit_code_of_child() {
         const int status = wait_for_exit();
         if (WIFSIGNALED(status))
             fail(Failure::bad_data, name_, ": wanted exit code 0, found signal ", WTERMSIG(status));
@@ -98,7 +98,7 @@ std::string run_and_read_output(const std::vector<std::string>& command,
     app::Watcher watcher;
     watcher.stop = &stop;
     std::string text = child.read_output(watcher);
-    child.check_exit();
+    child.check_exit_code_of_child();
     return text;
 }
 

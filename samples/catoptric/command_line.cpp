@@ -18,18 +18,18 @@ namespace catoptric::cli {
 namespace {
 
 constexpr const char* kHelpVerb = "help";
-constexpr std::size_t kHelpWidth = 80;
-constexpr std::size_t kHelpIndent = 28; ///< column of the descriptions of options
+constexpr std::size_t kHelpTextColumns = 80;
+constexpr std::size_t kHelpDescriptionColumn = 28; ///< column of the descriptions of options
 
-/// Returns `text` in lines of at most kHelpWidth columns. The first line starts in column `indent`;
-/// the others are indented to it.
+/// Returns `text` in lines of at most kHelpTextColumns columns. The first line starts in column
+/// `indent`; the others are indented to it.
 std::string wrap_help_text(const std::string& text, std::size_t indent) {
     std::istringstream words(text);
     std::string lines, word;
     std::size_t column = indent;
     while (words >> word) {
         const bool is_first = column == indent;
-        if (!is_first && column + 1 + word.size() > kHelpWidth) {
+        if (!is_first && column + 1 + word.size() > kHelpTextColumns) {
             lines += "\n" + std::string(indent, ' ');
             column = indent;
         } else if (!is_first) {
@@ -45,15 +45,15 @@ std::string wrap_help_text(const std::string& text, std::size_t indent) {
 /// Returns `left` with `help` beside it, or below it if `left` is too wide.
 std::string format_help_entry(const std::string& left, const std::string& help) {
     const std::string start = "  " + left;
-    const bool fits = start.size() + 2 <= kHelpIndent;
+    const bool fits = start.size() + 2 <= kHelpDescriptionColumn;
     return start +
-           (fits ? std::string(kHelpIndent - start.size(), ' ')
-                 : "\n" + std::string(kHelpIndent, ' ')) +
-           wrap_help_text(help, kHelpIndent) + "\n";
+           (fits ? std::string(kHelpDescriptionColumn - start.size(), ' ')
+                 : "\n" + std::string(kHelpDescriptionColumn, ' ')) +
+           wrap_help_text(help, kHelpDescriptionColumn) + "\n";
 }
 
-/// Returns the text with each paragraph in lines of kHelpWidth columns. Lines that begin with a
-/// blank, and the heading above them, stay as they are.
+/// Returns the text with each paragraph in lines of kHelpTextColumns columns. Lines that begin with
+/// a blank, and the heading above them, stay as they are.
 std::string wrap_paragraphs(const std::string& text) {
     std::istringstream lines(text);
     std::string result, line, prose;
@@ -72,7 +72,7 @@ std::string wrap_paragraphs(const std::string& text) {
     return result;
 }
 
-/// Formats the help of CLI11 in kHelpWidth columns.
+/// Formats the help of CLI11 in kHelpTextColumns columns.
 class HelpFormatter : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_positional) const override {
@@ -103,7 +103,7 @@ void refuse_unknown_words(const CLI::App& verb) {
         if (!extra.starts_with('-') || extra == "--") continue;
         const std::string name = extra.substr(0, extra.find('='));
         fail(Failure::usage, "'", verb.get_name(), "' has no option '", name, "'",
-             suggest_name(name, names));
+             suggest_nearest_name(name, names));
     }
     check(extras.empty(), Failure::usage, "'", verb.get_name(),
           "' wanted no further argument, found '", extras.empty() ? "" : extras.front(), "'");
@@ -141,37 +141,39 @@ std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& err
 
 } // namespace
 
-void CommandVerb::examples(const std::string& text) { app_.footer(text); }
+void CommandVerb::examples(const std::string& text) { verb_parser_.footer(text); }
 
-void CommandVerb::heading(const std::string& text) { app_.option_defaults()->group(text); }
+void CommandVerb::heading(const std::string& text) { verb_parser_.option_defaults()->group(text); }
 
 void CommandVerb::argument(const std::string& name, const std::string& help, std::string& value,
-                           ArgumentNeed need) {
-    app_.add_option(name, value, help)->type_name("")->required(need == ArgumentNeed::required);
+                           VerbArgumentNeed need) {
+    verb_parser_.add_option(name, value, help)
+        ->type_name("")
+        ->required(need == VerbArgumentNeed::required);
 }
 
 void CommandVerb::arguments(const std::string& name, const std::string& help,
                             std::vector<std::string>& values) {
-    app_.add_option(name, values, help)->type_name("");
+    verb_parser_.add_option(name, values, help)->type_name("");
 }
 
 void CommandVerb::flag(const std::string& names, const std::string& help, bool& value) {
-    app_.add_flag(names, value, help);
+    verb_parser_.add_flag(names, value, help);
 }
 
 void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
                          std::string& value) {
-    app_.add_option(names, value, help)->type_name(type);
+    verb_parser_.add_option(names, value, help)->type_name(type);
 }
 
 void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
                          std::vector<std::string>& values) {
-    app_.add_option(names, values, help)->type_name(type);
+    verb_parser_.add_option(names, values, help)->type_name(type);
 }
 
 void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
                          const TakeValue& take) {
-    app_.add_option_function<std::string>(names, take, help)->type_name(type);
+    verb_parser_.add_option_function<std::string>(names, take, help)->type_name(type);
 }
 
 void CommandVerb::repeated(const std::string& names, const std::string& type,
@@ -179,32 +181,32 @@ void CommandVerb::repeated(const std::string& names, const std::string& type,
     const auto take_all = [take](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) take(text);
     };
-    app_.add_option_function<std::vector<std::string>>(names, take_all, help)
+    verb_parser_.add_option_function<std::vector<std::string>>(names, take_all, help)
         ->type_name(type)
         ->allow_extra_args(false);
 }
 
 void CommandVerb::option_without_value(const std::string& names, const std::string& help,
                                        const std::function<void()>& take) {
-    app_.add_flag_callback(names, take, help);
+    verb_parser_.add_flag_callback(names, take, help);
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& summary,
                          const std::string& version, const std::string& examples)
-    : app_(std::make_unique<CLI::App>(summary, name)) {
-    app_->formatter(std::make_shared<HelpFormatter>());
-    app_->option_defaults()->group(kCommonOptions);
-    app_->require_subcommand(1);
-    app_->footer(examples);
-    app_->set_version_flag("-V,--version", version);
-    app_->set_help_flag("-h,--help", "print this help");
-    app_->get_formatter()->label("SUBCOMMAND", "VERB");
+    : command_line_parser_(std::make_unique<CLI::App>(summary, name)) {
+    command_line_parser_->formatter(std::make_shared<HelpFormatter>());
+    command_line_parser_->option_defaults()->group(kCommonOptions);
+    command_line_parser_->require_subcommand(1);
+    command_line_parser_->footer(examples);
+    command_line_parser_->set_version_flag("-V,--version", version);
+    command_line_parser_->set_help_flag("-h,--help", "print this help");
+    command_line_parser_->get_formatter()->label("SUBCOMMAND", "VERB");
 }
 
 CommandLine::~CommandLine() = default;
 
-CommandVerb& CommandLine::add(const std::string& name, const std::string& summary) {
-    CLI::App* app = app_->add_subcommand(name, summary);
+CommandVerb& CommandLine::add_verb(const std::string& name, const std::string& summary) {
+    CLI::App* app = command_line_parser_->add_subcommand(name, summary);
     app->group("Verbs");
     app->set_help_flag("-h,--help", "print this help");
     app->allow_extras(); // refuse_unknown_words has the better message
@@ -212,10 +214,10 @@ CommandVerb& CommandLine::add(const std::string& name, const std::string& summar
 }
 
 CommandVerb& CommandLine::single_verb() {
-    app_->require_subcommand(0);
-    app_->allow_extras();
+    command_line_parser_->require_subcommand(0);
+    command_line_parser_->allow_extras();
     is_whole_ = true;
-    return *verbs_.emplace_back(std::make_unique<CommandVerb>(*app_));
+    return *verbs_.emplace_back(std::make_unique<CommandVerb>(*command_line_parser_));
 }
 
 /// Replaces "help" by "--help", and "help VERB" by "VERB --help".
@@ -232,37 +234,40 @@ std::vector<std::string> CommandLine::without_help_verb(std::vector<std::string>
 /// Throws `usage` unless the first word is a verb or asks for help or the version.
 void CommandLine::check_verb(const std::string& word) const {
     std::vector<std::string> names;
-    for (const CLI::App* verb : app_->get_subcommands(nullptr)) names.push_back(verb->get_name());
+    for (const CLI::App* verb : command_line_parser_->get_subcommands(nullptr))
+        names.push_back(verb->get_name());
     names.emplace_back(kHelpVerb);
     const std::vector<std::string> flags{"-h", "--help", "-V", "--version"};
     for (const auto& known : {names, flags})
         if (std::ranges::find(known, word) != known.end()) return;
     fail(Failure::usage, "wanted a verb (", join_with_commas(names), "), found '", word, "'",
-         suggest_name(word, word.starts_with('-') ? flags : names));
+         suggest_nearest_name(word, word.starts_with('-') ? flags : names));
 }
 
 std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     if (words.empty() && !is_whole_) {
-        std::cerr << remove_repeated_empty_lines(app_->help()) << std::flush;
+        std::cerr << remove_repeated_empty_lines(command_line_parser_->help()) << std::flush;
         return [] { return static_cast<int>(Failure::usage); };
     }
     words = without_help_verb(std::move(words));
-    const std::string program = is_whole_ ? app_->get_name()
-                                          : app_->get_name() + " " + words.front();
+    const std::string program = is_whole_ ? command_line_parser_->get_name()
+                                          : command_line_parser_->get_name() + " " + words.front();
     if (!is_whole_) check_verb(words.front());
     std::ranges::reverse(words); // CLI11 takes a vector in reverse order
     try {
-        app_->parse(words);
+        command_line_parser_->parse(words);
     } catch (const CLI::ParseError& error) {
         std::ostringstream text, ignored;
-        if (app_->exit(error, text, ignored) == 0) // the user asked for help or version
+        if (command_line_parser_->exit(error, text, ignored) ==
+            0) // the user asked for help or version
             return
                 [text = remove_repeated_empty_lines(text.str())] { return print_result(text), 0; };
-        fail(Failure::usage, describe_parse_error(*app_, error), " (try '", program, " --help')");
+        fail(Failure::usage, describe_parse_error(*command_line_parser_, error), " (try '", program,
+             " --help')");
     }
     const auto verb = std::ranges::find_if(
-        verbs_, [](const std::unique_ptr<CommandVerb>& one) { return one->app_.parsed(); });
-    refuse_unknown_words((*verb)->app_);
+        verbs_, [](const std::unique_ptr<CommandVerb>& one) { return one->verb_parser_.parsed(); });
+    refuse_unknown_words((*verb)->verb_parser_);
     return (*verb)->run_;
 }
 

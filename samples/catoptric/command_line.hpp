@@ -19,7 +19,7 @@ class CommandVerb {
 public:
     using TakeValue = std::function<void(const std::string&)>;
 
-    explicit CommandVerb(CLI::App& app) : app_(app) {}
+    explicit CommandVerb(CLI::App& app) : verb_parser_(app) {}
 
     /// Sets the examples that follow the help.
     void examples(const std::string& text);
@@ -27,9 +27,9 @@ public:
     /// order of their first use, kCommonOptions first.
     void heading(const std::string& text);
 
-    enum class ArgumentNeed : std::uint8_t { optional, required };
+    enum class VerbArgumentNeed : std::uint8_t { optional, required };
     void argument(const std::string& name, const std::string& help, std::string& value,
-                  ArgumentNeed need);
+                  VerbArgumentNeed need);
     /// Adds an argument of any number of words.
     void arguments(const std::string& name, const std::string& help,
                    std::vector<std::string>& values);
@@ -51,11 +51,11 @@ public:
                               const std::function<void()>& take);
 
     /// Sets the action that is called after the whole line is parsed. It returns the exit code.
-    void set_action(std::function<int()> run) { run_ = std::move(run); }
+    void set_verb_action(std::function<int()> run) { run_ = std::move(run); }
 
 private:
     friend class CommandLine;
-    CLI::App& app_;
+    CLI::App& verb_parser_;
     std::function<int()> run_;
 };
 
@@ -72,7 +72,7 @@ public:
     CommandLine& operator=(const CommandLine&) = delete;
 
     /// Adds a verb, which lives as long as this object.
-    CommandVerb& add(const std::string& name, const std::string& summary);
+    CommandVerb& add_verb(const std::string& name, const std::string& summary);
     /// Returns a single verb in place of a list of verbs. It takes all words as options and
     /// arguments.
     CommandVerb& single_verb();
@@ -87,7 +87,7 @@ private:
     void check_verb(const std::string& word) const;
     std::vector<std::string> without_help_verb(std::vector<std::string> words) const;
 
-    std::unique_ptr<CLI::App> app_;
+    std::unique_ptr<CLI::App> command_line_parser_;
     std::vector<std::unique_ptr<CommandVerb>> verbs_;
     bool is_whole_ = false;
 };

@@ -52,10 +52,10 @@ struct CompareOptions {
     std::vector<std::string> techniques;
     bool together = false;
     double reference_seconds = app::CompareRequest().reference_seconds;
-    app::PixelTruth truth = app::PixelTruth::centre;
+    app::ReferencePixelKind truth = app::ReferencePixelKind::centre;
     double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
-    report::CsvColumns csv = report::CsvColumns::table;
+    report::CsvColumnSet csv = report::CsvColumnSet::table;
     std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, file
     std::vector<app::StudyChoice> studies;
     std::vector<std::string> command;
@@ -68,7 +68,7 @@ std::vector<std::string> list_scenes_to_compare(const CompareOptions& options) {
 
 /// Throws `usage` for more rounds than frames, because each round measures at least one frame of
 /// each row.
-void check_rounds(const CompareOptions& options) {
+void check_round_limit(const CompareOptions& options) {
     const int frames = options.common.frames.value_or(app::Request().frames);
     check(!options.rounds || *options.rounds <= frames, Failure::usage, "--rounds: wanted at most ",
           frames, ", one for each of --frames, found ", options.rounds.value_or(0));
@@ -79,7 +79,7 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     app::CompareRequest request;
     CommonOptions common = options.common;
     common.scene = scene;
-    request.base = make_request(common, app::check_has_mirror);
+    request.base = make_render_request_of_options(common, app::check_has_mirror);
     const bool keeps = common.both_models || request.base.model == app::RenderedWork::required;
     if (keeps && !common.animate && !common.warmup) request.base.warmup = app::Request().total();
     request.base.techniques = options.techniques;
@@ -99,11 +99,11 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
 /// Returns the requests of all scenes. Making them before any work reports a fault of the last
 /// scene at once.
 std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
-    check_rounds(options);
+    check_round_limit(options);
     check_techniques_hold_no_scene(options.techniques);
-    app::check_rows(options.techniques);
+    app::check_row_techniques(options.techniques);
     const std::string& reference = options.common.reference;
-    check(options.truth == app::PixelTruth::centre || reference.empty(), Failure::usage,
+    check(options.truth == app::ReferencePixelKind::centre || reference.empty(), Failure::usage,
           "--truth chooses the reference; wanted no --reference beside it, found ", reference);
     // The reference of a scene without rough mirrors stands for those of all scenes.
     const std::string judged_by = app::choose_reference(reference, scene::Scene(), options.truth);
@@ -140,7 +140,7 @@ void check_output_places(const CompareOptions& options,
             if (request.both_models) images.push_back(images.back() + "-required");
         }
         for (std::size_t i = 0; i < request.pictures.size(); ++i) {
-            images.push_back(app::picture_row_image(request.pictures[i].first, i));
+            images.push_back(app::picture_row_image_name(request.pictures[i].first, i));
             inputs.emplace_back(request.pictures[i].second);
         }
         const bool is_first = &request == &requests.front();
@@ -173,73 +173,75 @@ std::string describe_stopped_phase(const report::Comparison& comparison) {
 /// Throws the error that ended the comparison early, if any.
 void check_not_stopped(const CompareOptions& options, const report::Comparison& comparison) {
     if (comparison.stopped)
-        fail_incomplete(*comparison.stopped, comparison.rows.size(), comparison.asked,
-                        describe_stopped_phase(comparison), options.folder);
+        throw_incomplete_run(*comparison.stopped, comparison.rows.size(), comparison.asked,
+                             describe_stopped_phase(comparison), options.folder);
 }
 
 /// Writes the reports of one or several scenes.
-class CompareOutput {
+class CompareReportOutput {
 public:
-    CompareOutput(const CompareOptions& options, std::size_t count)
-        : options_(options), one_(options.folder, options.csv),
+    CompareReportOutput(const CompareOptions& options, std::size_t count)
+        : compare_options_(options), one_(options.folder, options.csv),
           several_(options.folder, list_scenes_to_compare(options), options.csv),
           is_one_(count == 1) {}
 
-    void write_report(std::size_t index, const report::Comparison& comparison) {
-        is_one_ ? one_.write(comparison) : several_.write(index, comparison);
+    void write_scene_report(std::size_t index, const report::Comparison& comparison) {
+        is_one_ ? one_.write_comparison(comparison)
+                : several_.write_scene_comparison(index, comparison);
     }
     /// Prints the table of one finished scene.
-    void print_table(const report::Comparison& comparison) const {
-        const OutputOptions& manners = options_.common.manners;
+    void print_comparison_table(const report::Comparison& comparison) const {
+        const OutputOptions& manners = compare_options_.common.manners;
         for (const std::string& warning : comparison.warnings)
-            print_detail(manners, "warning: " + warning);
+            print_detail_if_verbose(manners, "warning: " + warning);
         for (const report::Row& row : comparison.rows)
             for (const std::string& what : measure::list_row_notes(comparison, row))
-                print_note(manners, row.label + ": " + what);
+                print_note_unless_quiet(manners, row.label + ": " + what);
         if (!manners.json)
             print_result((is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
                          make_compare_table(comparison) +
-                         (measure::has_budget(comparison)
+                         (measure::has_time_or_flip_budget(comparison)
                               ? report::describe_budget_answer(comparison) + "\n"
                               : ""));
         else if (is_one_)
             print_result(report::to_json(comparison));
     }
     /// Prints the document of all scenes at the end.
-    void show_all() const {
-        if (options_.common.manners.json && !is_one_)
-            print_result(report::to_json(several_.scenes()));
+    void print_all_scenes() const {
+        if (compare_options_.common.manners.json && !is_one_)
+            print_result(report::to_json(several_.scene_reports()));
     }
 
 private:
-    const CompareOptions& options_;
+    const CompareOptions& compare_options_;
     report::ReportWriter one_;
-    report::MultiSceneWriter several_;
+    report::MultiSceneReportWriter several_;
     bool is_one_;
 };
 
 /// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
                                  std::size_t index, const CompareOptions& budget,
-                                 ProgressPrinter& progress, CompareOutput& output) {
+                                 ProgressPrinter& progress, CompareReportOutput& output) {
     const std::size_t row_count = list_requested_rows(request).size();
     request.watcher = make_progress_watcher(progress);
-    tell_row(request.watcher, "reference " + request.reference, 0, row_count);
+    report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
-        output.write_report(index, so_far);
+        output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
     comparison.max_ms = budget.max_ms, comparison.max_flip = budget.max_flip;
     progress.clear();
     // If no row was finished, an earlier report is worth more.
-    if (!comparison.rows.empty()) output.write_report(index, comparison);
-    output.print_table(comparison);
+    if (!comparison.rows.empty()) output.write_scene_report(index, comparison);
+    output.print_comparison_table(comparison);
     return comparison;
 }
 
 int run_compare(const CompareOptions& options) {
     const OutputOptions& manners = options.common.manners;
-    require_option(!options.folder.empty(), "compare", "-o DIR", "the folder for the report");
+    throw_unless_option_given(!options.folder.empty(), "compare", "-o DIR",
+                              "the folder for the report");
     check_folder_can_be_made(options.folder);
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
@@ -252,18 +254,18 @@ int run_compare(const CompareOptions& options) {
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
 
     ProgressPrinter progress(manners, ProgressPrinter::ProgressOffTerminal::tenths);
-    CompareOutput output(options, requests.size());
+    CompareReportOutput output(options, requests.size());
     std::vector<std::string> broken;
     bool keeps_budgets = true;
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const report::Comparison comparison = compare_scene(engine, requests[i], i, options,
                                                             progress, output);
-        if (comparison.stopped || i + 1 == requests.size()) output.show_all();
+        if (comparison.stopped || i + 1 == requests.size()) output.print_all_scenes();
         if (!comparison.stopped && i + 1 == requests.size())
-            print_note(manners, "written: " + options.folder);
+            print_note_unless_quiet(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
-        keeps_budgets = keeps_budgets && (!measure::has_budget(comparison) ||
+        keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||
                                           measure::find_row_within_budget(comparison).row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
@@ -273,27 +275,27 @@ int run_compare(const CompareOptions& options) {
     return keeps_budgets ? 0 : 1;
 }
 
-enum class StudyOption : std::uint8_t { number, words, flag };
+enum class StudyOptionKind : std::uint8_t { number, words, flag };
 
-StudyOption find_study_option(const app::Study& study) {
-    if (!study.number.empty()) return StudyOption::number;
-    return study.words.empty() ? StudyOption::flag : StudyOption::words;
+StudyOptionKind find_study_option(const app::Study& study) {
+    if (!study.number.empty()) return StudyOptionKind::number;
+    return study.words.empty() ? StudyOptionKind::flag : StudyOptionKind::words;
 }
 
 /// Adds the options of all studies whose option is of this kind. `options` must outlive the
 /// parsing.
-void add_studies(CommandVerb& verb, CompareOptions& options, StudyOption kind) {
+void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKind kind) {
     for (const app::Study& study : app::list_studies()) {
         const std::string option = "--" + std::string(study.name), help(study.help);
         const auto choose = [&options, &study](int count) {
             options.studies.push_back({std::string(study.name), count});
         };
         if (find_study_option(study) != kind) continue;
-        if (kind == StudyOption::flag) {
+        if (kind == StudyOptionKind::flag) {
             verb.option_without_value(option, help, [choose] { choose(1); });
             continue;
         }
-        if (kind == StudyOption::words) {
+        if (kind == StudyOptionKind::words) {
             verb.repeated(option, std::string(study.words), help, [&](const std::string& text) {
                 const auto known = std::ranges::find(options.studies, study.name,
                                                      &app::StudyChoice::name);
@@ -317,7 +319,7 @@ void add_studies(CommandVerb& verb, CompareOptions& options, StudyOption kind) {
 void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<CompareOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add(
+    CommandVerb& verb = program.add_verb(
         "compare", "compare techniques with the reference: time and error in one table");
     verb.examples(kCompareExamples);
     verb.arguments(
@@ -339,11 +341,11 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                       const std::size_t end = text.find('=');
                       check(end != std::string::npos && end > 0 && end + 1 < text.size(),
                             Failure::usage, "--row: wanted NAME=FILE, found ",
-                            quote_printable(text));
+                            quote_as_printable_text(text));
                       options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
                   });
     verb.heading(kMeasuringOptions);
-    add_studies(verb, *options, StudyOption::number);
+    add_study_options(verb, *options, StudyOptionKind::number);
     verb.flag("--together", "draw all rows in one command buffer, on one timeline",
               options->together);
     verb.option("--rounds", "N",
@@ -371,7 +373,7 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                 "converged (the mean over the pixel's area) or paths (as centre, by path tracing: "
                 "with light between surfaces, lamps as areas and a shadowed environment) (centre)",
                 [options](const std::string& text) {
-                    options->truth = static_cast<app::PixelTruth>(
+                    options->truth = static_cast<app::ReferencePixelKind>(
                         parse_choice_index("--truth", text, {"centre", "converged", "paths"}));
                 });
     verb.option(
@@ -381,15 +383,15 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
         [options](const std::string& text) {
             options->reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
         });
-    add_studies(verb, *options, StudyOption::words);
-    add_studies(verb, *options, StudyOption::flag);
+    add_study_options(verb, *options, StudyOptionKind::words);
+    add_study_options(verb, *options, StudyOptionKind::flag);
     add_common_options_without_scene(verb, options->common);
     verb.option("--csv", "COLUMNS", "columns of rows.csv: table (as in the report) or all (table)",
                 [options](const std::string& text) {
                     const bool all = parse_choice_index("--csv", text, {"table", "all"}) == 1;
-                    options->csv = all ? report::CsvColumns::all : report::CsvColumns::table;
+                    options->csv = all ? report::CsvColumnSet::all : report::CsvColumnSet::table;
                 });
-    verb.set_action([options] { return run_compare(*options); });
+    verb.set_verb_action([options] { return run_compare(*options); });
 }
 
 } // namespace catoptric::cli

@@ -37,8 +37,8 @@ struct DiffOptions {
     std::optional<double> most_flip, most_rmse;
 };
 
-void check_threshold(DiffFacts& facts, const char* option, double value,
-                     std::optional<double> most) {
+void check_difference_threshold(PictureDiffFacts& facts, const char* option, double value,
+                                std::optional<double> most) {
     if (!most) return;
     // NaN (no pixel to judge) exceeds every threshold.
     if (!(value <= *most))
@@ -46,29 +46,31 @@ void check_threshold(DiffFacts& facts, const char* option, double value,
             fmt::format("{} {:.6g} is over --max-{} {:.6g}", option, value, option, *most));
 }
 
-DiffFacts compare_files(const DiffOptions& options) {
-    const measure::FileDifference found = measure::compare_picture_files(
+PictureDiffFacts compare_files(const DiffOptions& options) {
+    const measure::PictureFileDifference found = measure::compare_picture_files(
         options.a, options.b, options.mask, options.exposure);
-    DiffFacts facts{options.a,
-                    options.b,
-                    options.mask,
-                    {found.width, found.height},
-                    options.exposure,
-                    std::string(found.is_of_bytes ? measure::kFlipOfBytes : measure::kFlipOfFloats),
-                    found.difference,
-                    found.a_mean,
-                    found.b_mean,
-                    found.a_clamped,
-                    found.b_clamped,
-                    {}};
-    check_threshold(facts, "flip", facts.difference.flip, options.most_flip);
-    check_threshold(facts, "rmse", facts.difference.rmse, options.most_rmse);
+    PictureDiffFacts facts{
+        options.a,
+        options.b,
+        options.mask,
+        {found.width, found.height},
+        options.exposure,
+        std::string(found.is_of_bytes ? measure::kFlipOfBytes : measure::kFlipSourceFloats),
+        found.difference,
+        found.a_mean,
+        found.b_mean,
+        found.a_clamped,
+        found.b_clamped,
+        {}};
+    check_difference_threshold(facts, "flip", facts.difference.flip, options.most_flip);
+    check_difference_threshold(facts, "rmse", facts.difference.rmse, options.most_rmse);
     if ((options.most_flip || options.most_rmse) && facts.difference.nonfinite > 0)
         facts.over.push_back(fmt::format("{} pixels are not finite", facts.difference.nonfinite));
     return facts;
 }
 
-std::string format_mean(const char* name, const measure::Mean& mean, const measure::Mean& clamped) {
+std::string format_mean_of_picture(const char* name, const measure::Mean& mean,
+                                   const measure::Mean& clamped) {
     return fmt::format("mean {}  {:.6f} {:.6f} {:.6f}  clamped {:.6f} {:.6f} {:.6f}\n", name,
                        mean.rgb.x, mean.rgb.y, mean.rgb.z, clamped.rgb.x, clamped.rgb.y,
                        clamped.rgb.z);
@@ -83,18 +85,18 @@ std::string format_metric_value(const measure::MetricValue& value) {
                                         : fmt::format("{:.6f}", number);
 }
 
-std::string format_diff_facts(const DiffFacts& facts) {
+std::string format_diff_facts(const PictureDiffFacts& facts) {
     std::string text;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
                             format_metric_value(measure::metric_value(quantity, facts.difference)),
                             quantity.unit.empty() ? "" : " ", quantity.unit);
-    return text + format_mean("A", facts.a_mean, facts.a_clamped) +
-           format_mean("B", facts.b_mean, facts.b_clamped);
+    return text + format_mean_of_picture("A", facts.a_mean, facts.a_clamped) +
+           format_mean_of_picture("B", facts.b_mean, facts.b_clamped);
 }
 
 int run_diff(const DiffOptions& options) {
-    const DiffFacts facts = compare_files(options);
+    const PictureDiffFacts facts = compare_files(options);
     print_result(options.manners.json ? make_diff_json(facts) : format_diff_facts(facts));
     check(facts.over.empty(), Failure::threshold, join_with_commas(facts.over));
     return 0;
@@ -104,11 +106,12 @@ int run_diff(const DiffOptions& options) {
 
 void add_diff_verb(CommandLine& program) {
     const auto options = std::make_shared<DiffOptions>();
-    CommandVerb& verb = program.add("diff", "compare two pictures");
+    CommandVerb& verb = program.add_verb("diff", "compare two pictures");
     verb.examples(kDiffExamples);
     verb.argument("A", "picture, .exr, .hdr or .png", options->a,
-                  CommandVerb::ArgumentNeed::required);
-    verb.argument("B", "picture of the same size", options->b, CommandVerb::ArgumentNeed::required);
+                  CommandVerb::VerbArgumentNeed::required);
+    verb.argument("B", "picture of the same size", options->b,
+                  CommandVerb::VerbArgumentNeed::required);
     verb.option("--mask", "M", "PNG of the same size; only pixels that are not black count",
                 options->mask);
     verb.option("--max-flip", "X", "largest FLIP allowed; exit code 1 above it",
@@ -123,7 +126,7 @@ void add_diff_verb(CommandLine& program) {
                 "exposure: light is multiplied by 2^STOPS before the comparison (0)",
                 [options](const std::string& text) { options->exposure = parse_stops(text); });
     add_output_options(verb, options->manners);
-    verb.set_action([options] { return run_diff(*options); });
+    verb.set_verb_action([options] { return run_diff(*options); });
 }
 
 } // namespace catoptric::cli

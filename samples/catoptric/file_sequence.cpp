@@ -8,7 +8,8 @@
 
 namespace catoptric::cli {
 
-std::optional<FileSequence> FileSequence::find(const std::string& name) {
+std::optional<PictureFileSequence>
+PictureFileSequence::parse_file_sequence(const std::string& name) {
     static const std::regex kNumberPlaceholder(R"(\{n(?::0?([1-9]))?\}|%(?:0?([1-9]))?d)");
     std::smatch place;
     const bool found = std::regex_search(name, place, kNumberPlaceholder);
@@ -21,14 +22,14 @@ std::optional<FileSequence> FileSequence::find(const std::string& name) {
           "'");
     if (!found) return std::nullopt;
     const std::string digits = place[1].str() + place[2].str();
-    FileSequence sequence;
+    PictureFileSequence sequence;
     sequence.before_ = place.prefix().str();
     sequence.after_ = rest;
     sequence.digits_ = digits.empty() ? 0 : std::stoi(digits);
     return sequence;
 }
 
-std::string FileSequence::file(int number) const {
+std::string PictureFileSequence::file(int number) const {
     return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
 }
 

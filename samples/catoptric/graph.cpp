@@ -33,36 +33,37 @@ struct GraphOptions {
     CommonOptions common;
     TechniqueOption drawn;
     std::string technique; ///< technique or plan, checked
-    std::optional<app::PlanFormat> format;
+    std::optional<app::GraphPlanFormat> format;
     bool why = false;
 };
 
-app::PlanFormat choose_plan_format(const GraphOptions& options) {
-    const app::PlanFormat asked = options.common.manners.json ? app::PlanFormat::json
-                                                              : app::PlanFormat::text;
-    const app::PlanFormat format = options.format.value_or(asked);
-    check(!options.common.manners.json || format == app::PlanFormat::json, Failure::usage,
+app::GraphPlanFormat choose_plan_format(const GraphOptions& options) {
+    const app::GraphPlanFormat asked = options.common.manners.json ? app::GraphPlanFormat::json
+                                                                   : app::GraphPlanFormat::text;
+    const app::GraphPlanFormat format = options.format.value_or(asked);
+    check(!options.common.manners.json || format == app::GraphPlanFormat::json, Failure::usage,
           "--json and --format: stdout has room for one of them");
-    check(!options.why || format != app::PlanFormat::dot, Failure::usage,
+    check(!options.why || format != app::GraphPlanFormat::dot, Failure::usage,
           "--why: wanted --format text or json, found dot");
     return format;
 }
 
-void print_culling_report(const app::Request& request, app::PlanFormat format,
+void print_culling_report(const app::Request& request, app::GraphPlanFormat format,
                           const std::optional<app::CaptureBudget>& slices) {
-    print_result(format == app::PlanFormat::json ? app::explain_culling_as_json(request, slices)
-                                                 : app::explain_culling_as_text(request, slices));
+    print_result(format == app::GraphPlanFormat::json
+                     ? app::format_culling_as_json(request, slices)
+                     : app::format_culling_as_text(request, slices));
 }
 
 int run_graph(const GraphOptions& options) {
-    const app::PlanFormat format = choose_plan_format(options);
+    const app::GraphPlanFormat format = choose_plan_format(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     const bool is_limited = options.common.budget_ms > 0;
     check_budget_option(options.common);
     check(!is_limited || options.why, Failure::usage,
           "--budget-ms: wanted --why, since the plan is that of a frame at rest");
-    app::Request request = make_request(options.common);
+    app::Request request = make_render_request_of_options(options.common);
     request.techniques = {options.technique};
     check_outputs_differ_from_inputs({kStdoutPath}, request.scene.files);
     if (options.why && !is_limited) {
@@ -88,23 +89,24 @@ int run_graph(const GraphOptions& options) {
 
 void add_graph_verb(CommandLine& program) {
     const auto options = std::make_shared<GraphOptions>();
-    CommandVerb& verb = program.add("graph", "print the passes of a technique's frame");
+    CommandVerb& verb = program.add_verb("graph", "print the passes of a technique's frame");
     verb.examples(kGraphExamples);
     add_technique_options(verb, options->drawn);
-    verb.option("--format", "F", "output format: text, dot or json (text)",
-                [options](const std::string& text) {
-                    constexpr app::PlanFormat kPlanFormats[] = {
-                        app::PlanFormat::text, app::PlanFormat::dot, app::PlanFormat::json};
-                    options->format =
-                        kPlanFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
-                });
+    verb.option(
+        "--format", "F", "output format: text, dot or json (text)",
+        [options](const std::string& text) {
+            constexpr app::GraphPlanFormat kGraphPlanFormats[] = {
+                app::GraphPlanFormat::text, app::GraphPlanFormat::dot, app::GraphPlanFormat::json};
+            options->format =
+                kGraphPlanFormats[parse_choice_index("--format", text, {"text", "dot", "json"})];
+        });
     verb.flag("--why",
               "print what the picture requires and what is left out, with reasons, instead of the "
               "frame's passes; needs no device, except with --budget-ms",
               options->why);
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
-    verb.set_action([options] {
+    verb.set_verb_action([options] {
         const bool is_given = !options->drawn.technique.empty() || !options->drawn.plan.empty();
         if (is_given || !options->why || options->common.budget_ms > 0)
             options->technique = check_technique_choice(options->drawn, "graph");

@@ -29,15 +29,15 @@ constexpr const char* kInfoExamples = R"(Examples:
   catoptric info room.glb
   catoptric info room.glb --mirror 'wall mirror' --write)";
 
-InfoFacts gather_info_facts(const DeviceOptions& device) {
-    InfoFacts facts;
+DeviceAndSceneInfo gather_info_facts(const DeviceOptions& device) {
+    DeviceAndSceneInfo facts;
     try {
         app::EngineOptions options = make_engine_options(device);
         options.cache.clear(); // `info` compiles no shaders
         const app::Engine engine(options);
         facts.device = engine.device();
         facts.lanes = app::count_shader_lanes(engine);
-        if (const std::string text = app::warn_of_vector_width(engine); !text.empty())
+        if (const std::string text = app::make_vector_width_warning(engine); !text.empty())
             print_warning(text);
         if (!facts.device->warning.empty()) print_warning(facts.device->warning);
     } catch (const Error& error) {
@@ -58,7 +58,7 @@ InfoFacts gather_info_facts(const DeviceOptions& device) {
     return facts;
 }
 
-std::string format_info_facts(const InfoFacts& facts) {
+std::string format_info_facts(const DeviceAndSceneInfo& facts) {
     std::string text = fmt::format("catoptric {} ({})\n", app::version(), app::commit());
     if (facts.device) {
         const app::DeviceInfo& device = *facts.device;
@@ -92,10 +92,10 @@ std::optional<double> find_shown_exposure(app::Request& request, const InfoOptio
         500'000; // building a BVH over more costs as much as a picture
     if (const std::size_t count = scene::triangle_count(request.scene);
         count > kMaxExposureTriangles) {
-        print_note(options.common.manners,
-                   fmt::format("exposure not told: wanted at most {} triangles, "
-                               "found {}; render chooses it",
-                               kMaxExposureTriangles, count));
+        print_note_unless_quiet(options.common.manners,
+                                fmt::format("exposure not told: wanted at most {} triangles, "
+                                            "found {}; render chooses it",
+                                            kMaxExposureTriangles, count));
         return std::nullopt;
     }
     try {
@@ -105,7 +105,8 @@ std::optional<double> find_shown_exposure(app::Request& request, const InfoOptio
         return app::measure_auto_exposure(session, request);
     } catch (const Error& error) {
         if (error.failure != Failure::no_device) throw;
-        print_note(options.common.manners, std::string("exposure not told: ") + error.what());
+        print_note_unless_quiet(options.common.manners,
+                                std::string("exposure not told: ") + error.what());
         return std::nullopt;
     }
 }
@@ -116,7 +117,7 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
           "--write: wanted a scene's file, beside which to write, found the built-in ",
-          quote_printable(scene.name));
+          quote_as_printable_text(scene.name));
     const std::filesystem::path path = scene::scene_file_path(options.common.scene);
     std::error_code error;
     check(options.replaces ||
@@ -128,7 +129,7 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     if (wanted.is_camera_seeded)
         overrides.camera = request.camera.name; // the name holds the camera's numbers
     write_file(path, scene::write_scene_file_text(overrides, options.common.scene));
-    print_note(options.common.manners, "written: " + path.string());
+    print_note_unless_quiet(options.common.manners, "written: " + path.string());
 }
 
 int print_scene_info(const InfoOptions& options) {
@@ -149,7 +150,7 @@ int run_info(const InfoOptions& options) {
     check(options.writes || !options.replaces, Failure::usage, "--force: wanted --write beside it");
     if (!options.common.scene.empty()) return print_scene_info(options);
     check(!options.writes, Failure::usage, "--write: wanted a SCENE");
-    const InfoFacts facts = gather_info_facts(options.common.device);
+    const DeviceAndSceneInfo facts = gather_info_facts(options.common.device);
     print_result(options.common.manners.json ? make_info_json(facts) : format_info_facts(facts));
     return 0;
 }
@@ -159,21 +160,21 @@ int run_info(const InfoOptions& options) {
 void add_info_verb(CommandLine& program) {
     const auto options = std::make_shared<InfoOptions>();
     options->common.scene.clear();
-    CommandVerb& verb = program.add(
+    CommandVerb& verb = program.add_verb(
         "info", "print the contents of a scene, or version, device and features");
     verb.examples(kInfoExamples);
     verb.argument(
         "SCENE",
         "built-in scene or .glb, .gltf or .obj file; without SCENE: information on program and "
         "device",
-        options->common.scene, CommandVerb::ArgumentNeed::optional);
+        options->common.scene, CommandVerb::VerbArgumentNeed::optional);
     verb.flag("--write", "store the given scene options in SCENE.catoptric.json", options->writes);
     verb.flag("--force", "let --write replace an existing file", options->replaces);
     add_device_options(verb, options->common.device);
     add_view_options(verb, options->common);
     add_scene_override_options(verb, options->common);
     add_output_options(verb, options->common.manners);
-    verb.set_action([options] { return run_info(*options); });
+    verb.set_verb_action([options] { return run_info(*options); });
 }
 
 } // namespace catoptric::cli

@@ -23,9 +23,9 @@ std::string serialise_json(const Json& document) {
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 
-Json to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
+Json vector_to_json(const dvec3& v) { return {v.x, v.y, v.z}; }
 
-Json to_json(const app::DeviceInfo& device) {
+Json device_info_to_json(const app::DeviceInfo& device) {
     Json row = report::make_device_json(app::make_device_facts(device));
     row["id"] = device.id;
     row["usable"] = device.missing.empty();
@@ -42,7 +42,7 @@ Json make_times_json(const app::RunResult& result, const app::DeviceInfo& device
                   [&](const report::PassFacts& pass) { // passes that only other frames had
                       return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
                   });
-    return report::times_json(row);
+    return report::make_row_times_json(row);
 }
 
 Json make_culled_work_json(const app::TechniqueResult& part) {
@@ -62,7 +62,7 @@ Json make_capture_budget_json(const std::optional<app::CaptureBudget>& slices, d
             {"waiting", slices->waiting},
             {"oldest_frames", slices->frames_per_cycle() - 1},
             {"round_frames", slices->frames_per_cycle()},
-            {"said", app::to_text(*slices)}};
+            {"said", app::describe_capture_budget(*slices)}};
 }
 
 Json make_settings_json(const std::vector<Setting>& list) {
@@ -74,7 +74,7 @@ Json make_settings_json(const std::vector<Setting>& list) {
 }
 
 /// Returns which direction is better, in one word; null if neither is.
-Json make_better_json(measure::BetterDirection better) {
+Json make_better_direction_json(measure::BetterDirection better) {
     switch (better) {
     case measure::BetterDirection::less: return "less";
     case measure::BetterDirection::more: return "more";
@@ -85,18 +85,19 @@ Json make_better_json(measure::BetterDirection better) {
 
 } // namespace
 
-std::string make_diff_json(const DiffFacts& facts) {
+std::string make_diff_json(const PictureDiffFacts& facts) {
     Json document{{"schema", "catoptric/diff/1"}, {"a", facts.a}, {"b", facts.b}};
     document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
     document["size"] = {facts.size.x, facts.size.y};
     document["exposure"] = facts.exposure;
     document["flip_source"] = facts.flip_source;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        document[std::string(quantity.name)] = report::value_json(
+        document[std::string(quantity.name)] = report::make_metric_value_json(
             measure::metric_value(quantity, facts.difference));
-    document["mean"] = {{"a", to_json(facts.a_mean.rgb)}, {"b", to_json(facts.b_mean.rgb)}};
-    document["mean_clamped"] = {{"a", to_json(facts.a_clamped.rgb)},
-                                {"b", to_json(facts.b_clamped.rgb)}};
+    document["mean"] = {{"a", vector_to_json(facts.a_mean.rgb)},
+                        {"b", vector_to_json(facts.b_mean.rgb)}};
+    document["mean_clamped"] = {{"a", vector_to_json(facts.a_clamped.rgb)},
+                                {"b", vector_to_json(facts.b_clamped.rgb)}};
     document["over"] = facts.over;
     return serialise_json(document);
 }
@@ -109,7 +110,7 @@ std::string make_render_json(const app::Request& request, const app::DeviceInfo&
     Json document{
         {"schema", "catoptric/render/1"}, {"version", app::version()}, {"commit", app::commit()}};
     document["output"] = output;
-    document["device"] = to_json(device);
+    document["device"] = device_info_to_json(device);
     document["scene"] = request.scene.name;
     document["camera"] = request.camera.name;
     document["size"] = {request.size.x, request.size.y};
@@ -122,9 +123,9 @@ std::string make_render_json(const app::Request& request, const app::DeviceInfo&
     document["technique"] = choice.technique;
     document["label"] = choice.label;
     document["settings"] = make_settings_json(choice.settings);
-    document["plan"] = report::plan_json(part.plan);
+    document["plan"] = report::make_plan_json(part.plan);
     document["notes"] = part.notes;
-    document["model"] = name_of(part.model);
+    document["model"] = rendered_work_name(part.model);
     document["left_out"] = make_culled_work_json(part);
     document["captures"] = make_capture_budget_json(part.slices, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
@@ -138,8 +139,8 @@ std::string make_render_json(const app::Request& request, const app::DeviceInfo&
         document["rays"] = {{"primary", part.rays->primary},
                             {"mirror", part.rays->mirror},
                             {"shadow", part.rays->shadow}};
-    document["mean"] = to_json(measure::mean_of(part.hdr, ValueRange::unclamped).rgb);
-    document["mean_clamped"] = to_json(measure::mean_of(part.hdr, ValueRange::clamped).rgb);
+    document["mean"] = vector_to_json(measure::mean_of(part.hdr, ValueRange::unclamped).rgb);
+    document["mean_clamped"] = vector_to_json(measure::mean_of(part.hdr, ValueRange::clamped).rgb);
     return serialise_json(document);
 }
 
@@ -164,7 +165,7 @@ std::string make_trace_json(const app::FrameTimes& frame, const std::string& pro
 
 std::string make_devices_json(const std::vector<app::DeviceInfo>& devices) {
     Json rows = Json::array();
-    for (const app::DeviceInfo& device : devices) rows.push_back(to_json(device));
+    for (const app::DeviceInfo& device : devices) rows.push_back(device_info_to_json(device));
     return serialise_json({{"schema", "catoptric/list/1"}, {"devices", rows}});
 }
 
@@ -188,9 +189,10 @@ std::string make_techniques_json(const std::vector<app::TechniqueInfo>& techniqu
     return serialise_json({{"schema", "catoptric/list/1"}, {"techniques", rows}});
 }
 
-std::string make_named_list_json(const std::string& kind, const std::vector<NamedEntry>& named) {
+std::string make_named_list_json(const std::string& kind,
+                                 const std::vector<NamedListEntry>& named) {
     Json rows = Json::array();
-    for (const NamedEntry& row : named)
+    for (const NamedListEntry& row : named)
         rows.push_back({{"name", row.name}, {"summary", row.summary}});
     return serialise_json({{"schema", "catoptric/list/1"}, {kind, rows}});
 }
@@ -202,14 +204,14 @@ std::string make_metrics_json() {
                         {"summary", quantity.help},
                         {"unit", quantity.unit},
                         {"mask", quantity.mask},
-                        {"better", make_better_json(quantity.better)}});
+                        {"better", make_better_direction_json(quantity.better)}});
     return serialise_json({{"schema", "catoptric/list/1"}, {"metrics", rows}});
 }
 
-std::string make_info_json(const InfoFacts& facts) {
+std::string make_info_json(const DeviceAndSceneInfo& facts) {
     Json document{
         {"schema", "catoptric/info/1"}, {"version", app::version()}, {"commit", app::commit()}};
-    document["device"] = facts.device ? to_json(*facts.device) : Json();
+    document["device"] = facts.device ? device_info_to_json(*facts.device) : Json();
     if (facts.device) document["device"]["lanes"] = facts.lanes;
     if (!facts.device) document["no_device"] = facts.why_no_device;
     Json features = Json::object();

@@ -12,7 +12,7 @@
 /// is not finite becomes null. Bytes that are not UTF-8 (in a path) are replaced.
 namespace catoptric::cli {
 
-struct DiffFacts {
+struct PictureDiffFacts {
     std::string a, b, mask;
     uvec2 size{0, 0};
     double exposure = 0;
@@ -21,7 +21,7 @@ struct DiffFacts {
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words
 };
-std::string make_diff_json(const DiffFacts& facts);
+std::string make_diff_json(const PictureDiffFacts& facts);
 
 std::string make_render_json(const app::Request& request, const app::DeviceInfo& device,
                              const app::RunResult& result, const std::string& output);
@@ -32,23 +32,23 @@ std::string make_trace_json(const app::FrameTimes& frame, const std::string& pro
 std::string make_devices_json(const std::vector<app::DeviceInfo>& devices);
 std::string make_techniques_json(const std::vector<app::TechniqueInfo>& techniques);
 
-struct NamedEntry {
+struct NamedListEntry {
     std::string name, summary;
 };
 /// Returns {"schema": "catoptric/list/1", KIND: [{"name", "summary"}]}.
-std::string make_named_list_json(const std::string& kind, const std::vector<NamedEntry>& rows);
+std::string make_named_list_json(const std::string& kind, const std::vector<NamedListEntry>& rows);
 
 /// Returns the table of metrics: {"name", "summary", "unit", "mask", "better"}.
 std::string make_metrics_json();
 
-struct InfoFacts {
+struct DeviceAndSceneInfo {
     std::optional<app::DeviceInfo> device;
     int lanes = 0; ///< lanes that run together in the device's shaders
     std::string why_no_device;
     /// Name of each group of features, and its features.
     std::vector<std::pair<std::string, std::vector<std::string>>> features;
 };
-std::string make_info_json(const InfoFacts& facts);
+std::string make_info_json(const DeviceAndSceneInfo& facts);
 
 /// Facts that `info SCENE` reports.
 struct SceneInfoFacts {

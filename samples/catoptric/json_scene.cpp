@@ -13,8 +13,8 @@ namespace {
 using report::Json;
 
 Json make_colour_json(const vec3& colour) {
-    return {scene::float_to_typed_double(colour.x), scene::float_to_typed_double(colour.y),
-            scene::float_to_typed_double(colour.z)};
+    return {scene::float_to_shortest_double(colour.x), scene::float_to_shortest_double(colour.y),
+            scene::float_to_shortest_double(colour.z)};
 }
 
 Json make_material_json(const app::MaterialInfo& material) {
@@ -23,7 +23,7 @@ Json make_material_json(const app::MaterialInfo& material) {
               {"objects", material.objects},
               {"albedo", make_colour_json(material.albedo)}};
     for (std::size_t i = 0; i < material.factors.size(); ++i)
-        json[std::string(scene::kMaterialFactors[i].name)] = scene::float_to_typed_double(
+        json[std::string(scene::kMaterialFactors[i].name)] = scene::float_to_shortest_double(
             material.factors[i]);
     json["f0"] = make_colour_json(material.f0);
     json["light"] = material.light == vec3(0) ? Json() : make_colour_json(material.light);
@@ -33,12 +33,12 @@ Json make_material_json(const app::MaterialInfo& material) {
 }
 
 Json make_shape_json(const scene::MirrorShape& shape) {
-    Json json{{"kind", scene::name_of(shape.kind)}, {"closed", shape.is_closed}};
+    Json json{{"kind", scene::mirror_shape_kind_name(shape.kind)}, {"closed", shape.is_closed}};
     json["sphere"] = nullptr;
     if (shape.fit)
-        json["sphere"] = {{"centre", report::point_json(shape.fit->centre)},
-                          {"radius", report::number_json(shape.fit->radius)},
-                          {"tolerance", report::number_json(shape.tolerance)}};
+        json["sphere"] = {{"centre", report::make_point_json(shape.fit->centre)},
+                          {"radius", report::make_number_json(shape.fit->radius)},
+                          {"tolerance", report::make_number_json(shape.tolerance)}};
     return json;
 }
 
@@ -46,8 +46,8 @@ Json make_mirror_json(const app::MirrorInfo& mirror) {
     return {{"mirror", mirror.number},
             {"name", mirror.name},
             {"shape", make_shape_json(mirror.shape)},
-            {"screen_share", report::number_json(mirror.screen_share)},
-            {"capture_centre", report::point_json(mirror.capture_centre)},
+            {"screen_share", report::make_number_json(mirror.screen_share)},
+            {"capture_centre", report::make_point_json(mirror.capture_centre)},
             {"reflectance", make_colour_json(mirror.reflectance)},
             {"constant", mirror.is_constant}};
 }
@@ -80,14 +80,14 @@ std::string make_scene_json(const SceneInfoFacts& words) {
     document["materials"] = make_list_json(info.materials, make_material_json);
     document["mirrors"] = make_list_json(info.mirrors, make_mirror_json);
     document["mirror_options"] = info.mirror_options;
-    document["lights"] = report::lights_json(facts.lights);
-    document["environment"] = report::environment_json(facts.environment);
-    document["cameras"] = make_list_json(info.cameras, report::camera_json);
-    document["camera"] = report::camera_json(facts.camera);
-    document["ambient"] = report::number_json(words.ambient);
-    document["exposure"] = words.exposure ? report::number_json(*words.exposure) : Json();
+    document["lights"] = report::make_lights_json(facts.lights);
+    document["environment"] = report::make_environment_json(facts.environment);
+    document["cameras"] = make_list_json(info.cameras, report::make_camera_json);
+    document["camera"] = report::make_camera_json(facts.camera);
+    document["ambient"] = report::make_number_json(words.ambient);
+    document["exposure"] = words.exposure ? report::make_number_json(*words.exposure) : Json();
     document["auto_exposure"] = words.auto_exposure;
-    document["gaps"] = report::unsupported_json(facts.unsupported);
+    document["gaps"] = report::make_unsupported_features_json(facts.unsupported);
     document["warnings"] = words.warnings;
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }

@@ -86,14 +86,15 @@ std::string format_device_list(const std::vector<app::DeviceInfo>& devices) {
     return text;
 }
 
-std::string format_named_list(const std::vector<NamedEntry>& rows) {
+std::string format_named_list(const std::vector<NamedListEntry>& rows) {
     std::string text;
-    for (const NamedEntry& row : rows) text += fmt::format("{:<24} {}\n", row.name, row.summary);
+    for (const NamedListEntry& row : rows)
+        text += fmt::format("{:<24} {}\n", row.name, row.summary);
     return text;
 }
 
-std::vector<NamedEntry> list_built_in_scenes() {
-    std::vector<NamedEntry> rows;
+std::vector<NamedListEntry> list_built_in_scenes() {
+    std::vector<NamedListEntry> rows;
     for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
         rows.push_back({scene.name, scene.summary});
     return rows;
@@ -121,12 +122,12 @@ std::string format_metric_list() {
     return text;
 }
 
-std::string make_listing(const std::string& kind, const std::string& name, bool json) {
+std::string make_list_output(const std::string& kind, const std::string& name, bool json) {
     check(name.empty() || kind == "techniques", Failure::usage, "'list ", kind,
           "' wanted no further argument, found '", name, "'");
     if (kind == "techniques") return list_techniques_as(name, json);
     if (kind == "devices") {
-        const std::vector<app::DeviceInfo> devices = app::devices(app::profile_folder());
+        const std::vector<app::DeviceInfo> devices = app::devices(app::find_profile_folder());
         for (const app::DeviceInfo& device : devices)
             if (!device.warning.empty()) print_warning(device.warning);
         return json ? make_devices_json(devices) : format_device_list(devices);
@@ -144,16 +145,16 @@ void add_list_verb(CommandLine& program) {
         std::string kind, name;
     };
     const auto options = std::make_shared<ListOptions>();
-    CommandVerb& verb = program.add("list", "techniques, scenes, devices or metrics");
+    CommandVerb& verb = program.add_verb("list", "techniques, scenes, devices or metrics");
     verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
-                  CommandVerb::ArgumentNeed::required);
+                  CommandVerb::VerbArgumentNeed::required);
     verb.argument("NAME", "name of a technique, to list its knobs", options->name,
-                  CommandVerb::ArgumentNeed::optional);
+                  CommandVerb::VerbArgumentNeed::optional);
     add_output_options(verb, options->manners);
-    verb.set_action([options] {
+    verb.set_verb_action([options] {
         parse_choice_index("list", options->kind, kListedKinds);
-        print_result(make_listing(options->kind, options->name, options->manners.json));
+        print_result(make_list_output(options->kind, options->name, options->manners.json));
         return 0;
     });
 }

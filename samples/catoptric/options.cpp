@@ -21,20 +21,20 @@ namespace catoptric::cli {
 
 namespace {
 
-constexpr std::int64_t kMaxFrames = 1'000'000;
+constexpr std::int64_t kMaxFrameCount = 1'000'000;
 
 void add_number_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
     verb.option("--frames", "N", "number of measured frames, at least 1 (20)",
                 [&](const std::string& text) {
                     common.frames = static_cast<int>(
-                        parse_integer("--frames", text, 1, kMaxFrames));
+                        parse_integer("--frames", text, 1, kMaxFrameCount));
                 });
     verb.option("--warmup", "N",
                 "frames before the measured ones (8; 28 with compare --model required or both)",
                 [&](const std::string& text) {
                     common.warmup = static_cast<int>(
-                        parse_integer("--warmup", text, 0, kMaxFrames));
+                        parse_integer("--warmup", text, 0, kMaxFrameCount));
                 });
     verb.flag(
         "--animate",
@@ -83,24 +83,25 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
 scene::Camera choose_camera(const CommonOptions& common, app::ResolvedScene& wanted) {
     if (wanted.is_camera_seeded) {
         scene::Camera camera = app::make_seeded_camera(wanted.scene, common.time, common.seed);
-        print_note(common.manners,
-                   "camera drawn from seed " + std::to_string(common.seed) + ": " + camera.name);
+        print_note_unless_quiet(common.manners, "camera drawn from seed " +
+                                                    std::to_string(common.seed) + ": " +
+                                                    camera.name);
         return camera;
     }
-    return app::choose_camera(wanted, double(common.size.x) / double(common.size.y));
+    return app::choose_or_add_camera(wanted, double(common.size.x) / double(common.size.y));
 }
 
 /// Warns of a scene without a mirror, with options that add one.
 void warn_of_no_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     const std::vector<std::string> options = app::suggest_mirror_options(scene, 1);
-    print_warning("scene " + quote_printable(scene.name) + " has no mirror" +
+    print_warning("scene " + quote_as_printable_text(scene.name) + " has no mirror" +
                   (options.empty() ? "" : "; try " + options.front()));
 }
 
 } // namespace
 
-scene::FileOptions load_options(const CommonOptions& common) {
+scene::SceneFileOptions make_scene_file_options(const CommonOptions& common) {
     return {.root = common.root,
             .budget = scene::choose_load_budget(common.scene, common.budget,
                                                 scene::read_free_memory())};
@@ -184,12 +185,12 @@ void add_common_options_without_scene(CommandVerb& verb, CommonOptions& common) 
 void add_common_options(CommandVerb& verb, CommonOptions& common) {
     verb.argument(
         "SCENE", "built-in scene (see 'list scenes') or .glb, .gltf or .obj file (cornell-mirrors)",
-        common.scene, CommandVerb::ArgumentNeed::optional);
+        common.scene, CommandVerb::VerbArgumentNeed::optional);
     add_common_options_without_scene(verb, common);
 }
 
-void require_option(bool given, const std::string& verb, const std::string& option,
-                    const std::string& what) {
+void throw_unless_option_given(bool given, const std::string& verb, const std::string& option,
+                               const std::string& what) {
     check(given, Failure::usage, "'", verb, "' needs ", option, ": ", what);
 }
 
@@ -211,15 +212,17 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     double load_ms = 0;
     {
         const Stopwatch watch(load_ms);
-        asked.wanted = app::resolve_scene(common.scene, {.load = load_options(common),
-                                                         .overrides = common.overrides,
-                                                         .use_scene_file = common.use_scene_file});
+        asked.wanted = app::load_resolved_scene(common.scene,
+                                                {.load = make_scene_file_options(common),
+                                                 .overrides = common.overrides,
+                                                 .use_scene_file = common.use_scene_file});
     }
     request.load_ms = load_ms;
     if (check) check(asked.wanted.scene);
     for (const std::string& warning : asked.wanted.scene.warnings) print_warning(warning);
     request.camera = choose_camera(common, asked.wanted);
-    for (const std::string& sentence : asked.wanted.said) print_note(common.manners, sentence);
+    for (const std::string& sentence : asked.wanted.said)
+        print_note_unless_quiet(common.manners, sentence);
     if (!check) warn_of_no_mirror(asked.wanted.scene);
     request.size = common.size;
     request.frames = common.frames.value_or(request.frames);
@@ -237,8 +240,8 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     return asked;
 }
 
-app::Request make_request(const CommonOptions& common,
-                          const std::function<void(const scene::Scene&)>& check) {
+app::Request make_render_request_of_options(const CommonOptions& common,
+                                            const std::function<void(const scene::Scene&)>& check) {
     return make_resolved_request(common, check).request;
 }
 
@@ -247,14 +250,15 @@ app::EngineOptions make_engine_options(const DeviceOptions& device) {
     return {.device = device.name,
             .validate = device.validate,
             .profile = by_default ? "" : device.profile,
-            .profiles = by_default ? std::filesystem::path() : app::profile_folder(),
-            .cache = app::cache_folder()};
+            .profiles = by_default ? std::filesystem::path() : app::find_profile_folder(),
+            .cache = app::find_cache_folder()};
 }
 
 void print_device_and_warnings(const app::Engine& engine, const OutputOptions& manners) {
-    print_detail(manners, "device: " + engine.device().name + ", " + engine.device().driver);
+    print_detail_if_verbose(manners,
+                            "device: " + engine.device().name + ", " + engine.device().driver);
     if (!engine.warning().empty()) print_warning(engine.warning());
-    if (const std::string text = app::warn_of_vector_width(engine); !text.empty())
+    if (const std::string text = app::make_vector_width_warning(engine); !text.empty())
         print_warning(text);
     if (!engine.device().warning.empty()) print_warning(engine.device().warning);
 }

@@ -29,7 +29,7 @@ inline constexpr const char* kNoProfileName = "none";
 struct CommonOptions {
     OutputOptions manners;
     std::string scene = "cornell-mirrors";
-    scene::BudgetOverride budget; ///< limits for loading the scene
+    scene::LoadBudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
     uvec2 size{512, 512};
     std::optional<int> frames; ///< default: 20
@@ -71,7 +71,7 @@ void add_view_options(CommandVerb& verb, CommonOptions& common);
 /// Adds --camera and --exposure.
 void add_camera_options(CommandVerb& verb, CommonOptions& common);
 /// Returns the options for loading the scene.
-scene::FileOptions load_options(const CommonOptions& common);
+scene::SceneFileOptions make_scene_file_options(const CommonOptions& common);
 /// Returns an exposure in stops, from -64 to 64. Throws `usage` for other text.
 double parse_stops(const std::string& text);
 
@@ -81,8 +81,8 @@ void add_budget_option(CommandVerb& verb, CommonOptions& common);
 void check_budget_option(const CommonOptions& common);
 
 /// Throws `usage` with the message that `verb` needs `option`, unless `given`.
-void require_option(bool given, const std::string& verb, const std::string& option,
-                    const std::string& what);
+void throw_unless_option_given(bool given, const std::string& verb, const std::string& option,
+                               const std::string& what);
 
 /// Throws `usage` if the list of --techniques contains a scene. The option takes all words that
 /// follow it.
@@ -91,8 +91,9 @@ void check_techniques_hold_no_scene(const std::vector<std::string>& techniques);
 /// Returns the request to the engine, without techniques: scene, camera and numbers. Messages of
 /// the loader and additions to the scene go to stderr. `check`, if given, may refuse the scene
 /// before any other message. Without it, a scene without a mirror causes a warning.
-app::Request make_request(const CommonOptions& common,
-                          const std::function<void(const scene::Scene&)>& check = {});
+app::Request
+make_render_request_of_options(const CommonOptions& common,
+                               const std::function<void(const scene::Scene&)>& check = {});
 /// A request, with the resolved scene from which it was made.
 struct ResolvedRequest {
     app::Request request;

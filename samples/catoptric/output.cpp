@@ -20,7 +20,7 @@ namespace {
 
 /// Returns the printable form of `text`, which may quote a file or a name. Our own further lines
 /// are indented. Therefore a quoted name cannot start a line that looks like a message.
-std::string make_printable(std::string_view text) {
+std::string escape_message_text(std::string_view text) {
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find("\n  ", begin), text.size());
@@ -49,14 +49,14 @@ void check_folder_is_writable(const fs::path& folder, const fs::path& path) {
 }
 
 /// Returns the folder that a new entry `path` would lie in.
-fs::path parent_folder(const fs::path& path) {
+fs::path find_parent_folder(const fs::path& path) {
     const fs::path named = path.has_filename() ? path : path.parent_path(); // "out/" means "out"
     return named.has_parent_path() ? named.parent_path() : fs::path(".");
 }
 
 void check_parent_folder(const fs::path& path) {
     std::error_code error;
-    const fs::path parent = parent_folder(path);
+    const fs::path parent = find_parent_folder(path);
     check(fs::is_directory(parent, error), Failure::cannot_create, path.string(),
           ": cannot be created: there is no folder ", parent.string());
     check_folder_is_writable(parent, path);
@@ -64,7 +64,7 @@ void check_parent_folder(const fs::path& path) {
 
 } // namespace
 
-void prepare_streams() {
+void prepare_standard_streams() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     for (int stream = 0; stream <= 2; ++stream) {
@@ -80,25 +80,25 @@ void print_result(std::string_view result) {
     write_all_to_stdout(escape_control_characters(result, "\n"));
 }
 
-void print_bytes(std::string_view result) { write_all_to_stdout(result); }
+void print_picture_bytes(std::string_view result) { write_all_to_stdout(result); }
 
 void print_message(const std::string& text) {
-    const std::string whole = make_printable(text) + "\n";
+    const std::string whole = escape_message_text(text) + "\n";
     std::fwrite(whole.data(), 1, whole.size(), stderr); // a failure here cannot be reported
 }
 
-void print_note(const OutputOptions& manners, const std::string& text) {
+void print_note_unless_quiet(const OutputOptions& manners, const std::string& text) {
     if (!manners.quiet) print_message(text);
 }
 
-void print_detail(const OutputOptions& manners, const std::string& text) {
+void print_detail_if_verbose(const OutputOptions& manners, const std::string& text) {
     if (manners.verbose && !manners.quiet) print_message(text);
 }
 
 void print_warning(const std::string& text) { print_message("catoptric: warning: " + text); }
 
-void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
-                     const std::string& where, const fs::path& folder) {
+void throw_incomplete_run(const Error& stopped, std::size_t rows, std::size_t asked,
+                          const std::string& where, const fs::path& folder) {
     fail(stopped.failure, stopped.what(), ", after ", rows, " of ", asked, " rows", where,
          folder.empty() ? ""
          : rows == 0    ? "; nothing was written"
@@ -116,7 +116,7 @@ void check_folder_can_be_made(const fs::path& path) {
     check(!path.empty(), Failure::cannot_create, "wanted the name of a folder, found none");
     std::error_code error;
     fs::path there = path; // the path, or its nearest existing parent
-    while (!fs::exists(fs::symlink_status(there, error))) there = parent_folder(there);
+    while (!fs::exists(fs::symlink_status(there, error))) there = find_parent_folder(there);
     check(fs::is_directory(there, error), Failure::cannot_create, path.string(),
           ": cannot be created: wanted ", there == path ? "" : there.string() + " to be ",
           "a folder, found a file");

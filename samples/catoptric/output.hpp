@@ -20,7 +20,7 @@ struct OutputOptions {
 
 /// Prepares stdin, stdout and stderr. A write to a closed pipe or beyond the file size limit fails
 /// instead of killing the program. Files opened later cannot take the place of a closed stream.
-void prepare_streams();
+void prepare_standard_streams();
 
 /// Writes the result, text or JSON, to stdout and flushes it. Removes characters that a terminal
 /// might obey (`printable`, of whole lines). Throws `Failure::io`, without a message if the reader
@@ -28,22 +28,23 @@ void prepare_streams();
 void print_result(std::string_view result);
 /// Writes the bytes of a picture to stdout unchanged and flushes them. Throws as `print_result`
 /// does.
-void print_bytes(std::string_view result);
+void print_picture_bytes(std::string_view result);
 /// Writes one message to stderr, with the same characters removed as by `print_result`. In a
 /// message of several lines, all lines but the first begin with two spaces. Other line breaks are
 /// escaped.
 void print_message(const std::string& text);
 
-/// Writes a line to stderr: `print_note` unless --quiet, `print_detail` only with -v,
-/// `print_warning` always.
-void print_note(const OutputOptions& manners, const std::string& text);
-void print_detail(const OutputOptions& manners, const std::string& text);
+/// Writes a line to stderr: `print_note_unless_quiet` unless --quiet, `print_detail_if_verbose`
+/// only with -v, `print_warning` always.
+void print_note_unless_quiet(const OutputOptions& manners, const std::string& text);
+void print_detail_if_verbose(const OutputOptions& manners, const std::string& text);
 void print_warning(const std::string& text);
 
 /// Throws the error that ended a run early, with the number of finished rows and their folder.
 /// `folder` is empty if there is none. The message has `where` after the rows.
-[[noreturn]] void fail_incomplete(const Error& stopped, std::size_t rows, std::size_t asked,
-                                  const std::string& where, const std::filesystem::path& folder);
+[[noreturn]] void throw_incomplete_run(const Error& stopped, std::size_t rows, std::size_t asked,
+                                       const std::string& where,
+                                       const std::filesystem::path& folder);
 
 /// Throws `cannot_create` if no file can be made at `path`, before work is spent on it. Reasons are
 /// a missing folder, or a folder of this name.

@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Files by their resolved path and, if they exist, by inode number.
-class KnownFiles {
+class KnownFileIdentities {
 public:
-    struct KnownFile {
+    struct KnownFileIdentity {
         fs::path path; ///< path as the user named it
         bool is_input = false;
     };
     /// Returns the known file that is the same file, or null. Devices and pipes are never the same.
-    const KnownFile* find(const fs::path& path) const {
+    const KnownFileIdentity* find_same_file(const fs::path& path) const {
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;
         if (is_there && !S_ISREG(status.st_mode)) return nullptr;
@@ -31,7 +31,7 @@ public:
         const auto found = numbers_.find({status.st_dev, status.st_ino});
         return is_there && found != numbers_.end() ? &found->second : nullptr;
     }
-    void add(const KnownFile& file) {
+    void add_known_file(const KnownFileIdentity& file) {
         paths_.emplace(resolve_real_path(file.path), file);
         struct stat status {};
         if (::stat(file.path.c_str(), &status) == 0)
@@ -39,8 +39,8 @@ public:
     }
 
 private:
-    std::map<fs::path, KnownFile> paths_;
-    std::map<std::pair<dev_t, ino_t>, KnownFile> numbers_;
+    std::map<fs::path, KnownFileIdentity> paths_;
+    std::map<std::pair<dev_t, ino_t>, KnownFileIdentity> numbers_;
 };
 
 } // namespace
@@ -48,16 +48,16 @@ private:
 void check_outputs_differ_from_inputs(const std::vector<fs::path>& outputs,
                                       const std::vector<fs::path>& inputs,
                                       const std::string& read) {
-    KnownFiles files;
-    for (const fs::path& input : inputs) files.add({input, true});
+    KnownFileIdentities files;
+    for (const fs::path& input : inputs) files.add_known_file({input, true});
     for (const fs::path& output : outputs) {
-        if (const KnownFiles::KnownFile* same = files.find(output)) {
+        if (const KnownFileIdentities::KnownFileIdentity* same = files.find_same_file(output)) {
             check(same->is_input || same->path != output, Failure::usage, output.string(),
                   ": wanted one output in a place, found two");
             fail(Failure::usage, output.string(), ": cannot be written: it is the same file as ",
                  same->path.string(), same->is_input ? read : ", which is written too");
         }
-        files.add({output, false});
+        files.add_known_file({output, false});
     }
 }
 

@@ -42,7 +42,8 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
         "light that rough surfaces scatter several times: none (it is lost) or turquin (none)",
         [&](const std::string& text) {
             check(text == "none" || text == "turquin", Failure::usage,
-                  "--multiple-scattering: wanted none or turquin, found ", quote_printable(text));
+                  "--multiple-scattering: wanted none or turquin, found ",
+                  quote_as_printable_text(text));
             overrides.multiple_scattering = text == "turquin";
         });
 }

@@ -64,7 +64,7 @@ int run_and_get_exit_code(const std::string& name, const std::function<int()>& w
 } // namespace
 
 int run_other_program_guarded(const std::string& name, const std::function<int()>& work) {
-    prepare_streams();
+    prepare_standard_streams();
     const int code = run_and_get_exit_code(name, work);
     if (app::has_abandoned_device())
         std::_Exit(code); // destroying objects that a driver still uses is unsafe

@@ -19,12 +19,12 @@ namespace catoptric::cli {
 
 namespace {
 
-bool is_terminal() {
+bool is_stderr_terminal() {
     const char* term = std::getenv("TERM");
     return ::isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
 }
 
-std::size_t terminal_columns() {
+std::size_t count_terminal_columns() {
     winsize size{};
     const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
     return known ? size.ws_col : 80U;
@@ -47,10 +47,11 @@ std::string format_duration(double seconds) {
 }
 
 ProgressPrinter::ProgressPrinter(const OutputOptions& manners, ProgressOffTerminal off_terminal)
-    : active_(!manners.quiet && (manners.progress == ProgressMode::always ||
-                                 (manners.progress == ProgressMode::automatic && is_terminal()))),
-      rewrites_(is_terminal()),
-      in_tenths_(!active_ && !manners.quiet && manners.progress == ProgressMode::automatic &&
+    : is_active_(!manners.quiet &&
+                 (manners.progress == ProgressMode::always ||
+                  (manners.progress == ProgressMode::automatic && is_stderr_terminal()))),
+      rewrites_(is_stderr_terminal()),
+      in_tenths_(!is_active_ && !manners.quiet && manners.progress == ProgressMode::automatic &&
                  off_terminal == ProgressOffTerminal::tenths) {}
 
 ProgressPrinter::~ProgressPrinter() { clear(); }
@@ -61,7 +62,7 @@ void ProgressPrinter::row(const std::string& label, std::size_t index, std::size
     index_ = index;
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};
-    if (active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label_);
+    if (is_active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label_);
     if (in_tenths_) show_tenth();
 }
 
@@ -80,7 +81,7 @@ std::string ProgressPrinter::time_left(double done) const {
 }
 
 void ProgressPrinter::frame(int number, int total) {
-    if (!active_ || !rewrites_) return;
+    if (!is_active_ || !rewrites_) return;
     const SteadyClock::time_point now = SteadyClock::now();
     if (now - shown_at_ < std::chrono::milliseconds(100)) return;
     shown_at_ = now;
@@ -100,7 +101,7 @@ void ProgressPrinter::clear() {
 }
 
 void ProgressPrinter::show(const std::string& text) {
-    const std::string cut = text.substr(0, terminal_columns() - 1);
+    const std::string cut = text.substr(0, count_terminal_columns() - 1);
     const std::size_t left_over = shown_width_ > cut.size() ? shown_width_ - cut.size() : 0;
     fmt::print(stderr, "\r{}{}", cut, std::string(left_over, ' '));
     std::fflush(stderr);

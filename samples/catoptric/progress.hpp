@@ -41,7 +41,7 @@ private:
     /// Returns the estimated remaining time from the time so far: "0:35".
     std::string time_left(double done) const;
 
-    bool active_ = false;
+    bool is_active_ = false;
     bool rewrites_ = false;
     bool in_tenths_ = false;
     std::size_t tenths_ = 0; ///< tenths that were written

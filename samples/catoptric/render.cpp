@@ -69,7 +69,8 @@ bool wants_only_picture(const RenderOptions& options) {
 /// Returns the files that pictures are written to; none if the picture goes to stdout.
 std::vector<std::string> list_output_files(const RenderOptions& options) {
     if (writes_to_stdout(options)) return {};
-    const std::optional<FileSequence> sequence = FileSequence::find(options.output);
+    const std::optional<PictureFileSequence> sequence = PictureFileSequence::parse_file_sequence(
+        options.output);
     if (!sequence) return {options.output};
     const int frames = options.common.frames.value_or(app::Request().frames);
     check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
@@ -81,12 +82,12 @@ std::vector<std::string> list_output_files(const RenderOptions& options) {
     return files;
 }
 
-void check_output(const RenderOptions& options) {
+void check_output_options(const RenderOptions& options) {
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a picture has one");
     check_budget_option(options.common);
-    require_option(!options.output.empty(), "render", "-o OUT",
-                   "a name ending in .exr or .png, or - for stdout");
+    throw_unless_option_given(!options.output.empty(), "render", "-o OUT",
+                              "a name ending in .exr or .png, or - for stdout");
     check(!writes_to_stdout(options) || !options.common.manners.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
     if (!writes_to_stdout(options)) {
@@ -108,7 +109,7 @@ void check_picture_places(const RenderOptions& options, const scene::Scene& scen
 }
 
 app::Request make_render_request(const RenderOptions& options) {
-    app::Request request = make_request(options.common);
+    app::Request request = make_render_request_of_options(options.common);
     request.techniques = {options.technique};
     request.model = options.common.model.value_or(app::RenderedWork::required);
     if (!wants_only_picture(options)) return request;
@@ -126,12 +127,13 @@ void write_picture(const app::TechniqueResult& part, const std::string& file) {
 /// Renders all frames. In a sequence, each measured frame is written to its file.
 void render_all_frames(app::FrameLoop& frames, const std::vector<std::string>& files, int warmup,
                        const app::Watcher& watcher) {
-    check_stopped(watcher);
+    throw_if_stopped(watcher);
     while (frames.render_next()) {
         const int measured = frames.rendered_frame_count() - warmup;
         if (files.size() > 1 && measured > 0)
-            write_picture(frames.frame().read(), files[static_cast<std::size_t>(measured - 1)]);
-        tell_frame(watcher, frames.rendered_frame_count(), frames.max_frame_count());
+            write_picture(frames.current_frame().read(),
+                          files[static_cast<std::size_t>(measured - 1)]);
+        report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     }
 }
 
@@ -145,7 +147,8 @@ void print_render_summary(const RenderOptions& options, const app::Request& requ
                           const app::RunResult& result) {
     const OutputOptions& manners = options.common.manners;
     const app::TechniqueResult& part = result.parts.front();
-    for (const std::string& what : part.notes) print_note(manners, part.label + ": " + what);
+    for (const std::string& what : part.notes)
+        print_note_unless_quiet(manners, part.label + ": " + what);
     const measure::Mean mean = measure::mean_of(part.hdr, measure::ValueRange::clamped);
     const std::string output = writes_to_stdout(options) ? "stdout" : options.output;
     std::string frames = fmt::format("{} frame{}", result.frames.size(),
@@ -155,12 +158,13 @@ void print_render_summary(const RenderOptions& options, const app::Request& requ
         const measure::SampleSummary ms = measure::summarise_samples(list_gpu_times(result));
         frames = fmt::format("{:.4g} ms [{:.4g} - {:.4g}]", ms.median, ms.p05, ms.p95);
     }
-    print_note(manners, fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}", part.label,
-                                    part.scene_passes, frames, mean.all, output));
-    if (part.slices) print_detail(manners, app::to_text(*part.slices));
+    print_note_unless_quiet(manners,
+                            fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}",
+                                        part.label, part.scene_passes, frames, mean.all, output));
+    if (part.slices) print_detail_if_verbose(manners, app::describe_capture_budget(*part.slices));
     if (request.until_settled) return;
     for (const app::PassTime& pass : result.frames.back().passes)
-        print_detail(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
+        print_detail_if_verbose(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));
 }
 
 void warn_of_nonfinite(const measure::Picture& picture) {
@@ -173,7 +177,7 @@ void warn_of_nonfinite(const measure::Picture& picture) {
 int run_render(const RenderOptions& options) {
     const OutputOptions& manners = options.common.manners;
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
-    check_output(options);
+    check_output_options(options);
     app::Request request = make_render_request(options);
     check_picture_places(options, request.scene);
     if (writes_exr(options)) get_image_codecs(); // fail before rendering if the codecs are missing
@@ -182,7 +186,7 @@ int run_render(const RenderOptions& options) {
 
     ProgressPrinter progress(manners);
     const app::Watcher watcher = make_progress_watcher(progress);
-    tell_row(watcher, choice.label, 0, 1);
+    report_row_to_watcher(watcher, choice.label, 0, 1);
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     app::Session session(engine, std::move(scene));
@@ -194,7 +198,8 @@ int run_render(const RenderOptions& options) {
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);
-    if (files.empty()) print_bytes(measure::encode_picture_png(result.parts.front().display));
+    if (files.empty())
+        print_picture_bytes(measure::encode_picture_png(result.parts.front().display));
     if (files.size() == 1) write_picture(result.parts.front(), files.front());
     if (!options.trace.empty())
         write_file(options.trace, make_trace_json(result.frames.back(),
@@ -211,7 +216,7 @@ int run_render(const RenderOptions& options) {
 
 void add_render_verb(CommandLine& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CommandVerb& verb = program.add("render", "render one picture by one technique or plan");
+    CommandVerb& verb = program.add_verb("render", "render one picture by one technique or plan");
     verb.examples(kRenderExamples);
     add_technique_options(verb, options->drawn);
     verb.option(
@@ -228,7 +233,7 @@ void add_render_verb(CommandLine& program) {
                 options->profile);
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
-    verb.set_action([options] {
+    verb.set_verb_action([options] {
         options->technique = check_technique_choice(options->drawn, "render");
         return run_render(*options);
     });

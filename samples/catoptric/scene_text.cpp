@@ -39,7 +39,7 @@ std::string format_titled_table(const std::string& title, const SceneCells& cell
 }
 
 /// The first factors, metallic and roughness, have columns of their own.
-constexpr std::size_t kFactorColumns = 2;
+constexpr std::size_t kMaterialFactorColumns = 2;
 
 std::string describe_surface_kind(const app::MaterialInfo& material) {
     std::string text;
@@ -48,7 +48,7 @@ std::string describe_surface_kind(const app::MaterialInfo& material) {
     if (material.light == vec3(0) && material.glows) add("glows, lights nothing");
     if (material.is_masked) add("cut by alpha");
     if (!material.is_two_sided) add("front only");
-    for (std::size_t i = kFactorColumns; i < material.factors.size(); ++i)
+    for (std::size_t i = kMaterialFactorColumns; i < material.factors.size(); ++i)
         if (const auto& factor = scene::kMaterialFactors[i];
             material.factors[i] != scene::Material().*factor.member)
             add(fmt::format("{} {:.3g}", factor.name, material.factors[i]));
@@ -76,8 +76,8 @@ SceneCells list_material_cells(const app::SceneInfo& info) {
     return cells;
 }
 
-std::string describe_shape(const scene::MirrorShape& shape) {
-    std::string text = scene::name_of(shape.kind);
+std::string describe_mirror_shape(const scene::MirrorShape& shape) {
+    std::string text = scene::mirror_shape_kind_name(shape.kind);
     text += shape.is_closed ? ", closed" : ", open";
     if (shape.fit)
         text += fmt::format(", radius {:.4g} within {:.2g}", shape.fit->radius, shape.tolerance);
@@ -88,7 +88,7 @@ SceneCells list_mirror_cells(const app::SceneInfo& info) {
     SceneCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
     for (const app::MirrorInfo& mirror : info.mirrors)
         cells.push_back({std::to_string(mirror.number), escape_control_characters(mirror.name),
-                         describe_shape(mirror.shape),
+                         describe_mirror_shape(mirror.shape),
                          fmt::format("{:.1f} %", 100 * mirror.screen_share),
                          format_colour(mirror.reflectance) + (mirror.is_constant ? "" : " and up"),
                          format_point(mirror.capture_centre)});
@@ -114,7 +114,7 @@ std::string describe_lens(const measure::CameraFacts& camera) {
 }
 
 std::string describe_camera(const measure::CameraFacts& camera) {
-    return fmt::format("{}: from {} to {}, {}", quote_printable(camera.name),
+    return fmt::format("{}: from {} to {}, {}", quote_as_printable_text(camera.name),
                        format_point(camera.eye), format_point(camera.target),
                        describe_lens(camera));
 }
@@ -134,7 +134,7 @@ std::string describe_exposure(const SceneInfoFacts& words) {
     // The exposure that `render` finds, for the camera that is given or added.
     const std::string how = words.auto_exposure
                                 ? " (auto, by camera " +
-                                      quote_printable(words.info.facts.camera.name) + ")"
+                                      quote_as_printable_text(words.info.facts.camera.name) + ")"
                                 : "";
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }

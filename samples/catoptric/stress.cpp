@@ -42,7 +42,7 @@ std::string make_stress_text(const report::StressResults& stress) {
     for (const report::StressRow& row : stress.rows) {
         const report::StressCase* worst = row.worst_case();
         const auto figure = [](double value) { return fmt::format("{:.3g}", value); };
-        cells.push_back({row.id, report::name_of(row.verdict),
+        cells.push_back({row.id, report::stress_verdict_name(row.verdict),
                          worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
                          fmt::format("{:.1f}", row.seconds), worst ? worst->what : row.remark});
     }
@@ -50,7 +50,8 @@ std::string make_stress_text(const report::StressResults& stress) {
 }
 
 int run_stress(const StressOptions& options) {
-    for (const std::string& id : options.only) stress::find_property(id); // fails before any work
+    for (const std::string& id : options.only)
+        stress::find_stress_property(id); // fails before any work
     if (!options.folder.empty()) {
         const std::filesystem::path folder = options.folder;
         check_folder_can_be_made(folder);
@@ -67,9 +68,9 @@ int run_stress(const StressOptions& options) {
     if (!options.folder.empty())
         report::create_folder(std::filesystem::path(options.folder) / "images");
     ProgressPrinter progress(options.manners);
-    report::StressWriter writer(options.folder);
+    report::StressReportWriter writer(options.folder);
     const auto write = [&](const report::StressResults& so_far) {
-        if (!options.folder.empty()) writer.write(so_far);
+        if (!options.folder.empty()) writer.write_stress_results(so_far);
     };
     const report::StressResults found = stress::run_stress_properties(
         engine, {.only = options.only,
@@ -82,10 +83,11 @@ int run_stress(const StressOptions& options) {
     if (!found.rows.empty()) write(found); // an earlier table is worth more than an empty one
     print_result(options.manners.json ? report::to_json(found) : make_stress_text(found));
     if (found.stopped)
-        fail_incomplete(*found.stopped, found.rows.size(), found.asked, "", options.folder);
-    if (!options.folder.empty()) print_note(options.manners, "written: " + options.folder);
+        throw_incomplete_run(*found.stopped, found.rows.size(), found.asked, "", options.folder);
+    if (!options.folder.empty())
+        print_note_unless_quiet(options.manners, "written: " + options.folder);
     for (const std::string& part : found.list_parts_not_run())
-        print_note(options.manners, "not run: " + part);
+        print_note_unless_quiet(options.manners, "not run: " + part);
     if (options.device.validate) engine.check_validation();
     return found.has_failed_row() ? static_cast<int>(Failure::threshold) : 0;
 }
@@ -95,8 +97,8 @@ int run_stress(const StressOptions& options) {
 void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<StressOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add("stress",
-                                    "measure properties of extreme scenes against thresholds");
+    CommandVerb& verb = program.add_verb("stress",
+                                         "measure properties of extreme scenes against thresholds");
     verb.examples(kStressExamples);
     verb.option("-o,--output", "DIR",
                 "folder for stress.json, stress.html, stress.md and pictures of failed properties",
@@ -109,7 +111,7 @@ void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
     add_device_options(verb, options->device);
     add_validate_option(verb, options->device);
     add_output_options(verb, options->manners);
-    verb.set_action([options] { return run_stress(*options); });
+    verb.set_verb_action([options] { return run_stress(*options); });
 }
 
 } // namespace catoptric::cli

@@ -47,7 +47,7 @@ std::string format_percent(double share) {
     return std::isfinite(share) ? fmt::format("{:.2f}", 100 * share) : "-";
 }
 
-std::string format_spread(const measure::SampleSummary& ms) {
+std::string format_time_spread(const measure::SampleSummary& ms) {
     if (!ms.ci95.is_known()) return "-";
     return fmt::format("[{} - {}]", format_milliseconds(ms.ci95.low),
                        format_milliseconds(ms.ci95.high));
@@ -83,9 +83,9 @@ std::string make_compare_table(const report::Comparison& comparison) {
     if (has_notes) rows.front().emplace_back("not as asked");
     const std::size_t notes_at = rows.front().size() - (has_notes ? 1 : 0);
     for (const report::Row& row : comparison.rows) {
-        const measure::RankRange places = measure::find_time_places(comparison, row);
+        const measure::TimeRankRange places = measure::find_time_places(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
-                        format_milliseconds(row.gpu_ms.median), format_spread(row.gpu_ms),
+                        format_milliseconds(row.gpu_ms.median), format_time_spread(row.gpu_ms),
                         places.first == 0 ? "-"
                         : places.first == places.last
                             ? std::to_string(places.first)

@@ -24,8 +24,8 @@ std::string check_technique_choice(const TechniqueOption& drawn, const std::stri
     check(technique.empty() || plan.empty(), Failure::usage,
           "--technique and --plan: wanted one of them, found both");
     if (plan.empty()) {
-        require_option(!technique.empty(), verb, "--technique T",
-                       "see 'catoptric list techniques'; or --plan");
+        throw_unless_option_given(!technique.empty(), verb, "--technique T",
+                                  "see 'catoptric list techniques'; or --plan");
         check(app::parse_technique(technique).technique != "plan", Failure::usage,
               "--technique: wanted one technique for all mirrors, found '", technique,
               "'; --plan takes several");

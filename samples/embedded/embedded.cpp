@@ -11,9 +11,9 @@ using namespace catoptric;
 
 namespace {
 
-constexpr std::uint32_t kPictureSide = 160;
+constexpr std::uint32_t kPictureSideInPixels = 160;
 
-void check_vulkan(VkResult result) {
+void throw_unless_vulkan_success(VkResult result) {
     if (result != VK_SUCCESS) throw std::runtime_error("Vulkan: " + std::to_string(result));
 }
 
@@ -23,7 +23,7 @@ embed::Device make_vulkan_device() {
                                         .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo instance{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                         .pApplicationInfo = &application};
-    check_vulkan(vkCreateInstance(&instance, nullptr, &made.instance));
+    throw_unless_vulkan_success(vkCreateInstance(&instance, nullptr, &made.instance));
     std::uint32_t one = 1;
     if (vkEnumeratePhysicalDevices(made.instance, &one, &made.physical) < 0 || one == 0)
         throw std::runtime_error("no Vulkan device");
@@ -36,7 +36,7 @@ embed::Device make_vulkan_device() {
                                     .pNext = &features.core,
                                     .queueCreateInfoCount = 1,
                                     .pQueueCreateInfos = &queue};
-    check_vulkan(vkCreateDevice(made.physical, &device, nullptr, &made.device));
+    throw_unless_vulkan_success(vkCreateDevice(made.physical, &device, nullptr, &made.device));
     vkGetDeviceQueue(made.device, 0, 0, &made.queue);
     return made;
 }
@@ -55,7 +55,7 @@ VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequi
                                                 .allocationSize = wants.size,
                                                 .memoryTypeIndex = i};
             VkDeviceMemory made = VK_NULL_HANDLE;
-            check_vulkan(vkAllocateMemory(own.device, &allocate, nullptr, &made));
+            throw_unless_vulkan_success(vkAllocateMemory(own.device, &allocate, nullptr, &made));
             return made;
         }
     throw std::runtime_error("no memory of this kind");
@@ -64,44 +64,44 @@ VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequi
 /// What the image holds, which is in the layout TRANSFER_SRC_OPTIMAL.
 measure::Picture read_back_image(const embed::Device& own, VkImage image) {
     const VkBufferCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                    .size = 4 * kPictureSide * kPictureSide,
+                                    .size = 4 * kPictureSideInPixels * kPictureSideInPixels,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     VkBuffer buffer = VK_NULL_HANDLE;
-    check_vulkan(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
+    throw_unless_vulkan_success(vkCreateBuffer(own.device, &wanted, nullptr, &buffer));
     VkMemoryRequirements wants;
     vkGetBufferMemoryRequirements(own.device, buffer, &wants);
     const VkDeviceMemory memory = allocate_memory_for(own, wants, true);
-    check_vulkan(vkBindBufferMemory(own.device, buffer, memory, 0));
+    throw_unless_vulkan_success(vkBindBufferMemory(own.device, buffer, memory, 0));
 
     const VkCommandPoolCreateInfo pools{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     VkCommandPool pool = VK_NULL_HANDLE;
-    check_vulkan(vkCreateCommandPool(own.device, &pools, nullptr, &pool));
+    throw_unless_vulkan_success(vkCreateCommandPool(own.device, &pools, nullptr, &pool));
     const VkCommandBufferAllocateInfo allocate{
         .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
         .commandPool = pool,
         .commandBufferCount = 1};
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    check_vulkan(vkAllocateCommandBuffers(own.device, &allocate, &commands));
+    throw_unless_vulkan_success(vkAllocateCommandBuffers(own.device, &allocate, &commands));
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    check_vulkan(vkBeginCommandBuffer(commands, &begin));
+    throw_unless_vulkan_success(vkBeginCommandBuffer(commands, &begin));
     const VkBufferImageCopy all{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
-                                .imageExtent = {kPictureSide, kPictureSide, 1}};
+                                .imageExtent = {kPictureSideInPixels, kPictureSideInPixels, 1}};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &all);
     const VkMemoryBarrier to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
                                   .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
                                   .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                          &to_host, 0, nullptr, 0, nullptr);
-    check_vulkan(vkEndCommandBuffer(commands));
+    throw_unless_vulkan_success(vkEndCommandBuffer(commands));
     const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                               .commandBufferCount = 1,
                               .pCommandBuffers = &commands};
-    check_vulkan(vkQueueSubmit(own.queue, 1, &submit, VK_NULL_HANDLE));
-    check_vulkan(vkQueueWaitIdle(own.queue));
+    throw_unless_vulkan_success(vkQueueSubmit(own.queue, 1, &submit, VK_NULL_HANDLE));
+    throw_unless_vulkan_success(vkQueueWaitIdle(own.queue));
 
     void* bytes = nullptr;
-    check_vulkan(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
-    measure::Picture picture(kPictureSide, kPictureSide);
+    throw_unless_vulkan_success(vkMapMemory(own.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
+    measure::Picture picture(kPictureSideInPixels, kPictureSideInPixels);
     const auto* texel = static_cast<const unsigned char*>(bytes);
     for (vec3& pixel : picture.pixels) {
         pixel = vec3(texel[0], texel[1], texel[2]) / 255.f;
@@ -120,24 +120,24 @@ int main() try {
     const VkImageCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                    .imageType = VK_IMAGE_TYPE_2D,
                                    .format = VK_FORMAT_R8G8B8A8_SRGB,
-                                   .extent = {kPictureSide, kPictureSide, 1},
+                                   .extent = {kPictureSideInPixels, kPictureSideInPixels, 1},
                                    .mipLevels = 1,
                                    .arrayLayers = 1,
                                    .samples = VK_SAMPLE_COUNT_1_BIT,
                                    .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT |
                                             VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
     VkImage image = VK_NULL_HANDLE;
-    check_vulkan(vkCreateImage(own.device, &wanted, nullptr, &image));
+    throw_unless_vulkan_success(vkCreateImage(own.device, &wanted, nullptr, &image));
     VkMemoryRequirements wants;
     vkGetImageMemoryRequirements(own.device, image, &wants);
     const VkDeviceMemory memory = allocate_memory_for(own, wants, false);
-    check_vulkan(vkBindImageMemory(own.device, image, memory, 0));
+    throw_unless_vulkan_success(vkBindImageMemory(own.device, image, memory, 0));
     {
         app::Engine engine = embed::make_engine(own);
         app::Session session(engine, scene::load("cornell-mirrors"), 2);
         const app::FrameSpec spec{.techniques = {"parallax:face=64"},
                                   .camera = session.scene().cameras.front(),
-                                  .size = {kPictureSide, kPictureSide}};
+                                  .size = {kPictureSideInPixels, kPictureSideInPixels}};
         const embed::Target target{image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
         for (int k = 0; k < 5; ++k) embed::render_frame_into(session, spec, target);
         const app::Frame last = embed::render_frame_into(session, spec, target);

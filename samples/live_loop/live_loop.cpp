@@ -14,7 +14,7 @@ using namespace catoptric;
 
 namespace {
 
-scene::Camera walk_camera(scene::Camera camera, double turn) {
+scene::Camera turn_camera_along_path(scene::Camera camera, double turn) {
     const dvec3 arm = camera.eye - camera.target;
     camera.eye = camera.target + dvec3(std::cos(turn) * arm.x + std::sin(turn) * arm.z, arm.y,
                                        std::cos(turn) * arm.z - std::sin(turn) * arm.x);
@@ -39,7 +39,7 @@ void run_live_loop(app::Engine& engine, int frames) {
         place[3].y += 10 * std::sin(.2 * k); // as high as the scene's units have it
         session.change(scene::move(ball, place));
         under_way.push_back(session.frame({.techniques = {"parallax:face=64"},
-                                           .camera = walk_camera(camera, .005 * k),
+                                           .camera = turn_camera_along_path(camera, .005 * k),
                                            .size = {160, 160},
                                            .model = app::RenderedWork::required}));
         if (under_way.size() == 2) finish_oldest();

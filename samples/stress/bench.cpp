@@ -17,7 +17,7 @@ namespace catoptric::stress {
 namespace {
 
 /// Returns the text as a file name of letters, digits and single hyphens.
-std::string make_file_name(const std::string& text) {
+std::string make_picture_file_name(const std::string& text) {
     std::string name;
     for (const char c : text)
         if (std::isalnum(static_cast<unsigned char>(c)))
@@ -35,15 +35,15 @@ bool is_resource_refusal(const Error& error) {
            std::regex_search(std::string(error.what()), kLimitWord);
 }
 
-bool StressBench::is_error_that_ends_run(const Error& error) const {
+bool StressTestBench::is_error_that_ends_run(const Error& error) const {
     const bool is_fault = error.failure == Failure::device_lost ||
                           error.failure == Failure::no_device ||
                           (error.failure == Failure::exhausted && !is_resource_refusal(error));
-    return is_fault || is_stop_signal(error.failure) || !engine_.usable();
+    return is_fault || is_stop_signal(error.failure) || !bench_engine_.usable();
 }
 
-app::Request StressBench::make_request(const scene::Scene& scene, const std::string& technique,
-                                       int frames) const {
+app::Request StressTestBench::make_request(const scene::Scene& scene, const std::string& technique,
+                                           int frames) const {
     app::Request request;
     request.scene = scene;
     request.techniques = {technique};
@@ -55,53 +55,56 @@ app::Request StressBench::make_request(const scene::Scene& scene, const std::str
     return request;
 }
 
-app::TechniqueResult StressBench::render(const app::Request& request) {
-    app::Session session(engine_, request.scene);
+app::TechniqueResult StressTestBench::render_technique(const app::Request& request) {
+    app::Session session(bench_engine_, request.scene);
     app::FrameLoop frames(session, request);
-    while (frames.render_next()) check_stopped(watcher_);
-    return frames.frame().read();
+    while (frames.render_next()) throw_if_stopped(watcher_);
+    return frames.current_frame().read();
 }
 
-void StressBench::compile_plan(const app::Request& request) {
-    app::Session session(engine_, request.scene);
-    app::Access::format_frame_plan(session, request, app::PlanFormat::text);
+void StressTestBench::compile_plan(const app::Request& request) {
+    app::Session session(bench_engine_, request.scene);
+    app::Access::format_frame_plan(session, request, app::GraphPlanFormat::text);
 }
 
-void StressBench::add_flip_case(const std::string& what, const app::TechniqueResult& found,
-                                const app::TechniqueResult& wanted, double limit, bool is_quality) {
+void StressTestBench::add_flip_case(const std::string& what, const app::TechniqueResult& found,
+                                    const app::TechniqueResult& wanted, double limit,
+                                    bool is_quality) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
     row_.cases.push_back(
         {what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
     if (row_.cases.back().is_within_limit()) return;
-    const std::string name = row_.id + "-" + make_file_name(what);
+    const std::string name = row_.id + "-" + make_picture_file_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
         row_.pictures.push_back({name + which, part->display.width, part->display.height,
                                  measure::encode_picture_png(part->display)});
 }
 
-void StressBench::add_nonfinite_case(const std::string& what, const app::TechniqueResult& part) {
-    add_case(what + ": pixels that are no numbers",
-             static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
+void StressTestBench::add_nonfinite_case(const std::string& what,
+                                         const app::TechniqueResult& part) {
+    add_measured_case(what + ": pixels that are no numbers",
+                      static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
 }
 
-bool StressBench::add_success_or_refusal(const std::string& what,
-                                         const std::function<void()>& work) {
+bool StressTestBench::add_success_or_refusal(const std::string& what,
+                                             const std::function<void()>& work) {
     try {
         work();
-        add_case(what + ": done", 0, 0);
+        add_measured_case(what + ": done", 0, 0);
         return true;
     } catch (const Error& error) {
         if (is_error_that_ends_run(error)) throw;
         if (is_resource_refusal(error))
             add_skipped_part(what, error);
         else
-            add_case(what + ": fails: " + error.what(), 1, 0);
+            add_measured_case(what + ": fails: " + error.what(), 1, 0);
         return false;
     }
 }
 
-void StressBench::add_expected_error(const std::string& what, Failure failure,
-                                     const std::string& limit, const std::function<void()>& work) {
+void StressTestBench::add_expected_error(const std::string& what, Failure failure,
+                                         const std::string& limit,
+                                         const std::function<void()>& work) {
     std::string text = "not refused";
     try {
         work();
@@ -109,9 +112,9 @@ void StressBench::add_expected_error(const std::string& what, Failure failure,
         if (is_error_that_ends_run(error)) throw;
         text = error.what();
         if (error.failure == failure && text.find(limit) != text.npos)
-            return add_case(what + ": refused: " + text, 0, 0);
+            return add_measured_case(what + ": refused: " + text, 0, 0);
     }
-    add_case(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
+    add_measured_case(what + ": wanted a refusal that names " + limit + ", found: " + text, 1, 0);
 }
 
 std::size_t count_nonfinite_pixels(const measure::Picture& picture) {
@@ -120,7 +123,7 @@ std::size_t count_nonfinite_pixels(const measure::Picture& picture) {
     }));
 }
 
-double brightest_channel(const measure::Picture& picture) {
+double find_brightest_channel(const measure::Picture& picture) {
     double most = 0;
     for (const vec3& pixel : picture.pixels)
         most = std::max({most, double{pixel.x}, double{pixel.y}, double{pixel.z}});

@@ -11,32 +11,32 @@
 namespace catoptric::stress {
 
 /// Test bench of a property: renders pictures of scenes and adds results to the property's row.
-class StressBench {
+class StressTestBench {
 public:
-    StressBench(app::Engine& engine, const app::Watcher& watcher, uvec2 size, std::uint64_t seed,
-                report::StressRow& row)
-        : engine_(engine), watcher_(watcher), size_(size), random_(seed), row_(row) {}
+    StressTestBench(app::Engine& engine, const app::Watcher& watcher, uvec2 size,
+                    std::uint64_t seed, report::StressRow& row)
+        : bench_engine_(engine), watcher_(watcher), size_(size), random_(seed), row_(row) {}
 
     /// Returns a request for the scene as its first camera sees it, for the picture after `frames`
     /// frames at rest. These are defaults: a property may change any field.
     app::Request make_request(const scene::Scene& scene, const std::string& technique,
                               int frames = 4) const;
-    app::TechniqueResult render(const app::Request& request);
+    app::TechniqueResult render_technique(const app::Request& request);
     /// Renders one frame of a property's own loop. Throws if the user stopped the run.
     app::Frame render_frame(app::Session& session, const app::FrameSpec& spec,
                             const app::FrameHooks& hooks = {}) {
-        check_stopped(watcher_);
+        throw_if_stopped(watcher_);
         return app::Access::render_frame(session, spec, hooks);
     }
     /// Compiles the plan of the request's frame without rendering.
     void compile_plan(const app::Request& request);
-    app::TechniqueResult render(const scene::Scene& scene, const std::string& technique,
-                                int frames = 4) {
-        return render(make_request(scene, technique, frames));
+    app::TechniqueResult render_technique(const scene::Scene& scene, const std::string& technique,
+                                          int frames = 4) {
+        return render_technique(make_request(scene, technique, frames));
     }
 
     /// Adds a measured value and its limit.
-    void add_case(std::string what, double measured, double limit) {
+    void add_measured_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, false});
     }
     /// Adds a measured value that only looks worse beyond its limit and is not wrong.
@@ -63,15 +63,15 @@ public:
     /// device is lost or lacks something, or memory ran out below what the device allows.
     bool is_error_that_ends_run(const Error& error) const;
 
-    app::Engine& engine() { return engine_; }
-    uvec2 size() const { return size_; }
+    app::Engine& bench_engine() { return bench_engine_; }
+    uvec2 picture_size() const { return size_; }
     /// Returns a random number in [low, high).
-    double random_between(double low, double high) {
+    double draw_random_number(double low, double high) {
         return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
     }
 
 private:
-    app::Engine& engine_;
+    app::Engine& bench_engine_;
     const app::Watcher& watcher_;
     uvec2 size_;
     std::mt19937_64 random_;
@@ -84,7 +84,7 @@ bool is_resource_refusal(const Error& error);
 /// Returns the number of pixels with a NaN or infinity.
 std::size_t count_nonfinite_pixels(const measure::Picture& picture);
 /// Returns the largest channel of all pixels, or NaN if a pixel is not finite.
-double brightest_channel(const measure::Picture& picture);
+double find_brightest_channel(const measure::Picture& picture);
 std::size_t count_different_pixels(const measure::Picture& a, const measure::Picture& b);
 
 } // namespace catoptric::stress

@@ -26,11 +26,11 @@ struct FurnaceMeasurement {
     double dark = 0, brightest = 0;
 };
 
-FurnaceMeasurement measure_in_furnace(StressBench& bench, const scene::Scene& scene,
-                                      const std::string& technique, int frames) {
+FurnaceMeasurement measure_picture_in_furnace(StressTestBench& bench, const scene::Scene& scene,
+                                              const std::string& technique, int frames) {
     app::Request request = bench.make_request(scene, technique, frames);
     request.ambient = 0;
-    const app::TechniqueResult part = bench.render(request);
+    const app::TechniqueResult part = bench.render_technique(request);
     FurnaceMeasurement seen;
     for (const vec3& pixel : part.hdr.pixels) {
         seen.dark += !(pixel.x >= .998f);
@@ -41,7 +41,7 @@ FurnaceMeasurement measure_in_furnace(StressBench& bench, const scene::Scene& sc
     return seen;
 }
 
-void judge_balls_in_contact(StressBench& bench) {
+void judge_balls_in_contact(StressTestBench& bench) {
     const std::pair<const char*, std::vector<MirrorBall>> contacts[] = {
         {"on the floor and at the wall", {{{-3, -2, 1}, 1}}},
         {"two that touch", {{{-1, 0, 1}, 1}, {{1, 0, 1}, 1}}},
@@ -49,16 +49,19 @@ void judge_balls_in_contact(StressBench& bench) {
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
     for (const auto& [what, balls] : contacts) {
         const scene::Scene scene = make_furnace(balls);
-        bench.add_case(std::string(what) + ", raytrace:depth=64: dark pixels",
-                       measure_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
-        bench.add_case(std::string(what) + ", reuse, frame 100: brightest of 1",
-                       measure_in_furnace(bench, scene, "reuse:face=32", 100).brightest, 1.002);
-        bench.add_case(std::string(what) + ", pyramid: brightest of 1",
-                       measure_in_furnace(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
+        bench.add_measured_case(
+            std::string(what) + ", raytrace:depth=64: dark pixels",
+            measure_picture_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
+        bench.add_measured_case(
+            std::string(what) + ", reuse, frame 100: brightest of 1",
+            measure_picture_in_furnace(bench, scene, "reuse:face=32", 100).brightest, 1.002);
+        bench.add_measured_case(
+            std::string(what) + ", pyramid: brightest of 1",
+            measure_picture_in_furnace(bench, scene, "pyramid:face=32", 4).brightest, 1.002);
     }
 }
 
-void judge_vanishing_ball(StressBench& bench) {
+void judge_vanishing_ball(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 2);
     const std::size_t mirror = scene.materials.size() - 1;
     const dvec3 place(0, 0, -.3);
@@ -66,7 +69,7 @@ void judge_vanishing_ball(StressBench& bench) {
                                                    {"radius 1e-9", dvec3(1e-9)},
                                                    {"flattened", dvec3(1e-7, 1e-7, 1e-12)}};
     for (const std::string technique : {"raytrace", "parallax", "pyramid"}) {
-        const app::TechniqueResult without = bench.render(scene, technique);
+        const app::TechniqueResult without = bench.render_technique(scene, technique);
         for (const auto& [what, size] : sizes) {
             scene::Scene with = scene;
             add_stress_ball(with, mirror, {place, 1});
@@ -76,13 +79,13 @@ void judge_vanishing_ball(StressBench& bench) {
             // The vanishing mirror comes first, so that it changes the numbers of the others.
             with.objects.pop_back();
             with.objects.insert(with.objects.begin(), gone);
-            bench.add_flip_case(technique + ", " + what, bench.render(with, technique), without,
-                                .0002);
+            bench.add_flip_case(technique + ", " + what, bench.render_technique(with, technique),
+                                without, .0002);
         }
     }
 }
 
-void judge_many_mirrors(StressBench& bench) {
+void judge_many_mirrors(StressTestBench& bench) {
     for (const int mirrors : {0, 1, 2, 16, 64, 1000}) {
         scene::Scene scene = make_furnace({});
         const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
@@ -92,24 +95,25 @@ void judge_many_mirrors(StressBench& bench) {
                 {{-3.5 + .7 * (i % 10), -2.5 + .5 * (i / 10 % 10), .5 * (i / 100)}, .15}, 1);
         const std::string what = std::to_string(mirrors) + " mirrors";
         try {
-            const app::TechniqueResult part = bench.render(scene, "reuse:face=8,shadow=none", 2);
+            const app::TechniqueResult part = bench.render_technique(scene,
+                                                                     "reuse:face=8,shadow=none", 2);
             bench.add_nonfinite_case(what, part);
-            bench.add_case(what + ": passes off N + 1", std::abs(part.scene_passes - (mirrors + 1)),
-                           0);
+            bench.add_measured_case(what + ": passes off N + 1",
+                                    std::abs(part.scene_passes - (mirrors + 1)), 0);
         } catch (const Error& error) {
             if (bench.is_error_that_ends_run(error)) throw;
             if (is_resource_refusal(error) && mirrors == 1000)
                 bench.add_skipped_part(what, error);
             else
-                bench.add_case(what + ": refused otherwise than by a budget: " + error.what(), 1,
-                               0);
+                bench.add_measured_case(
+                    what + ": refused otherwise than by a budget: " + error.what(), 1, 0);
         }
     }
 }
 
-void judge_face_sizes(StressBench& bench) {
+void judge_face_sizes(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 1);
-    const app::TechniqueResult truth = bench.render(scene, "raytrace");
+    const app::TechniqueResult truth = bench.render_technique(scene, "raytrace");
     const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
     const auto mean_of = [&](const app::TechniqueResult& part) {
         return measure::mean_of(part.hdr, measure::ValueRange::clamped, mirrors).all;
@@ -118,18 +122,19 @@ void judge_face_sizes(StressBench& bench) {
     for (const char* face : {"1", "2", "3"})
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
             const std::string text = technique + ":face=" + face;
-            const app::TechniqueResult part = bench.render(scene, text);
+            const app::TechniqueResult part = bench.render_technique(scene, text);
             bench.add_nonfinite_case(text, part);
             // With a few texels, chance decides whether one of them sees the lamp.
             const double mean = mean_of(part);
-            bench.add_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
+            bench.add_measured_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
             bench.add_quality_case(
                 text + ": factor between the mean of mirrors and that of ray tracing",
                 std::max(mean / wanted, wanted / mean), 4);
         }
     // A large capture must show the same as a small one. The plan says whether the device has the
     // memory.
-    const app::TechniqueResult usual = bench.render(scene, "naive:bounces=1,face=1024", 1);
+    const app::TechniqueResult usual = bench.render_technique(scene, "naive:bounces=1,face=1024",
+                                                              1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
             const app::Request request = bench.make_request(scene, technique + face, 1);
@@ -137,7 +142,7 @@ void judge_face_sizes(StressBench& bench) {
                                               [&] { bench.compile_plan(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
-            const app::TechniqueResult large = bench.render(request);
+            const app::TechniqueResult large = bench.render_technique(request);
             if (technique.starts_with("naive"))
                 bench.add_flip_case(technique + face, large, usual, .01);
             else
@@ -148,16 +153,16 @@ void judge_face_sizes(StressBench& bench) {
 }
 
 /// Moves ball 4 through its whole path and compares adjacent frames.
-void judge_moving_ball(StressBench& bench) {
+void judge_moving_ball(StressTestBench& bench) {
     constexpr int kWarmupFrames = 8, kPathFrames = 120;
-    constexpr double kPathSeconds = 4;
+    constexpr double kMotionPathSeconds = 4;
     app::Request request = bench.make_request(scene::make_cornell_mirrors(), "parallax:face=128",
                                               1);
-    app::Session session(bench.engine(), request.scene);
+    app::Session session(bench.bench_engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;
     for (int k = 1; k <= kWarmupFrames + kPathFrames; ++k) {
-        request.time = kPathSeconds * (k - 1) / kPathFrames;
+        request.time = kMotionPathSeconds * (k - 1) / kPathFrames;
         const app::Frame frame = bench.render_frame(session, request);
         if (k < kWarmupFrames) continue;
         measure::Picture now = frame.read().display;
@@ -166,14 +171,14 @@ void judge_moving_ball(StressBench& bench) {
     }
     const double most = *std::ranges::max_element(steps),
                  median = measure::summarise_samples(steps).median;
-    bench.add_case("largest FLIP from frame to frame over the median", most / median, 3);
+    bench.add_measured_case("largest FLIP from frame to frame over the median", most / median, 3);
 }
 
-void judge_parallax_correction(StressBench& bench) {
+void judge_parallax_correction(StressTestBench& bench) {
     const auto contract = [&](const std::string& technique, int frames) {
         app::Request request = bench.make_request(scene::make_cornell_mirrors(), technique, frames);
         request.size = {512, 512}; // ball 4 is only about 30 pixels wide at half this size
-        return bench.render(request);
+        return bench.render_technique(request);
     };
     const app::TechniqueResult truth = contract("raytrace:depth=16", 1),
                                plain = contract("reuse", 8), corrected = contract("parallax", 8);
@@ -183,30 +188,30 @@ void judge_parallax_correction(StressBench& bench) {
                measure::difference(plain.hdr, truth.hdr, mask, no_flip).rmse;
     };
     for (std::uint32_t ball = 1; ball <= 4; ++ball)
-        bench.add_case(fmt::format("ball {}: rmse over uncorrected", ball),
-                       share(measure::mask_one_mirror(truth.hits, MirrorId(ball))), .65);
-    bench.add_case("together: rmse over uncorrected",
-                   share(measure::mask_mirror_pixels(truth.hits)), .5);
+        bench.add_measured_case(fmt::format("ball {}: rmse over uncorrected", ball),
+                                share(measure::mask_one_mirror(truth.hits, MirrorId(ball))), .65);
+    bench.add_measured_case("together: rmse over uncorrected",
+                            share(measure::mask_mirror_pixels(truth.hits)), .5);
 }
 
-const RegisteredProperty kParallaxCorrectionProperty{
+const RegisteredStressProperty kParallaxCorrectionProperty{
     {"N12", "parallax against ray tracing, contract camera, 512x512",
      "better than uncorrected for every ball", judge_parallax_correction, "parallax_mirrored"}};
-const RegisteredProperty kBallsInContactProperty{
+const RegisteredStressProperty kBallsInContactProperty{
     {"C1", "balls that touch wall and floor, each other, overlap, are concentric",
      "no dark ring, no blow-up in 100 frames", judge_balls_in_contact, "rays_start_on_surface"}};
-const RegisteredProperty kVanishingBallProperty{{"C8", "a mirror of radius 0, 1e-9, flattened",
-                                                 "the others are untouched (FLIP)",
-                                                 judge_vanishing_ball, "no_size_no_number"}};
-const RegisteredProperty kManyMirrorsProperty{{"C9", "0, 1, 2, 16, 64, 1000 mirrors",
-                                               "0: no capture; 1000: runs, or a budget message",
-                                               judge_many_mirrors, "later_arrays_not_drawn"}};
-const RegisteredProperty kFaceSizesProperty{
+const RegisteredStressProperty kVanishingBallProperty{
+    {"C8", "a mirror of radius 0, 1e-9, flattened", "the others are untouched (FLIP)",
+     judge_vanishing_ball, "no_size_no_number"}};
+const RegisteredStressProperty kManyMirrorsProperty{
+    {"C9", "0, 1, 2, 16, 64, 1000 mirrors", "0: no capture; 1000: runs, or a budget message",
+     judge_many_mirrors, "later_arrays_not_drawn"}};
+const RegisteredStressProperty kFaceSizesProperty{
     {"C10", "face 1, 2, 3, 4096, 16384, 32769", "runs, or says the bytes, or is refused",
      judge_face_sizes, "most_of_knob_unchecked", "rendering at 16384, which is planned only"}};
-const RegisteredProperty kMovingBallProperty{{"C13", "ball 4 through its whole path, 120 frames",
-                                              "no single-frame pop", judge_moving_ball,
-                                              "motion_ends_early"}};
+const RegisteredStressProperty kMovingBallProperty{
+    {"C13", "ball 4 through its whole path, 120 frames", "no single-frame pop", judge_moving_ball,
+     "motion_ends_early"}};
 
 } // namespace
 

@@ -20,17 +20,17 @@ namespace {
 constexpr int kMaxBounces = 6;        // largest number of bounces
 constexpr double kMaxStepRatio = 0.4; // a step is at most this share of the step before
 
-struct BouncePictures {
+struct TracedBouncePictures {
     std::vector<measure::Picture> pictures; ///< entry k: picture with k bounces
     measure::Mask mirrors;
 };
 
-BouncePictures render_bounces(StressBench& bench, app::Request request, int face = 128) {
+TracedBouncePictures render_bounces(StressTestBench& bench, app::Request request, int face = 128) {
     const auto render = [&](const std::string& technique) {
         request.techniques = {technique};
-        return bench.render(request);
+        return bench.render_technique(request);
     };
-    BouncePictures bounces{{}, measure::mask_mirror_pixels(render("raytrace:depth=1").hits)};
+    TracedBouncePictures bounces{{}, measure::mask_mirror_pixels(render("raytrace:depth=1").hits)};
     for (int k = 0; k <= kMaxBounces; ++k)
         bounces.pictures.push_back(render(fmt::format("naive:face={},bounces={}", face, k)).hdr);
     return bounces;
@@ -39,8 +39,8 @@ BouncePictures render_bounces(StressBench& bench, app::Request request, int face
 /// Returns the rmse between the pictures with k and k + 1 bounces over mirror pixels, k = 0..5.
 /// Adds the case that no pixel gets darker with a further bounce. This holds because captures start
 /// black, and each capture is a weighted mean of captures of the bounce before.
-std::vector<double> compute_bounce_differences(StressBench& bench, const std::string& where,
-                                               const BouncePictures& bounces) {
+std::vector<double> compute_bounce_differences(StressTestBench& bench, const std::string& where,
+                                               const TracedBouncePictures& bounces) {
     const std::vector<float> no_flip(bounces.pictures.front().pixels.size());
     std::vector<double> steps;
     for (std::size_t k = 0; k + 1 < bounces.pictures.size(); ++k) {
@@ -48,27 +48,28 @@ std::vector<double> compute_bounce_differences(StressBench& bench, const std::st
         std::size_t darker = 0;
         for (std::size_t i = 0; i < before.pixels.size(); ++i)
             darker += !all(greaterThanEqual(after.pixels[i], before.pixels[i]));
-        bench.add_case(fmt::format("{}, bounce {}: pixels that got darker", where, k + 1),
-                       double(darker), 0);
+        bench.add_measured_case(fmt::format("{}, bounce {}: pixels that got darker", where, k + 1),
+                                double(darker), 0);
         steps.push_back(measure::difference(before, after, bounces.mirrors, no_flip).rmse);
     }
     return steps;
 }
 
-void add_falling_differences(StressBench& bench, const std::string& where,
-                             const std::vector<double>& steps) {
+void add_case_of_falling_differences(StressTestBench& bench, const std::string& where,
+                                     const std::vector<double>& steps) {
     for (std::size_t k = 1; k < steps.size(); ++k) {
-        bench.add_case(fmt::format("{}, bounce {}: share of the step before", where, k + 1),
-                       steps[k] / steps[k - 1], kMaxStepRatio);
-        bench.add_case(fmt::format("{}, bounce {}: no change", where, k + 1), steps[k] > 0 ? 0 : 1,
-                       0);
+        bench.add_measured_case(
+            fmt::format("{}, bounce {}: share of the step before", where, k + 1),
+            steps[k] / steps[k - 1], kMaxStepRatio);
+        bench.add_measured_case(fmt::format("{}, bounce {}: no change", where, k + 1),
+                                steps[k] > 0 ? 0 : 1, 0);
     }
 }
 
-void judge_cornell_bounces(StressBench& bench) {
+void judge_cornell_bounces(StressTestBench& bench) {
     app::Request request = bench.make_request(scene::make_cornell_mirrors(), "naive", 1);
     request.size = uvec2(512);
-    add_falling_differences(
+    add_case_of_falling_differences(
         bench, "the report's room",
         compute_bounce_differences(bench, "the report's room", render_bounces(bench, request)));
 }
@@ -76,12 +77,12 @@ void judge_cornell_bounces(StressBench& bench) {
 /// Judges a room with small balls. A third image covers one or two of about 4,000 pixels, and
 /// chance decides whether their texels see the lamp. The fall from step to step is therefore
 /// random, so only the fall up to bounce 4 is judged.
-void judge_small_ball_bounces(StressBench& bench) {
+void judge_small_ball_bounces(StressTestBench& bench) {
     const std::vector<double> steps = compute_bounce_differences(
         bench, "a room",
         render_bounces(bench, bench.make_request(make_stress_room(bench, 4), "naive", 1)));
-    bench.add_case("a room, bounce 4: share of the first step", steps[3] / steps[0],
-                   std::pow(kMaxStepRatio, 3.0));
+    bench.add_measured_case("a room, bounce 4: share of the first step", steps[3] / steps[0],
+                            std::pow(kMaxStepRatio, 3.0));
 }
 
 /// Two flat mirrors that face each other in a box that emits 1, with an `angle` between them and
@@ -91,7 +92,7 @@ void judge_small_ball_bounces(StressBench& bench) {
 struct MirrorWedge {
     double reflectance, angle;
 
-    scene::Scene make_scene(dvec3 eye) const {
+    scene::Scene make_wedge_scene(dvec3 eye) const {
         scene::Scene scene = make_furnace({});
         const std::size_t mirror = add_material(
             scene, {.name = "mirror",
@@ -109,7 +110,7 @@ struct MirrorWedge {
         return scene;
     }
     /// Returns whether the radiance is 0 or what up to `most` mirrors leave of 1.
-    bool explains_colour(float radiance, int most) const {
+    bool is_explained_by_mirrors(float radiance, int most) const {
         if (radiance == 0) return true;
         for (int k = 1; k <= most; ++k)
             if (std::abs(radiance / std::pow(reflectance, k) - 1) <= .005) return true;
@@ -120,20 +121,21 @@ struct MirrorWedge {
 /// Judges the wedge, for which two facts hold with any seed. From the third bounce on, a step is
 /// the reflectance times the step before. A pixel that does not mix two bands shows a power of the
 /// reflectance.
-void judge_mirror_wedge(StressBench& bench) {
-    const MirrorWedge wedge{bench.random_between(.2, .3), bench.random_between(.05, .08)};
+void judge_mirror_wedge(StressTestBench& bench) {
+    const MirrorWedge wedge{bench.draw_random_number(.2, .3), bench.draw_random_number(.05, .08)};
     app::Request request = bench.make_request(
-        wedge.make_scene({bench.random_between(-.1, .1), bench.random_between(-.2, .2),
-                          bench.random_between(-.9, -.7)}),
+        wedge.make_wedge_scene({bench.draw_random_number(-.1, .1),
+                                bench.draw_random_number(-.2, .2),
+                                bench.draw_random_number(-.9, -.7)}),
         "naive", 1);
     request.ambient = 0;
-    const BouncePictures bounces = render_bounces(bench, request, 256);
+    const TracedBouncePictures bounces = render_bounces(bench, request, 256);
     const std::string where = fmt::format("mirrors of {:.3f} at {:.3f}", wedge.reflectance,
                                           wedge.angle);
     const std::vector<double> steps = compute_bounce_differences(bench, where, bounces);
-    add_falling_differences(bench, where, steps);
+    add_case_of_falling_differences(bench, where, steps);
     for (std::size_t k = 2; k + 1 < steps.size(); ++k)
-        bench.add_case(
+        bench.add_measured_case(
             fmt::format("{}, bounce {}: share of the step before, off the reflectance by a "
                         "share of",
                         where, k + 1),
@@ -141,20 +143,21 @@ void judge_mirror_wedge(StressBench& bench) {
     std::size_t strange = 0;
     for (std::size_t i = 0; i < bounces.mirrors.size(); ++i)
         strange += bounces.mirrors[i] != 0 &&
-                   !wedge.explains_colour(bounces.pictures.back().pixels[i].x, kMaxBounces);
-    bench.add_case(where + ": share of pixels that no number of mirrors explains",
-                   double(strange) / double(measure::count_mask_pixels(bounces.mirrors)), .2);
+                   !wedge.is_explained_by_mirrors(bounces.pictures.back().pixels[i].x, kMaxBounces);
+    bench.add_measured_case(where + ": share of pixels that no number of mirrors explains",
+                            double(strange) / double(measure::count_mask_pixels(bounces.mirrors)),
+                            .2);
 }
 
-void judge_bounces(StressBench& bench) {
+void judge_bounces(StressTestBench& bench) {
     judge_cornell_bounces(bench);
     judge_small_ball_bounces(bench);
     judge_mirror_wedge(bench);
 }
 
-const RegisteredProperty kBouncesProperty{{"N8", "naive, bounces 0..6",
-                                           "no mirror darkens, steps fall by 2.5 and more",
-                                           judge_bounces, "bounces_capped"}};
+const RegisteredStressProperty kBouncesProperty{{"N8", "naive, bounces 0..6",
+                                                 "no mirror darkens, steps fall by 2.5 and more",
+                                                 judge_bounces, "bounces_capped"}};
 
 } // namespace
 

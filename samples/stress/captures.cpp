@@ -36,96 +36,104 @@ scene::Scene make_room_with_one_mirror(std::size_t mirror) {
 
 /// Returns the cubes of all mirrors, without shadows and ambient light. Other mirrors are black in
 /// them.
-render::CapturedCubes render_captures(StressBench& bench, const scene::Scene& scene,
-                                      std::uint32_t edge, Format format) {
+render::CapturedCubes render_and_read_captures(StressTestBench& bench, const scene::Scene& scene,
+                                               std::uint32_t edge, TexelFormat format) {
     app::Request request = bench.make_request(
-        scene, fmt::format("parallax:shadow=none,face={},distance={}", edge, name_of(format)));
+        scene,
+        fmt::format("parallax:shadow=none,face={},distance={}", edge, texel_format_name(format)));
     request.size = {16, 16};
     request.ambient = 0;
-    app::Session session(bench.engine(), scene);
+    app::Session session(bench.bench_engine(), scene);
     return app::Access::read_captures(
         bench.render_frame(session, request, {.with_captures = true}));
 }
 
-void judge_captured_distances(StressBench& bench) {
-    constexpr std::uint32_t kFaceEdge = 128;
+void judge_captured_distances(StressTestBench& bench) {
+    constexpr std::uint32_t kCaptureFaceEdge = 128;
     constexpr double kMaxStoredDistance =
         200; // largest distance of the seed report's 8-bit storage
     const std::size_t mirrors = scene::mirrors(scene::make_cornell_mirrors()).size();
     const scene::Scene walls = make_room_with_one_mirror(mirrors);
-    const DoubleTracer tracer(walls, 0);
-    for (const Format format : {Format::r32f, Format::r16f})
+    const DoublePrecisionTracer tracer(walls, 0);
+    for (const TexelFormat format : {TexelFormat::r32f, TexelFormat::r16f})
         for (std::size_t mirror = 0; mirror < mirrors; ++mirror) {
             const scene::Scene scene = make_room_with_one_mirror(mirror);
             const dvec3 centre =
                 scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
-            const render::CapturedCubes cubes = render_captures(bench, scene, kFaceEdge, format);
+            const render::CapturedCubes cubes = render_and_read_captures(bench, scene,
+                                                                         kCaptureFaceEdge, format);
             std::size_t off = 0, clamped = 0, far = 0, judged = 0;
-            for_each_cube_texel(
-                kFaceEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-                    const double wanted = tracer.hit_distance(centre, normalize(direction));
-                    const double found = cubes.distance(0, face, x, y, format) / cubes.space.scale;
-                    ++judged, far += wanted > 2 * kMaxStoredDistance;
-                    off += !(std::isinf(wanted) ? std::isinf(found)
-                                                : std::abs(found / wanted - 1) <= 0x1p-10);
-                    clamped += wanted > 1.01 * kMaxStoredDistance && !(found > kMaxStoredDistance);
-                });
-            const std::string what = fmt::format("ball {}, {}", mirror + 1, name_of(format));
-            bench.add_case(what + ": share of texels off by more than 2^-10",
-                           double(off) / double(judged), .001);
-            bench.add_case(what + ": texels clamped at 200", double(clamped), 0);
-            bench.add_case(what + ": no texel beyond 400", far > 0 ? 0 : 1, 0);
+            for_each_cube_texel(kCaptureFaceEdge, [&](const dvec3& direction, int face,
+                                                      std::uint32_t x, std::uint32_t y) {
+                const double wanted = tracer.find_hit_distance(centre, normalize(direction));
+                const double found = cubes.distance(0, face, x, y, format) / cubes.space.scale;
+                ++judged, far += wanted > 2 * kMaxStoredDistance;
+                off += !(std::isinf(wanted) ? std::isinf(found)
+                                            : std::abs(found / wanted - 1) <= 0x1p-10);
+                clamped += wanted > 1.01 * kMaxStoredDistance && !(found > kMaxStoredDistance);
+            });
+            const std::string what = fmt::format("ball {}, {}", mirror + 1,
+                                                 texel_format_name(format));
+            bench.add_measured_case(what + ": share of texels off by more than 2^-10",
+                                    double(off) / double(judged), .001);
+            bench.add_measured_case(what + ": texels clamped at 200", double(clamped), 0);
+            bench.add_measured_case(what + ": no texel beyond 400", far > 0 ? 0 : 1, 0);
         }
 }
 
 /// Judges a wall beside the ball, in each direction in turn, by the centre texel of the face that
 /// looks at it.
-void judge_capture_near_wall(StressBench& bench) {
-    constexpr std::uint32_t kFaceEdge = 65;
-    constexpr double kWallDistance = .6;
+void judge_capture_near_wall(StressTestBench& bench) {
+    constexpr std::uint32_t kCaptureFaceEdge = 65;
+    constexpr double kNearWallDistance = .6;
     for (int face = 0; face < 6; ++face) {
         scene::Scene scene = make_furnace({{{0, 0, 0}, .5}});
         dvec3 lo(-4, -3, -5), hi(4, 3, 5);
-        (face % 2 ? lo : hi)[face / 2] = face % 2 ? -kWallDistance : kWallDistance;
+        (face % 2 ? lo : hi)[face / 2] = face % 2 ? -kNearWallDistance : kNearWallDistance;
         for (int wall = 0; wall < 6; ++wall)
-            scene.meshes[static_cast<std::size_t>(wall)] = scene::wall(wall, lo, hi);
-        const render::CapturedCubes cubes = render_captures(bench, scene, kFaceEdge, Format::r32f);
-        const double found = cubes.distance(0, face, kFaceEdge / 2, kFaceEdge / 2, Format::r32f) /
+            scene.meshes[static_cast<std::size_t>(wall)] = scene::make_box_wall(wall, lo, hi);
+        const render::CapturedCubes cubes = render_and_read_captures(bench, scene, kCaptureFaceEdge,
+                                                                     TexelFormat::r32f);
+        const double found = cubes.distance(0, face, kCaptureFaceEdge / 2, kCaptureFaceEdge / 2,
+                                            TexelFormat::r32f) /
                              cubes.space.scale;
-        bench.add_case(
-            fmt::format("face {}: central texel off {} by a share of", face, kWallDistance),
-            std::abs(found / kWallDistance - 1), .01);
-        bench.add_case(fmt::format("face {}: central texel shows no wall", face),
-                       cubes.colour(0, face, kFaceEdge / 2, kFaceEdge / 2) == vec3(1) ? 0 : 1, 0);
+        bench.add_measured_case(
+            fmt::format("face {}: central texel off {} by a share of", face, kNearWallDistance),
+            std::abs(found / kNearWallDistance - 1), .01);
+        bench.add_measured_case(
+            fmt::format("face {}: central texel shows no wall", face),
+            cubes.colour(0, face, kCaptureFaceEdge / 2, kCaptureFaceEdge / 2) == vec3(1) ? 0 : 1,
+            0);
     }
 }
 
-void judge_captured_glyphs(StressBench& bench) {
-    constexpr std::uint32_t kFaceEdge = 64;
-    constexpr double kEdgeMargin = .001; // share of a wall by which a rasteriser may move its edges
-    const GlyphRoom room;
-    const render::CapturedCubes cubes = render_captures(bench, room.make_scene(), kFaceEdge,
-                                                        Format::r32f);
+void judge_captured_glyphs(StressTestBench& bench) {
+    constexpr std::uint32_t kCaptureFaceEdge = 64;
+    constexpr double kWallEdgeMargin =
+        .001; // share of a wall by which a rasteriser may move its edges
+    const LetterRoom room;
+    const render::CapturedCubes cubes = render_and_read_captures(
+        bench, room.make_letter_room_scene(), kCaptureFaceEdge, TexelFormat::r32f);
     std::array<std::size_t, 6> wrong{}, judged{}, inked{};
-    for_each_cube_texel(kFaceEdge,
-                        [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-                            const GlyphRoom::SeenWallPoint seen = room.seen_wall_point(direction);
-                            if (seen.margin < kEdgeMargin)
-                                return; // the texel's centre may lie on an edge
-                            const auto wall = static_cast<std::size_t>(seen.face);
-                            ++judged[wall], inked[wall] += seen.glyph;
-                            wrong[wall] += cubes.colour(0, face, x, y) != GlyphRoom::colour(seen);
-                        });
+    for_each_cube_texel(
+        kCaptureFaceEdge, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+            const LetterRoom::SeenWallPoint seen = room.seen_wall_point(direction);
+            if (seen.margin < kWallEdgeMargin) return; // the texel's centre may lie on an edge
+            const auto wall = static_cast<std::size_t>(seen.face);
+            ++judged[wall], inked[wall] += seen.glyph;
+            wrong[wall] += cubes.colour(0, face, x, y) != LetterRoom::colour_of_wall_point(seen);
+        });
     for (std::size_t wall = 0; wall < 6; ++wall) {
-        bench.add_case(fmt::format("wall {}: texels of another colour", wall), double(wrong[wall]),
-                       0);
-        bench.add_case(fmt::format("wall {}: fewer than 100 texels of its letter", wall),
-                       inked[wall] < 100 ? 1 : 0, 0);
+        bench.add_measured_case(fmt::format("wall {}: texels of another colour", wall),
+                                double(wrong[wall]), 0);
+        bench.add_measured_case(fmt::format("wall {}: fewer than 100 texels of its letter", wall),
+                                inked[wall] < 100 ? 1 : 0, 0);
     }
-    bench.add_case("share of texels on an edge",
-                   1 - double(std::accumulate(judged.begin(), judged.end(), std::size_t{0})) /
-                           (6.0 * kFaceEdge * kFaceEdge),
-                   .05);
+    bench.add_measured_case(
+        "share of texels on an edge",
+        1 - double(std::accumulate(judged.begin(), judged.end(), std::size_t{0})) /
+                (6.0 * kCaptureFaceEdge * kCaptureFaceEdge),
+        .05);
 }
 
 /// Returns a camera that looks at a mirror ball of radius 1 around 0. The ray through the centre of
@@ -156,12 +164,12 @@ std::size_t count_pixels_near_cube_edges(const scene::Camera& camera, uvec2 size
     return near;
 }
 
-void judge_seams_at_cube_edges(StressBench& bench) {
-    constexpr int kFaceEdge = 64;
-    constexpr uvec2 kPictureSize{128, 128};
-    constexpr float kRoomColour = .7f; // no exact half-float number
+void judge_seams_at_cube_edges(StressTestBench& bench) {
+    constexpr int kCaptureFaceEdge = 64;
+    constexpr uvec2 kCaptureTestPictureSize{128, 128};
+    constexpr float kEmittingRoomColour = .7f; // no exact half-float number
     scene::Scene scene = make_furnace({});
-    scene.materials.front().emission = vec3(kRoomColour);
+    scene.materials.front().emission = vec3(kEmittingRoomColour);
     add_stress_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1},
                     5);
     double step = 0, off = 0;
@@ -169,44 +177,46 @@ void judge_seams_at_cube_edges(StressBench& bench) {
     for (int edge = 0; edge < 12; ++edge) {
         dvec3 wanted;
         const int along = edge / 4;
-        wanted[along] = bench.random_between(-1, 1);
+        wanted[along] = bench.draw_random_number(-1, 1);
         wanted[(along + 1) % 3] = edge & 1 ? 1 : -1;
         wanted[(along + 2) % 3] = edge & 2 ? 1 : -1;
         app::Request request = bench.make_request(
-            scene, fmt::format("naive:bounces=1,shadow=none,face={}", kFaceEdge), 1);
+            scene, fmt::format("naive:bounces=1,shadow=none,face={}", kCaptureFaceEdge), 1);
         request.camera = make_camera_along(normalize(wanted));
-        request.size = kPictureSize;
-        const measure::Picture picture = bench.render(request).hdr;
-        near += count_pixels_near_cube_edges(request.camera, kPictureSize, kFaceEdge);
+        request.size = kCaptureTestPictureSize;
+        const measure::Picture picture = bench.render_technique(request).hdr;
+        near += count_pixels_near_cube_edges(request.camera, kCaptureTestPictureSize,
+                                             kCaptureFaceEdge);
         for (int y = 1; y < picture.height; ++y)
             for (int x = 1; x < picture.width; ++x) {
                 const float here = picture.at(x, y).x;
-                step = std::max<double>({step,
-                                         std::abs(here - picture.at(x - 1, y).x) / kRoomColour,
-                                         std::abs(here - picture.at(x, y - 1).x) / kRoomColour});
-                off = std::max<double>(off, std::abs(here - kRoomColour) / kRoomColour);
+                step = std::max<double>(
+                    {step, std::abs(here - picture.at(x - 1, y).x) / kEmittingRoomColour,
+                     std::abs(here - picture.at(x, y - 1).x) / kEmittingRoomColour});
+                off = std::max<double>(off,
+                                       std::abs(here - kEmittingRoomColour) / kEmittingRoomColour);
                 if (!std::isfinite(here)) step = std::nan("");
             }
     }
-    bench.add_case("largest step from neighbour to neighbour", step, 2.0 / 1024);
-    bench.add_case("largest departure from the room's colour", off, 2.0 / 1024);
-    bench.add_case("directions within two texels of an edge: fewer than 1e5", near < 100000 ? 1 : 0,
-                   0);
+    bench.add_measured_case("largest step from neighbour to neighbour", step, 2.0 / 1024);
+    bench.add_measured_case("largest departure from the room's colour", off, 2.0 / 1024);
+    bench.add_measured_case("directions within two texels of an edge: fewer than 1e5",
+                            near < 100000 ? 1 : 0, 0);
 }
 
-const RegisteredProperty kCapturedDistancesProperty{
+const RegisteredStressProperty kCapturedDistancesProperty{
     {"N11", "distance cubes of the room's four mirrors, r32f and r16f",
      "equal the analytic distance, nothing is clamped at 200", judge_captured_distances,
      "distance_along_axis"}};
-const RegisteredProperty kCaptureNearWallProperty{
+const RegisteredStressProperty kCaptureNearWallProperty{
     {"C3", "a ball with a wall .6 units from its centre",
      "the wall is in the capture, at its distance", judge_capture_near_wall, "near_one"}};
-const RegisteredProperty kCubeEdgesProperty{
+const RegisteredStressProperty kCubeEdgesProperty{
     {"C11", "a room of one colour, 1e5 directions near cube edges", "continuous",
      judge_seams_at_cube_edges, "edge_texels_black"}};
-const RegisteredProperty kCapturedGlyphsProperty{{"C12", "six coloured walls with a letter each",
-                                                  "each face sees its wall, letters read right",
-                                                  judge_captured_glyphs, "face_mirrored"}};
+const RegisteredStressProperty kCapturedGlyphsProperty{
+    {"C12", "six coloured walls with a letter each", "each face sees its wall, letters read right",
+     judge_captured_glyphs, "face_mirrored"}};
 
 } // namespace
 

@@ -15,26 +15,27 @@ namespace {
 
 constexpr int kBallsPerEdge =
     20; // balls along an edge; an array of 2048 layers holds 341 of all 400
-constexpr uvec2 kPictureSize{256, 256};
+constexpr uvec2 kCrowdPictureSize{256, 256};
 
 /// Returns a ball's colour. Two colours differ by more than 3 % in a channel.
-vec3 ball_colour(int ball) {
+vec3 choose_ball_colour(int ball) {
     const auto step = [](int i) { return .4f + .6f * float(i) / (kBallsPerEdge - 1); };
     return {step(ball % kBallsPerEdge), step(ball / kBallsPerEdge), .7f};
 }
 
 /// Returns balls in cells of one colour each, open to the front and the back. There is no light:
 /// with an ambient light of 1, a wall shows its colour.
-scene::Scene make_coloured_cells() {
-    constexpr double kHalfCellWidth = .48, kCellFront = -.3, kCellBack = .8;
+scene::Scene make_room_of_coloured_boxes() {
+    constexpr double kHalfWallCellWidth = .48, kCellFront = -.3, kCellBack = .8;
     scene::Scene scene{.name = "cells"};
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int i = 0; i < kBallsPerEdge * kBallsPerEdge; ++i) {
         const dvec3 centre(i % kBallsPerEdge - (kBallsPerEdge - 1) / 2.0,
                            i / kBallsPerEdge - (kBallsPerEdge - 1) / 2.0, 0);
-        const std::size_t wall = add_material(scene, {.name = "wall", .albedo = ball_colour(i)});
-        const dvec3 lo = centre + dvec3(-kHalfCellWidth, -kHalfCellWidth, kCellFront),
-                    hi = centre + dvec3(kHalfCellWidth, kHalfCellWidth, kCellBack);
+        const std::size_t wall = add_material(scene,
+                                              {.name = "wall", .albedo = choose_ball_colour(i)});
+        const dvec3 lo = centre + dvec3(-kHalfWallCellWidth, -kHalfWallCellWidth, kCellFront),
+                    hi = centre + dvec3(kHalfWallCellWidth, kHalfWallCellWidth, kCellBack);
         for (const int axis : {0, 1})
             for (const dvec3& at : {lo, hi}) {
                 dvec3 a = lo, c = hi;
@@ -50,31 +51,32 @@ scene::Scene make_coloured_cells() {
 }
 
 /// Adds the number of mirrors in which no pixel shows the colour of their own cell.
-void judge_mirrors_in_cells(StressBench& bench) {
-    const scene::Scene scene = make_coloured_cells();
+void judge_mirrors_in_cells(StressTestBench& bench) {
+    const scene::Scene scene = make_room_of_coloured_boxes();
     std::vector<std::uint32_t> hits;
     for (const std::string technique : {"raytrace:depth=1", "reuse:face=8", "parallax:face=8"}) {
         app::Request request = bench.make_request(scene, technique, 1);
-        request.size = kPictureSize;
+        request.size = kCrowdPictureSize;
         request.ambient = 1;
-        const app::TechniqueResult part = bench.render(request);
+        const app::TechniqueResult part = bench.render_technique(request);
         if (hits.empty()) hits = part.hits;
         std::vector<int> own(std::size_t{kBallsPerEdge} * kBallsPerEdge);
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            const auto mirror = measure::first_mirror_of_hit(hits[i]).number();
+            const auto mirror = measure::first_mirror_of_hit_word(hits[i]).mirror_number();
             if (mirror == 0) continue;
-            const vec3 off = abs(part.hdr.pixels[i] / ball_colour(static_cast<int>(mirror) - 1) -
-                                 vec3(1));
+            const vec3 off = abs(
+                part.hdr.pixels[i] / choose_ball_colour(static_cast<int>(mirror) - 1) - vec3(1));
             own[mirror - 1] += std::max({off.x, off.y, off.z}) <= .002f;
         }
         bench.add_nonfinite_case(technique, part);
-        bench.add_case(fmt::format("{}: mirrors of {} in which no pixel shows what is around them",
-                                   technique, own.size()),
-                       double(std::ranges::count(own, 0)), 0);
+        bench.add_measured_case(
+            fmt::format("{}: mirrors of {} in which no pixel shows what is around them", technique,
+                        own.size()),
+            double(std::ranges::count(own, 0)), 0);
     }
 }
 
-const RegisteredProperty kMirrorCellsProperty{
+const RegisteredStressProperty kMirrorCellsProperty{
     {"C14", "400 mirrors, each in a cell of another colour", "each shows its own cell",
      judge_mirrors_in_cells, "first_array_only"}};
 

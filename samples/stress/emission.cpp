@@ -14,11 +14,11 @@ namespace {
 
 /// Returns the number of texels in the captures of `technique` that are clipped at the largest
 /// half.
-double count_saturated_capture_texels(StressBench& bench, const scene::Scene& scene,
+double count_saturated_capture_texels(StressTestBench& bench, const scene::Scene& scene,
                                       const std::string& technique) {
     app::Request request = bench.make_request(scene, technique);
     request.with_lookup = true;
-    return double(bench.render(request).saturated.value());
+    return double(bench.render_technique(request).saturated.value());
 }
 
 /// Frame numbers, from 1: the last frame with the lamp of 1e30, and frames 2 and 20 after its
@@ -26,11 +26,11 @@ double count_saturated_capture_texels(StressBench& bench, const scene::Scene& sc
 constexpr int kFramesWithLamp = 4, kFrameSoonAfter = kFramesWithLamp + 2,
               kFrameLongAfter = kFramesWithLamp + 20;
 
-void judge_lamp_removal(StressBench& bench, const scene::Scene& lit, const scene::Scene& dark,
+void judge_lamp_removal(StressTestBench& bench, const scene::Scene& lit, const scene::Scene& dark,
                         std::size_t lamp, const std::string& technique, const std::string& what) {
     const app::Request request = bench.make_request(lit, technique);
     const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
-    app::Session session(bench.engine(), lit);
+    app::Session session(bench.bench_engine(), lit);
     app::TechniqueResult soon, late;
     for (int k = 1; k <= kFrameLongAfter; ++k) {
         if (k == kFramesWithLamp + 1) session.change(out);
@@ -39,22 +39,22 @@ void judge_lamp_removal(StressBench& bench, const scene::Scene& lit, const scene
         if (k == kFrameSoonAfter) soon = frame.read();
         if (k == kFrameLongAfter) late = frame.read();
     }
-    app::Session untouched(bench.engine(), dark);
+    app::Session untouched(bench.bench_engine(), dark);
     measure::Picture wanted;
     for (int k = 1; k <= kFrameLongAfter; ++k)
         wanted = bench.render_frame(untouched, request).hdr();
-    bench.add_case(what + ", frame 20 without it: pixels unlike a run that never had it",
-                   double(count_different_pixels(late.hdr, wanted)), 0);
+    bench.add_measured_case(what + ", frame 20 without it: pixels unlike a run that never had it",
+                            double(count_different_pixels(late.hdr, wanted)), 0);
     const std::string early = what + ", frame 2 without it: pixels unlike frame 20";
     const double unlike = double(count_different_pixels(soon.hdr, late.hdr));
     // If mirrors use last frame's captures, light travels between them for one frame a mirror.
     if (late.remembers && scene::mirrors(dark).size() > 1)
         bench.add_quality_case(early, unlike, 0);
     else
-        bench.add_case(early, unlike, 0);
+        bench.add_measured_case(early, unlike, 0);
 }
 
-void judge_bright_emission(StressBench& bench) {
+void judge_bright_emission(StressTestBench& bench) {
     for (const int balls : {1, 3}) {
         scene::Scene dark = make_stress_room(bench, balls);
         const std::size_t lamp = add_material(dark, {.name = "second lamp"});
@@ -68,11 +68,11 @@ void judge_bright_emission(StressBench& bench) {
                                fmt::format("emission 1e30, {} balls, {}", balls, technique));
         for (const std::string technique : {"reuse:face=64", "hybrid:face=64"}) {
             const double full = count_saturated_capture_texels(bench, lit, technique);
-            bench.add_case(
+            bench.add_measured_case(
                 fmt::format("emission 1e30, {} balls, {}: none of {} saturated texels is counted",
                             balls, technique, full),
                 full > 0 ? 0 : 1, 0);
-            bench.add_case(
+            bench.add_measured_case(
                 fmt::format("without it, {} balls, {}: texels saturated", balls, technique),
                 count_saturated_capture_texels(bench, dark, technique), 0);
         }
@@ -81,21 +81,21 @@ void judge_bright_emission(StressBench& bench) {
     dim.materials.front().albedo = vec3(1e-40f);
     black.materials.front().albedo = vec3(0);
     for (const std::string technique : {"raytrace", "pyramid"}) {
-        const app::TechniqueResult found = bench.render(dim, technique),
-                                   wanted = bench.render(black, technique);
+        const app::TechniqueResult found = bench.render_technique(dim, technique),
+                                   wanted = bench.render_technique(black, technique);
         double most = 0;
         for (std::size_t i = 0; i < found.hdr.pixels.size(); ++i) {
             const dvec3 off = abs(dvec3(found.hdr.pixels[i]) - dvec3(wanted.hdr.pixels[i]));
             most = std::max({most, off.x, off.y, off.z});
         }
-        bench.add_case(technique + ", albedo 1e-40: radiance unlike that of black", most,
-                       std::numeric_limits<float>::min());
-        bench.add_case(technique + ", albedo 1e-40: pixels shown unlike black",
-                       double(count_different_pixels(found.display, wanted.display)), 0);
+        bench.add_measured_case(technique + ", albedo 1e-40: radiance unlike that of black", most,
+                                std::numeric_limits<float>::min());
+        bench.add_measured_case(technique + ", albedo 1e-40: pixels shown unlike black",
+                                double(count_different_pixels(found.display, wanted.display)), 0);
     }
 }
 
-const RegisteredProperty kBrightEmissionProperty{
+const RegisteredStressProperty kBrightEmissionProperty{
     {"N26", "emission 1e30, taken away in mid-run; albedo 1e-40",
      "saturates, is counted, later frames unharmed; equals black", judge_bright_emission,
      "saturated_uncounted"}};

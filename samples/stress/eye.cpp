@@ -12,7 +12,7 @@ namespace catoptric::stress {
 
 namespace {
 
-struct EyePlacement {
+struct TestedEyePlacement {
     const char* what;
     scene::Camera camera;
 };
@@ -26,9 +26,10 @@ double max_channel_difference(const dvec3& a, const dvec3& b) {
 
 /// Returns the share of pixels that differ from the double tracer by more than
 /// kMaxChannelDifference.
-double share_unlike_double_tracer(const app::TechniqueResult& part, const scene::Scene& scene,
-                                  const app::Request& request) {
-    const DoubleTracer tracer(scene, request.ambient);
+double share_of_pixels_unlike_double_tracer(const app::TechniqueResult& part,
+                                            const scene::Scene& scene,
+                                            const app::Request& request) {
+    const DoublePrecisionTracer tracer(scene, request.ambient);
     std::size_t off = 0;
     for (std::uint32_t y = 0; y < request.size.y; ++y)
         for (std::uint32_t x = 0; x < request.size.x; ++x) {
@@ -40,14 +41,14 @@ double share_unlike_double_tracer(const app::TechniqueResult& part, const scene:
 }
 
 /// Returns how many of 32 rows of the reference show an edge.
-int count_rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera) {
-    constexpr uvec2 kPictureSize{32, 32};
+int count_rows_with_edge(const DoublePrecisionTracer& tracer, const scene::Camera& camera) {
+    constexpr uvec2 kEyeTestPictureSize{32, 32};
     int rows = 0;
-    for (std::uint32_t y = 0; y < kPictureSize.y; ++y) {
+    for (std::uint32_t y = 0; y < kEyeTestPictureSize.y; ++y) {
         bool has_edge = false;
-        dvec3 last = tracer.trace_pixel(camera, kPictureSize, 0, y, 16);
-        for (std::uint32_t x = 1; x < kPictureSize.x; ++x) {
-            const dvec3 next = tracer.trace_pixel(camera, kPictureSize, x, y, 16);
+        dvec3 last = tracer.trace_pixel(camera, kEyeTestPictureSize, 0, y, 16);
+        for (std::uint32_t x = 1; x < kEyeTestPictureSize.x; ++x) {
+            const dvec3 next = tracer.trace_pixel(camera, kEyeTestPictureSize, x, y, 16);
             has_edge |= max_channel_difference(next, last) > kMaxChannelDifference;
             last = next;
         }
@@ -62,7 +63,7 @@ int count_rows_with_edge(const DoubleTracer& tracer, const scene::Camera& camera
 /// edge.
 scene::Camera make_narrow_camera(const scene::Scene& scene, double ambient, int& rows) {
     const Bounds<double> walls = scene::bounds(scene);
-    const DoubleTracer tracer(scene, ambient);
+    const DoublePrecisionTracer tracer(scene, ambient);
     scene::Camera camera = scene.cameras.front();
     camera.vertical_fov_degrees = .01;
     camera.up = normalize(dvec3(.5, 1, 0));
@@ -76,8 +77,8 @@ scene::Camera make_narrow_camera(const scene::Scene& scene, double ambient, int&
 }
 
 /// Returns the share of pixels without a mirror in which two pictures differ.
-double share_differing_beside_mirrors(const app::TechniqueResult& drawn,
-                                      const app::TechniqueResult& traced) {
+double share_of_pixels_differing_off_mirrors(const app::TechniqueResult& drawn,
+                                             const app::TechniqueResult& traced) {
     std::size_t off = 0, seen = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -88,7 +89,7 @@ double share_differing_beside_mirrors(const app::TechniqueResult& drawn,
     return double(off) / double(seen);
 }
 
-void judge_eye_placement(StressBench& bench) {
+void judge_eye_placement(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 2);
     const Bounds<double> walls = scene::bounds(scene);
     scene::Camera low = scene.cameras.front(), wide = low;
@@ -97,36 +98,36 @@ void judge_eye_placement(StressBench& bench) {
     int rows = 0;
     const scene::Camera narrow = make_narrow_camera(
         scene, bench.make_request(scene, "raytrace").ambient, rows);
-    bench.add_case("field of view .01: rows of 32 without an edge", 32 - rows, 16);
-    for (const EyePlacement& eye : {EyePlacement{"1e-3 above the floor", low},
-                                    {"field of view .01", narrow},
-                                    {"field of view 179.9", wide}}) {
+    bench.add_measured_case("field of view .01: rows of 32 without an edge", 32 - rows, 16);
+    for (const TestedEyePlacement& eye : {TestedEyePlacement{"1e-3 above the floor", low},
+                                          {"field of view .01", narrow},
+                                          {"field of view 179.9", wide}}) {
         app::Request request = bench.make_request(scene, "raytrace:sphere=exact,depth=16");
         request.camera = eye.camera;
         const auto render = [&](const std::string& technique) {
             request.techniques = {technique};
-            return bench.render(request);
+            return bench.render_technique(request);
         };
         const app::TechniqueResult traced = render("raytrace:sphere=exact,depth=16");
         bench.add_nonfinite_case(fmt::format("{}, raytrace", eye.what), traced);
-        bench.add_case(
+        bench.add_measured_case(
             fmt::format("{}, raytrace: share of pixels more than .01 off a reference in doubles",
                         eye.what),
-            share_unlike_double_tracer(traced, scene, request), .005);
+            share_of_pixels_unlike_double_tracer(traced, scene, request), .005);
         bench.add_nonfinite_case(fmt::format("{}, pyramid", eye.what), render("pyramid"));
         // A texel of the shadow map is wider than the narrow picture, so neither picture has
         // shadows.
-        bench.add_case(
+        bench.add_measured_case(
             fmt::format("{}, pyramid: share of pixels beside mirrors more than .01 off ray "
                         "tracing, both without shadows",
                         eye.what),
-            share_differing_beside_mirrors(render("pyramid:shadow=none"),
-                                           render("raytrace:sphere=exact,shadow=none")),
+            share_of_pixels_differing_off_mirrors(render("pyramid:shadow=none"),
+                                                  render("raytrace:sphere=exact,shadow=none")),
             .005);
     }
 }
 
-const RegisteredProperty kEyePlacementProperty{
+const RegisteredStressProperty kEyePlacementProperty{
     {"N24", "camera 1e-3 above the floor; field of view .01 and 179.9",
      "finite; as a reference in doubles", judge_eye_placement, "near_of_eye_fixed"}};
 

@@ -15,35 +15,36 @@ namespace catoptric::stress {
 
 namespace {
 
-struct EyePosition {
+struct TestedEyePosition {
     const char* what;
     scene::Camera camera;
     bool inside;
 };
 
-void judge_eye_positions(StressBench& bench, const scene::Scene& scene, const scene::Sphere& ball) {
+void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
+                         const scene::Sphere& ball) {
     const dvec3 out = normalize(dvec3(.3, .4, .8)), along = normalize(cross(out, dvec3(0, 1, 0)));
     const auto eye = [&](double radii, const dvec3& direction) {
         const dvec3 place = ball.centre + radii * ball.radius * out;
         return scene::Camera{.eye = place, .target = place + direction, .vertical_fov_degrees = 60};
     };
-    const EyePosition places[] = {
+    const TestedEyePosition places[] = {
         {"at the centre", eye(0, out), true},
         {"halfway out", eye(.5, out), true},
         {"just under the surface, looking along it", eye(.99, along), true},
         {"on the surface, looking away", eye(1, out), false},
         {"on the surface, looking along it", eye(1, along), false},
         {"on the surface, looking at it", eye(1, -out), false}};
-    for (const EyePosition& place : places) {
+    for (const TestedEyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
             app::Request request = bench.make_request(scene, technique);
             request.camera = place.camera;
-            return bench.render(request);
+            return bench.render_technique(request);
         };
         const app::TechniqueResult traced = render("raytrace:depth=16");
         if (place.inside)
-            bench.add_case(fmt::format("{}, raytrace: brightest of 0", place.what),
-                           brightest_channel(traced.hdr), 0);
+            bench.add_measured_case(fmt::format("{}, raytrace: brightest of 0", place.what),
+                                    find_brightest_channel(traced.hdr), 0);
         for (const std::string technique : {"parallax", "pyramid", "hybrid"})
             bench.add_flip_case(fmt::format("{}, {}", place.what, technique), render(technique),
                                 traced, .03);
@@ -60,7 +61,7 @@ void judge_eye_positions(StressBench& bench, const scene::Scene& scene, const sc
 }
 
 /// Judges a ball that moves over the eye. Frames must be black exactly while the eye is inside.
-void judge_ball_over_eye(StressBench& bench, scene::Scene scene) {
+void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     constexpr int kSettlingFrames = 16;
     scene::Object& object = scene.objects.back();
     const double reach = 3 * object.sphere->radius;
@@ -70,7 +71,7 @@ void judge_ball_over_eye(StressBench& bench, scene::Scene scene) {
     for (const std::string technique : {"raytrace", "parallax"}) {
         app::Request request = bench.make_request(scene, technique, kSettlingFrames);
         request.camera = camera;
-        app::Session session(bench.engine(), scene);
+        app::Session session(bench.bench_engine(), scene);
         int wrong = 0, inside = 0;
         for (int k = 0; k < kSettlingFrames; ++k) {
             request.time = double(k) / kSettlingFrames;
@@ -80,27 +81,27 @@ void judge_ball_over_eye(StressBench& bench, scene::Scene scene) {
                                          object.sphere->radius;
             if (std::abs(depth) < .01) continue; // the eye is between the mesh and its sphere
             inside += depth > 0;
-            wrong += (brightest_channel(frame.hdr()) == 0) != (depth > 0);
+            wrong += (find_brightest_channel(frame.hdr()) == 0) != (depth > 0);
         }
-        bench.add_case(
+        bench.add_measured_case(
             fmt::format(
                 "a ball moves over the eye, {}: frames that are black outside or lit inside",
                 technique),
             wrong, 0);
-        bench.add_case(
+        bench.add_measured_case(
             fmt::format("a ball moves over the eye, {}: too few frames inside or outside",
                         technique),
             inside < 4 || inside > kSettlingFrames - 4 ? 1 : 0, 0);
     }
 }
 
-void judge_eye_inside_mirror(StressBench& bench) {
+void judge_eye_inside_mirror(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 2);
     judge_eye_positions(bench, scene, *scene.objects.back().sphere);
     judge_ball_over_eye(bench, scene);
 }
 
-const RegisteredProperty kEyeInsideMirrorProperty{
+const RegisteredStressProperty kEyeInsideMirrorProperty{
     {"C5", "camera inside a ball, at its centre, touching it; a ball moves over it",
      "a closed mirror is black from inside, in both worlds (FLIP)", judge_eye_inside_mirror,
      "mirrors_one_sided",

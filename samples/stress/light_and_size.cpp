@@ -20,7 +20,7 @@ scene::Scene move_lamp_corners(scene::Scene scene, const std::function<dvec3(dve
     return scene;
 }
 
-void judge_lamp_position(StressBench& bench) {
+void judge_lamp_position(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 2);
     dvec3 ball(0), lamp(0);
     for (const scene::Object& object : scene.objects) {
@@ -41,7 +41,7 @@ void judge_lamp_position(StressBench& bench) {
     for (const auto& [what, moved] : places)
         for (const std::string technique : {"raytrace", "parallax"})
             bench.add_nonfinite_case(std::string(what) + ", " + technique,
-                                     bench.render(moved, technique));
+                                     bench.render_technique(moved, technique));
     // The lamp is above the ceiling and turned upwards, so only the ambient term is left.
     scene::Scene away = move_lamp_corners(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
@@ -52,31 +52,31 @@ void judge_lamp_position(StressBench& bench) {
         if (dark.materials[object.material].emission != vec3(0))
             dark.materials[object.material].emission = vec3(0);
     for (const std::string technique : {"raytrace", "reuse"}) {
-        const app::TechniqueResult a = bench.render(away, technique),
-                                   b = bench.render(dark, technique);
+        const app::TechniqueResult a = bench.render_technique(away, technique),
+                                   b = bench.render_technique(dark, technique);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < a.hdr.pixels.size(); ++i)
             differ += a.hdr.pixels[i] != b.hdr.pixels[i] &&
                       a.hdr.pixels[i].x < 1; // the lamp itself may be seen
-        bench.add_case("facing away, " + technique + ": lit pixels", double(differ), 0);
+        bench.add_measured_case("facing away, " + technique + ": lit pixels", double(differ), 0);
     }
 }
 
-void judge_picture_sizes(StressBench& bench) {
+void judge_picture_sizes(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
         for (const std::string technique : {"raytrace", "parallax:face=32"}) {
             app::Request request = bench.make_request(scene, technique, 2);
             request.size = size;
             bench.add_nonfinite_case(fmt::format("{}x{}, {}", size.x, size.y, technique),
-                                     bench.render(request));
+                                     bench.render_technique(request));
         }
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
         bench.add_expected_error(fmt::format("{}x{}", size.x, size.y), Failure::usage,
                                  "at least 1x1", [&] {
                                      app::Request request = bench.make_request(scene, "raytrace");
                                      request.size = size;
-                                     bench.render(request);
+                                     bench.render_technique(request);
                                  });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
         bench.add_expected_error(fmt::format("{}x{}", size.x, size.y), Failure::exhausted,
@@ -93,7 +93,7 @@ void judge_picture_sizes(StressBench& bench) {
     }
     app::Request large = bench.make_request(scene, "raytrace", 1);
     large.size = {4096, 4096};
-    bench.add_nonfinite_case("4096x4096, raytrace", bench.render(large));
+    bench.add_nonfinite_case("4096x4096, raytrace", bench.render_technique(large));
 }
 
 /// Returns the number of black pixels in the middle ninth of a picture.
@@ -123,7 +123,7 @@ scene::Mesh make_rippled_grid(std::uint32_t n) {
     return mesh;
 }
 
-void judge_triangle_counts(StressBench& bench) {
+void judge_triangle_counts(StressTestBench& bench) {
     scene::Scene empty{.name = "empty"};
     empty.cameras.push_back({.eye = {0, 0, -3}, .target = {0, 0, 0}});
     scene::Scene one = empty, many = empty;
@@ -137,42 +137,43 @@ void judge_triangle_counts(StressBench& bench) {
                     9); // 4^10 triangles
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
-            const app::TechniqueResult part = bench.render(scene, technique, 2);
+            const app::TechniqueResult part = bench.render_technique(scene, technique, 2);
             bench.add_nonfinite_case(what + ", " + technique, part);
             double bright = 0;
             for (const vec3& pixel : part.hdr.pixels) bright += pixel.x > .5f;
             return bright / double(part.hdr.pixels.size());
         };
-        bench.add_case("empty, " + technique + ": pixels that are not background",
-                       sum(empty, "empty"), 0);
-        bench.add_case("one triangle, " + technique + ": not seen",
-                       sum(one, "one triangle") > .1 ? 0 : 1, 0);
+        bench.add_measured_case("empty, " + technique + ": pixels that are not background",
+                                sum(empty, "empty"), 0);
+        bench.add_measured_case("one triangle, " + technique + ": not seen",
+                                sum(one, "one triangle") > .1 ? 0 : 1, 0);
     }
     const auto start = std::chrono::steady_clock::now();
-    const app::TechniqueResult part = bench.render(many, "raytrace", 1);
-    bench.add_case("1,048,576 triangles, raytrace: seconds from mesh to picture",
-                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                   30);
+    const app::TechniqueResult part = bench.render_technique(many, "raytrace", 1);
+    bench.add_measured_case(
+        "1,048,576 triangles, raytrace: seconds from mesh to picture",
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
     bench.add_nonfinite_case("1,048,576 triangles, raytrace", part);
     scene::Scene ten = empty;
     add_mesh(ten, make_rippled_grid(2237),
              add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
     bench.add_success_or_refusal("10,008,338 triangles, raytrace", [&] {
-        const app::TechniqueResult seen = bench.render(ten, "raytrace", 1);
+        const app::TechniqueResult seen = bench.render_technique(ten, "raytrace", 1);
         bench.add_nonfinite_case("10,008,338 triangles, raytrace", seen);
-        bench.add_case("10,008,338 triangles, raytrace: pixels of the middle that show none",
-                       count_black_pixels(seen.hdr), 0);
+        bench.add_measured_case(
+            "10,008,338 triangles, raytrace: pixels of the middle that show none",
+            count_black_pixels(seen.hdr), 0);
     });
 }
 
-const RegisteredProperty kLampPositionProperty{
+const RegisteredStressProperty kLampPositionProperty{
     {"L1", "light inside a ball, on the ceiling, at the camera, facing away",
      "finite; unlit where it faces away", judge_lamp_position, "lamp_without_normal"}};
-const RegisteredProperty kPictureSizesProperty{
+const RegisteredStressProperty kPictureSizesProperty{
     {"Z1", "picture 1x1, 1x16384, 16384x1, 4096x4096, 16384x16384, 0x0, 65536x65536",
      "works, or is refused with the limit", judge_picture_sizes, "no_width_taken",
      "rendering 16384x16384, which is planned only"}};
-const RegisteredProperty kTriangleCountsProperty{
+const RegisteredStressProperty kTriangleCountsProperty{
     {"Z2", "empty scene, one triangle, a million, ten million",
      "background; finite; a million in 30 s; runs or names the limit", judge_triangle_counts,
      "places_in_22_bits"}};

@@ -11,7 +11,7 @@ namespace {
 
 /// Returns Smith's Lambda: the area of microfacets that hide others from a direction, over the area
 /// that the direction sees. `z` is the cosine between the direction and the normal.
-double smith_lambda(double alpha, double z) {
+double compute_smith_lambda(double alpha, double z) {
     const double slope = alpha * std::sqrt(1 / (z * z) - 1);
     return (std::sqrt(1 + slope * slope) - 1) / 2;
 }
@@ -19,15 +19,15 @@ double smith_lambda(double alpha, double z) {
 } // namespace
 
 double compute_lobe_albedo(double roughness, double degrees) {
-    constexpr int kSlopeSteps = 512, kTurnSteps = 512;
+    constexpr int kMicrofacetSlopeSteps = 512, kTurnSteps = 512;
     const double alpha = roughness * roughness, angle = degrees * std::numbers::pi / 180;
     const dvec3 to_eye(std::sin(angle), 0, std::cos(angle));
     double sum = 0;
-    for (int k = 0; k < kSlopeSteps; ++k) {
+    for (int k = 0; k < kMicrofacetSlopeSteps; ++k) {
         // Slopes of the microfacets from 0 to infinity, in units of alpha.
-        const double s = (k + .5) / kSlopeSteps, slope = s / (1 - s);
+        const double s = (k + .5) / kMicrofacetSlopeSteps, slope = s / (1 - s);
         const double density = 2 * slope / std::pow(1 + slope * slope, 2);
-        const double share = density / ((1 - s) * (1 - s)) / kSlopeSteps / kTurnSteps;
+        const double share = density / ((1 - s) * (1 - s)) / kMicrofacetSlopeSteps / kTurnSteps;
         for (int j = 0; j < kTurnSteps; ++j) {
             const double turn = std::numbers::pi * (j + .5) / kTurnSteps; // the lobe is symmetric
             const dvec3 facet = normalize(
@@ -37,7 +37,8 @@ double compute_lobe_albedo(double roughness, double degrees) {
             if (cosine <= 0 || to_light.z <= 0) continue;
             const double seen_area = cosine / (facet.z * to_eye.z);
             sum += share * seen_area /
-                   (1 + smith_lambda(alpha, to_eye.z) + smith_lambda(alpha, to_light.z));
+                   (1 + compute_smith_lambda(alpha, to_eye.z) +
+                    compute_smith_lambda(alpha, to_light.z));
         }
     }
     return sum;

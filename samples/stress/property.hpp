@@ -13,7 +13,7 @@ namespace catoptric::stress {
 struct StressProperty {
     std::string_view id, stimulus, property;
     /// Renders its scenes and adds cases to the row.
-    void (*judge)(StressBench& bench) = nullptr;
+    void (*judge)(StressTestBench& bench) = nullptr;
     /// Name of the rule in tests/mutations/rules.toml whose wrong code makes this row fail.
     std::string_view turned_red_by = {};
     std::string_view not_covered = {}; ///< part of the property that `judge` does not check
@@ -21,13 +21,13 @@ struct StressProperty {
 
 /// Registers a property. Define it at namespace scope: the property enters the table while the
 /// program starts.
-struct RegisteredProperty {
-    explicit RegisteredProperty(const StressProperty& property);
+struct RegisteredStressProperty {
+    explicit RegisteredStressProperty(const StressProperty& property);
 };
 
 /// Returns all properties in the order of their ids: letter, then number.
-std::vector<const StressProperty*> list_properties();
+std::vector<const StressProperty*> list_stress_properties();
 /// Returns the property with this id. Throws `Failure::usage` with the nearest id if there is none.
-const StressProperty& find_property(std::string_view id);
+const StressProperty& find_stress_property(std::string_view id);
 
 } // namespace catoptric::stress

@@ -11,12 +11,12 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr std::uint32_t kStripPixels = 32; // width of a strip in the picture
-constexpr uvec2 kFloorPicture{kStripPixels * kStripRoughness.size(), 32};
+constexpr std::uint32_t kStripWidthPixels = 32; // width of a strip in the picture
+constexpr uvec2 kFloorPictureSize{kStripWidthPixels * kFloorStripRoughness.size(), 32};
 
 /// Returns an environment of radiance 1. All scenes share it, because the engine filters each
 /// environment once and keeps the result.
-std::shared_ptr<const scene::Environment> white_environment() {
+std::shared_ptr<const scene::Environment> make_white_environment() {
     static const auto kEnvironment = [] {
         auto map = std::make_shared<scene::Environment>();
         map->size = {128, 64};
@@ -40,17 +40,17 @@ scene::Material make_white_plastic() {
 }
 
 scene::Scene make_rough_floor(const scene::Material& material, double degrees, bool is_mirror) {
-    constexpr double kWidth = 1, kPictureHeight = kWidth;
+    constexpr double kFloorWidth = 1, kPictureHeight = kFloorWidth;
     const double angle = degrees * std::numbers::pi / 180, cosine = std::cos(angle),
                  sine = std::sin(angle);
     scene::Scene scene{.name = "rough floor", .mirror_max_roughness = 1};
-    scene.environment = white_environment();
+    scene.environment = make_white_environment();
     const double depth = kPictureHeight / cosine; // twice what the camera sees
-    double left = -kWidth * kStripRoughness.size() / 2;
-    for (const double roughness : kStripRoughness) {
+    double left = -kFloorWidth * kFloorStripRoughness.size() / 2;
+    for (const double roughness : kFloorStripRoughness) {
         scene::Material strip = material;
         strip.roughness = static_cast<float>(roughness);
-        const double right = left + kWidth;
+        const double right = left + kFloorWidth;
         add_stress_quad(scene, add_material(scene, strip), {left, 0, depth}, {right, 0, depth},
                         {right, 0, -depth}, {left, 0, -depth});
         scene.objects.back().mirror = is_mirror;
@@ -65,16 +65,17 @@ scene::Scene make_rough_floor(const scene::Material& material, double degrees, b
     return scene;
 }
 
-std::array<double, kStripRoughness.size()>
-measure_strips(StressBench& bench, const scene::Scene& floor, const std::string& technique) {
+std::array<double, kFloorStripRoughness.size()>
+measure_strips(StressTestBench& bench, const scene::Scene& floor, const std::string& technique) {
     app::Request request = bench.make_request(floor, technique, 2);
-    request.size = kFloorPicture;
+    request.size = kFloorPictureSize;
     request.ambient = 0;
-    const measure::Picture picture = bench.render(request).hdr;
-    std::array<double, kStripRoughness.size()> means{};
+    const measure::Picture picture = bench.render_technique(request).hdr;
+    std::array<double, kFloorStripRoughness.size()> means{};
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-        means[i % kFloorPicture.x / kStripPixels] += picture.pixels[i].x /
-                                                     double(kStripPixels * kFloorPicture.y);
+        means[i % kFloorPictureSize.x / kStripWidthPixels] += picture.pixels[i].x /
+                                                              double(kStripWidthPixels *
+                                                                     kFloorPictureSize.y);
     return means;
 }
 

@@ -8,7 +8,7 @@
 namespace catoptric::stress {
 
 /// Roughness of the strips, from left to right.
-constexpr std::array kStripRoughness{.05, .1, .2, .3, .5, .7, .85, 1.};
+constexpr std::array kFloorStripRoughness{.05, .1, .2, .3, .5, .7, .85, 1.};
 
 /// Returns the floor, seen from far away at `degrees` from its normal. It fills the picture, and
 /// every pixel sees it at this angle. `material` gives all of the material except the roughness.
@@ -22,7 +22,7 @@ scene::Material make_white_plastic();
 
 /// Returns the mean radiance of each strip in a picture of the floor that `technique` renders
 /// without ambient light. NaN if a pixel of the strip is not finite.
-std::array<double, kStripRoughness.size()>
-measure_strips(StressBench& bench, const scene::Scene& floor, const std::string& technique);
+std::array<double, kFloorStripRoughness.size()>
+measure_strips(StressTestBench& bench, const scene::Scene& floor, const std::string& technique);
 
 } // namespace catoptric::stress

@@ -37,7 +37,7 @@ report::StressRow judge_property(app::Engine& engine, const StressRequest& reque
                           {},
                           std::string(property.turned_red_by)};
     const auto start = std::chrono::steady_clock::now();
-    StressBench bench(engine, request.watcher, request.size, request.seed, row);
+    StressTestBench bench(engine, request.watcher, request.size, request.seed, row);
     try {
         property.judge(bench);
         check(!row.cases.empty() || !row.not_run.empty(), Failure::internal, "property ", row.id,
@@ -63,8 +63,8 @@ report::StressRow judge_property(app::Engine& engine, const StressRequest& reque
 
 report::StressResults run_stress_properties(app::Engine& engine, const StressRequest& request) {
     std::vector<const StressProperty*> chosen;
-    for (const std::string& id : request.only) chosen.push_back(&find_property(id));
-    if (chosen.empty()) chosen = list_properties();
+    for (const std::string& id : request.only) chosen.push_back(&find_stress_property(id));
+    if (chosen.empty()) chosen = list_stress_properties();
     report::StressResults stress{app::version(),
                                  app::commit(),
                                  request.command,
@@ -78,7 +78,7 @@ report::StressResults run_stress_properties(app::Engine& engine, const StressReq
                                  {}};
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            tell_row(request.watcher, std::string(chosen[i]->id), i, chosen.size());
+            report_row_to_watcher(request.watcher, std::string(chosen[i]->id), i, chosen.size());
             stress.rows.push_back(judge_property(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }

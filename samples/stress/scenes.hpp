@@ -14,7 +14,7 @@ struct MirrorBall {
 /// Returns a room about 4 units wide with an open front, coloured walls and a lamp under the
 /// ceiling. Up to 8 mirror balls, which do not touch, are on the floor. The camera is in front of
 /// the room.
-scene::Scene make_stress_room(StressBench& bench, int balls);
+scene::Scene make_stress_room(StressTestBench& bench, int balls);
 
 /// Returns a closed box about 8 units wide with mirror balls. Each point of the box emits exactly 1
 /// and reflects nothing.
@@ -34,9 +34,9 @@ void add_stress_ball(scene::Scene& scene, std::size_t material, const MirrorBall
 /// shear, so that exact spheres stay spheres.
 scene::Scene transform_scene(const scene::Scene& scene, const dmat4& root);
 
-dmat4 scale_matrix(double factor);
-dmat4 translation_matrix(dvec3 by);
+dmat4 make_scale_matrix(double factor);
+dmat4 make_translation_matrix(dvec3 by);
 /// Returns the rotation about an axis of any length.
-dmat4 rotation_matrix(double radians, dvec3 axis);
+dmat4 make_rotation_matrix(double radians, dvec3 axis);
 
 } // namespace catoptric::stress

@@ -32,7 +32,7 @@ scene::Scene make_half_rough_room(const scene::Scene& room, const scene::Materia
 }
 
 /// Returns the largest difference of a channel, or NaN if a pixel is not finite.
-double largest_difference(const measure::Picture& a, const measure::Picture& b) {
+double largest_channel_difference(const measure::Picture& a, const measure::Picture& b) {
     if (count_nonfinite_pixels(a) + count_nonfinite_pixels(b) > 0) return std::nan("");
     double largest = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
@@ -44,31 +44,32 @@ double largest_difference(const measure::Picture& a, const measure::Picture& b) 
 
 /// Technique, and how far its pictures may be from those of a perfect mirror: the largest
 /// difference of radiance up to the sharp limit, and FLIP just above the limit.
-struct SharpRow {
+struct SharpLimitRow {
     const char* technique;
     int frames;
     double most_below, most_above;
 };
 
-void judge_sharp_limit(StressBench& bench) {
+void judge_sharp_limit(StressTestBench& bench) {
     const scene::Scene room = make_stress_room(bench, 3);
     for (const auto& [technique, frames, most_below, most_above] :
-         {SharpRow{"raytrace:rays=64,depth=3", 1, 0, .005},
-          SharpRow{"reuse:face=64", 4, .005, .005}, SharpRow{"pyramid:face=64", 4, .005, .005}}) {
+         {SharpLimitRow{"raytrace:rays=64,depth=3", 1, 0, .005},
+          SharpLimitRow{"reuse:face=64", 4, .005, .005},
+          SharpLimitRow{"pyramid:face=64", 4, .005, .005}}) {
         const auto render = [&, &technique = technique,
                              &frames = frames](scene::Material material) {
             material.name = "smooth";
             app::Request request = bench.make_request(make_half_rough_room(room, material),
                                                       technique, frames);
             request.size = {96, 96};
-            return bench.render(request);
+            return bench.render_technique(request);
         };
         const app::TechniqueResult wanted = render({.mirror = true});
         for (const float roughness : {0.f, 1e-8f, .01f, shared::kMaxSharpRoughness})
-            bench.add_case(
+            bench.add_measured_case(
                 fmt::format("{}, roughness {}: largest difference from a perfect mirror", technique,
                             roughness),
-                largest_difference(
+                largest_channel_difference(
                     render({.albedo = vec3(1), .metallic = 1, .roughness = roughness}).hdr,
                     wanted.hdr),
                 most_below);
@@ -79,10 +80,10 @@ void judge_sharp_limit(StressBench& bench) {
     }
 }
 
-const RegisteredProperty kSharpLimitProperty{{"S5",
-                                              "metal of roughness 0, 1e-8, .01, .04 and .0401",
-                                              "a perfect mirror up to .04, nearly one above (FLIP)",
-                                              judge_sharp_limit, "lobes_below_limit"}};
+const RegisteredStressProperty kSharpLimitProperty{
+    {"S5", "metal of roughness 0, 1e-8, .01, .04 and .0401",
+     "a perfect mirror up to .04, nearly one above (FLIP)", judge_sharp_limit,
+     "lobes_below_limit"}};
 
 } // namespace
 

@@ -8,8 +8,8 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMovingFrames = 6, kRestingFrames = 10; // numbers of frames
-constexpr double kBrightestRoomValue = 6;             // brightest value of the room
+constexpr int kMovingCameraFrames = 6, kRestingFrames = 10; // numbers of frames
+constexpr double kBrightestRoomValue = 6;                   // brightest value of the room
 
 /// Returns the room whose last ball moves `distance` away and back, twice a second.
 scene::Scene add_ball_motion(scene::Scene scene, double distance) {
@@ -17,21 +17,23 @@ scene::Scene add_ball_motion(scene::Scene scene, double distance) {
     return scene;
 }
 
-struct MotionMeasurement {
+struct CameraMotionMeasurement {
     measure::Picture last;
     double brightest = 0; ///< of all frames; NaN if a pixel is not finite
 };
 
 /// Renders `moving` frames at instants far from whole periods, then `resting` frames at rest.
-MotionMeasurement measure_in_motion(StressBench& bench, const scene::Scene& scene,
-                                    const std::string& technique, int moving, int resting) {
+CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
+                                                    const scene::Scene& scene,
+                                                    const std::string& technique, int moving,
+                                                    int resting) {
     app::Request request = bench.make_request(scene, technique, 1);
-    app::Session session(bench.engine(), scene);
-    MotionMeasurement seen;
+    app::Session session(bench.bench_engine(), scene);
+    CameraMotionMeasurement seen;
     for (int k = 1 - moving; k <= resting; ++k) {
         request.time = k < 1 ? .17 * (1 - k) : 0;
         seen.last = bench.render_frame(session, request).hdr();
-        const double most = brightest_channel(seen.last);
+        const double most = find_brightest_channel(seen.last);
         if (!(most <= seen.brightest)) seen.brightest = most;
     }
     return seen;
@@ -39,24 +41,25 @@ MotionMeasurement measure_in_motion(StressBench& bench, const scene::Scene& scen
 
 /// Judges one technique. If mirrors see each other, light travels on for some frames. Otherwise the
 /// first frame at rest must be as if nothing had moved.
-void judge_speed_of_technique(StressBench& bench, const scene::Scene& scene, int balls,
+void judge_speed_of_technique(StressTestBench& bench, const scene::Scene& scene, int balls,
                               const std::string& technique) {
     const int resting = technique == "raytrace" || balls == 1 ? 1 : kRestingFrames;
-    const MotionMeasurement wanted = measure_in_motion(bench, scene, technique, 0, resting);
+    const CameraMotionMeasurement wanted = measure_technique_in_motion(bench, scene, technique, 0,
+                                                                       resting);
     for (const double distance : {1.0, 1e6}) {
-        const MotionMeasurement found = measure_in_motion(bench, add_ball_motion(scene, distance),
-                                                          technique, kMovingFrames, resting);
+        const CameraMotionMeasurement found = measure_technique_in_motion(
+            bench, add_ball_motion(scene, distance), technique, kMovingCameraFrames, resting);
         const std::string what = fmt::format("{} balls, {}, one goes {} a frame", balls, technique,
                                              distance);
-        bench.add_case(what + ": brightest of the lamp", found.brightest / kBrightestRoomValue,
-                       1.002);
-        bench.add_case(
+        bench.add_measured_case(what + ": brightest of the lamp",
+                                found.brightest / kBrightestRoomValue, 1.002);
+        bench.add_measured_case(
             fmt::format("{}: frame {} at rest, pixels unlike one that never moved", what, resting),
             double(count_different_pixels(found.last, wanted.last)), 0);
     }
 }
 
-void judge_moving_mirror(StressBench& bench) {
+void judge_moving_mirror(StressTestBench& bench) {
     for (const int balls : {1, 3}) {
         const scene::Scene scene = make_stress_room(bench, balls);
         for (const std::string technique : {"raytrace", "reuse:face=64", "parallax:face=64",
@@ -65,7 +68,7 @@ void judge_moving_mirror(StressBench& bench) {
     }
 }
 
-const RegisteredProperty kMovingMirrorProperty{
+const RegisteredStressProperty kMovingMirrorProperty{
     {"T1", "a mirror that goes 1 and 1e6 units from frame to frame, and rests",
      "finite, no brighter than the lamp, then as if it had never moved", judge_moving_mirror,
      "capture_stays_behind"}};

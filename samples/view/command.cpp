@@ -17,8 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 13> kReplacedOptions{
     "--camera", "--time",       "--size",     "--technique", "--plan",     "--model",    "--frames",
     "--warmup", "--screenshot", "--exposure", "--timing",    "--progress", "--budget-ms"};
-constexpr std::array<std::string_view, 5> kDroppedFlags{"--animate", "--validate", "--json",
-                                                        "--quiet", "--verbose"};
+constexpr std::array<std::string_view, 5> kFlagsWithoutMeaningInCommands{
+    "--animate", "--validate", "--json", "--quiet", "--verbose"};
 
 template <std::size_t N>
 bool is_one_of(const std::array<std::string_view, N>& names, std::string_view word) {
@@ -43,20 +43,22 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
     for (std::size_t i = 0; i < options; ++i) {
         const std::string& word = words[i];
         const std::string name = word.substr(0, word.find('='));
-        if (is_one_of(kDroppedFlags, word) || is_quiet_or_verbose_flag(word)) continue;
+        if (is_one_of(kFlagsWithoutMeaningInCommands, word) || is_quiet_or_verbose_flag(word))
+            continue;
         if (is_one_of(kReplacedOptions, name)) {
             if (name == word) ++i; // the next word is its value
             continue;
         }
         made.push_back(word);
     }
-    for (const std::string& word : plan_option_words(
-             state.mode == ViewMode::answers ? with_knob(state.plan, "show", "state") : state.plan))
+    for (const std::string& word : make_plan_option_words(
+             state.mode == ViewMode::answers ? set_knob_in_plan(state.plan, "show", "state")
+                                             : state.plan))
         made.push_back(word);
     made.insert(made.end(), {"--camera", camera, "--time", fmt::format("{}", state.motion.time),
                              "--size", fmt::format("{}x{}", size.x, size.y), "--exposure",
                              fmt::format("{}", state.exposure), "--model",
-                             app::name_of(state.model), "-o", "view.png"});
+                             app::rendered_work_name(state.model), "-o", "view.png"});
     made.insert(made.end(), end, words.end());
     return made;
 }

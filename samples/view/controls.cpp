@@ -30,7 +30,7 @@ ImGuiControls::ImGuiControls(ViewWindow& window) {
     io.Fonts->Flags |= ImFontAtlasFlags_NoBakedLines;
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 0;
-    ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
+    ImGui_ImplGlfw_InitForVulkan(window.glfw_window(), true);
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     io.Fonts->GetTexDataAsAlpha8(&texels, &width,

@@ -10,7 +10,7 @@ namespace catoptric::view {
 
 namespace {
 
-void draw_time_row(const TimeRow& line, double most) {
+void draw_time_row(const TimeTableRow& line, double most) {
     std::string text = fmt::format("{:.2f} ms", line.median);
     if (line.ci95.is_known())
         text += fmt::format(" [{:.2f} {:.2f}]", line.ci95.low, line.ci95.high);
@@ -20,10 +20,10 @@ void draw_time_row(const TimeRow& line, double most) {
     ImGui::TextUnformatted(line.name.c_str());
 }
 
-void draw_time_rows(const std::vector<TimeRow>& lines) {
+void draw_time_rows(const std::vector<TimeTableRow>& lines) {
     double most = 0;
-    for (const TimeRow& line : lines) most = std::max(most, line.median);
-    for (const TimeRow& line : lines) draw_time_row(line, most);
+    for (const TimeTableRow& line : lines) most = std::max(most, line.median);
+    for (const TimeTableRow& line : lines) draw_time_row(line, most);
 }
 
 void draw_mirror_facts(const scene::Object& object, std::size_t number) {
@@ -33,22 +33,22 @@ void draw_mirror_facts(const scene::Object& object, std::size_t number) {
 
 } // namespace
 
-void draw_frame_times(const Viewer& viewer) {
-    const TimeStatistics& times = viewer.times();
+void draw_frame_times(const SceneViewer& viewer) {
+    const TimeStatistics& times = viewer.time_statistics();
     draw_time_row(times.gpu(), times.frame().median);
     if (ImGui::TreeNodeEx("passes", ImGuiTreeNodeFlags_DefaultOpen)) {
-        draw_time_rows(times.passes());
+        draw_time_rows(times.list_pass_times());
         ImGui::TreePop();
     }
     if (ImGui::TreeNode("host")) {
         draw_time_rows(times.host());
         ImGui::TreePop();
     }
-    ImGui::TextDisabled("medians of %zu %s, with 95 %% intervals", times.count(),
-                        times.count() == 1 ? "frame" : "frames");
+    ImGui::TextDisabled("medians of %zu %s, with 95 %% intervals", times.frame_count(),
+                        times.frame_count() == 1 ? "frame" : "frames");
 }
 
-void draw_scene_facts(const PanelData& seen, PanelRequests& wants) {
+void draw_scene_facts(const PanelShownData& seen, PanelButtonRequests& wants) {
     const scene::Scene& scene = seen.scene;
     ImGui::Text("%zu objects, %zu triangles, %zu materials", scene.objects.size(),
                 scene::triangle_count(scene), scene.materials.size());

@@ -54,25 +54,25 @@ uvec2 choose_picture_size(uvec2 window, bool shows_panels) {
             std::max(window.y, kMinPictureSide)};
 }
 
-DragState::DraggedObject DragState::begin_drag(const UserInput& inputs, const ViewState& state,
-                                               uvec2 size) const {
+MouseDragState::MouseDraggedObject
+MouseDragState::begin_drag(const UserInput& inputs, const ViewState& state, uvec2 size) const {
     const double divider = state.divider * size.x;
-    if (inputs.on_controls || inputs.mouse.x >= size.x) return DraggedObject::controls;
-    if (inputs.down[1] || inputs.down[2]) return DraggedObject::shifting;
+    if (inputs.on_controls || inputs.mouse.x >= size.x) return MouseDraggedObject::controls;
+    if (inputs.down[1] || inputs.down[2]) return MouseDraggedObject::shifting;
     const bool on_divider = state.mode == ViewMode::split &&
                             std::abs(inputs.mouse.x - divider) <= kDividerGripPixels;
-    return on_divider ? DraggedObject::divider : DraggedObject::turning;
+    return on_divider ? MouseDraggedObject::divider : MouseDraggedObject::turning;
 }
 
-std::optional<uvec2> DragState::apply_drag(const UserInput& inputs, ViewState& state, uvec2 size,
-                                           double reach) {
+std::optional<uvec2> MouseDragState::apply_drag(const UserInput& inputs, ViewState& state,
+                                                uvec2 size, double reach) {
     const bool is_down = inputs.down[0] || inputs.down[1] || inputs.down[2];
     std::optional<uvec2> clicked;
     if (!is_down) {
-        if (holds_ == DraggedObject::turning && !strayed_)
+        if (holds_ == MouseDraggedObject::turning && !strayed_)
             clicked = glm::min(uvec2(glm::max(pressed_, dvec2(0))), size - 1u);
-        holds_ = DraggedObject::nothing;
-    } else if (holds_ == DraggedObject::nothing) {
+        holds_ = MouseDraggedObject::nothing;
+    } else if (holds_ == MouseDraggedObject::nothing) {
         holds_ = begin_drag(inputs, state, size);
         last_ = pressed_ = inputs.mouse;
         strayed_ = false;
@@ -80,15 +80,15 @@ std::optional<uvec2> DragState::apply_drag(const UserInput& inputs, ViewState& s
     strayed_ |= is_down && glm::length(inputs.mouse - pressed_) > kMaxClickMovement;
     CameraMoves moves;
     const dvec2 dragged = inputs.mouse - last_;
-    if (holds_ == DraggedObject::turning && strayed_) moves.turned = dragged;
-    if (holds_ == DraggedObject::shifting) moves.shifted = dragged;
-    if (holds_ == DraggedObject::divider)
+    if (holds_ == MouseDraggedObject::turning && strayed_) moves.turned = dragged;
+    if (holds_ == MouseDraggedObject::shifting) moves.shifted = dragged;
+    if (holds_ == MouseDraggedObject::divider)
         state.divider = std::clamp(inputs.mouse.x / size.x, 0., 1.);
     if (!inputs.on_controls) moves.wheel = inputs.wheel;
     moves.flown = inputs.flies * inputs.seconds;
-    if (holds_ != DraggedObject::turning || strayed_) last_ = inputs.mouse;
+    if (holds_ != MouseDraggedObject::turning || strayed_) last_ = inputs.mouse;
     if (moves.any())
-        state.camera = move_camera(scene::camera_at(state.camera, state.motion.time), moves,
+        state.camera = move_camera(scene::camera_at_time(state.camera, state.motion.time), moves,
                                    state.flies, size.y, reach);
     return clicked;
 }

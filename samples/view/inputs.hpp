@@ -54,7 +54,7 @@ struct UserInput {
 };
 
 /// The object that a drag moves, kept from frame to frame.
-class DragState {
+class MouseDragState {
 public:
     /// Moves the divider or the camera of `state`. `size` is the picture's size; `reach` is that of
     /// `moved`. Returns the pixel that was clicked without dragging, if any.
@@ -62,10 +62,11 @@ public:
                                     double reach);
 
 private:
-    enum class DraggedObject { nothing, controls, divider, turning, shifting };
-    DraggedObject begin_drag(const UserInput& inputs, const ViewState& state, uvec2 size) const;
+    enum class MouseDraggedObject { nothing, controls, divider, turning, shifting };
+    MouseDraggedObject begin_drag(const UserInput& inputs, const ViewState& state,
+                                  uvec2 size) const;
 
-    DraggedObject holds_ = DraggedObject::nothing;
+    MouseDraggedObject holds_ = MouseDraggedObject::nothing;
     dvec2 last_{0}, pressed_{0};
     bool strayed_ = false;
 };

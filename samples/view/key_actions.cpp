@@ -15,7 +15,7 @@ namespace {
 /// Returns the camera as text for --camera: numbers, or the scene's own camera if numbers do not
 /// describe it fully. The scene's camera is given by a unique name, because a scene file may order
 /// cameras otherwise.
-std::string camera_option_text(const scene::Scene& scene, const scene::Camera& camera) {
+std::string make_camera_option_text(const scene::Scene& scene, const scene::Camera& camera) {
     std::string text = scene::format_camera(camera);
     try {
         scene::Camera typed = scene::find_camera_by_name(text, {});
@@ -44,25 +44,26 @@ std::filesystem::path find_free_file_name(const std::string& stem,
 }
 
 /// Returns the part of a plan that fits another scene: nothing about single mirrors.
-PlanState drop_mirror_settings(PlanState plan) {
+EditedPlanState remove_mirror_settings(EditedPlanState plan) {
     plan.own.clear();
-    return plan.typed.empty() || plan.typed == "auto" ? plan : PlanState{};
+    return plan.typed.empty() || plan.typed == "auto" ? plan : EditedPlanState{};
 }
 
 } // namespace
 
 void ViewLoop::show_message(const std::string& text) {
     state_.said = text;
-    cli::print_note(options_.common.manners, text);
+    cli::print_note_unless_quiet(view_options_.common.manners, text);
 }
 
 std::string ViewLoop::command() const {
-    std::vector<std::string> words = options_.words;
-    const std::vector<std::string> roughness = roughness_option_words(request_.scene,
-                                                                      state_.roughness);
+    std::vector<std::string> words = view_options_.words;
+    const std::vector<std::string> roughness = make_roughness_option_words(request_.scene,
+                                                                           state_.roughness);
     words.insert(std::ranges::find(words, "--"), roughness.begin(), roughness.end());
-    return make_render_command(words, state_, camera_option_text(request_.scene, state_.camera),
-                               viewer_->frame_spec().size);
+    return make_render_command(words, state_,
+                               make_camera_option_text(request_.scene, state_.camera),
+                               viewer_->make_frame_spec().size);
 }
 
 void ViewLoop::next_camera(std::size_t index) {
@@ -71,7 +72,7 @@ void ViewLoop::next_camera(std::size_t index) {
 }
 
 void ViewLoop::perform_key_action(const KeyBinding& key) {
-    Playback& motion = state_.motion;
+    ScenePlayback& motion = state_.motion;
     const std::vector<scene::Camera>& cameras = request_.scene.cameras;
     switch (key.act) {
     case KeyAction::keys: state_.shows_keys ^= true; break;
@@ -103,7 +104,7 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
     }
 }
 
-void ViewLoop::perform_panel_requests(const PanelRequests& wants) try {
+void ViewLoop::perform_panel_requests(const PanelButtonRequests& wants) try {
     if (wants.cuts) viewer_->cut_history();
     if (wants.camera) next_camera(*wants.camera);
     if (wants.copies) {
@@ -117,43 +118,44 @@ void ViewLoop::perform_panel_requests(const PanelRequests& wants) try {
         show_message("written: " + name + ".png, " + name + ".exr");
     }
     if (wants.saves_plan) {
-        const PlanState plan = resolve_plan_by_mirror(state_.plan, entries_);
+        const EditedPlanState plan = resolve_plan_by_mirror(state_.plan, entries_);
         check(plan.typed.empty(), Failure::usage, "a plan is saved once it was drawn");
         const std::string file = find_free_file_name("view-plan", {".json"}).string() + ".json";
         write_file(file, plan_to_json(plan));
         show_message("written: " + file);
     }
 } catch (const Error& error) {
-    if (!viewer_->engine().usable()) throw;
+    if (!viewer_->viewer_engine().usable()) throw;
     show_message(error.what());
 }
 
 /// Loads another scene in place of this one. If the scene cannot be read or does not fit the
 /// device, the current scene stays.
 void ViewLoop::load(const std::string& file) {
-    const ViewOptions options = options_;
+    const ViewOptions options = view_options_;
     const app::Request request = request_;
     const ViewState state = state_;
     try {
         const cli::CommonOptions defaults;
-        cli::CommonOptions& common = options_.common;
+        cli::CommonOptions& common = view_options_.common;
         common.scene = file, common.overrides = {};
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
-        options_.words = {file};
+        view_options_.words = {file};
         for (const auto& [option, value] : {std::pair{"--device", common.device.name},
                                             {"--device-profile", common.device.profile}})
-            if (!value.empty()) options_.words.insert(options_.words.end(), {option, value});
-        request_ = resolve_view_request(options_).request;
-        state_.plan = drop_mirror_settings(state_.plan),
-        state_.other = drop_mirror_settings(state_.other);
+            if (!value.empty())
+                view_options_.words.insert(view_options_.words.end(), {option, value});
+        request_ = resolve_view_request(view_options_).request;
+        state_.plan = remove_mirror_settings(state_.plan),
+        state_.other = remove_mirror_settings(state_.other);
         state_.roughness.clear();
-        open(SceneOrigin::another);
+        open(SceneChangeOrigin::another);
         show_message("loaded: " + file);
     } catch (const Error& error) {
-        const bool is_open = viewer_ != nullptr && viewer_->engine().usable();
-        options_ = options, request_ = request, state_ = state;
-        if (!is_open) open(SceneOrigin::same);
+        const bool is_open = viewer_ != nullptr && viewer_->viewer_engine().usable();
+        view_options_ = options, request_ = request, state_ = state;
+        if (!is_open) open(SceneChangeOrigin::same);
         show_message(error.what());
     }
 }

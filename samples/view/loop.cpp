@@ -17,16 +17,17 @@ namespace catoptric::view {
 namespace {
 
 /// Returns the diagonal of the scene's bounds, in world units.
-double scene_diagonal(const scene::Scene& scene) {
+double compute_scene_diagonal(const scene::Scene& scene) {
     const Bounds<double> bounds = scene::bounds(scene);
     return bounds.empty() ? 1 : std::max(glm::length(bounds.hi - bounds.lo), 1e-9);
 }
 
 } // namespace
 
-ViewLoop::ViewLoop(const ViewOptions& options, const TestDriver& driver)
-    : options_(options), driver_(driver),
-      settings_(is_scripted() ? ViewerSettings() : load_settings(settings_file_path())),
+ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
+    : view_options_(options), driver_(driver),
+      settings_(is_user_simulated() ? SavedViewerSettings()
+                                    : load_viewer_settings(settings_file_path())),
       request_(resolve_view_request(options).request), window_("Catoptric", first_window()),
       controls_(window_) {
     state_.plan = parse_plan_text(options.technique);
@@ -34,50 +35,52 @@ ViewLoop::ViewLoop(const ViewOptions& options, const TestDriver& driver)
     state_.shows_panels = settings_.shows_panels, state_.flies = settings_.flies;
     state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
     state_.model = request_.model;
-    open(SceneOrigin::another);
+    open(SceneChangeOrigin::another);
 }
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop
 /// units.
 uvec2 ViewLoop::first_window() const {
     const bool is_size_said = std::ranges::any_of(
-        options_.words, [](const std::string& word) { return word.starts_with("--size"); });
+        view_options_.words, [](const std::string& word) { return word.starts_with("--size"); });
     if (!is_size_said && settings_.window.x > 0) return settings_.window;
-    return options_.common.size + uvec2(settings_.shows_panels ? kPanelWidth : 0, 0);
+    return view_options_.common.size + uvec2(settings_.shows_panels ? kPanelWidth : 0, 0);
 }
 
 /// Opens engine, screen and session for the requested scene.
-void ViewLoop::open(SceneOrigin scene) {
+void ViewLoop::open(SceneChangeOrigin scene) {
     viewer_.reset(); // releases its surface before another is made
     entries_of_.clear();
-    const app::EngineOptions options = cli::make_engine_options(options_.common.device);
-    viewer_ = std::make_unique<Viewer>(window_, options, request_);
-    controls_.give_font(viewer_->screen());
-    if (scene == SceneOrigin::same) return; // the state stays the same
-    cli::print_device_and_warnings(viewer_->engine(), options_.common.manners);
-    app::resolve_auto_exposure(viewer_->session(), request_);
+    const app::EngineOptions options = cli::make_engine_options(view_options_.common.device);
+    viewer_ = std::make_unique<SceneViewer>(window_, options, request_);
+    controls_.give_font(viewer_->window_screen());
+    if (scene == SceneChangeOrigin::same) return; // the state stays the same
+    cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.manners);
+    app::resolve_auto_exposure(viewer_->viewer_session(), request_);
     state_.camera = request_.camera;
     state_.exposure = request_.exposure;
     state_.motion.time = request_.time;
     state_.motion.plays = request_.animate;
-    reach_ = scene_diagonal(request_.scene);
-    period_ = scene::period(request_.scene);
+    reach_ = compute_scene_diagonal(request_.scene);
+    period_ = scene::compute_scene_period(request_.scene);
     good_ = state_;
 }
 
 /// Renders a frame of the state.
 void ViewLoop::render(const UserInput& inputs, app::WindowOverlay overlay) {
     const bool is_first = inputs.window == first_ || inputs.window == uvec2(0);
-    const uvec2 size = is_scripted() && is_first && state_.shows_panels == settings_.shows_panels
+    const uvec2 size = is_user_simulated() && is_first &&
+                               state_.shows_panels == settings_.shows_panels
                            ? request_.size
                            : choose_picture_size(last_, state_.shows_panels);
     const bool is_seen = inputs.window != uvec2(0) &&
-                         viewer_->screen().fit_to_window(inputs.window);
-    waits_ = !is_seen && !is_scripted();
+                         viewer_->window_screen().fit_to_window(inputs.window);
+    waits_ = !is_seen && !is_user_simulated();
     if (waits_) return;
     viewer_->render_frame(state_, size, std::move(overlay), is_seen);
     good_ = state_, losses_ = 0;
-    const std::string text = technique_text(state_.plan) + " " + std::to_string(viewer_->cuts());
+    const std::string text = technique_text_of_plan(state_.plan) + " " +
+                             std::to_string(viewer_->cut_count());
     if (text != entries_of_) { // a suggested plan may change after each cut
         entries_ = state_.plan.typed.empty() ? std::vector<PlanEntry>() : viewer_->entries();
         entries_of_ = text;
@@ -93,7 +96,7 @@ void ViewLoop::recover_from_error(const Error& error) {
         return std::tie(state.plan, state.other, state.mode, state.model, state.camera,
                         state.motion.time, state.roughness);
     };
-    const bool is_lost = !viewer_->engine().usable();
+    const bool is_lost = !viewer_->viewer_engine().usable();
     losses_ += is_lost;
     const bool is_new = asked(state_) != asked(good_);
     if (frame_ == 0 || losses_ > kMaxDeviceLosses || (!is_lost && !is_new)) throw;
@@ -105,21 +108,21 @@ void ViewLoop::recover_from_error(const Error& error) {
     }
     if (!is_lost) return show_message(error.what());
     cli::print_warning(std::string(error.what()) + "; a new session is made");
-    open(SceneOrigin::same);
+    open(SceneChangeOrigin::same);
     state_.said = std::string("the device was lost: ") + error.what();
 }
 
 void ViewLoop::show_frame(const UserInput& inputs) {
-    PanelRequests wants;
+    PanelButtonRequests wants;
     controls_.begin(glm::max(last_, uvec2(1)), inputs);
-    draw_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
+    draw_control_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
     app::WindowOverlay overlay = controls_.end();
     perform_panel_requests(wants);
     render(inputs, std::move(overlay));
     ++frame_;
-    if (viewer_->screen().lost()) {
+    if (viewer_->window_screen().lost()) {
         cli::print_warning("the window's surface was lost; a new session is made");
-        open(SceneOrigin::same);
+        open(SceneChangeOrigin::same);
     }
     if (driver_.after) driver_.after({frame_, state_, *viewer_, command()});
 }
@@ -137,17 +140,17 @@ bool ViewLoop::run_one_frame() try {
     const uvec2 size = choose_picture_size(last_, state_.shows_panels);
     if (const auto clicked = hand_.apply_drag(inputs, state_, size, reach_))
         state_.chosen = viewer_->mirror_at(*clicked);
-    if (is_scripted() && state_.motion.plays)
+    if (is_user_simulated() && state_.motion.plays)
         state_.motion.time = request_.instant(static_cast<int>(frame_) + 1);
     else
         state_.motion.time = advance_playback_time(state_.motion, inputs.seconds);
     if (ends_ || inputs.closes || cli::stop_on_signals().load() != 0) return false;
-    if (inputs.window == uvec2(0) && !is_scripted()) {
+    if (inputs.window == uvec2(0) && !is_user_simulated()) {
         waits_ = true; // minimised: no frame is rendered until the window comes back
         return true;
     }
     show_frame(inputs);
-    return !is_scripted() || frame_ < static_cast<std::size_t>(*options_.common.frames);
+    return !is_user_simulated() || frame_ < static_cast<std::size_t>(*view_options_.common.frames);
 } catch (const Error& error) {
     recover_from_error(error);
     return true;
@@ -155,25 +158,25 @@ bool ViewLoop::run_one_frame() try {
 
 /// Prints the times of the last frames, with -v.
 void ViewLoop::print_times() const {
-    const TimeStatistics& times = viewer_->times();
-    std::vector<TimeRow> lines = times.passes();
-    for (const TimeRow& line : times.host()) lines.push_back(line);
+    const TimeStatistics& times = viewer_->time_statistics();
+    std::vector<TimeTableRow> lines = times.list_pass_times();
+    for (const TimeTableRow& line : times.host()) lines.push_back(line);
     lines.push_back(times.gpu());
     lines.push_back(times.frame());
-    for (const TimeRow& line : lines)
-        cli::print_detail(options_.common.manners,
-                          fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
+    for (const TimeTableRow& line : lines)
+        cli::print_detail_if_verbose(view_options_.common.manners,
+                                     fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
 
 int ViewLoop::finish_run() {
     print_times();
-    if (!options_.screenshot.empty()) viewer_->write_picture(options_.screenshot);
-    if (options_.common.device.validate) viewer_->engine().check_validation();
-    if (is_scripted()) return 0;
+    if (!view_options_.screenshot.empty()) viewer_->write_picture(view_options_.screenshot);
+    if (view_options_.common.device.validate) viewer_->viewer_engine().check_validation();
+    if (is_user_simulated()) return 0;
     try {
-        save_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels, state_.flies,
-                       state_.motion.speed, state_.gain},
-                      settings_file_path());
+        save_viewer_settings({uvec2(glm::round(dvec2(last_) / scale_)), state_.shows_panels,
+                              state_.flies, state_.motion.speed, state_.gain},
+                             settings_file_path());
     } catch (const Error& error) { // no reason for the whole run to fail
         cli::print_warning(error.what());
     }
@@ -188,11 +191,11 @@ int ViewLoop::run() {
     return signal == 0 ? code : 128 + signal;
 }
 
-int run_view_window(const ViewOptions& options, const TestDriver& driver) {
+int run_view_window(const ViewOptions& options, const SimulatedUser& driver) {
     return ViewLoop(options, driver).run();
 }
 
-int run_view(int argc, char** argv) {
+int run_view_program(int argc, char** argv) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
     return cli::run_other_program_guarded("catoptric-view", [&] {
         return parse_view_command(

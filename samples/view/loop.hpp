@@ -12,20 +12,20 @@ namespace catoptric::view {
 struct ViewReport {
     std::size_t frame = 0; ///< number of the frame, from 1
     const ViewState& state;
-    const Viewer& viewer;
+    const SceneViewer& viewer;
     std::string command; ///< command that renders the picture without a window
 };
 
 /// Simulates the user in a test. `before` may change the inputs after the window has set them.
-struct TestDriver {
+struct SimulatedUser {
     std::function<void(std::size_t frame, UserInput&, ViewState&, ViewWindow&)> before = {};
     std::function<void(const ViewReport&)> after = {};
 };
 
 /// Runs the window from opening to closing. Returns the exit code. Throws as its parts do.
-int run_view_window(const ViewOptions& options, const TestDriver& driver = {});
+int run_view_window(const ViewOptions& options, const SimulatedUser& driver = {});
 
 /// Runs the whole program and turns errors into exit codes. May be called once per process.
-int run_view(int argc, char** argv);
+int run_view_program(int argc, char** argv);
 
 } // namespace catoptric::view

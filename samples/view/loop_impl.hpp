@@ -11,17 +11,17 @@ namespace catoptric::view {
 
 class ViewLoop {
 public:
-    ViewLoop(const ViewOptions& options, const TestDriver& driver);
+    ViewLoop(const ViewOptions& options, const SimulatedUser& driver);
     int run();
 
 private:
-    bool is_scripted() const { return options_.common.frames.has_value(); }
+    bool is_user_simulated() const { return view_options_.common.frames.has_value(); }
     uvec2 first_window() const;
-    enum class SceneOrigin { another, same };
-    void open(SceneOrigin scene);
+    enum class SceneChangeOrigin { another, same };
+    void open(SceneChangeOrigin scene);
     bool run_one_frame();
     void perform_key_action(const KeyBinding& key);
-    void perform_panel_requests(const PanelRequests& wants);
+    void perform_panel_requests(const PanelButtonRequests& wants);
     void load(const std::string& file);
     void show_frame(const UserInput& inputs);
     void render(const UserInput& inputs, app::WindowOverlay overlay);
@@ -32,15 +32,15 @@ private:
     void print_times() const;
     int finish_run();
 
-    ViewOptions options_;
-    const TestDriver& driver_;
-    ViewerSettings settings_;
+    ViewOptions view_options_;
+    const SimulatedUser& driver_;
+    SavedViewerSettings settings_;
     app::Request request_;
     ViewState state_, good_; ///< good: state of the last frame that could be rendered
     ViewWindow window_;
     ImGuiControls controls_;
-    std::unique_ptr<Viewer> viewer_;
-    DragState hand_;
+    std::unique_ptr<SceneViewer> viewer_;
+    MouseDragState hand_;
     std::vector<PlanEntry> entries_;
     std::string entries_of_;
     uvec2 first_, last_{0, 0}; ///< window sizes: at the start and last seen

@@ -20,7 +20,7 @@ F1 in the window lists the keys. --frames N ends the program after N frames. Fra
 'catoptric render' with --frames N --warmup 0. --screenshot writes the last frame without controls, with the same
 bytes.)";
 
-void check_screenshot(const ViewOptions& options) {
+void check_screenshot_options(const ViewOptions& options) {
     if (options.screenshot.empty()) return;
     check(options.common.frames.has_value(), Failure::usage,
           "--screenshot is of the last frame: wanted --frames N, found none");
@@ -46,14 +46,14 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
                 options->screenshot);
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
-    verb.set_action([options, run] {
+    verb.set_verb_action([options, run] {
         if (options->drawn.technique.empty() && options->drawn.plan.empty())
             options->drawn.technique = "secant";
         options->technique = check_technique_choice(options->drawn, "catoptric-view");
         check(!options->common.both_models, Failure::usage,
               "--model both: wanted everything or required, of which a picture has one");
         check_budget_option(options->common);
-        check_screenshot(*options);
+        check_screenshot_options(*options);
         return run(*options);
     });
     const std::function<int()> work = program->parse(words);

@@ -19,7 +19,7 @@ void draw_mode_controls(ViewState& state) {
     for (int i = 0; i < kViewModeCount; ++i) {
         const auto mode = static_cast<ViewMode>(i);
         if (i % 3 != 0) ImGui::SameLine(static_cast<float>(i % 3) * 115);
-        if (ImGui::RadioButton(name_of(mode), state.mode == mode)) state.mode = mode;
+        if (ImGui::RadioButton(view_mode_name(mode), state.mode == mode)) state.mode = mode;
     }
     const bool compares = state.mode == ViewMode::split || state.mode == ViewMode::difference;
     if (compares) {
@@ -39,7 +39,7 @@ void draw_mode_controls(ViewState& state) {
         state.gain = 1 << power;
     }
     if (state.mode == ViewMode::causes)
-        for (const CauseLabel& cause : list_cause_labels())
+        for (const ErrorCauseLabel& cause : list_cause_labels())
             if (ImGui::RadioButton(cause.name, state.cause == cause.bit)) state.cause = cause.bit;
     if (state.mode == ViewMode::answers)
         ImGui::TextWrapped(state.plan.typed.empty()
@@ -66,32 +66,34 @@ void draw_playback_controls(ViewState& state, double period) {
     if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
 }
 
-void draw_error_figures(ViewState& state, const Viewer& viewer) {
+void draw_error_figures(ViewState& state, const SceneViewer& viewer) {
     ImGui::Checkbox("errors against the traced reference", &state.judges);
-    const int passes = viewer.reference().passes();
+    const int passes = viewer.progressive_reference().rendered_pass_count();
     if (passes > 0)
         ImGui::Text("reference: %d of %d passes", passes,
                     ProgressiveReference::kMaxReferencePasses);
-    if (!viewer.error()) return;
-    const measure::Difference& error = *viewer.error();
+    if (!viewer.measured_error()) return;
+    const measure::Difference& error = *viewer.measured_error();
     ImGui::Text("mirrors: FLIP %.4f  RMSE %.4f", error.flip, error.rmse);
     ImGui::Text("p99 %.4f  off %.2f %% of %zu pixels", error.p99, 100 * error.off, error.pixels);
 }
 
-void draw_culled_work(ViewState& state, const Viewer& viewer) {
+void draw_culled_work(ViewState& state, const SceneViewer& viewer) {
     int model = state.model == app::RenderedWork::required;
     ImGui::RadioButton("required", &model, 1);
     ImGui::SameLine();
     ImGui::RadioButton("everything", &model, 0);
     state.model = model ? app::RenderedWork::required : app::RenderedWork::everything;
-    if (viewer.slices()) ImGui::TextWrapped("%s", app::to_text(*viewer.slices()).c_str());
-    for (const require::CulledWork& left : viewer.left_out())
+    if (viewer.capture_budget_of_technique())
+        ImGui::TextWrapped(
+            "%s", app::describe_capture_budget(*viewer.capture_budget_of_technique()).c_str());
+    for (const require::CulledWork& left : viewer.culled_work())
         ImGui::TextWrapped("%s: %s; saves %s", left.what.c_str(), left.why.c_str(),
                            left.saves.c_str());
-    if (viewer.left_out().empty()) ImGui::TextDisabled("nothing is left out");
+    if (viewer.culled_work().empty()) ImGui::TextDisabled("nothing is left out");
 }
 
-void draw_action_buttons(PanelRequests& wants) {
+void draw_action_buttons(PanelButtonRequests& wants) {
     wants.copies |= ImGui::Button("copy command");
     ImGui::SameLine();
     wants.writes |= ImGui::Button("screenshot");
@@ -121,7 +123,8 @@ void draw_key_help(uvec2 window) {
 
 } // namespace
 
-void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants) {
+void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 window,
+                         PanelButtonRequests& wants) {
     if (state.shows_keys) draw_key_help(window);
     if (!state.shows_panels) return;
     ImGui::SetNextWindowPos({static_cast<float>(window.x) - kPanelWidth, 0});
@@ -129,7 +132,7 @@ void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelReq
     ImGui::Begin("Catoptric", nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
                      ImGuiWindowFlags_NoTitleBar);
-    const TimeStatistics& times = seen.viewer.times();
+    const TimeStatistics& times = seen.viewer.time_statistics();
     ImGui::Text("%s  %.1f ms a frame, %.1f FPS", seen.scene.name.c_str(), times.frame().median,
                 times.fps());
     draw_action_buttons(wants);

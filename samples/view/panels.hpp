@@ -6,29 +6,30 @@
 namespace catoptric::view {
 
 /// Data that panels show in addition to the state.
-struct PanelData {
+struct PanelShownData {
     const scene::Scene& scene;
-    const Viewer& viewer;
+    const SceneViewer& viewer;
     const std::vector<PlanEntry>& entries; ///< entries of the plan as the user typed it
     double period = 0; ///< period of the scene's motion, seconds; 0: nothing moves
 };
 
 /// Requests from the buttons of the panels.
-struct PanelRequests {
+struct PanelButtonRequests {
     bool copies = false, writes = false, saves_plan = false, cuts = false;
     std::optional<std::size_t> camera; ///< index of a camera in the scene
 };
 
 /// Draws the controls at the right of the window and edits the state. Call between Controls::begin
 /// and end.
-void draw_panels(ViewState& state, const PanelData& seen, uvec2 window, PanelRequests& wants);
+void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 window,
+                         PanelButtonRequests& wants);
 
-// Parts of draw_panels, one file each.
+// Parts of draw_control_panels, one file each.
 /// `entries` are those of the plan as the user typed it. `scene` is the scene without changes of
 /// roughness.
 void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                         const std::vector<PlanEntry>& entries);
-void draw_frame_times(const Viewer& viewer);
-void draw_scene_facts(const PanelData& seen, PanelRequests& wants);
+void draw_frame_times(const SceneViewer& viewer);
+void draw_scene_facts(const PanelShownData& seen, PanelButtonRequests& wants);
 
 } // namespace catoptric::view

@@ -12,7 +12,7 @@ namespace catoptric::view {
 namespace {
 
 void draw_choice_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
-    const std::string value = knob_value(drawing, knob);
+    const std::string value = find_knob_value(drawing, knob);
     if (!ImGui::BeginCombo(knob.name.c_str(), value.c_str())) return;
     for (const std::string& choice : knob.choices)
         if (ImGui::Selectable(choice.c_str(), choice == value)) set_knob(drawing, knob, choice);
@@ -22,7 +22,7 @@ void draw_choice_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
 /// Draws a number with buttons that halve it, double it or replace it by the knob's special word.
 void draw_number_knob(TechniqueSettings& drawing, const app::KnobInfo& knob) {
     constexpr int kMaxSliderRange = 64;
-    const std::string text = knob_value(drawing, knob);
+    const std::string text = find_knob_value(drawing, knob);
     const bool is_special = !knob.special.empty() && text == knob.special;
     const int low = static_cast<int>(knob.low), high = static_cast<int>(knob.high);
     int value = is_special ? low : std::atoi(text.c_str());
@@ -68,7 +68,7 @@ void draw_knob_controls(TechniqueSettings& drawing) {
 
 void draw_technique_controls(TechniqueSettings& drawing) {
     if (ImGui::BeginCombo("technique", drawing.technique.c_str())) {
-        for (const app::TechniqueInfo& technique : technique_infos()) {
+        for (const app::TechniqueInfo& technique : list_technique_infos()) {
             if (ImGui::Selectable(technique.name.c_str(), technique.name == drawing.technique) &&
                 technique.name != drawing.technique)
                 drawing = {technique.name, {}};
@@ -79,7 +79,7 @@ void draw_technique_controls(TechniqueSettings& drawing) {
     draw_knob_controls(drawing);
 }
 
-void draw_mirror_technique(PlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
+void draw_mirror_technique(EditedPlanState& plan, std::uint32_t& chosen, const scene::Scene& scene,
                            const std::vector<PlanEntry>& entries) {
     if (!plan.typed.empty()) {
         ImGui::TextWrapped("%s", plan.typed.c_str());
@@ -115,7 +115,7 @@ void draw_mirror_technique(PlanState& plan, std::uint32_t& chosen, const scene::
 
 /// Draws a slider of the chosen mirror's roughness. It is disabled if a texture varies the
 /// material.
-void draw_roughness(ViewState& state, const scene::Scene& scene) {
+void draw_roughness_slider(ViewState& state, const scene::Scene& scene) {
     if (state.chosen == 0) return;
     const std::optional<float> given = find_editable_roughness(scene, state.chosen);
     if (!given) return ImGui::TextDisabled("roughness: by the scene's material");
@@ -139,14 +139,14 @@ void draw_plan_controls(ViewState& state, const scene::Scene& scene,
                            state.against == ComparisonPicture::other;
     if (!has_other) {
         draw_mirror_technique(state.plan, state.chosen, scene, entries);
-        return draw_roughness(state, scene);
+        return draw_roughness_slider(state, scene);
     }
     if (ImGui::RadioButton("the plan", !state.edits_other)) state.edits_other = false;
     ImGui::SameLine();
     if (ImGui::RadioButton("the other", state.edits_other)) state.edits_other = true;
     draw_mirror_technique(state.edits_other ? state.other : state.plan, state.chosen, scene,
                           entries);
-    draw_roughness(state, scene);
+    draw_roughness_slider(state, scene);
 }
 
 } // namespace catoptric::view

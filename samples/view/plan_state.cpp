@@ -27,17 +27,18 @@ nlohmann::json make_rule_json(nlohmann::json mirror, const TechniqueSettings& dr
 
 } // namespace
 
-const std::vector<app::TechniqueInfo>& technique_infos() {
+const std::vector<app::TechniqueInfo>& list_technique_infos() {
     static const std::vector<app::TechniqueInfo> kTechniqueInfos = app::techniques();
     return kTechniqueInfos;
 }
 
 const app::TechniqueInfo* find_technique_info(const std::string& technique) {
-    const auto found = std::ranges::find(technique_infos(), technique, &app::TechniqueInfo::name);
-    return found == technique_infos().end() ? nullptr : &*found;
+    const auto found = std::ranges::find(list_technique_infos(), technique,
+                                         &app::TechniqueInfo::name);
+    return found == list_technique_infos().end() ? nullptr : &*found;
 }
 
-std::string technique_text(const TechniqueSettings& drawing) {
+std::string technique_text_of_settings(const TechniqueSettings& drawing) {
     std::string text = drawing.technique;
     char before = ':';
     for (const auto& [knob, value] : drawing.knobs) {
@@ -47,25 +48,26 @@ std::string technique_text(const TechniqueSettings& drawing) {
     return text;
 }
 
-std::string technique_text(const PlanState& plan) {
+std::string technique_text_of_plan(const EditedPlanState& plan) {
     if (!plan.typed.empty()) return plan.typed;
     std::string text;
     for (const auto& [mirror, drawing] : plan.own)
         if (!(drawing == plan.rest))
-            text += std::to_string(mirror) + "=" + technique_text(drawing) + " ";
-    return text.empty() ? technique_text(plan.rest) : text + "*=" + technique_text(plan.rest);
+            text += std::to_string(mirror) + "=" + technique_text_of_settings(drawing) + " ";
+    return text.empty() ? technique_text_of_settings(plan.rest)
+                        : text + "*=" + technique_text_of_settings(plan.rest);
 }
 
-std::vector<std::string> plan_option_words(const PlanState& plan) {
+std::vector<std::string> make_plan_option_words(const EditedPlanState& plan) {
     constexpr std::string_view kPlanFilePrefix = "plan:";
-    const std::string text = technique_text(plan);
+    const std::string text = technique_text_of_plan(plan);
     if (text.starts_with(kPlanFilePrefix)) return {"--plan", text.substr(kPlanFilePrefix.size())};
     return {app::parse_technique(text).technique == "plan" ? "--plan" : "--technique", text};
 }
 
-PlanState parse_plan_text(const std::string& text) {
+EditedPlanState parse_plan_text(const std::string& text) {
     const app::TechniqueChoice choice = app::parse_technique(text);
-    PlanState plan;
+    EditedPlanState plan;
     if (find_technique_info(choice.technique))
         plan.rest = make_technique_settings(choice.technique, choice.settings);
     else
@@ -73,9 +75,10 @@ PlanState parse_plan_text(const std::string& text) {
     return plan;
 }
 
-PlanState resolve_plan_by_mirror(const PlanState& plan, const std::vector<PlanEntry>& entries) {
+EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
+                                       const std::vector<PlanEntry>& entries) {
     if (plan.typed.empty() || entries.empty()) return plan;
-    PlanState made;
+    EditedPlanState made;
     made.rest = make_technique_settings(entries.front().technique, entries.front().settings);
     for (const PlanEntry& entry : entries) {
         const TechniqueSettings drawing = make_technique_settings(entry.technique, entry.settings);
@@ -91,12 +94,13 @@ void set_knob(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::
         drawing.knobs[knob.name] = value;
 }
 
-std::string knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob) {
+std::string find_knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob) {
     const auto found = drawing.knobs.find(knob.name);
     return found == drawing.knobs.end() ? knob.value : found->second;
 }
 
-PlanState with_knob(PlanState plan, const std::string& knob, const std::string& value) {
+EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
+                                 const std::string& value) {
     const auto change = [&](TechniqueSettings& drawing) {
         const app::TechniqueInfo* technique = find_technique_info(drawing.technique);
         if (!technique) return;
@@ -108,7 +112,7 @@ PlanState with_knob(PlanState plan, const std::string& knob, const std::string& 
     return plan;
 }
 
-std::string plan_to_json(const PlanState& plan) {
+std::string plan_to_json(const EditedPlanState& plan) {
     nlohmann::json rules = nlohmann::json::array();
     for (const auto& [mirror, drawing] : plan.own) rules.push_back(make_rule_json(mirror, drawing));
     rules.push_back(make_rule_json("*", plan.rest));

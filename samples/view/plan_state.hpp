@@ -17,36 +17,38 @@ struct TechniqueSettings {
     bool operator==(const TechniqueSettings&) const = default;
 };
 
-struct PlanState {
+struct EditedPlanState {
     TechniqueSettings rest;                         ///< for mirrors without an entry in `own`
     std::map<std::uint32_t, TechniqueSettings> own; ///< by mirror number, from 1
     /// The plan as the user typed it, unless it lists techniques by mirror number. Examples are
     /// "auto", "plan:FILE" and patterns of names. Empty: the other members define the plan.
     std::string typed;
-    bool operator==(const PlanState&) const = default;
+    bool operator==(const EditedPlanState&) const = default;
 };
 
 /// Returns the technique with its knobs, such as "secant:face=64".
-std::string technique_text(const TechniqueSettings& drawing);
+std::string technique_text_of_settings(const TechniqueSettings& drawing);
 /// Returns the plan as app::FrameSpec::techniques takes it.
-std::string technique_text(const PlanState& plan);
+std::string technique_text_of_plan(const EditedPlanState& plan);
 /// Returns the words of the options by which `catoptric render` draws the plan.
-std::vector<std::string> plan_option_words(const PlanState& plan);
+std::vector<std::string> make_plan_option_words(const EditedPlanState& plan);
 /// Returns the plan of a command-line text. Throws `usage` as app::parse_technique does.
-PlanState parse_plan_text(const std::string& text);
+EditedPlanState parse_plan_text(const std::string& text);
 /// Returns the same plan mirror by mirror, for editing. `entries` tells how each mirror was drawn.
-PlanState resolve_plan_by_mirror(const PlanState& plan, const std::vector<PlanEntry>& entries);
+EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
+                                       const std::vector<PlanEntry>& entries);
 /// Sets a knob. Removes its entry if the value is the default.
 void set_knob(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value);
 /// Returns the value of a knob.
-std::string knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob);
+std::string find_knob_value(const TechniqueSettings& drawing, const app::KnobInfo& knob);
 /// Returns the plan with the knob set in each technique that has it.
-PlanState with_knob(PlanState plan, const std::string& knob, const std::string& value);
+EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
+                                 const std::string& value);
 /// Returns the plan as JSON that --plan reads.
-std::string plan_to_json(const PlanState& plan);
+std::string plan_to_json(const EditedPlanState& plan);
 
 /// Returns all techniques. The list is built once.
-const std::vector<app::TechniqueInfo>& technique_infos();
+const std::vector<app::TechniqueInfo>& list_technique_infos();
 /// Returns the technique of this name, or null.
 const app::TechniqueInfo* find_technique_info(const std::string& technique);
 

@@ -9,10 +9,10 @@ namespace catoptric::view {
 
 namespace {
 
-constexpr std::uint64_t kFirstSeed = 1'000'000;
+constexpr std::uint64_t kFirstReferenceSeed = 1'000'000;
 
-app::TechniqueResult render_traced(app::Session& session, app::FrameSpec spec,
-                                   const std::string& technique, std::uint64_t seed) {
+app::TechniqueResult render_ray_traced(app::Session& session, app::FrameSpec spec,
+                                       const std::string& technique, std::uint64_t seed) {
     spec.techniques = {technique};
     spec.seed = seed;
     spec.keeps_history = true;
@@ -22,7 +22,7 @@ app::TechniqueResult render_traced(app::Session& session, app::FrameSpec spec,
 } // namespace
 
 std::vector<std::uint32_t> render_mirror_hits(app::Session& session, const app::FrameSpec& spec) {
-    return render_traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
+    return render_ray_traced(session, spec, "raytrace:depth=1,shadow=none", spec.seed).hits;
 }
 
 /// Adds a picture to the mean that is displayed.
@@ -43,13 +43,13 @@ bool ProgressiveReference::render_one_pass(app::Session& session, const app::Fra
     if (passes_++ > 0) {
         // A row of rays has the seed 0 unless the user sets one.
         const std::string technique = is_rough_ ? "raytrace:depth=16,rays=16,seed=" +
-                                                      std::to_string(kFirstSeed + pass)
+                                                      std::to_string(kFirstReferenceSeed + pass)
                                                 : "raytrace:depth=16,samples=2";
-        add_pass(render_traced(session, spec, technique, pass).hdr, spec.exposure);
+        add_pass(render_ray_traced(session, spec, technique, pass).hdr, spec.exposure);
         return true;
     }
     is_rough_ = scene::has_rough_reflector(session.scene());
-    app::TechniqueResult part = render_traced(session, spec, "raytrace:depth=16", spec.seed);
+    app::TechniqueResult part = render_ray_traced(session, spec, "raytrace:depth=16", spec.seed);
     hits_ = std::move(part.hits);
     judged_ = std::move(part.hdr);
     sum_ = measure::Picture(judged_.width, judged_.height);

@@ -17,16 +17,16 @@ class ProgressiveReference {
 public:
     static constexpr int kMaxReferencePasses = 64;
 
-    void reset() { *this = {}; }
+    void restart_reference() { *this = {}; }
     /// Renders one more pass outside the session's frame sequence and waits for it. `spec` is that
     /// of the live frame. Returns false if no further pass is needed.
     bool render_one_pass(app::Session& session, const app::FrameSpec& spec);
-    int passes() const { return passes_; }
+    int rendered_pass_count() const { return passes_; }
     /// Returns whether errors can be measured: after a pass, or after 16 if passes have noise.
-    bool can_judge() const { return is_rough_ ? passes_ > 16 : passes_ > 0; }
+    bool can_measure_errors() const { return is_rough_ ? passes_ > 16 : passes_ > 0; }
     /// Returns the picture as the screen shows it; null before the first pass.
-    std::shared_ptr<const measure::Picture> display() const { return display_; }
-    /// Returns the errors of a live picture over mirror pixels. Needs can_judge().
+    std::shared_ptr<const measure::Picture> displayed_picture() const { return display_; }
+    /// Returns the errors of a live picture over mirror pixels. Needs can_measure_errors().
     /// Costs one FLIP.
     measure::Difference compare_with_reference(const measure::Picture& hdr, double exposure) const;
 

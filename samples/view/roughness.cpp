@@ -8,12 +8,12 @@ namespace catoptric::view {
 
 namespace {
 
-const scene::Object& find_mirror(const scene::Scene& scene, std::uint32_t mirror) {
+const scene::Object& find_mirror_object(const scene::Scene& scene, std::uint32_t mirror) {
     return scene.objects[scene::mirrors(scene)[mirror - 1]];
 }
 
 /// Returns the option that gives a material its reflectance and roughness.
-scene::MirrorOverride describe_mirror(const scene::Material& material) {
+scene::MirrorOverride make_mirror_override(const scene::Material& material) {
     if (material.mirror) return {.reflectance = material.reflectance};
     return {.reflectance = material.albedo, .roughness = material.roughness};
 }
@@ -33,9 +33,9 @@ void separate_mirror_materials(scene::Scene& scene) {
 }
 
 std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uint32_t mirror) {
-    const scene::Object& object = find_mirror(scene, mirror);
+    const scene::Object& object = find_mirror_object(scene, mirror);
     const scene::Material& material = scene.materials[object.material];
-    const scene::MirrorOverride described = describe_mirror(material);
+    const scene::MirrorOverride described = make_mirror_override(material);
     if (material != scene::make_mirror_material(material.name, described) ||
         !scene.meshes[object.mesh].colours.empty())
         return std::nullopt;
@@ -43,18 +43,18 @@ std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uin
 }
 
 scene::Material change_roughness(const scene::Scene& scene, std::uint32_t mirror, float roughness) {
-    const scene::Material& material = scene.materials[find_mirror(scene, mirror).material];
-    scene::MirrorOverride described = describe_mirror(material);
+    const scene::Material& material = scene.materials[find_mirror_object(scene, mirror).material];
+    scene::MirrorOverride described = make_mirror_override(material);
     described.roughness = roughness;
     return scene::make_mirror_material(material.name, described);
 }
 
-std::vector<std::string> roughness_option_words(const scene::Scene& scene,
-                                                const MirrorRoughness& roughness) {
+std::vector<std::string> make_roughness_option_words(const scene::Scene& scene,
+                                                     const MirrorRoughness& roughness) {
     std::vector<std::string> words;
     for (const auto& [mirror, value] : roughness) {
-        const scene::Object& object = find_mirror(scene, mirror);
-        const vec3 reflectance = describe_mirror(scene.materials[object.material]).reflectance;
+        const scene::Object& object = find_mirror_object(scene, mirror);
+        const vec3 reflectance = make_mirror_override(scene.materials[object.material]).reflectance;
         std::string pattern = scene::make_mirror_pattern(object.name);
         if (object.name.find('=') != std::string::npos && pattern.ends_with("=1"))
             pattern.resize(pattern.size() - 2);

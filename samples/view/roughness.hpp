@@ -23,7 +23,7 @@ std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uin
 /// Returns the material of a mirror with another roughness. The mirror must be editable.
 scene::Material change_roughness(const scene::Scene& scene, std::uint32_t mirror, float roughness);
 /// Returns the words of the options `--mirror` that make the mirrors of `scene` as rough.
-std::vector<std::string> roughness_option_words(const scene::Scene& scene,
-                                                const MirrorRoughness& roughness);
+std::vector<std::string> make_roughness_option_words(const scene::Scene& scene,
+                                                     const MirrorRoughness& roughness);
 
 } // namespace catoptric::view

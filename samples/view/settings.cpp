@@ -19,7 +19,8 @@ namespace {
 constexpr std::uint32_t kMaxWindowSide = 16384;
 
 template <typename Value, typename Good>
-void read_setting(const Json& document, const char* name, Value& value, const Good& is_good) {
+void read_setting_member(const Json& document, const char* name, Value& value,
+                         const Good& is_good) {
     const auto found = document.find(name);
     if (found == document.end()) return;
     try {
@@ -43,26 +44,26 @@ fs::path settings_file_path() {
     return home.empty() ? home : home / ".config" / "catoptric" / "view.json";
 }
 
-ViewerSettings parse_settings(const std::string& text) {
-    ViewerSettings settings;
+SavedViewerSettings parse_viewer_settings(const std::string& text) {
+    SavedViewerSettings settings;
     const Json document = Json::parse(text, nullptr, false);
     if (!document.is_object()) return settings;
     const auto any = [](bool) { return true; };
     const auto pixels = [](std::uint32_t n) { return n > 0 && n <= kMaxWindowSide; };
-    read_setting(document, "width", settings.window.x, pixels);
-    read_setting(document, "height", settings.window.y, pixels);
+    read_setting_member(document, "width", settings.window.x, pixels);
+    read_setting_member(document, "height", settings.window.y, pixels);
     if (settings.window.x == 0 || settings.window.y == 0) settings.window = {0, 0};
-    read_setting(document, "panels", settings.shows_panels, any);
-    read_setting(document, "flies", settings.flies, any);
-    read_setting(document, "speed", settings.speed,
-                 [](double s) { return std::isfinite(s) && std::abs(s) <= 16; });
-    read_setting(document, "gain", settings.gain, [](int gain) {
+    read_setting_member(document, "panels", settings.shows_panels, any);
+    read_setting_member(document, "flies", settings.flies, any);
+    read_setting_member(document, "speed", settings.speed,
+                        [](double s) { return std::isfinite(s) && std::abs(s) <= 16; });
+    read_setting_member(document, "gain", settings.gain, [](int gain) {
         return gain >= 1 && gain <= 64 && std::has_single_bit(static_cast<unsigned>(gain));
     });
     return settings;
 }
 
-std::string technique_text(const ViewerSettings& settings) {
+std::string serialise_viewer_settings(const SavedViewerSettings& settings) {
     return Json{{"width", settings.window.x},      {"height", settings.window.y},
                 {"panels", settings.shows_panels}, {"flies", settings.flies},
                 {"speed", settings.speed},         {"gain", settings.gain}}
@@ -70,20 +71,20 @@ std::string technique_text(const ViewerSettings& settings) {
            "\n";
 }
 
-ViewerSettings load_settings(const fs::path& file) {
+SavedViewerSettings load_viewer_settings(const fs::path& file) {
     try {
-        if (!file.empty()) return parse_settings(read_file(file));
+        if (!file.empty()) return parse_viewer_settings(read_file(file));
     } catch (const Error&) {
         // No readable file: use defaults.
     }
     return {};
 }
 
-void save_settings(const ViewerSettings& settings, const fs::path& file) {
+void save_viewer_settings(const SavedViewerSettings& settings, const fs::path& file) {
     if (file.empty()) return;
     std::error_code error; // write_file reports a failure
     fs::create_directories(file.parent_path(), error);
-    write_file(file, technique_text(settings));
+    write_file(file, serialise_viewer_settings(settings));
 }
 
 } // namespace catoptric::view

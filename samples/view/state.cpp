@@ -8,14 +8,14 @@
 
 namespace catoptric::view {
 
-const char* name_of(ViewMode mode) {
+const char* view_mode_name(ViewMode mode) {
     constexpr std::array kViewModeNames{"plan",    "split",   "difference",
                                         "answers", "numbers", "causes"};
     return kViewModeNames.at(static_cast<std::size_t>(mode));
 }
 
-const std::vector<CauseLabel>& list_cause_labels() {
-    static const std::vector<CauseLabel> kCauseLabels{
+const std::vector<ErrorCauseLabel>& list_cause_labels() {
+    static const std::vector<ErrorCauseLabel> kCauseLabels{
         {shared::kAblateDistance, "captured distance"},
         {shared::kAblateDirection, "looked-up direction"},
         {shared::kAblateHiddenPoints, "hidden surfaces"},
@@ -31,24 +31,24 @@ bool needs_host_picture(const ViewState& state) {
            (compares && state.against == ComparisonPicture::reference);
 }
 
-ShownPictures choose_shown_pictures(const ViewState& state) {
-    ShownPictures shown{
-        {technique_text(state.plan)}, app::WindowPictures::PictureArrangement::one, 0, 0};
+ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state) {
+    ShownTechniquesAndPictures shown{
+        {technique_text_of_plan(state.plan)}, app::WindowPictures::PictureArrangement::one, 0, 0};
     switch (state.mode) {
     case ViewMode::plan: break;
     case ViewMode::answers:
-        shown.techniques = {technique_text(with_knob(state.plan, "show", "state"))};
+        shown.techniques = {technique_text_of_plan(set_knob_in_plan(state.plan, "show", "state"))};
         break;
     case ViewMode::numbers:
-    case ViewMode::causes: shown.first = app::WindowPictures::kCanvasTexture; break;
+    case ViewMode::causes: shown.first = app::WindowPictures::kCanvasTextureIndex; break;
     case ViewMode::split:
     case ViewMode::difference:
         shown.kind = state.mode == ViewMode::split
                          ? app::WindowPictures::PictureArrangement::split
                          : app::WindowPictures::PictureArrangement::difference;
         if (state.against == ComparisonPicture::reference) {
-            shown.second = app::WindowPictures::kCanvasTexture;
-        } else if (const std::string other = technique_text(state.other);
+            shown.second = app::WindowPictures::kCanvasTextureIndex;
+        } else if (const std::string other = technique_text_of_plan(state.other);
                    other != shown.techniques[0]) {
             shown.techniques.push_back(other);
             shown.second = 1;
@@ -58,7 +58,7 @@ ShownPictures choose_shown_pictures(const ViewState& state) {
     return shown;
 }
 
-double advance_playback_time(const Playback& motion, double seconds) {
+double advance_playback_time(const ScenePlayback& motion, double seconds) {
     return motion.plays ? motion.time + motion.speed * seconds : motion.time;
 }
 

@@ -22,13 +22,13 @@ enum class ViewMode {
     causes,     ///< change of the picture when a cause of error is removed
 };
 inline constexpr int kViewModeCount = 6;
-const char* name_of(ViewMode mode);
+const char* view_mode_name(ViewMode mode);
 
 /// The picture that the plan is compared with.
 enum class ComparisonPicture { other, reference };
 
 /// Scene time, in seconds.
-struct Playback {
+struct ScenePlayback {
     double time = 0;
     bool plays = false;
     double speed = 1;
@@ -36,7 +36,7 @@ struct Playback {
 inline constexpr double kFrameStepSeconds = 1.0 / 60;
 
 struct ViewState {
-    PlanState plan, other;
+    EditedPlanState plan, other;
     ViewMode mode = ViewMode::plan;
     ComparisonPicture against = ComparisonPicture::other;
     double divider = .5;      ///< position as a share of the picture's width
@@ -44,7 +44,7 @@ struct ViewState {
     std::uint32_t cause = 16; ///< the cause of error to remove, a bit of shared::kMend...
     scene::Camera camera;
     bool flies = false;
-    Playback motion;
+    ScenePlayback motion;
     app::RenderedWork model = app::RenderedWork::required;
     double exposure = 0;
     bool judges = false; ///< whether errors against the traced reference are measured at rest
@@ -56,7 +56,7 @@ struct ViewState {
 };
 
 /// The techniques that one frame renders, and the pictures that it shows.
-struct ShownPictures {
+struct ShownTechniquesAndPictures {
     std::vector<std::string> techniques;
     app::WindowPictures::PictureArrangement kind = app::WindowPictures::PictureArrangement::one;
     std::size_t first = 0, second = 0; ///< indices for app::WindowPictures
@@ -65,17 +65,17 @@ struct ShownPictures {
 /// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror
 /// numbers, or a cause of error.
 bool needs_host_picture(const ViewState& state);
-ShownPictures choose_shown_pictures(const ViewState& state);
+ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state);
 
 /// A cause of error with its name for the user. Bits are shared::kMend...
-struct CauseLabel {
+struct ErrorCauseLabel {
     std::uint32_t bit;
     const char* name;
 };
-const std::vector<CauseLabel>& list_cause_labels();
+const std::vector<ErrorCauseLabel>& list_cause_labels();
 
 /// Returns the scene's time after a frame of this duration. All times are in seconds.
-double advance_playback_time(const Playback& motion, double seconds);
+double advance_playback_time(const ScenePlayback& motion, double seconds);
 /// Returns a distinct display colour for each mirror number; black for 0.
 vec3 mirror_number_colour(std::uint32_t mirror);
 /// Returns a picture of mirror numbers from the first hits of camera rays

@@ -22,15 +22,16 @@ void TimeStatistics::add(FrameTimeSample sample) {
 }
 
 template <typename Get>
-TimeRow TimeStatistics::make_time_row(const std::string& name, const Get& get) const {
+TimeTableRow TimeStatistics::make_time_row(const std::string& name, const Get& get) const {
     std::vector<double> values;
     for (const FrameTimeSample& sample : samples_) values.push_back(get(sample));
     if (values.empty()) return {name, 0, {}};
-    return {name, measure::compute_percentile(values, .5), measure::median_interval(values)};
+    return {name, measure::compute_percentile(values, .5),
+            measure::median_confidence_interval(values)};
 }
 
-std::vector<TimeRow> TimeStatistics::passes() const {
-    std::vector<TimeRow> lines;
+std::vector<TimeTableRow> TimeStatistics::list_pass_times() const {
+    std::vector<TimeTableRow> lines;
     for (std::size_t i = 0; !samples_.empty() && i < samples_.back().frame.passes.size(); ++i)
         lines.push_back(
             make_time_row(samples_.back().frame.passes[i].name,
@@ -38,7 +39,7 @@ std::vector<TimeRow> TimeStatistics::passes() const {
     return lines;
 }
 
-std::vector<TimeRow> TimeStatistics::host() const {
+std::vector<TimeTableRow> TimeStatistics::host() const {
     return {
         make_time_row("update", [](const FrameTimeSample& s) { return s.frame.host.update; }),
         make_time_row("hierarchy", [](const FrameTimeSample& s) { return s.frame.host.hierarchy; }),
@@ -49,11 +50,11 @@ std::vector<TimeRow> TimeStatistics::host() const {
         make_time_row("present", [](const FrameTimeSample& s) { return s.present_ms; })};
 }
 
-TimeRow TimeStatistics::gpu() const {
+TimeTableRow TimeStatistics::gpu() const {
     return make_time_row("gpu", [](const FrameTimeSample& s) { return s.frame.gpu_ms; });
 }
 
-TimeRow TimeStatistics::frame() const {
+TimeTableRow TimeStatistics::frame() const {
     return make_time_row("frame", [](const FrameTimeSample& s) { return s.frame.frame_ms(); });
 }
 

@@ -10,7 +10,7 @@
 namespace catoptric::view {
 
 /// One line of the table of times, in milliseconds.
-struct TimeRow {
+struct TimeTableRow {
     std::string name;
     double median = 0;
     measure::Interval ci95; ///< of the median; unknown below six frames
@@ -28,18 +28,18 @@ public:
         double host_ms = 0, acquire_ms = 0, present_ms = 0, interval_ms = 0;
     };
     void add(FrameTimeSample sample);
-    std::size_t count() const { return samples_.size(); }
-    std::vector<TimeRow> passes() const;
+    std::size_t frame_count() const { return samples_.size(); }
+    std::vector<TimeTableRow> list_pass_times() const;
     /// Returns the times of the host, parts first.
-    std::vector<TimeRow> host() const;
-    TimeRow gpu() const;
-    TimeRow frame() const;
+    std::vector<TimeTableRow> host() const;
+    TimeTableRow gpu() const;
+    TimeTableRow frame() const;
     /// Returns frames per second, from the median of the intervals; 0: unknown.
     double fps() const;
 
 private:
     template <typename Get>
-    TimeRow make_time_row(const std::string& name, const Get& get) const;
+    TimeTableRow make_time_row(const std::string& name, const Get& get) const;
 
     std::deque<FrameTimeSample> samples_;
 };

@@ -13,9 +13,11 @@ namespace catoptric::view {
 namespace {
 
 constexpr std::uint32_t kFramesInFlight = 2;
-constexpr int kRestingFrames = 3;  // after this many frames without a change, the camera rests
-constexpr int kHiddenFrames = 4;   // frames after a cut that are not shown
-constexpr int kSettledFrames = 12; // frames at rest before errors and their causes are measured
+constexpr int kFramesUntilCameraRests =
+    3; // after this many frames without a change, the camera rests
+constexpr int kUnshownFramesAfterCut = 4; // frames after a cut that are not shown
+constexpr int kFramesUntilErrorsAreMeasured =
+    12; // frames at rest before errors and their causes are measured
 
 double current_milliseconds() {
     return std::chrono::duration<double, std::milli>(
@@ -23,14 +25,15 @@ double current_milliseconds() {
         .count();
 }
 
-bool shows_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
+bool show_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
            a.time == b.time && a.exposure == b.exposure && a.model == b.model;
 }
 
 } // namespace
 
-Viewer::Viewer(ViewWindow& window, const app::EngineOptions& options, const app::Request& request) {
+SceneViewer::SceneViewer(ViewWindow& window, const app::EngineOptions& options,
+                         const app::Request& request) {
     app::EngineHooks hooks;
     window.add_to(hooks);
     engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
@@ -42,14 +45,14 @@ Viewer::Viewer(ViewWindow& window, const app::EngineOptions& options, const app:
     budget_ms_ = request.budget_ms;
 }
 
-Viewer::~Viewer() = default;
+SceneViewer::~SceneViewer() = default;
 
-std::vector<PlanEntry> Viewer::entries() const {
+std::vector<PlanEntry> SceneViewer::entries() const {
     return last_ ? last_->read().plan : std::vector<PlanEntry>();
 }
 
 /// Collects the times of the oldest frames until at most `most` are in flight.
-void Viewer::collect_finished_frames(std::size_t most) {
+void SceneViewer::collect_finished_frames(std::size_t most) {
     while (pending_.size() > most) {
         pending_.front().sample.frame = pending_.front().frame.times();
         times_.add(std::move(pending_.front().sample));
@@ -57,7 +60,7 @@ void Viewer::collect_finished_frames(std::size_t most) {
     }
 }
 
-void Viewer::cut_history() {
+void SceneViewer::cut_history() {
     collect_finished_frames(0);
     session_->forget();
     was_moved_ = false;
@@ -65,7 +68,7 @@ void Viewer::cut_history() {
 }
 
 /// Gives the session's mirrors their roughness. Returns whether any changed.
-bool Viewer::update_roughness(const MirrorRoughness& roughness) {
+bool SceneViewer::update_roughness(const MirrorRoughness& roughness) {
     if (roughness == roughness_) return false;
     const std::vector<std::size_t> mirrors = scene::mirrors(given_);
     const auto set = [&](std::uint32_t mirror, scene::Material value) {
@@ -85,7 +88,7 @@ bool Viewer::update_roughness(const MirrorRoughness& roughness) {
 }
 
 /// Updates the frame specification from the state, and counts frames at rest.
-void Viewer::update_from_state(const ViewState& state, uvec2 size) {
+void SceneViewer::update_from_state(const ViewState& state, uvec2 size) {
     app::FrameSpec next = spec_;
     next.techniques = choose_shown_pictures(state).techniques;
     next.camera = state.camera;
@@ -95,13 +98,13 @@ void Viewer::update_from_state(const ViewState& state, uvec2 size) {
     next.model = state.model;
     next.budget_ms = state.model == app::RenderedWork::required ? budget_ms_ : 0;
     const bool is_changed = update_roughness(state.roughness);
-    const bool same = shows_same_picture(next, spec_) && !is_changed;
+    const bool same = show_same_picture(next, spec_) && !is_changed;
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
                            next.time == spec_.time && next.exposure == spec_.exposure &&
                            !is_changed;
     still_ = same ? still_ + 1 : 0;
     if (!same_view && frames_ > 0) {
-        reference_.reset();
+        reference_.restart_reference();
         was_moved_ = true;
     }
     if (!same) {
@@ -114,36 +117,36 @@ void Viewer::update_from_state(const ViewState& state, uvec2 size) {
 /// Works while the view is at rest. When the view comes to rest, a new frame sequence begins, as
 /// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
 /// same bytes. The first frames are not shown, because mirrors do not show each other yet.
-void Viewer::measure_at_rest(const ViewState& state) {
-    if (still_ >= kRestingFrames && was_moved_ && !state.motion.plays) {
+void SceneViewer::measure_at_rest(const ViewState& state) {
+    if (still_ >= kFramesUntilCameraRests && was_moved_ && !state.motion.plays) {
         cut_history();
-        for (int k = 0; k < kHiddenFrames; ++k) {
+        for (int k = 0; k < kUnshownFramesAfterCut; ++k) {
             last_ = session_->frame(spec_);
             if (!app::Access::depends_on_last_frame(*last_)) break;
         }
     }
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
                           state.against == ComparisonPicture::reference;
-    if (still_ >= kRestingFrames && (compares || state.judges)) {
+    if (still_ >= kFramesUntilCameraRests && (compares || state.judges)) {
         collect_finished_frames(0); // frames outside the sequence use the slots of earlier frames
         reference_.render_one_pass(*session_, spec_);
     }
     // A picture of search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
-    if (still_ >= kSettledFrames && !waits && state.judges && state.mode != ViewMode::answers &&
-        !error_ && reference_.can_judge()) {
+    if (still_ >= kFramesUntilErrorsAreMeasured && !waits && state.judges &&
+        state.mode != ViewMode::answers && !error_ && reference_.can_measure_errors()) {
         last_ = session_->frame(spec_);
         error_ = reference_.compare_with_reference(last_->hdr(), spec_.exposure);
     }
 }
 
-std::shared_ptr<const measure::Picture> Viewer::make_host_picture(const ViewState& state) {
+std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const ViewState& state) {
     if (state.mode == ViewMode::split || state.mode == ViewMode::difference)
-        return reference_.display();
+        return reference_.displayed_picture();
     const bool is_made = made_ && made_mode_ == state.mode && made_cause_ == state.cause &&
                          made_gain_ == state.gain;
     if (is_made) return made_;
-    if (state.mode == ViewMode::causes && still_ < kSettledFrames) return nullptr;
+    if (state.mode == ViewMode::causes && still_ < kFramesUntilErrorsAreMeasured) return nullptr;
     made_mode_ = state.mode, made_cause_ = state.cause, made_gain_ = state.gain;
     collect_finished_frames(0);
     if (state.mode == ViewMode::numbers) {
@@ -161,11 +164,11 @@ std::shared_ptr<const measure::Picture> Viewer::make_host_picture(const ViewStat
     return made_;
 }
 
-void Viewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay,
-                          bool is_seen) {
+void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay,
+                               bool is_seen) {
     update_from_state(state, size);
     measure_at_rest(state);
-    const ShownPictures what = choose_shown_pictures(state);
+    const ShownTechniquesAndPictures what = choose_shown_pictures(state);
     showing_ = {what.kind,
                 what.first,
                 what.second,
@@ -175,8 +178,8 @@ void Viewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay
                 std::move(overlay)};
     if (needs_host_picture(state)) showing_.canvas = make_host_picture(state);
     if (!showing_.canvas) { // not made yet: show the plan's picture
-        if (showing_.first == app::WindowPictures::kCanvasTexture) showing_.first = 0;
-        if (showing_.second == app::WindowPictures::kCanvasTexture) showing_.second = 0;
+        if (showing_.first == app::WindowPictures::kCanvasTextureIndex) showing_.first = 0;
+        if (showing_.second == app::WindowPictures::kCanvasTextureIndex) showing_.second = 0;
     }
     collect_finished_frames(kFramesInFlight - 1);
     const double begin = current_milliseconds();
@@ -195,7 +198,7 @@ void Viewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay
     ++frames_;
 }
 
-std::uint32_t Viewer::mirror_at(uvec2 pixel) {
+std::uint32_t SceneViewer::mirror_at(uvec2 pixel) {
     if (frames_ == 0) return 0;
     collect_finished_frames(0);
     const std::vector<std::uint32_t> hits = render_mirror_hits(*session_, spec_);
@@ -203,12 +206,12 @@ std::uint32_t Viewer::mirror_at(uvec2 pixel) {
     return at < hits.size() ? hits[at] & 0xFFFFU : 0;
 }
 
-void Viewer::write_picture(const std::filesystem::path& file) const {
+void SceneViewer::write_picture(const std::filesystem::path& file) const {
     check(last_.has_value(), Failure::usage, "there is no frame yet to be written");
     if (file.extension() == ".exr") return measure::write_exr(last_->read(0).hdr, file);
     const auto picture = [&](std::size_t part) {
-        return part == app::WindowPictures::kCanvasTexture ? *showing_.canvas
-                                                           : last_->read(part).display;
+        return part == app::WindowPictures::kCanvasTextureIndex ? *showing_.canvas
+                                                                : last_->read(part).display;
     };
     measure::Picture shown = picture(showing_.first);
     if (showing_.kind == app::WindowPictures::PictureArrangement::difference)

@@ -14,25 +14,25 @@ namespace catoptric::view {
 
 /// A scene on a device, with its frames in a window. Two frames are in flight. The user's view of
 /// it is a ViewState, which outlives this object.
-class Viewer {
+class SceneViewer {
 public:
     /// Opens the request's scene with its size and first instant. Throws as Engine, WindowScreen
     /// and Session do.
-    Viewer(ViewWindow& window, const app::EngineOptions& options, const app::Request& request);
+    SceneViewer(ViewWindow& window, const app::EngineOptions& options, const app::Request& request);
     /// Waits for frames in flight.
-    ~Viewer();
+    ~SceneViewer();
 
-    app::WindowScreen& screen() { return *screen_; }
-    app::Session& session() { return *session_; }
-    app::Engine& engine() { return *engine_; }
-    const TimeStatistics& times() const { return times_; }
-    const ProgressiveReference& reference() const { return reference_; }
-    const std::optional<measure::Difference>& error() const { return error_; }
-    /// Returns how each mirror was drawn in the last frame. `left_out` returns its culled work.
+    app::WindowScreen& window_screen() { return *screen_; }
+    app::Session& viewer_session() { return *session_; }
+    app::Engine& viewer_engine() { return *engine_; }
+    const TimeStatistics& time_statistics() const { return times_; }
+    const ProgressiveReference& progressive_reference() const { return reference_; }
+    const std::optional<measure::Difference>& measured_error() const { return error_; }
+    /// Returns how each mirror was drawn in the last frame. `culled_work` returns its culled work.
     std::vector<PlanEntry> entries() const;
-    const std::vector<require::CulledWork>& left_out() const { return left_out_; }
+    const std::vector<require::CulledWork>& culled_work() const { return left_out_; }
     /// Returns the capture budget of the first technique, if there is one.
-    const std::optional<app::CaptureBudget>& slices() const { return slices_; }
+    const std::optional<app::CaptureBudget>& capture_budget_of_technique() const { return slices_; }
 
     /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
@@ -43,8 +43,8 @@ public:
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
     void write_picture(const std::filesystem::path& file) const;
-    app::FrameSpec frame_spec() const { return spec_; }
-    std::size_t cuts() const { return cuts_; }
+    app::FrameSpec make_frame_spec() const { return spec_; }
+    std::size_t cut_count() const { return cuts_; }
 
 private:
     void update_from_state(const ViewState& state, uvec2 size);
@@ -53,7 +53,7 @@ private:
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
     void collect_finished_frames(std::size_t most);
 
-    struct PendingFrame {
+    struct FrameInFlight {
         app::Frame frame;
         TimeStatistics::FrameTimeSample sample;
     };
@@ -61,7 +61,7 @@ private:
     std::unique_ptr<app::Engine> engine_;
     std::unique_ptr<app::WindowScreen> screen_;
     std::unique_ptr<app::Session> session_;
-    std::deque<PendingFrame> pending_;
+    std::deque<FrameInFlight> pending_;
     std::optional<app::Frame> last_;
     app::WindowPictures showing_; ///< what the last frame showed
     app::FrameSpec spec_;

@@ -13,13 +13,13 @@ namespace catoptric::view {
 
 namespace {
 
-std::string last_window_error() {
+std::string read_last_window_error() {
     const char* text = nullptr;
     glfwGetError(&text);
     return text ? text : "no reason was given";
 }
 
-uvec2 make_size(int width, int height) {
+uvec2 to_size(int width, int height) {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
@@ -28,7 +28,7 @@ std::uint64_t make_window_surface(GLFWwindow* window, void* instance) {
     const VkResult result = glfwCreateWindowSurface(static_cast<VkInstance>(instance), window,
                                                     nullptr, &surface);
     check(result == VK_SUCCESS, Failure::no_device,
-          "the window cannot show pictures by Vulkan: ", last_window_error());
+          "the window cannot show pictures by Vulkan: ", read_last_window_error());
     return reinterpret_cast<std::uint64_t>(surface);
 }
 
@@ -36,23 +36,23 @@ std::uint64_t make_window_surface(GLFWwindow* window, void* instance) {
 
 /// Callbacks of the window library, called while events are polled.
 struct WindowCallbacks {
-    static UserInput& gathered_input_of(GLFWwindow* window) {
+    static UserInput& find_gathered_input(GLFWwindow* window) {
         return static_cast<ViewWindow*>(glfwGetWindowUserPointer(window))->gathered_;
     }
-    static void on_key(GLFWwindow* window, int code, int, int action, int) {
+    static void on_key_pressed(GLFWwindow* window, int code, int, int action, int) {
         if (action == GLFW_RELEASE) return;
         const auto repeats = [](const KeyBinding& key) {
             return key.act == KeyAction::step || key.act == KeyAction::back;
         };
         for (const KeyBinding& key : list_key_bindings())
             if (key.code == code && (action == GLFW_PRESS || repeats(key)))
-                gathered_input_of(window).acts.push_back(key);
+                find_gathered_input(window).acts.push_back(key);
     }
-    static void on_scroll(GLFWwindow* window, double, double y) {
-        gathered_input_of(window).wheel += y;
+    static void on_mouse_scrolled(GLFWwindow* window, double, double y) {
+        find_gathered_input(window).wheel += y;
     }
-    static void on_drop(GLFWwindow* window, int count, const char** paths) {
-        for (int i = 0; i < count; ++i) gathered_input_of(window).dropped.emplace_back(paths[i]);
+    static void on_files_dropped(GLFWwindow* window, int count, const char** paths) {
+        for (int i = 0; i < count; ++i) find_gathered_input(window).dropped.emplace_back(paths[i]);
     }
 };
 
@@ -61,7 +61,7 @@ ViewWindow::ViewWindow(const std::string& title, uvec2 size) {
         fail(Failure::no_device,
              "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures "
              "without (",
-             last_window_error(), ")");
+             read_last_window_error(), ")");
     if (!glfwVulkanSupported()) {
         glfwTerminate();
         fail(Failure::no_device, "this display shows no pictures by Vulkan; no driver is "
@@ -71,16 +71,16 @@ ViewWindow::ViewWindow(const std::string& title, uvec2 size) {
     window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(),
                                nullptr, nullptr);
     if (!window_) {
-        const std::string why = last_window_error();
+        const std::string why = read_last_window_error();
         glfwTerminate();
         fail(Failure::no_device, "no window could be opened: ", why);
     }
     // Keeps a click between two frames until the next frame.
     glfwSetInputMode(window_, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, WindowCallbacks::on_key);
-    glfwSetScrollCallback(window_, WindowCallbacks::on_scroll);
-    glfwSetDropCallback(window_, WindowCallbacks::on_drop);
+    glfwSetKeyCallback(window_, WindowCallbacks::on_key_pressed);
+    glfwSetScrollCallback(window_, WindowCallbacks::on_mouse_scrolled);
+    glfwSetDropCallback(window_, WindowCallbacks::on_files_dropped);
     polled_ = glfwGetTime();
 }
 
@@ -108,8 +108,8 @@ UserInput ViewWindow::poll_events(bool wait) {
     int width = 0, height = 0, wide = 0, high = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     glfwGetWindowSize(window_, &wide, &high);
-    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = make_size(width, height);
-    inputs.scale = pixels_per_unit(inputs.window, make_size(wide, high));
+    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = to_size(width, height);
+    inputs.scale = pixels_per_unit(inputs.window, to_size(wide, high));
     glfwGetCursorPos(window_, &inputs.mouse.x, &inputs.mouse.y);
     inputs.mouse *= inputs.scale;
     for (int button = 0; button < 3; ++button)

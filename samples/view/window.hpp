@@ -28,7 +28,7 @@ public:
     UserInput poll_events(bool wait);
     void resize(uvec2 size); ///< in desktop units
     void copy_to_clipboard(const std::string& text);
-    GLFWwindow* handle() const { return window_; }
+    GLFWwindow* glfw_window() const { return window_; }
 
 private:
     friend struct WindowCallbacks;

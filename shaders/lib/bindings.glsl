@@ -51,7 +51,7 @@ Surface read_surface(uint object) {
 }
 
 // Reads the probe of a mirror, counted from 0. The compiler removes reads of members that the caller does not use.
-Probe probe_at(uint mirror) {
+Probe read_probe(uint mirror) {
     uint i = kTexelsPerProbe * mirror;
     vec4 sphere = probe_texels_at(i), centre = probe_texels_at(i + 1u);
     return Probe(centre.xyz, sphere.xyz, sphere.w, probe_texels_at(i + 2u).rgb, probe_texels_at(i + 3u).xyz,

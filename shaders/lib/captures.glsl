@@ -57,7 +57,7 @@ uint cube_index_of_mirror(uint mirror) {
     if (has_capture_table == 0u) return mirror;
     return captures.places[mirror] & 0xffffu;
 }
-bool is_captured(uint mirror) {
+bool has_mirror_capture(uint mirror) {
     if (has_capture_table == 0u) return true;
     return capture_array_of_mirror(mirror) < kMaxCubeArrays;
 }
@@ -73,6 +73,6 @@ bool has_distance_limit(uint mirror) {
 }
 
 // Returns the layer of the first face of a mirror's capture in texture arrays whose layers are cube faces.
-uint first_face_of(uint mirror) { return 6u * cube_index_of_mirror(mirror); }
+uint first_face_layer_of_mirror(uint mirror) { return 6u * cube_index_of_mirror(mirror); }
 
 #endif

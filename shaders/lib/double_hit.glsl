@@ -11,23 +11,23 @@ dvec3 exact_origin, exact_direction;
 dvec3 exact_point, exact_normal, exact_facet;
 
 // Sets the traced ray. `low` is the rounding error of the ray's origin: the exact origin is origin + low.
-void set_exact_ray(Ray ray, vec3 low) {
+void set_double_precision_ray(Ray ray, vec3 low) {
     exact_origin = dvec3(ray.origin) + dvec3(low);
     exact_direction = dvec3(ray.direction);
 }
 
 // Transforms a position from an instance's object space to scene units (see ObjectPlacement).
-dvec3 exact_scene_position(ObjectPlacement place, vec3 own) {
+dvec3 transform_exact_position_to_scene(ObjectPlacement place, vec3 own) {
     return dvec3(place.centre) + dvec3(place.centre_low) + double(own.x) * dvec3(place.scene_x) +
            double(own.y) * dvec3(place.scene_y) + double(own.z) * dvec3(place.scene_z);
 }
-dvec3 exact_scene_normal(ObjectPlacement place, dvec3 own) {
+dvec3 transform_exact_normal_to_scene(ObjectPlacement place, dvec3 own) {
     return own.x * dvec3(place.own_x) + own.y * dvec3(place.own_y) + own.z * dvec3(place.own_z);
 }
 
 // Intersects the ray with the triangle that the single precision walk found, near the barycentric weights `w`. Returns
 // the exact weights, and sets exact_point and exact_facet.
-dvec3 exact_triangle_hit(dvec3 a, dvec3 b, dvec3 c, vec3 w) {
+dvec3 refine_exact_triangle_hit(dvec3 a, dvec3 b, dvec3 c, vec3 w) {
     dvec3 e = b - a, f = c - a, n = cross(e, f);
     double size = dot(n, n), slope = dot(n, exact_direction);
     exact_facet = n / sqrt(size);
@@ -40,7 +40,7 @@ dvec3 exact_triangle_hit(dvec3 a, dvec3 b, dvec3 c, vec3 w) {
 }
 
 // Intersects the ray with a sphere near the ray parameter `t`. Sets exact_point, exact_normal and exact_facet.
-void exact_sphere_hit(dvec3 centre, double radius, float t) {
+void refine_exact_sphere_hit(dvec3 centre, double radius, float t) {
     dvec3 arm = exact_origin - centre + double(t) * exact_direction;
     // Newton iteration from the single precision t. Where the ray grazes the sphere, the iteration does not converge.
     for (int i = 0; i < 2; ++i) {
@@ -52,8 +52,8 @@ void exact_sphere_hit(dvec3 centre, double radius, float t) {
     exact_point = centre + radius * exact_normal;
 }
 
-// Reflects the ray as mirror_direction does. The reflected ray starts exactly at exact_point. Returns its direction.
-vec3 exact_reflection() {
+// Reflects the ray as reflect_above_facet does. The reflected ray starts exactly at exact_point. Returns its direction.
+vec3 reflect_exact_ray() {
     dvec3 facet = dot(exact_direction, exact_facet) > 0.0LF ? -exact_facet : exact_facet;
     dvec3 r = exact_direction - 2.0LF * dot(exact_direction, exact_normal) * exact_normal;
     double height = dot(r, facet);

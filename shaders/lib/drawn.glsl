@@ -31,12 +31,12 @@ DRAWN(13) uvec3 drawn_numbers;
 #ifdef VERTEX_STAGE
 
 // Returns the layer and the object that gl_InstanceIndex encodes.
-uint drawn_layer() { return uint(gl_InstanceIndex) & ((1u << kInstanceLayerBits) - 1u); }
-uint drawn_object() { return uint(gl_InstanceIndex) >> kInstanceLayerBits; }
+uint drawn_view_layer() { return uint(gl_InstanceIndex) & ((1u << kInstanceLayerBits) - 1u); }
+uint drawn_object_index() { return uint(gl_InstanceIndex) >> kInstanceLayerBits; }
 
 void write_drawn_pixel(View view, Surface surface) {
-    eye_layer = vec4(view.eye, drawn_layer());
-    drawn_numbers = uvec3(drawn_object(), surface.mirror, surface.detail);
+    eye_layer = vec4(view.eye, drawn_view_layer());
+    drawn_numbers = uvec3(drawn_object_index(), surface.mirror, surface.detail);
     Light light = lights[0];
     position_near = vec4(light.position, light.near);
     normal_red = vec4(light.normal, surface.albedo.r);
@@ -51,19 +51,19 @@ void write_drawn_pixel(View view, Surface surface) {
 #else
 
 vec3 camera_position() { return eye_layer.xyz; }
-int view_layer() { return int(eye_layer.w); }
-uint drawn_object() { return drawn_numbers.x; }
-uint drawn_mirror() { return drawn_numbers.y; }
-uint drawn_detail() { return drawn_numbers.z; }
+int rendered_view_layer() { return int(eye_layer.w); }
+uint drawn_object_index() { return drawn_numbers.x; }
+uint drawn_mirror_number() { return drawn_numbers.y; }
+uint drawn_material_parameters() { return drawn_numbers.z; }
 Surface read_drawn_surface() {
     return Surface(vec3(normal_red.w, intensity_green.w, right_blue.w), emission_kind.xyz,
-                   read_surface(drawn_object()).reflectance, drawn_mirror(), drawn_detail(), vec3(0), 0.0);
+                   read_surface(drawn_object_index()).reflectance, drawn_mirror_number(), drawn_material_parameters(), vec3(0), 0.0);
 }
 Light read_first_light() {
     return Light(position_near.xyz, normal_red.xyz, intensity_green.xyz, right_blue.xyz, down_ambient.xyz, forward_faces.xyz,
                  position_near.w, light_share.x, light_share.y, light_share.z, uint(emission_kind.w));
 }
-float ambient_light() { return down_ambient.w; }
+float frame_ambient_light() { return down_ambient.w; }
 uint shadow_face_count() { return uint(forward_faces.w); }
 
 #endif

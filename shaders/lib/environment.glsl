@@ -10,25 +10,25 @@ layout(constant_id = ENVIRONMENT_CONSTANT) const uint environment_kind = kNoEnvi
 layout(set = 0, binding = 28, scalar) uniform SkyBuffer { Sky value; } sky;
 TEXEL_LIST(29, sky_texels, vec4, samplerBuffer, false) // the environment map's texels, row by row
 
-vec3 sky_texel(uint column, uint row) { return sky_texels_at(row * sky.value.size.x + column).rgb; }
+vec3 read_sky_texel(uint column, uint row) { return sky_texels_at(row * sky.value.size.x + column).rgb; }
 
 // Returns the environment's radiance in a unit direction.
 vec3 environment_radiance(vec3 direction) {
     if (environment_kind == kNoEnvironment) return vec3(0);
-    vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
+    vec3 d = rotate_to_environment_axes(direction, sky.value.turn.x, sky.value.turn.y);
     if (environment_kind == kStudioEnvironment) return vec3(sky.value.scale * studio_radiance(d));
-    count_once(kWorkTextureLookups);
-    EnvironmentMapPosition at = environment_map_position(d, sky.value.size.x, sky.value.size.y);
-    return sky.value.scale * mix(mix(sky_texel(at.left, at.above), sky_texel(at.right, at.above), at.across),
-                                 mix(sky_texel(at.left, at.below), sky_texel(at.right, at.below), at.across), at.down);
+    count_work_once(kWorkTextureLookups);
+    EnvironmentMapPosition at = direction_to_environment_map(d, sky.value.size.x, sky.value.size.y);
+    return sky.value.scale * mix(mix(read_sky_texel(at.left, at.above), read_sky_texel(at.right, at.above), at.across),
+                                 mix(read_sky_texel(at.left, at.below), read_sky_texel(at.right, at.below), at.across), at.down);
 }
 
 // Returns the radiance in a unit direction of level `level`, from 1, of the environment (Sky::level_first).
 vec3 environment_level_radiance(vec3 direction, uint level) {
     uint width = sky.value.level_width[level - 1u], first = sky.value.level_first[level - 1u];
-    count_once(kWorkTextureLookups);
-    vec3 d = environment_direction(direction, sky.value.turn.x, sky.value.turn.y);
-    EnvironmentMapPosition at = environment_map_position(d, width, width / 2u);
+    count_work_once(kWorkTextureLookups);
+    vec3 d = rotate_to_environment_axes(direction, sky.value.turn.x, sky.value.turn.y);
+    EnvironmentMapPosition at = direction_to_environment_map(d, width, width / 2u);
     uint above = first + at.above * width, below = first + at.below * width;
     return sky.value.scale * mix(mix(sky_texels_at(above + at.left).rgb, sky_texels_at(above + at.right).rgb, at.across),
                                  mix(sky_texels_at(below + at.left).rgb, sky_texels_at(below + at.right).rgb, at.across),
@@ -45,7 +45,7 @@ vec3 environment_lobe_radiance(vec3 direction, float roughness) {
 
 // Returns the environment's irradiance on a surface with the given unit normal. Objects do not occlude this light.
 vec3 environment_irradiance(vec3 normal) {
-    return environment_kind == kNoEnvironment ? vec3(0) : irradiance(sky.value.irradiance, normal);
+    return environment_kind == kNoEnvironment ? vec3(0) : irradiance_from_harmonics(sky.value.irradiance, normal);
 }
 
 #endif

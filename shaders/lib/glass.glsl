@@ -23,7 +23,7 @@ bool is_glass(uint detail) {
 }
 
 // Sets the ray to one that leaves the point.
-void leave_point(SurfacePoint p, vec3 direction, out Ray ray) { ray = Ray(leaving_ray_origin(p, direction), direction, p.leaves); }
+void leave_point(SurfacePoint p, vec3 direction, out Ray ray) { ray = Ray(find_leaving_ray_origin(p, direction), direction, p.leaves); }
 
 // Splits the ray, which has met glass at the point, at its `bounce`th surface. Sets the ray and its weight to what passes
 // through, or to what is reflected if nothing passes. Other reflected light becomes a pending ray. The direction is bent at
@@ -36,10 +36,10 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
     vec3 normal = dot(direction, p.normal) > 0.0 ? -p.normal : p.normal;
     float cosine = min(-dot(direction, normal), 1.0), ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine_behind;
     float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);
-    vec3 mirrored = mirror_direction(direction, p.normal, p.facet), mirrored_weight = weight * reflected;
+    vec3 mirrored = reflect_above_facet(direction, p.normal, p.facet), mirrored_weight = weight * reflected;
     vec3 passing_weight = weight * (1.0 - reflected) * glass_tint;
-    bool follows_mirrored = largest(mirrored_weight) > kMinGlassWeight;
-    if (!(largest(passing_weight) > kMinGlassWeight)) {
+    bool follows_mirrored = largest_vector_component(mirrored_weight) > kMinGlassWeight;
+    if (!(largest_vector_component(passing_weight) > kMinGlassWeight)) {
         weight = follows_mirrored ? mirrored_weight : vec3(0);
         leave_point(p, mirrored, ray);
         return;
@@ -63,7 +63,7 @@ bool resume_pending_ray(out Ray ray, inout vec3 weight, inout uint bounce, inout
     weight = next.weight;
     bounce = next.bounce;
 #ifdef DOUBLES
-    set_exact_ray(ray, trace_low);
+    set_double_precision_ray(ray, trace_low);
 #endif
     done = false;
     return true;

@@ -1,6 +1,6 @@
 // Shading that the rasteriser and the ray tracer share. Before the include, a shader defines the function
-//   float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance)
-// that returns the visible share of a light. Shading calls light_visible only if the cosines at light and surface are
+//   float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance)
+// that returns the visible share of a light. Shading calls visible_share_of_light only if the cosines at light and surface are
 // both positive.
 #ifndef CATOPTRIC_LIGHTING_GLSL
 #define CATOPTRIC_LIGHTING_GLSL
@@ -20,8 +20,8 @@ vec3 to_viewer_in_tangent_space(vec3 normal, vec3 tangent, vec3 bitangent, vec3 
 
 // Returns the light that the rough lobe evaluated last reflects to the viewer from the environment and from ambient
 // light. Objects do not occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
-vec3 lobe_environment_light(vec3 normal, vec3 to_viewer) {
-    vec3 light = vec3(ambient_light());
+vec3 lobe_light_from_environment(vec3 normal, vec3 to_viewer) {
+    vec3 light = vec3(frame_ambient_light());
     if (environment_kind != kNoEnvironment)
         light += environment_lobe_radiance(reflect(-to_viewer, normal), specular_lobe.roughness);
     return specular_lobe_albedo(dot(normal, to_viewer)) * light;
@@ -30,7 +30,7 @@ vec3 lobe_environment_light(vec3 normal, vec3 to_viewer) {
 // Returns the radiance of a surface point that lights, ambient light and the environment cause, and its emission:
 // diffuse light, and highlights of lights without a surface. Rays and captures show all other reflections.
 // `facet` points along the triangle's normal and has any length. A zero `facet` makes `normal` alone decide how much
-// light counts (facet_normal_for_shading). `to_viewer` is a unit vector. `reflects` says whether rays or captures show
+// light counts (find_facet_normal_for_shading). `to_viewer` is a unit vector. `reflects` says whether rays or captures show
 // what the surface reflects. If they do not, a rough lobe also reflects the environment, and the metal part is lit by
 // lamps as if it were diffuse.
 vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3 to_viewer, bool reflects) {
@@ -46,33 +46,33 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         to_eye = to_viewer_in_tangent_space(normal, tangent, bitangent, to_viewer);
     }
     uint light = 0u;
-    if (count_work != 0u) add_work(kWorkLights, count);
+    if (count_work != 0u) add_to_work_count(kWorkLights, count);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
-        bool is_lit = light < count && !(traces_paths != 0u && is_lamp(light)) &&
-                      sample_light(light, position, normal, direction, distance, factor);
+        bool is_lit = light < count && !(traces_paths != 0u && is_light_a_lamp(light)) &&
+                      sample_light_of_any_kind(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
             factor *= facet_light_share(direction, normal, facet);
             is_lit = factor > 0.0;
         }
         if (is_lit) {
-            float visible = light_visible(light, position, normal, direction, distance);
+            float visible = visible_share_of_light(light, position, normal, direction, distance);
             vec3 irradiance = read_light(light).intensity * (factor * visible);
             direct += irradiance;
             if (has_lobes != 0u && is_rough) {
                 vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
-                if (is_lamp(light)) by_lamps += irradiance;
+                if (is_light_a_lamp(light)) by_lamps += irradiance;
                 else highlights += irradiance / to_light.z * evaluate_lobe(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, to_light);
             }
         }
         ++light;
     } while (one_light == 0u && light < count);
     if (environment_kind != kNoEnvironment && traces_paths == 0u) direct += environment_irradiance(normal);
-    vec3 result = lambert(surface.emission, surface.albedo, direct, traces_paths == 0u ? ambient_light() : 0.0);
+    vec3 result = lambertian_radiance(surface.emission, surface.albedo, direct, traces_paths == 0u ? frame_ambient_light() : 0.0);
     if (has_lobes != 0u && is_rough) {
         result += specular_lobe.gain * highlights;
-        if (!reflects) result += specular_lobe.stand_in / kPi * by_lamps + lobe_environment_light(normal, to_viewer);
+        if (!reflects) result += specular_lobe.stand_in / kPi * by_lamps + lobe_light_from_environment(normal, to_viewer);
     }
     return result;
 }

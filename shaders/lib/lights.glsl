@@ -16,7 +16,7 @@ layout(constant_id = TRACES_PATHS_CONSTANT) const uint traces_paths = 0u;
 Light only_light = lights[0];
 Light read_first_light() { return only_light; }
 float ambient_of_frame = frame.value.ambient;
-float ambient_light() { return ambient_of_frame; }
+float frame_ambient_light() { return ambient_of_frame; }
 uint shadow_face_count() { return frame.value.shadow_faces; }
 #endif
 
@@ -25,7 +25,7 @@ Light read_light(uint light) {
     return lights[light];
 }
 // Returns whether the light has a surface, which rays and captures show.
-bool is_lamp(uint light) { return read_light(light).kind >= kLightKindTwoSidedLamp; }
-bool is_directional(uint light) { return light_kinds != 0u && read_light(light).kind == kLightKindDirectional; }
+bool is_light_a_lamp(uint light) { return read_light(light).kind >= kLightKindTwoSidedLamp; }
+bool is_directional_light(uint light) { return light_kinds != 0u && read_light(light).kind == kLightKindDirectional; }
 
 #endif

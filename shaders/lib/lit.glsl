@@ -10,22 +10,22 @@
 bool shadow_is_open = false; // whether the shadow map could not tell for some light
 #endif
 
-float light_visible(uint light, vec3 at, vec3 n, vec3 direction, float distance) {
+float visible_share_of_light(uint light, vec3 at, vec3 n, vec3 direction, float distance) {
     if (has_shadow_map == 0u) return 1.0;
 #ifdef FIRST_HIT
     float visible;
-    if (!try_shadow_map(light, at, n, surface_position_error(n), visible)) shadow_is_open = true;
+    if (!find_light_share_by_shadow_map(light, at, n, fragment_position_error(n), visible)) shadow_is_open = true;
     return visible;
 #else
-    return sample_shadow_map(light, at, n, surface_position_error(n));
+    return sample_shadow_map(light, at, n, fragment_position_error(n));
 #endif
 }
 #include "lib/lighting.glsl"
 
 // Returns the radiance of the drawn surface without what captures show (shade_surface). `n` is the unit shading normal,
 // and `facet` points along the triangle's normal.
-vec3 shade_fragment(Surface surface, vec3 n, vec3 facet) {
-    return shade_surface(surface, surface_position(), n, facet_normal_for_shading(surface.detail, facet),
+vec3 shade_drawn_fragment(Surface surface, vec3 n, vec3 facet) {
+    return shade_surface(surface, fragment_surface_position(), n, find_facet_normal_for_shading(surface.detail, facet),
                          -normalize(direction_from_viewer()), surface.reflectance != vec3(0));
 }
 

@@ -16,15 +16,15 @@ TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // 
 TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
 // Returns four words of a MaterialParameters.
-uvec4 detail_quad(uint detail, uint quad) { return detail_quads_at(kQuadsPerMaterial * detail + quad); }
-uint detail_word(uint detail, uint word) { return detail_quad(detail, word / 4u)[word % 4u]; }
+uvec4 read_material_word_quad(uint detail, uint quad) { return detail_quads_at(kQuadsPerMaterial * detail + quad); }
+uint read_material_word(uint detail, uint word) { return read_material_word_quad(detail, word / 4u)[word % 4u]; }
 
 // Reads a MaterialParameters. The compiler removes reads of members that the caller does not use.
 MaterialParameters read_material_parameters(uint detail) {
-    uvec4 q0 = detail_quad(detail, 0), q1 = detail_quad(detail, 1), q2 = detail_quad(detail, 2), q3 = detail_quad(detail, 3);
-    uvec4 q4 = detail_quad(detail, 4), q5 = detail_quad(detail, 5), q6 = detail_quad(detail, 6), q7 = detail_quad(detail, 7);
-    uvec4 q8 = detail_quad(detail, 8), q9 = detail_quad(detail, 9), q10 = detail_quad(detail, 10), q11 = detail_quad(detail, 11);
-    vec4 f12 = uintBitsToFloat(detail_quad(detail, 12));
+    uvec4 q0 = read_material_word_quad(detail, 0), q1 = read_material_word_quad(detail, 1), q2 = read_material_word_quad(detail, 2), q3 = read_material_word_quad(detail, 3);
+    uvec4 q4 = read_material_word_quad(detail, 4), q5 = read_material_word_quad(detail, 5), q6 = read_material_word_quad(detail, 6), q7 = read_material_word_quad(detail, 7);
+    uvec4 q8 = read_material_word_quad(detail, 8), q9 = read_material_word_quad(detail, 9), q10 = read_material_word_quad(detail, 10), q11 = read_material_word_quad(detail, 11);
+    vec4 f12 = uintBitsToFloat(read_material_word_quad(detail, 12));
     vec4 f0 = uintBitsToFloat(q0), f1 = uintBitsToFloat(q1), f2 = uintBitsToFloat(q2), f4 = uintBitsToFloat(q4);
     vec4 f5 = uintBitsToFloat(q5), f7 = uintBitsToFloat(q7), f9 = uintBitsToFloat(q9), f11 = uintBitsToFloat(q11);
     MaterialParameters result;
@@ -38,7 +38,7 @@ MaterialParameters read_material_parameters(uint detail) {
     result.normal_scale = f11.w;
     result.absorption = f12.xyz, result.ior = f12.w;
     uint word = kMaterialWordsBeforeFactors;
-#define READ_FACTOR(name) result.name = uintBitsToFloat(detail_word(detail, word++));
+#define READ_FACTOR(name) result.name = uintBitsToFloat(read_material_word(detail, word++));
     MATERIAL_FACTORS(READ_FACTOR)
 #undef READ_FACTOR
     return result;
@@ -59,17 +59,17 @@ vec4 read_texel_colour(TextureUse use, int x, int y) {
 // Samples a texture. `uv` holds both sets of texture coordinates. Returns white if the material has no such texture.
 vec4 sample_texture(TextureUse use, vec4 uv) {
     if (use.size == 0u) return vec4(1);
-    count_once(kWorkTextureLookups);
+    count_work_once(kWorkTextureLookups);
     vec3 place = vec3((use.how & kTextureSecondUvFlag) != 0u ? uv.zw : uv.xy, 1);
     float u = dot(use.u_row, place), v = dot(use.v_row, place);
     int width = int(use.size & 0xffffu), height = int(use.size >> 16u);
     uint wrap_u = use.how & 3u, wrap_v = use.how >> 2u & 3u;
     if ((use.how & kTextureNearestFlag) != 0u)
-        return read_texel_colour(use, nearest_texel(u, width, wrap_u), nearest_texel(v, height, wrap_v));
+        return read_texel_colour(use, nearest_texel_index(u, width, wrap_u), nearest_texel_index(v, height, wrap_v));
     int left, right, top, bottom;
     float across, down;
-    bilinear_texels(u, width, wrap_u, left, right, across);
-    bilinear_texels(v, height, wrap_v, top, bottom, down);
+    find_bilinear_texels(u, width, wrap_u, left, right, across);
+    find_bilinear_texels(v, height, wrap_v, top, bottom, down);
     return mix(mix(read_texel_colour(use, left, top), read_texel_colour(use, right, top), across),
                mix(read_texel_colour(use, left, bottom), read_texel_colour(use, right, bottom), across), down);
 }
@@ -84,7 +84,7 @@ bool fails_alpha_test(uint number, VertexAttribute at) {
 
 // Returns the shading normal. For a two-sided material, the normal is turned to the side of the facet from which
 // `direction` comes.
-vec3 turn_normal_to_viewer(uint detail, vec3 normal, vec3 facet, vec3 direction) {
+vec3 turn_shading_normal_to_viewer(uint detail, vec3 normal, vec3 facet, vec3 direction) {
     if ((read_material_parameters(detail).flags & kMaterialTwoSidedFlag) == 0u) return normal;
     return dot(normal, facet) * dot(direction, facet) > 0.0 ? -normal : normal;
 }
@@ -93,7 +93,7 @@ vec3 turn_normal_to_viewer(uint detail, vec3 normal, vec3 facet, vec3 direction)
 layout(constant_id = HAS_NORMAL_TEXTURES_CONSTANT) const uint has_normal_textures = 0u;
 
 // Two vectors in a triangle's plane, and the differences of both sets of texture coordinates along them.
-struct TriangleSides {
+struct TriangleTextureSides {
     vec3 a, b;
     vec4 uv_a, uv_b;
 };
@@ -102,7 +102,7 @@ struct TriangleSides {
 // is the direction in which the texture's u grows along the triangle, so the frame needs no data for each vertex (Mikkelsen,
 // "Surface Gradient-Based Bump Mapping Framework", 2020, derives frames in this way). As glTF defines it, green grows
 // against v. Texels of 128, 128, 255 leave the normal as it is.
-vec3 bend_normal_by_texture(uint detail, VertexAttribute at, vec3 normal, TriangleSides sides) {
+vec3 apply_normal_texture(uint detail, VertexAttribute at, vec3 normal, TriangleTextureSides sides) {
     TextureUse use = read_material_parameters(detail).normal;
     if (use.size == 0u) return normal;
     const float kFlat = 1e-4; // far less than the step of a texel, 1 / 127
@@ -115,7 +115,7 @@ vec3 bend_normal_by_texture(uint detail, VertexAttribute at, vec3 normal, Triang
     vec3 tangent = side * (b.y * sides.a - a.y * sides.b), against_v = side * (b.x * sides.a - a.x * sides.b);
     tangent -= dot(tangent, normal) * normal;
     float size = length(tangent);
-    if (!(size > 0.0 && size <= kLargestFloat) || largest(abs(vec3(bend.xy, 0))) < kFlat) return normal;
+    if (!(size > 0.0 && size <= kLargestFloat) || largest_vector_component(abs(vec3(bend.xy, 0))) < kFlat) return normal;
     tangent /= size;
     vec3 bitangent = cross(normal, tangent);
     if (dot(bitangent, against_v) < 0.0) bitangent = -bitangent;
@@ -124,7 +124,7 @@ vec3 bend_normal_by_texture(uint detail, VertexAttribute at, vec3 normal, Triang
 }
 
 // Returns the facet normal for `shade`, or zero if the mesh's vertex normals agree with its facet normals everywhere.
-vec3 facet_normal_for_shading(uint detail, vec3 facet) {
+vec3 find_facet_normal_for_shading(uint detail, vec3 facet) {
     if (details == 0u || (read_material_parameters(detail).flags & kMaterialTestsFacetSideFlag) == 0u) return vec3(0);
     return facet;
 }
@@ -150,7 +150,7 @@ bool has_rough_lobe() { return details != 0u && has_lobes != 0u && specular_lobe
 // Draws the direction in which light leaves the rough surface that was evaluated last. `direction` is that of the
 // arriving ray, and `leaving` at first that of the perfect mirror. Multiplies the weight by the lobe's weight. Returns
 // false without a change if the ray arrives from behind. `u` and `v` are uniform in [0, 1). The lobe's normal is
-// half-way between both directions, because mirror_direction keeps the mirrored ray above the facet at the outlines of
+// half-way between both directions, because reflect_above_facet keeps the mirrored ray above the facet at the outlines of
 // smooth bodies.
 bool sample_specular_lobe(vec3 direction, vec3 facet, float u, float v, inout vec3 weight, inout vec3 leaving) {
     vec3 tangent, bitangent;
@@ -163,7 +163,7 @@ bool sample_specular_lobe(vec3 direction, vec3 facet, float u, float v, inout ve
     weight *= specular_lobe.gain * lobe_sample_weight(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, drawn);
     leaving = drawn.x * tangent + drawn.y * bitangent + drawn.z * normal;
     // Light from below the facet's plane cannot reach the surface.
-    if (!(dot(leaving, facet_side(normal, facet)) > 0.0)) weight = vec3(0);
+    if (!(dot(leaving, facet_normal_on_shading_side(normal, facet)) > 0.0)) weight = vec3(0);
     return true;
 }
 
@@ -178,7 +178,7 @@ vec3 evaluate_specular_lobe(vec3 direction, vec3 mirrored, vec3 facet, vec3 leav
     vec3 to_light = vec3(dot(tangent, leaving), dot(bitangent, leaving), dot(normal, leaving));
     float alpha = roughness_to_alpha(specular_lobe.roughness);
     density = lobe_pdf(alpha, to_eye, to_light);
-    if (!(dot(leaving, facet_side(normal, facet)) > 0.0)) return vec3(0);
+    if (!(dot(leaving, facet_normal_on_shading_side(normal, facet)) > 0.0)) return vec3(0);
     return specular_lobe.gain * evaluate_lobe(alpha, specular_lobe.f0, specular_lobe.f90, to_eye, to_light);
 }
 
@@ -208,7 +208,7 @@ vec3 specular_lobe_albedo(float cosine) {
 
 // Returns the factor by which a lobe grows if light that hits several microfacets is not lost (Turquin, "Practical
 // Multiple Scattering Compensation for Microfacet Models", 2019). The lobe is then no longer reciprocal.
-vec3 multiple_scattering_gain(float cosine) {
+vec3 lobe_multiple_scattering_gain(float cosine) {
     vec2 terms = specular_lobe_albedo_terms(cosine);
     float single = terms.x + terms.y; // albedo of a lobe whose microfacets reflect all light
     return 1.0 + specular_lobe.f0 * (1.0 - single) / single;
@@ -224,7 +224,7 @@ vec3 glass_tint = vec3(1); // colour of the light that passes the glass that was
 // The diffuse part is the light that the specular part does not reflect to the viewer: 1 minus the albedo of the lobe
 // (or the reflectance of a perfect mirror). So a white surface in a white furnace reflects all light.
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
-    count_once(kWorkMaterials);
+    count_work_once(kWorkMaterials);
     MaterialParameters detail = read_material_parameters(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstantReflectanceFlag) != 0u;
     specular_lobe.roughness = 0.0;
@@ -244,10 +244,10 @@ void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) 
         specular_lobe = SpecularLobe(roughness, mix(detail.f0, colour, metallic), mix(detail.f90, vec3(1), metallic),
                                      metallic * colour, vec3(1));
         if (has_lobes != 0u && (detail.flags & kMaterialMultipleScatteringFlag) != 0u && has_rough_lobe())
-            specular_lobe.gain = multiple_scattering_gain(cosine);
+            specular_lobe.gain = lobe_multiple_scattering_gain(cosine);
         bool is_reflector = roughness <= kMaxSharpRoughness ||
                             surface.mirror != 0u && roughness <= detail.max_specular_roughness;
-        if (is_reflector) surface.reflectance = schlick(specular_lobe.f0, specular_lobe.f90, cosine);
+        if (is_reflector) surface.reflectance = schlick_fresnel(specular_lobe.f0, specular_lobe.f90, cosine);
     }
     vec3 specular_albedo = surface.reflectance;
     if (has_lobes != 0u && has_rough_lobe()) specular_albedo = specular_lobe_albedo(cosine);

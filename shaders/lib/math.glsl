@@ -23,14 +23,14 @@ const real kPi = real(3.14159265358979323846);
 const real kShadowRayEnd = real(1) - real(1) / real(8192); // share of the way to the light at which a shadow ray ends
 
 // Returns Higham's gamma_n, the bound of the relative error that n roundings cause.
-INLINE real gamma_bound(int n) {
+INLINE real rounding_error_gamma_bound(int n) {
     return real(n) * kUnitRoundoff / (real(1) - real(n) * kUnitRoundoff);
 }
 
 // Calls isnan, because a shader compiler may turn !(a <= b) into a > b, and the two differ for NaN.
 INLINE bool is_finite(real x) { return !isnan(x) && abs(x) <= kLargestFloat; }
 INLINE bool is_finite(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
-INLINE real largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
+INLINE real largest_vector_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
 // Mathematics by topic. Each file may use the files before it.
 #include "lib/math/light.glsl"

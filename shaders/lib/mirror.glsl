@@ -41,20 +41,20 @@ struct MirrorPath {
     uint hops;      // number of mirrors that the path met after the drawn mirror
 };
 
-bool is_mirror(vec4 surface) { return surface.x > 0.0; }
+bool is_mirror_surface(vec4 surface) { return surface.x > 0.0; }
 vec4 read_captured_surface(uint mirror, vec3 direction) {
 #define SURFACE(i) textureLod(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, SURFACE)
 }
 
 // Returns the reflectance of a mirror for a ray that meets the mirror. A mirror without a capture has reflectance 0, so
 // it is black in other mirrors.
 vec3 mirror_reflectance(uint mirror, vec3 direction, vec3 n) {
-    if (!is_captured(mirror)) return vec3(0);
-    vec3 reflectance = probe_at(mirror).reflectance;
-    bool is_metal = details != 0u && probe_at(mirror).kind == kMirrorMetal;
-    return is_metal ? schlick(reflectance, vec3(1), abs(dot(n, direction))) : reflectance;
+    if (!has_mirror_capture(mirror)) return vec3(0);
+    vec3 reflectance = read_probe(mirror).reflectance;
+    bool is_metal = details != 0u && read_probe(mirror).kind == kMirrorMetal;
+    return is_metal ? schlick_fresnel(reflectance, vec3(1), abs(dot(n, direction))) : reflectance;
 }
 
 // Reflects the path at the next exact sphere that the ray meets. Returns false, without a change, if the ray meets no
@@ -65,12 +65,12 @@ bool reflect_at_exact_sphere(inout MirrorPath path) {
     Ray ray = Ray(path.at, path.direction, 0u);
     if (!find_first_exact_sphere(ray, path.mirror, next, t)) return false;
     vec3 error;
-    vec3 met = sphere_point(probe_at(next).sphere, probe_at(next).radius, ray, t, error);
+    vec3 met = sphere_hit_point(read_probe(next).sphere, read_probe(next).radius, ray, t, error);
     // A captured surface that is more than the sphere's radius nearer hides the sphere.
     vec3 seen = met - path.centre;
-    if (captured_distance(path.mirror, normalize(seen)) + probe_at(next).radius < length(seen)) return false;
-    vec3 n = (met - probe_at(next).sphere) / probe_at(next).radius;
-    path = MirrorPath(next, met, mirror_direction(path.direction, n, n), probe_at(next).centre,
+    if (captured_distance(path.mirror, normalize(seen)) + read_probe(next).radius < length(seen)) return false;
+    vec3 n = (met - read_probe(next).sphere) / read_probe(next).radius;
+    path = MirrorPath(next, met, reflect_above_facet(path.direction, n, n), read_probe(next).centre,
                 path.weight * mirror_reflectance(next, path.direction, n), path.hops + 1u);
     return true;
 }
@@ -79,39 +79,39 @@ bool reflect_at_exact_sphere(inout MirrorPath path) {
 // meets the mirror's tangent plane. Returns false, without a change, if the search ended on no such mirror.
 bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
     vec4 surface = read_captured_surface(path.mirror, lookup.direction);
-    if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror(surface)) return false;
+    if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror_surface(surface)) return false;
     uint next = uint(surface.x) - 1u;
     // Exact sphere: reflect_at_exact_sphere has found that the ray misses the sphere.
-    if (probe_at(next).radius > 0.0) return false;
+    if (read_probe(next).radius > 0.0) return false;
     // Only the capture knows the light of a lit mirror.
-    if (details != 0u && probe_at(next).kind == kMirrorLit) return false;
+    if (details != 0u && read_probe(next).kind == kMirrorLit) return false;
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
     if (!(is_finite(t) && t > 0.0)) return false;
-    path = MirrorPath(next, path.at + path.direction * t, mirror_direction(path.direction, n, n), probe_at(next).centre,
+    path = MirrorPath(next, path.at + path.direction * t, reflect_above_facet(path.direction, n, n), read_probe(next).centre,
                 path.weight * mirror_reflectance(next, path.direction, n), path.hops + 1u);
     return true;
 }
 
 #ifndef OWN_LOOKUP_COLOUR // the including shader may define these functions itself, for captures of two layers
-vec3 lookup_colour(uint mirror, Lookup lookup) { return found_colour(mirror, lookup); }
+vec3 lookup_colour(uint mirror, Lookup lookup) { return colour_found_by_search(mirror, lookup); }
 // Returns the distance from the capture's centre to the last found surface; 0: not known.
-float last_hit_distance() { return 0.0; }
-void set_last_hit_distance(float distance) {}
+float distance_of_last_search_hit() { return 0.0; }
+void set_distance_of_last_search_hit(float distance) {}
 #endif
 
 // Returns the distance along the path at which a search in capture `mirror` ends.
-float path_distance_to_end(uint mirror, MirrorPath path, Lookup lookup) {
-    float distance = last_hit_distance() > 0.0 ? last_hit_distance() : captured_distance(mirror, lookup.direction);
-    vec3 end = probe_at(mirror).centre + lookup.direction * distance;
+float find_path_distance_to_end(uint mirror, MirrorPath path, Lookup lookup) {
+    float distance = distance_of_last_search_hit() > 0.0 ? distance_of_last_search_hit() : captured_distance(mirror, lookup.direction);
+    vec3 end = read_probe(mirror).centre + lookup.direction * distance;
     return lookup.state == kMiss ? kLargestFloat : dot(end - path.at, path.direction);
 }
 
 // Searches the other mirrors' captures for the end of the ray, and takes the first that finds a surface. A search that
 // ends on a mirror does not count, because the capture shows that mirror's reflection for another eye.
-void fall_back_to_other_captures(inout MirrorPath path, inout Lookup lookup) {
-    float distance = last_hit_distance();
+void search_other_captures(inout MirrorPath path, inout Lookup lookup) {
+    float distance = distance_of_last_search_hit();
     Ray ray = Ray(path.at, path.direction, 0u);
     // The first mirror whose sphere or bounds the ray meets is the same for all captures.
     uint first;
@@ -120,22 +120,22 @@ void fall_back_to_other_captures(inout MirrorPath path, inout Lookup lookup) {
     uint next = 0u, count = frame.value.mirror_count;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         uint i = next++;
-        if (i == path.mirror || !is_captured(i)) continue;
-        Lookup other = search(i, path.at - probe_at(i).centre, path.direction);
-        if (other.state == kUnknown || is_mirror(read_captured_surface(i, other.direction))) continue;
-        float end = path_distance_to_end(i, path, other);
+        if (i == path.mirror || !has_mirror_capture(i)) continue;
+        Lookup other = search(i, path.at - read_probe(i).centre, path.direction);
+        if (other.state == kUnknown || is_mirror_surface(read_captured_surface(i, other.direction))) continue;
+        float end = find_path_distance_to_end(i, path, other);
         if (mirror_tree != 0u ? meets && !(end < met) : intersects_mirror_before(ray, path.mirror, end)) continue;
         path.mirror = i;
-        path.centre = probe_at(i).centre;
+        path.centre = read_probe(i).centre;
         lookup = other;
         return;
     } while (next < count);
-    set_last_hit_distance(distance);
+    set_distance_of_last_search_hit(distance);
 }
 
 // Follows the path through further mirrors to its end. Returns the place of the path's end in a capture.
 // `most_hops`: the number of further mirrors through which the path is followed.
-Lookup follow_path(inout MirrorPath path, uint most_hops) {
+Lookup follow_path_through_mirrors(inout MirrorPath path, uint most_hops) {
     Lookup lookup;
     bool goes_on;
     do {
@@ -149,12 +149,12 @@ Lookup follow_path(inout MirrorPath path, uint most_hops) {
 #endif
     } while (goes_on);
 #ifdef CONTINUE
-    if (asks_others != 0u && lookup.state == kUnknown) fall_back_to_other_captures(path, lookup);
+    if (asks_others != 0u && lookup.state == kUnknown) search_other_captures(path, lookup);
 #endif
     return lookup;
 }
 
-vec3 apply_show_mode(vec3 colour, Lookup lookup) {
+vec3 apply_shown_picture_mode(vec3 colour, Lookup lookup) {
     if (show == kShowResidual) return vec3(lookup.residual);
     if (show == kShowState)
         return lookup.state == kHit ? vec3(0.1, 0.6, 0.2) : lookup.state == kUnknown ? vec3(0.9, 0.3, 0.1) : vec3(0.1, 0.2, 0.8);
@@ -166,9 +166,9 @@ vec3 apply_show_mode(vec3 colour, Lookup lookup) {
 #else
 
 // Returns the width alpha of the look-up that shows what the rough surface at the start of the path reflects.
-float rough_alpha(MirrorPath path, Lookup lookup) {
+float rough_lookup_alpha(MirrorPath path, Lookup lookup) {
     float ratio = 1.0, foreshortening = 1.0;
-    float from_centre = last_hit_distance();
+    float from_centre = distance_of_last_search_hit();
     if (distance_law != kLawNone && !(from_centre > 0.0)) from_centre = captured_distance(path.mirror, lookup.direction);
     // What leaves the scene is so far away that the mirror and the capture's centre see it alike.
     if (distance_law != kLawNone && lookup.state != kMiss && is_finite(from_centre) && from_centre > 0.0) {
@@ -183,13 +183,13 @@ float rough_alpha(MirrorPath path, Lookup lookup) {
             foreshortening = max(to_centre, 0.1) / max(to_surface, 0.1);
         }
     }
-    return alpha_by_distance_law(distance_law, specular_lobe.roughness, ratio, foreshortening);
+    return lookup_alpha_by_distance_law(distance_law, specular_lobe.roughness, ratio, foreshortening);
 }
 
 // Returns the radiance that the path brings from its end to the rough surface at its start.
-vec3 rough_radiance(MirrorPath path, Lookup lookup) {
-    float level = rough_level(path.mirror, rough_alpha(path, lookup));
-    vec3 blurred = rough_level_colour(path.mirror, lookup.direction, max(level, 1.0));
+vec3 rough_path_radiance(MirrorPath path, Lookup lookup) {
+    float level = rough_lookup_level(path.mirror, rough_lookup_alpha(path, lookup));
+    vec3 blurred = capture_colour_at_level(path.mirror, lookup.direction, max(level, 1.0));
     return level < 1.0 ? mix(lookup_colour(path.mirror, lookup), blurred, level) : blurred;
 }
 #endif
@@ -200,38 +200,38 @@ void main() {
     if (peels != 0u && is_peeled_from_second_layer()) discard;
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
-    Surface surface = surface_at_fragment(n, facet);
+    Surface surface = find_surface_at_fragment(n, facet);
     vec3 seen = normalize(direction_from_viewer());
-    MirrorPath path = MirrorPath(drawn_mirror() - 1u, surface_position(), mirror_direction(seen, n, facet),
-                                 probe_at(drawn_mirror() - 1u).centre, surface.reflectance, 0u);
+    MirrorPath path = MirrorPath(drawn_mirror_number() - 1u, fragment_surface_position(), reflect_above_facet(seen, n, facet),
+                                 read_probe(drawn_mirror_number() - 1u).centre, surface.reflectance, 0u);
 #ifdef ABLATE
-    Lookup lookup = follow_path(path, hops);
-    vec3 colour = ablated_radiance(path, lookup);
+    Lookup lookup = follow_path_through_mirrors(path, hops);
+    vec3 colour = find_ablated_radiance(path, lookup);
 #else
     bool is_rough = rough != kRoughNone && has_rough_lobe() && surface.reflectance != vec3(0), is_stopped = false;
     bool looks_up_level = is_rough && rough != kRoughRays;
     if (rough != kRoughNone && looks_up_level) path.weight = specular_lobe_albedo(-dot(n, seen));
     MirrorPath first = path;
     // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
-    Lookup lookup = follow_path(path, looks_up_level ? 0u : hops);
+    Lookup lookup = follow_path_through_mirrors(path, looks_up_level ? 0u : hops);
     vec3 colour;
     // The conditions repeat the constant, because only branches on a constant are removed with the bindings they use.
     if (rough == kRoughNone || !is_rough)
         colour = path.weight * lookup_colour(path.mirror, lookup);
     else if (rough != kRoughRays)
-        colour = path.weight * rough_radiance(path, lookup);
+        colour = path.weight * rough_path_radiance(path, lookup);
     else {
         // The search along the perfect mirror's direction says how the search ends, and is no sample of the lobe.
         colour = vec3(0);
         uint pixel = uint(gl_FragCoord.y) << 16u | uint(gl_FragCoord.x), i = 0u;
         do {
             float u, v;
-            sample_point(pixel, i, 0u, kSearchSeed, u, v);
+            sample_pattern_point(pixel, i, 0u, kSearchSeed, u, v);
             MirrorPath drawn = first;
             drawn.weight = vec3(1);
             if (sample_specular_lobe(seen, facet, u, v, drawn.weight, drawn.direction) &&
                 drawn.weight != vec3(0)) {
-                Lookup found = follow_path(drawn, hops);
+                Lookup found = follow_path_through_mirrors(drawn, hops);
                 colour += drawn.weight * lookup_colour(drawn.mirror, found);
             }
             ++i;
@@ -240,16 +240,16 @@ void main() {
         is_stopped = i < lobe_rays;
         colour /= float(lobe_rays);
     }
-    if (lights_mirrors != 0u) colour += shade_fragment(surface, n, facet);
+    if (lights_mirrors != 0u) colour += shade_drawn_fragment(surface, n, facet);
 #endif
-    write_surface(apply_show_mode(colour, lookup));
+    write_captured_surface(apply_shown_picture_mode(colour, lookup));
 #ifndef ABLATE
     if (rough == kRoughRays && is_stopped) out_colour.rgb = vec3(uintBitsToFloat(0x7fc00000u)); // the pixel is NaN
 #endif
     if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) {
         out_distance = float(tracer);
 #ifdef FIRST_HIT
-        out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), drawn_mirror(), tracer);
+        out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), drawn_mirror_number(), tracer);
 #endif
     }
     if (keeps_surface == 0u)

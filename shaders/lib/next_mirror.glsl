@@ -19,10 +19,10 @@ const float kSphereTestTolerance = 3.0;
 
 // Intersects the ray with a mirror: with its exact sphere, or with the bounds of a mirror of another shape.
 bool intersects_mirror(uint mirror, Ray ray, out float t) {
-    Probe probe = probe_at(mirror);
+    Probe probe = read_probe(mirror);
     return probe.radius > 0.0
-               ? sphere_test(probe.sphere, probe.radius, ray, kLargestFloat, t)
-               : slab_test(probe.lowest, probe.highest, make_box_ray(ray, probe.lowest, probe.highest, 1.0),
+               ? intersect_sphere_robustly(probe.sphere, probe.radius, ray, kLargestFloat, t)
+               : intersect_box_slabs(probe.lowest, probe.highest, make_box_ray(ray, probe.lowest, probe.highest, 1.0),
                    kLargestFloat, t);
 }
 
@@ -30,7 +30,7 @@ bool intersects_mirror(uint mirror, Ray ray, out float t) {
 // ignores mirrors that are no exact sphere.
 bool find_first_mirror_by_tree(Ray ray, uint except, bool only_spheres, out uint first, out float t) {
     vec4 low = mirror_nodes_at(0u), high = mirror_nodes_at(1u);
-    BoxRay boxes = make_box_ray(ray, low.xyz, high.xyz, kSphereTestTolerance);
+    BoxTestRay boxes = make_box_ray(ray, low.xyz, high.xyz, kSphereTestTolerance);
     uint end = floatBitsToUint(high.w) & kBvhIdMask;
     bool found = false;
     t = kLargestFloat;
@@ -39,11 +39,11 @@ bool find_first_mirror_by_tree(Ray ray, uint except, bool only_spheres, out uint
         low = mirror_nodes_at(2u * node);
         high = mirror_nodes_at(2u * node + 1u);
         float enters, met;
-        bool inside = slab_test(low.xyz, high.xyz, boxes, t, enters);
+        bool inside = intersect_box_slabs(low.xyz, high.xyz, boxes, t, enters);
         node = inside ? node + 1u : floatBitsToUint(high.w) & kBvhIdMask;
         uint number = floatBitsToUint(low.w) & kBvhIdMask; // mirror number, from 1
         uint mirror = number - 1u;
-        if (!inside || number == 0u || mirror == except || (only_spheres && !(probe_at(mirror).radius > 0.0))) continue;
+        if (!inside || number == 0u || mirror == except || (only_spheres && !(read_probe(mirror).radius > 0.0))) continue;
         if (!intersects_mirror(mirror, ray, met)) continue;
         if (met < t || (found && met == t && mirror < first)) {
             t = met;
@@ -61,9 +61,9 @@ bool find_first_exact_sphere(Ray ray, uint except, out uint first, out float t) 
     t = kLargestFloat;
     uint i = 0u, count = frame.value.mirror_count;
     do {
-        Probe probe = probe_at(i);
+        Probe probe = read_probe(i);
         float t_sphere;
-        if (i != except && probe.radius > 0.0 && sphere_test(probe.sphere, probe.radius, ray, t, t_sphere)) {
+        if (i != except && probe.radius > 0.0 && intersect_sphere_robustly(probe.sphere, probe.radius, ray, t, t_sphere)) {
             t = t_sphere;
             first = i;
             found = true;

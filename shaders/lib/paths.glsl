@@ -3,7 +3,7 @@
 #ifndef CATOPTRIC_PATHS_GLSL
 #define CATOPTRIC_PATHS_GLSL
 
-// First dimension of sample_point that draws the part of the surface, and whether the path ends.
+// First dimension of sample_pattern_point that draws the part of the surface, and whether the path ends.
 const uint kPartDimensions = 0x20000u;
 // Reflections after which a path may end by chance (Russian roulette).
 const uint kBouncesBeforeRoulette = 3u;
@@ -19,15 +19,15 @@ struct Reflection {
 // Returns whether rays leave the surface that was evaluated last in directions drawn from its lobe.
 bool draws_from_lobe() { return traces_lobes != 0u && has_rough_lobe(); }
 
-// Returns the parts of the surface that was evaluated last. `is_specular`: it reflects in its lobe or like a mirror.
+// Returns the parts of the surface that was evaluated last. `has_specular_part`: it reflects in its lobe or like a mirror.
 // `cosine`: between the shading normal and the direction to the viewer.
-Reflection split_reflection(Surface surface, bool is_specular, float cosine) {
+Reflection split_reflection(Surface surface, bool has_specular_part, float cosine) {
     Reflection parts = Reflection(vec3(0), surface.reflectance, 1.0, surface.detail);
     if (traces_paths == 0u) return parts;
     // Without MaterialParameters a mirror has no diffuse part.
-    if (!is_specular || details != 0u) parts.diffuse = surface.albedo;
-    float specular = is_specular ? largest(has_rough_lobe() ? specular_lobe_albedo(cosine) : surface.reflectance) : 0.0;
-    float whole = specular + largest(parts.diffuse);
+    if (!has_specular_part || details != 0u) parts.diffuse = surface.albedo;
+    float specular = has_specular_part ? largest_vector_component(has_rough_lobe() ? specular_lobe_albedo(cosine) : surface.reflectance) : 0.0;
+    float whole = specular + largest_vector_component(parts.diffuse);
     if (whole > 0.0) parts.specular_share = specular / whole;
     return parts;
 }
@@ -46,13 +46,13 @@ vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 
     vec3 reflected = vec3(0);
     density = 0.0;
     if (draws_from_lobe()) {
-        reflected = evaluate_specular_lobe(direction, mirror_direction(direction, p.normal, p.facet), p.facet, leaving, density);
+        reflected = evaluate_specular_lobe(direction, reflect_above_facet(direction, p.normal, p.facet), p.facet, leaving, density);
         density *= parts.specular_share;
     }
     if (traces_paths == 0u) return reflected;
     float cosine = dot(p.normal, leaving);
     if (!(cosine > 0.0) || parts.diffuse == vec3(0)) return reflected;
-    vec3 facet = facet_normal_for_shading(parts.detail, p.facet);
+    vec3 facet = find_facet_normal_for_shading(parts.detail, p.facet);
     float share = facet == vec3(0) ? 1.0 : facet_light_share(leaving, p.normal, facet);
     density += (1.0 - parts.specular_share) * cosine / kPi;
     return reflected + parts.diffuse * (share * cosine / kPi);
@@ -62,16 +62,16 @@ vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 
 // arriving ray. Multiplies the weight by what the surface reflects from there. Returns false, with the mirrored direction
 // and density 0, if a smooth part of the surface reflects the ray.
 bool draw_reflection(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving, out float density) {
-    leaving = mirror_direction(direction, p.normal, p.facet);
+    leaving = reflect_above_facet(direction, p.normal, p.facet);
     density = 0.0;
     float part = 0.0, survival = 0.0, u = 0.0, v = 0.0;
-    if (traces_lobes != 0u) sample_point(path_pixel, path_sample, bounce, path_seed, u, v);
-    if (traces_paths != 0u) sample_point(path_pixel, path_sample, kPartDimensions + bounce, path_seed, part, survival);
-    bool is_specular = traces_paths == 0u || part < parts.specular_share;
+    if (traces_lobes != 0u) sample_pattern_point(path_pixel, path_sample, bounce, path_seed, u, v);
+    if (traces_paths != 0u) sample_pattern_point(path_pixel, path_sample, kPartDimensions + bounce, path_seed, part, survival);
+    bool has_specular_part = traces_paths == 0u || part < parts.specular_share;
     vec3 lobe_weight = vec3(1);
-    bool is_drawn = !is_specular || draws_from_lobe() && sample_specular_lobe(direction, p.facet, u, v, lobe_weight, leaving);
+    bool is_drawn = !has_specular_part || draws_from_lobe() && sample_specular_lobe(direction, p.facet, u, v, lobe_weight, leaving);
     if (is_drawn) {
-        if (!is_specular) leaving = sample_cosine(p.normal, u, v);
+        if (!has_specular_part) leaving = sample_cosine(p.normal, u, v);
         vec3 reflected = evaluate_reflection(p, parts, direction, leaving, density);
         // The weight of a drawn lobe is exact for lobes of any width, while the quotient is not.
         if (traces_paths == 0u || parts.specular_share == 1.0) weight *= lobe_weight;
@@ -80,7 +80,7 @@ bool draw_reflection(SurfacePoint p, Reflection parts, vec3 direction, uint boun
         weight *= traces_paths == 0u ? parts.mirrored : parts.mirrored / parts.specular_share;
     }
     if (traces_paths != 0u && bounce >= kBouncesBeforeRoulette) {
-        float probability = min(largest(weight), 1.0);
+        float probability = min(largest_vector_component(weight), 1.0);
         weight = survival < probability ? weight / probability : vec3(0);
     }
     return is_drawn;

@@ -13,7 +13,7 @@ layout(constant_id = WITHOUT_CONSTANT) const uint without = 0u;
 // Offset off a surface without kOriginErrorBoundRule, scene units.
 layout(constant_id = FIXED_OFFSET_CONSTANT) const float fixed_offset = 0.0;
 
-bool keeps_rule(uint rule) { return without != rule; }
+bool is_precision_rule_kept(uint rule) { return without != rule; }
 
 // Intersects a ray with a triangle (Moeller and Trumbore 1997), without an epsilon.
 bool plain_triangle_test(vec3 a, vec3 b, vec3 c, Ray ray, out float t, out vec3 weights) {
@@ -28,13 +28,13 @@ bool plain_triangle_test(vec3 a, vec3 b, vec3 c, Ray ray, out float t, out vec3 
     return v >= 0.0 && w >= 0.0 && v + w <= 1.0 && t > 0.0 && t <= kLargestFloat;
 }
 
-BoxRay plain_box_ray(Ray ray) { return BoxRay(ray.origin, ray.origin, 1.0 / ray.direction); }
+BoxTestRay make_plain_box_ray(Ray ray) { return BoxTestRay(ray.origin, ray.origin, 1.0 / ray.direction); }
 
 // Intersects a ray with a box by slabs (Kay and Kajiya 1986).
-bool plain_slab_test(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
+bool plain_slab_test(vec3 lo, vec3 hi, BoxTestRay ray, float t_max, out float t_near) {
     vec3 t_lo = (lo - ray.near_origin) * ray.inverse, t_hi = (hi - ray.near_origin) * ray.inverse;
     vec3 enter = min(t_lo, t_hi), leave = max(t_lo, t_hi);
-    t_near = max(0.0, largest(enter));
+    t_near = max(0.0, largest_vector_component(enter));
     return t_near <= min(t_max, min(leave.x, min(leave.y, leave.z)));
 }
 
@@ -51,7 +51,7 @@ bool plain_sphere_test(vec3 centre, float radius, Ray ray, float t_max, out floa
     return t > 0.0 && t < t_max;
 }
 
-vec3 plain_spawn_origin(vec3 point, vec3 n_geometric, vec3 direction) {
+vec3 plain_ray_spawn_origin(vec3 point, vec3 n_geometric, vec3 direction) {
     return point + (dot(direction, n_geometric) < 0.0 ? -fixed_offset : fixed_offset) * n_geometric;
 }
 

@@ -24,36 +24,36 @@ const float kLeaves = 1.0;
 // 1: a lookup interpolates colours only between texels of one object.
 layout(constant_id = BY_OBJECT_CONSTANT) const uint by_object = 0u;
 
-vec3 bilinear_colour(uint mirror, vec3 direction) {
+vec3 captured_colour_bilinear(uint mirror, vec3 direction) {
 #define COLOUR(i) textureLod(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0).rgb
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, COLOUR)
 }
 
 // Each of these functions gathers one value of the four texels around a direction: object number, red, green or blue.
 vec4 gather_object_numbers(uint mirror, vec3 direction) {
 #define NUMBERS(i) textureGather(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, NUMBERS)
 }
 vec4 gather_reds(uint mirror, vec3 direction) {
 #define REDS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, REDS)
 }
 vec4 gather_greens(uint mirror, vec3 direction) {
 #define GREENS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 1)
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, GREENS)
 }
 vec4 gather_blues(uint mirror, vec3 direction) {
 #define BLUES(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 2)
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, BLUES)
 }
 
 // Returns the number of texels along a face's edge of the mirror's capture.
-int surface_edge(uint mirror) {
+int captured_surface_edge(uint mirror) {
 #define SURFACE_EDGE(i) textureSize(SURFACE_CUBES(i), 0).x
     RETURN_OF_ARRAY(mirror, SURFACE_EDGE)
 }
@@ -71,10 +71,10 @@ vec4 bilinear_texel_weights(vec3 direction, int edge) {
 
 // Returns the colour of the object with the greatest weight among the four texels around a direction. Only this
 // object's texels contribute.
-vec3 colour_of_object(uint mirror, vec3 direction) {
+vec3 captured_colour_of_one_object(uint mirror, vec3 direction) {
     vec4 numbers = gather_object_numbers(mirror, direction);
-    if (all(equal(numbers, numbers.xxxx))) return bilinear_colour(mirror, direction);
-    vec4 weights = bilinear_texel_weights(direction, surface_edge(mirror));
+    if (all(equal(numbers, numbers.xxxx))) return captured_colour_bilinear(mirror, direction);
+    vec4 weights = bilinear_texel_weights(direction, captured_surface_edge(mirror));
     vec4 best = vec4(0);
     for (int i = 0; i < 4; ++i) {
         vec4 of_object = weights * vec4(equal(numbers, vec4(numbers[i])));
@@ -86,19 +86,19 @@ vec3 colour_of_object(uint mirror, vec3 direction) {
 }
 
 vec3 captured_colour(uint mirror, vec3 direction) {
-    return by_object != 0u ? colour_of_object(mirror, direction) : bilinear_colour(mirror, direction);
+    return by_object != 0u ? captured_colour_of_one_object(mirror, direction) : captured_colour_bilinear(mirror, direction);
 }
 
 // Returns the colour that a search in a capture of one layer found. A ray that leaves the scene sees the environment.
-vec3 found_colour(uint mirror, Lookup lookup) {
+vec3 colour_found_by_search(uint mirror, Lookup lookup) {
     bool leaves = lookup.state == kUnknown && lookup.layer == kLeaves;
     if (leaves || (environment_kind != kNoEnvironment && lookup.state == kMiss)) return environment_radiance(lookup.direction);
     return captured_colour(mirror, lookup.direction);
 }
 
 #ifdef ABLATE // functions that lib/ablate.glsl defines
-bool ablates(uint cause);
-float exact_distance(uint mirror, vec3 direction);
+bool is_cause_ablated(uint cause);
+float trace_exact_distance(uint mirror, vec3 direction);
 #endif
 
 // 1: lookups test whether a texel holds no surface. 0 measures the cost and the benefit of the test
@@ -109,7 +109,7 @@ layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 layout(constant_id = DISTANCES_BY_GATHER_CONSTANT) const uint distances_by_gather = 0u;
 vec4 gather_distances(uint mirror, vec3 direction) {
 #define DISTANCES(i) textureGather(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, DISTANCES)
 }
 
@@ -118,12 +118,12 @@ float stored_distance(uint mirror, vec3 direction) {
     if (distances_by_gather != 0u)
         return dot(bilinear_texel_weights(direction, distance_edge(mirror)), gather_distances(mirror, direction));
 #define STORED(i) textureLod(DISTANCE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0).r
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, STORED)
 }
 float nearest_stored_distance(uint mirror, vec3 direction) {
 #define NEAREST_STORED(i) textureLod(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_index_of_mirror(mirror)), 0).r
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, NEAREST_STORED)
 }
 
@@ -131,7 +131,7 @@ float nearest_stored_distance(uint mirror, vec3 direction) {
 // no surface (+infinity), the sum is not finite, and the nearest texel decides.
 float captured_distance(uint mirror, vec3 direction) {
 #ifdef ABLATE
-    if (ablates(kAblateDistance)) return exact_distance(mirror, direction);
+    if (is_cause_ablated(kAblateDistance)) return trace_exact_distance(mirror, direction);
 #endif
     float d = stored_distance(mirror, direction);
     if (tests_void != 0u && is_miss(d)) d = nearest_stored_distance(mirror, direction);

@@ -12,7 +12,7 @@ layout(constant_id = GROUPS_IN_ORDER_CONSTANT) const uint groups_in_order = 0u;
 // Returns the number of the work group whose pixels this work group traces. A software driver gives each of its threads
 // a contiguous run of work groups, and neighbouring work groups cost about the same. Scattered numbers let all threads
 // finish at about the same time. Work groups are numbered row by row.
-uint assigned_work_group() {
+uint find_assigned_work_group() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 #ifdef NAIVE
     return group;
@@ -32,13 +32,13 @@ void count_rays() {
     uint exhausted = subgroupAdd(trace_exhausted ? 1u : 0u);
     uint longest = subgroupMax(trace_steps);
     if (count_work != 0u) {
-        add_work(kWorkCameraRays, camera_rays);
-        add_work(kWorkMirrorRays, mirror_rays);
-        add_work(kWorkShadowRays, shadow_rays);
-        add_work(kWorkNodes, nodes_visited);
-        add_work(kWorkTriangles, triangles_tested);
-        add_work(kWorkNodeLanes, node_lanes);
-        add_work(kWorkTriangleLanes, triangle_lanes);
+        add_to_work_count(kWorkCameraRays, camera_rays);
+        add_to_work_count(kWorkMirrorRays, mirror_rays);
+        add_to_work_count(kWorkShadowRays, shadow_rays);
+        add_to_work_count(kWorkNodes, nodes_visited);
+        add_to_work_count(kWorkTriangles, triangles_tested);
+        add_to_work_count(kWorkNodeLanes, node_lanes);
+        add_to_work_count(kWorkTriangleLanes, triangle_lanes);
     }
     if (!subgroupElect()) return;
     atomicAdd(counters.value.primary_rays, primary);

@@ -16,24 +16,24 @@ layout(set = 0, binding = 32) uniform textureCubeArray rough_cubes[kMaxCubeArray
 layout(set = 0, binding = 33) uniform sampler mipmapped_texels;
 
 // Returns the colour in a direction at a level, from 1, of the mirror's capture.
-vec3 rough_level_colour(uint mirror, vec3 direction, float level) {
+vec3 capture_colour_at_level(uint mirror, vec3 direction, float level) {
 #define ROUGH_COLOUR(i)                                                                                                \
     textureLod(samplerCubeArray(rough_cubes[i], mipmapped_texels), vec4(direction, cube_index_of_mirror(mirror)),      \
                level - 1.0)                                                                                            \
         .rgb
-    count_once(kWorkColourLookups);
+    count_work_once(kWorkColourLookups);
     RETURN_OF_ARRAY(mirror, ROUGH_COLOUR)
 }
 
 // Returns the number of texels along a face's edge of the mirror's capture.
-float colour_edge(uint mirror) {
+float colour_capture_edge(uint mirror) {
 #define COLOUR_EDGE(i) float(textureSize(COLOUR_CUBES(i), 0).x)
     RETURN_OF_ARRAY(mirror, COLOUR_EDGE)
 }
 
 // Returns the level of a look-up of width `alpha` in the mirror's capture.
-float rough_level(uint mirror, float alpha) {
-    float edge = colour_edge(mirror);
+float rough_lookup_level(uint mirror, float alpha) {
+    float edge = colour_capture_edge(mirror);
     return rough == kRoughMips ? box_level_of_alpha(alpha, edge) : capture_level_of_alpha(alpha, edge);
 }
 

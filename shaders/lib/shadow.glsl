@@ -50,7 +50,7 @@ float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float e
         // interpolated.
         float slack = kShadowDepthError * (1.0 + view.near * edge * texel * sine / max(abs(cosine), kShadowDepthError));
         float depth = 1.0 - view.near * dot(view.forward, v) + slack;
-        count_once(kWorkShadowLookups);
+        count_work_once(kWorkShadowLookups);
         return texture(shadow_map, vec4(place * 0.5 + 0.5, float(light * shadow_face_count() + window), depth));
     }
     return 1.0;
@@ -59,7 +59,7 @@ float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float e
 // Returns the share of the light that reaches the point, 0 to 1 (2x2 percentage-closer filtering). `normal` faces the
 // light. `error` is the largest error of the position along `normal`, scene units.
 float sample_shadow_map(uint light, vec3 position, vec3 normal, float error, uint lift) {
-    if (is_directional(light)) return sample_parallel_shadow_map(light, position, normal, error, lift);
+    if (is_directional_light(light)) return sample_parallel_shadow_map(light, position, normal, error, lift);
     vec3 v = world_to_light_axes(light, position - read_light(light).position);
     vec3 n = world_to_light_axes(light, normal);
     int face = cube_face(v);
@@ -74,7 +74,7 @@ float sample_shadow_map(uint light, vec3 position, vec3 normal, float error, uin
     float height = abs(dot(n, v));
     float slack = kShadowDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
     float layer = float(light * shadow_face_count() + uint(face));
-    count_once(kWorkShadowLookups);
+    count_work_once(kWorkShadowLookups);
     return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, read_light(light).near / place.z * (1.0 + slack)));
 }
 float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {
@@ -83,7 +83,7 @@ float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {
 
 // Finds the share of the light that reaches the point. Returns false at the edge of a shadow, where the four taps differ
 // and a shadow ray must tell.
-bool try_shadow_map(uint light, vec3 position, vec3 normal, float error, out float visible) {
+bool find_light_share_by_shadow_map(uint light, vec3 position, vec3 normal, float error, out float visible) {
     visible = sample_shadow_map(light, position, normal, error, kBiasTowardsLight);
     return visible == 0.0 || visible == 1.0;
 }

@@ -24,17 +24,17 @@ layout(location = 2) out vec4 out_more;
 // Returns the position of the surface, scene units. `from_eye` is interpolated instead of the position, because its
 // error lies along the ray from the eye. An interpolated position would have an error towards the origin, off the
 // surface.
-vec3 surface_position() { return camera_position() + from_eye; }
+vec3 fragment_surface_position() { return camera_position() + from_eye; }
 
 // Returns the direction from the viewer to the surface, of any length.
 vec3 direction_from_viewer() { return orthographic != 0u ? views[draw.first_view].forward : from_eye; }
 
-// Returns the largest error of surface_position along a unit normal. No specification bounds the error of a
+// Returns the largest error of fragment_surface_position along a unit normal. No specification bounds the error of a
 // rasteriser's interpolation. The assumed 2^-16 of the distance along the ray and 2^-20 across the ray are about ten
 // times the measured errors (docs/extremes.md).
-float surface_position_error(vec3 n) {
+float fragment_position_error(vec3 n) {
     return (abs(dot(n, from_eye)) + length(from_eye) / 16.0) / 65536.0 + dot(abs(n),
-        gamma_bound(2) * abs(camera_position() + from_eye));
+        rounding_error_gamma_bound(2) * abs(camera_position() + from_eye));
 }
 
 // The factor from distance to stored distance: 1 stores scene units, and unorm8 stores distance / range.
@@ -56,30 +56,30 @@ layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_laye
 // the first layer that face the capture's centre. The margin 2^-10 exceeds the relative rounding error of a 16-bit
 // float and of an interpolated distance.
 bool is_peeled_from_second_layer() {
-    float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, view_layer()), 0).r;
+    float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, rendered_view_layer()), 0).r;
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
 
 // Discards fragments that fail the alpha test. Shaders call this function after their derivatives, before any output.
 void discard_cut_out_fragments() {
-    if (masks != 0u && fails_alpha_test(drawn_detail(), VertexAttribute(in_uv, in_colour))) discard;
+    if (masks != 0u && fails_alpha_test(drawn_material_parameters(), VertexAttribute(in_uv, in_colour))) discard;
 }
 
 // The triangle's sides between neighbouring fragments. Derivatives come before any discard.
-TriangleSides fragment_sides = has_normal_textures == 0u
-    ? TriangleSides(vec3(0), vec3(0), vec4(0), vec4(0))
-    : TriangleSides(dFdx(from_eye), dFdy(from_eye), dFdx(in_uv), dFdy(in_uv));
+TriangleTextureSides fragment_sides = has_normal_textures == 0u
+    ? TriangleTextureSides(vec3(0), vec3(0), vec4(0), vec4(0))
+    : TriangleTextureSides(dFdx(from_eye), dFdy(from_eye), dFdx(in_uv), dFdy(in_uv));
 
 // Returns the object's surface at the fragment. Bends the normal `n` by the material's texture of normals, and turns the
 // normal of a two-sided material to the viewer's side. `facet` points along the triangle's normal.
-Surface surface_at_fragment(inout vec3 n, vec3 facet) {
+Surface find_surface_at_fragment(inout vec3 n, vec3 facet) {
     Surface surface = read_drawn_surface();
     if (details != 0u) {
         vec3 direction = normalize(direction_from_viewer());
         VertexAttribute at = VertexAttribute(in_uv, in_colour);
-        vec3 turned = turn_normal_to_viewer(surface.detail, n, facet, direction);
+        vec3 turned = turn_shading_normal_to_viewer(surface.detail, n, facet, direction);
         if (has_normal_textures != 0u) {
-            vec3 bent = bend_normal_by_texture(surface.detail, at, n, fragment_sides);
+            vec3 bent = apply_normal_texture(surface.detail, at, n, fragment_sides);
             turned = turned == n ? bent : -bent;
         }
         n = turned;
@@ -90,18 +90,18 @@ Surface surface_at_fragment(inout vec3 n, vec3 facet) {
 
 // Returns the number that captures store for the surface. A 16-bit float holds the number exactly. Two objects that are
 // no mirrors may share a number if they are far apart in the scene's list.
-float surface_number() {
-    return drawn_mirror() != 0u ? float(drawn_mirror()) : -1.0 - float(drawn_object() % 2047u);
+float captured_surface_number() {
+    return drawn_mirror_number() != 0u ? float(drawn_mirror_number()) : -1.0 - float(drawn_object_index() % 2047u);
 }
 
 // The largest colour of the image format. Colours are clamped to this value, so that no capture holds an infinity.
 layout(constant_id = LARGEST_COLOUR_CONSTANT) const float largest_colour = 3.402823466e38;
 
-void write_surface(vec3 colour) {
+void write_captured_surface(vec3 colour) {
     out_colour = vec4(min(colour, vec3(largest_colour)), 1);
     out_distance = length(from_eye) * distance_scale;
     out_more = vec4(0); // an output that is not written would be undefined
-    if (keeps_surface != 0u) out_more = vec4(surface_number(), normalize(normal));
+    if (keeps_surface != 0u) out_more = vec4(captured_surface_number(), normalize(normal));
 }
 
 #endif

@@ -72,7 +72,7 @@ struct TraceHit {
     vec3 barycentric; // weights of the corners a, b, c
     uint triangle;    // original number of the triangle
     uint object;
-    uint place;  // stored index of the triangle, for triangle_corners; or kHitOnExactSphere
+    uint place;  // stored index of the triangle, for read_triangle_corners; or kHitOnExactSphere
     uint inside; // record of the instance in whose object space the hit lies; 0: the hit is in scene units
 };
 const uint kHitOnExactSphere = 0xffffffffu; // TraceHit::place of a hit on the exact sphere of an instance
@@ -88,41 +88,41 @@ ObjectPlacement read_instance_placement(uint record) {
                  bvh_nodes_at(i + 5u).xyz, bvh_nodes_at(i + 6u).xyz, bvh_nodes_at(i + 3u).xyz, bvh_nodes_at(i + 7u).xyz);
 }
 // Returns the number that is added to the triangle numbers of an instance, given the instance's record.
-uint number_shift(uint record) { return floatBitsToUint(bvh_nodes_at(4u * record + 2u).w) & kBvhIdMask; }
-float own_radius(uint record) { return bvh_nodes_at(4u * record + 9u).w; }
+uint triangle_number_offset(uint record) { return floatBitsToUint(bvh_nodes_at(4u * record + 2u).w) & kBvhIdMask; }
+float object_space_sphere_radius(uint record) { return bvh_nodes_at(4u * record + 9u).w; }
 
 // The state of a walk in one tree: the ray in the tree's coordinates, and the object, flags and number shift that
 // replace those of an instance's triangles.
-struct WalkState {
+struct TreeWalkState {
     Ray ray;
-    BoxRay boxes;
-    RayShear shear;
+    BoxTestRay boxes;
+    TriangleTestRayShear shear;
     uint record; // record of the instance; 0: the walk is in the scene's own tree
     uint object, flags, shift;
 };
 
 // Returns the corners of a stored triangle, in scene units or in the object space of an instance.
-void triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
+void read_triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
     a = bvh_triangles_at(3u * place).xyz;
     b = bvh_triangles_at(3u * place + 1u).xyz;
     c = bvh_triangles_at(3u * place + 2u).xyz;
 }
 
 bool intersects_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
-    return keeps_rule(kStableSphereRule) ? sphere_test(centre, radius, ray, t_max, t)
+    return is_precision_rule_kept(kStableSphereRule) ? intersect_sphere_robustly(centre, radius, ray, t_max, t)
         : plain_sphere_test(centre, radius, ray, t_max, t);
 }
 
 // Intersects the ray with a stored triangle or sphere, and updates the best hit. If two hits have equal t, the lower
 // original triangle number wins.
-void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
+void intersect_stored_triangle(uint place, TreeWalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
     Ray ray = walked.ray;
     vec4 a = bvh_triangles_at(3u * place);
     vec4 b = bvh_triangles_at(3u * place + 1u);
     vec4 c = bvh_triangles_at(3u * place + 2u);
     float t;
     vec3 weights;
-    bool hit = keeps_rule(kWatertightRule) ? triangle_test(a.xyz, b.xyz, c.xyz, ray.origin, walked.shear, t, weights)
+    bool hit = is_precision_rule_kept(kWatertightRule) ? intersect_triangle_watertight(a.xyz, b.xyz, c.xyz, ray.origin, walked.shear, t, weights)
                                   : plain_triangle_test(a.xyz, b.xyz, c.xyz, ray, t, weights);
     uint triangle = floatBitsToUint(b.w) & kBvhIdMask;
     uint object = floatBitsToUint(a.w) & kBvhIdMask;
@@ -142,7 +142,7 @@ void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout Trac
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
 #ifdef TRACE_IS_THERE
     if (masks != 0u && hit && seen && nearer && (flags & kBvhAlphaMasked) != 0u)
-        seen = TRACE_IS_THERE(triangle - walked.shift, object, barycentric(weights));
+        seen = TRACE_IS_THERE(triangle - walked.shift, object, normalise_barycentric(weights));
 #endif
     if (hit && seen && nearer) {
         best = TraceHit(t, weights, triangle, object, place, walked.record);
@@ -150,21 +150,21 @@ void trace_triangle(uint place, WalkState walked, uint skipped_flags, inout Trac
     }
 }
 
-bool trace_box(vec3 lo, vec3 hi, BoxRay ray, float t_max, out float t_near) {
-    return keeps_rule(kBoxPaddingRule) ? slab_test(lo, hi, ray, t_max, t_near)
+bool intersect_traced_box(vec3 lo, vec3 hi, BoxTestRay ray, float t_max, out float t_near) {
+    return is_precision_rule_kept(kBoxPaddingRule) ? intersect_box_slabs(lo, hi, ray, t_max, t_near)
         : plain_slab_test(lo, hi, ray, t_max, t_near);
 }
 
 // Intersects the ray with the two child boxes of a node. `first` is the word of the nearer child that the ray meets,
 // `second` that of the other child. A word is kBvhEmptyChild if the ray misses the child.
-void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint second) {
+void intersect_child_boxes(uint node, BoxTestRay boxes, float t_max, out uint first, out uint second) {
     vec4 lo_0 = bvh_nodes_at(4u * node);
     vec4 hi_0 = bvh_nodes_at(4u * node + 1u);
     vec4 lo_1 = bvh_nodes_at(4u * node + 2u);
     vec4 hi_1 = bvh_nodes_at(4u * node + 3u);
     float near_0, near_1;
-    bool meets_0 = trace_box(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
-    bool meets_1 = trace_box(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
+    bool meets_0 = intersect_traced_box(lo_0.xyz, hi_0.xyz, boxes, t_max, near_0);
+    bool meets_1 = intersect_traced_box(lo_1.xyz, hi_1.xyz, boxes, t_max, near_1);
     uint child_0 = meets_0 ? floatBitsToUint(lo_0.w) : kBvhEmptyChild;
     uint child_1 = meets_1 ? floatBitsToUint(hi_0.w) : kBvhEmptyChild;
     bool swap = meets_1 && (!meets_0 || near_1 < near_0);
@@ -173,32 +173,32 @@ void trace_node(uint node, BoxRay boxes, float t_max, out uint first, out uint s
 }
 
 // Returns the state of a walk in the scene's own tree.
-WalkState begin_walk_in_scene(Ray ray) {
+TreeWalkState begin_walk_in_scene(Ray ray) {
     vec3 lo = bvh_nodes_at(0u).xyz, hi = bvh_nodes_at(1u).xyz;
     float times = object_spaces != 0u ? bvh_nodes_at(2u).x : 1.0;
-    BoxRay boxes = keeps_rule(kBoxPaddingRule) ? make_box_ray(ray, lo, hi, times) : plain_box_ray(ray);
-    return WalkState(ray, boxes, make_ray_shear(ray.direction), 0u, 0u, 0u, 0u);
+    BoxTestRay boxes = is_precision_rule_kept(kBoxPaddingRule) ? make_box_ray(ray, lo, hi, times) : make_plain_box_ray(ray);
+    return TreeWalkState(ray, boxes, make_ray_shear(ray.direction), 0u, 0u, 0u, 0u);
 }
 
 // Returns the state of a walk in an instance's tree, and the tree's root. `low` is the rounding error of the ray's
 // origin.
-WalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint root) {
+TreeWalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint root) {
     uint i = 4u * record;
     root = floatBitsToUint(bvh_nodes_at(i).w);
-    Ray own = ray_in_object_space(read_instance_placement(record), ray, low);
-    BoxRay boxes = keeps_rule(kBoxPaddingRule) ? make_box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz,
-        1.0) : plain_box_ray(own);
-    return WalkState(own, boxes, make_ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,
-                  floatBitsToUint(bvh_nodes_at(i + 3u).w) & kBvhIdMask, number_shift(record));
+    Ray own = transform_ray_to_object_space(read_instance_placement(record), ray, low);
+    BoxTestRay boxes = is_precision_rule_kept(kBoxPaddingRule) ? make_box_ray(own, bvh_nodes_at(i + 8u).xyz, bvh_nodes_at(i + 9u).xyz,
+        1.0) : make_plain_box_ray(own);
+    return TreeWalkState(own, boxes, make_ray_shear(own.direction), record, floatBitsToUint(bvh_nodes_at(i + 1u).w) & kBvhIdMask,
+                  floatBitsToUint(bvh_nodes_at(i + 3u).w) & kBvhIdMask, triangle_number_offset(record));
 }
 
 // Intersects the ray with the exact sphere of an instance. The sphere's centre is the origin of the object space.
-void trace_sphere(WalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
+void intersect_instance_sphere(TreeWalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
     float t;
-    float radius = own_radius(walked.record);
+    float radius = object_space_sphere_radius(walked.record);
     if ((walked.flags & skipped_flags & ~(kBvhStandsForSphere | kBvhOneSided)) == 0u && TRACE_SEES(walked.object) &&
         radius > 0.0 &&
-        sphere_test(vec3(0), radius, walked.ray, best.t, t)) {
+        intersect_sphere_robustly(vec3(0), radius, walked.ray, best.t, t)) {
         best = TraceHit(t, vec3(0), 0u, walked.object, kHitOnExactSphere, walked.record);
         found = true;
     }
@@ -206,16 +206,16 @@ void trace_sphere(WalkState walked, uint skipped_flags, inout TraceHit best, ino
 
 // Walks the trees to the closest hit with 0 < t < t_max, or with `any` to the first hit that is found. Ignores
 // triangles with a flag of `skipped_flags`. Returns whether the ray has a hit.
-bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit best) {
+bool find_hit_in_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit best) {
     best = TraceHit(t_max, vec3(0), 0u, 0u, 0u, 0u);
     vec3 low = trace_low;
     trace_low = vec3(0);
     bool empty = (floatBitsToUint(bvh_nodes_at(0u).w) & kBvhIdMask) == 0u;
-    if (empty || !is_valid(ray) || !(t_max > 0.0)) return false;
+    if (empty || !is_valid_ray(ray) || !(t_max > 0.0)) return false;
 #ifdef TRACE_PRIVATE_STACK
     uint stack[kBvhMaxStack];
 #endif
-    WalkState walked = begin_walk_in_scene(ray);
+    TreeWalkState walked = begin_walk_in_scene(ray);
     bool found = false;
     uint waiting = 0u;
     // Triangles without a shadow may have a tree of their own, which shadow rays need not walk.
@@ -228,9 +228,9 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
     do {
         // Descends to a leaf. If the ray meets neither child of a node, the next node comes from the stack.
         do {
-            if (bvh_is_inner(child)) {
+            if (is_bvh_word_inner_node(child)) {
                 uint second;
-                trace_node(bvh_index(child), walked.boxes, best.t, child, second);
+                intersect_child_boxes(bvh_word_index(child), walked.boxes, best.t, child, second);
                 ++trace_steps;
                 if (count_work != 0u) {
                     ++nodes_visited;
@@ -245,9 +245,9 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
                     child = STACK(waiting);
                 }
             }
-        } while (bvh_is_inner(child) && trace_steps < kMaxTraceSteps);
-        uint first = bvh_index(child);
-        uint count = bvh_count(child);
+        } while (is_bvh_word_inner_node(child) && trace_steps < kMaxTraceSteps);
+        uint first = bvh_word_index(child);
+        uint count = bvh_word_triangle_count(child);
         uint i = 0u;
         bool enters = false;
         if (object_spaces != 0u && count >= kBvhInstanceMarker) {
@@ -258,7 +258,7 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
                 walked = begin_walk_in_instance(first, ray, low, root);
                 enters = (walked.flags & skipped_flags & kBvhStandsForSphere) == 0u;
                 if (!enters) {
-                    trace_sphere(walked, skipped_flags, best, found);
+                    intersect_instance_sphere(walked, skipped_flags, best, found);
                     walked = begin_walk_in_scene(ray);
                 } else {
                     STACK(waiting) = kBvhReturnFromInstance;
@@ -275,7 +275,7 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
         }
         do {
             if (i < count) {
-                trace_triangle(first + i, walked, skipped_flags, best, found);
+                intersect_stored_triangle(first + i, walked, skipped_flags, best, found);
                 ++trace_steps;
                 if (count_work != 0u) {
                     ++triangles_tested;
@@ -285,7 +285,7 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
             }
         } while (i < count);
         // If one of the two loops above has work left, the walk ran out of steps or the driver stopped its loops.
-        if (!enters && (bvh_is_inner(child) || i < count)) break;
+        if (!enters && (is_bvh_word_inner_node(child) || i < count)) break;
         if (enters) continue;
         child = kBvhEmptyChild;
         if (waiting > 0u && !(any && found)) {
@@ -294,19 +294,19 @@ bool walk_trees(Ray ray, float t_max, uint skipped_flags, bool any, out TraceHit
         }
     } while (child != kBvhEmptyChild && trace_steps < kMaxTraceSteps);
     trace_exhausted = trace_exhausted || child != kBvhEmptyChild;
-    if (found) best.barycentric = barycentric(best.barycentric);
+    if (found) best.barycentric = normalise_barycentric(best.barycentric);
     return found;
 }
 
 // Finds the closest triangle or sphere that the ray meets at 0 < t < t_max. Ignores those with a flag of `skipped`.
 bool find_closest_hit(Ray ray, float t_max, uint skipped, out TraceHit hit) {
-    return walk_trees(ray, t_max, skipped, false, hit);
+    return find_hit_in_trees(ray, t_max, skipped, false, hit);
 }
 
 // Returns whether the ray meets a triangle or sphere without a flag of `skipped` at 0 < t < t_max.
 bool has_any_hit(Ray ray, float t_max, uint skipped) {
     TraceHit hit;
-    return walk_trees(ray, t_max, skipped, true, hit);
+    return find_hit_in_trees(ray, t_max, skipped, true, hit);
 }
 
 #endif

@@ -23,8 +23,8 @@ layout(set = 0, binding = PLACEMENTS_BINDING, scalar) readonly buffer Placements
 
 // Transforms a normal from object space to the scene by the matrix's cofactors. The matrix is scaled first, so that
 // small objects do not underflow.
-vec3 normal_to_scene(Placement placement, vec3 n) {
-    float size = max(largest(abs(placement.x)), max(largest(abs(placement.y)), largest(abs(placement.z))));
+vec3 transform_normal_to_scene(Placement placement, vec3 n) {
+    float size = max(largest_vector_component(abs(placement.x)), max(largest_vector_component(abs(placement.y)), largest_vector_component(abs(placement.z))));
     vec3 x = placement.x / size, y = placement.y / size, z = placement.z / size;
     vec3 turned = n.x * cross(y, z) + n.y * cross(z, x) + n.z * cross(x, y);
     return normalize(dot(x, cross(y, z)) < 0.0 ? -turned : turned);
@@ -32,10 +32,10 @@ vec3 normal_to_scene(Placement placement, vec3 n) {
 #endif
 
 void main() {
-    View view = views[draw.first_view + drawn_layer()];
-    Surface surface = read_surface(drawn_object());
+    View view = views[draw.first_view + drawn_view_layer()];
+    Surface surface = read_surface(drawn_object_index());
 #ifdef PLACED
-    Placement placement = placements[drawn_object()];
+    Placement placement = placements[drawn_object_index()];
     vec3 from_eye = subtract_split_vectors(placement.centre, placement.centre_low, view.eye, view.eye_low);
     vec3 v = from_eye + (placement.x * position.x + placement.y * position.y + placement.z * position.z);
 #else
@@ -48,11 +48,11 @@ void main() {
     gl_ClipDistance[0] = dot(view.clip.xyz, v) + view.clip.w;
 #endif
 #ifdef LAYERED
-    gl_Layer = int(drawn_layer());
+    gl_Layer = int(drawn_view_layer());
 #endif
     write_drawn_pixel(view, surface);
 #ifdef PLACED
-    out_normal = normal_to_scene(placement, normal);
+    out_normal = transform_normal_to_scene(placement, normal);
 #else
     out_normal = normal;
 #endif

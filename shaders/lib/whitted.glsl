@@ -21,20 +21,20 @@ TEXEL_LIST(NORMALS_BINDING, normals, vec4, samplerBuffer, false)
 #endif
 #define NORMAL(i) normals_at(i).xyz
 
-VertexAttribute attribute_of(uint corner) { return read_vertex_attribute(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
+VertexAttribute read_attribute_of_corner(uint corner) { return read_vertex_attribute(floatBitsToUint(normals_at(corner).w) & kBvhIdMask); }
 
-const TriangleSides kNoSides = TriangleSides(vec3(0), vec3(0), vec4(0), vec4(0));
+const TriangleTextureSides kNoSides = TriangleTextureSides(vec3(0), vec3(0), vec4(0), vec4(0));
 
 // Returns the attribute at a point of the triangle whose corners are stored from index `corner` on.
 VertexAttribute interpolate_attribute(uint corner, vec3 barycentric) {
-    VertexAttribute a = attribute_of(corner), b = attribute_of(corner + 1u), c = attribute_of(corner + 2u);
+    VertexAttribute a = read_attribute_of_corner(corner), b = read_attribute_of_corner(corner + 1u), c = read_attribute_of_corner(corner + 2u);
     return VertexAttribute(barycentric.x * a.uv + barycentric.y * b.uv + barycentric.z * c.uv,
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
-bool has_attributes(uint detail) { return (read_material_parameters(detail).flags & kMaterialHasAttributesFlag) != 0u; }
+bool has_vertex_attributes(uint detail) { return (read_material_parameters(detail).flags & kMaterialHasAttributesFlag) != 0u; }
 bool passes_alpha_test(uint triangle, uint object, vec3 barycentric) {
     uint detail = read_surface(object).detail;
-    return !fails_alpha_test(detail, has_attributes(detail) ? interpolate_attribute(3u * triangle, barycentric) : kNoAttribute);
+    return !fails_alpha_test(detail, has_vertex_attributes(detail) ? interpolate_attribute(3u * triangle, barycentric) : kNoAttribute);
 }
 #define TRACE_IS_THERE(triangle, object, barycentric) passes_alpha_test(triangle, object, barycentric)
 layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
@@ -59,14 +59,14 @@ layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 // 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: rough mirrors reflect sharply. 1 as well
 // if traces_paths is 1.
 layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
-// The arguments of sample_point for the traced path.
+// The arguments of sample_pattern_point for the traced path.
 uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
 
 uint camera_rays = 0u; // camera rays that walked through the BVH
 uint mirror_rays = 0u;
 uint shadow_rays = 0u;
 
-// A point on a surface, with a bound of its position's error (see triangle_point).
+// A point on a surface, with a bound of its position's error (see triangle_hit_point).
 struct SurfacePoint {
     vec3 position;
     vec3 error;
@@ -77,7 +77,7 @@ struct SurfacePoint {
     uint leaves; // Ray::leaves of rays that start at this point
     uint inside; // record of the instance in whose object space the triangle lies; 0: the triangle is in scene units
     VertexAttribute at;
-    TriangleSides sides; // scene units; zero on a sphere, and if no material has a texture of normals
+    TriangleTextureSides sides; // scene units; zero on a sphere, and if no material has a texture of normals
     vec3 arm;       // vector from the instance's centre to the point, scene units
     vec3 arm_error; // bound of the error of `arm`
 };
@@ -85,31 +85,31 @@ SurfacePoint point; // the point that is shaded
 
 // Returns the flags of triangles that rays ignore. If spheres are exact, rays ignore meshes that approximate a sphere.
 // A sphere in the scene's tree, or the walk's own test of an instance's sphere, takes the place of such a mesh.
-uint ray_mask() { return exact_spheres != 0u ? kBvhStandsForSphere : 0u; }
+uint skipped_triangle_flags() { return exact_spheres != 0u ? kBvhStandsForSphere : 0u; }
 
 // Transforms a point from an instance's object space to scene units.
 void transform_point_to_scene(inout SurfacePoint p, uint record) {
     ObjectPlacement place = read_instance_placement(record);
     p.inside = record;
-    p.arm = offset_from_centre(place, p.position);
+    p.arm = rotate_to_scene_offset(place, p.position);
     p.arm_error = offset_rounding_error(place, p.position, p.error);
-    p.normal = scene_normal(place, p.normal);
+    p.normal = transform_normal_out_of_object_space(place, p.normal);
     vec3 low;
-    p.position = scene_point(place, p.arm, low);
-    p.error = p.arm_error + gamma_bound(2) * abs(p.position);
+    p.position = add_offset_to_object_centre(place, p.arm, low);
+    p.error = p.arm_error + rounding_error_gamma_bound(2) * abs(p.position);
 }
 
 SurfacePoint point_on_triangle(TraceHit hit) {
     vec3 a, b, c;
-    triangle_corners(hit.place, a, b, c);
+    read_triangle_corners(hit.place, a, b, c);
     vec3 w = hit.barycentric;
     SurfacePoint p;
-    p.position = triangle_point(a, b, c, w, p.error);
+    p.position = triangle_hit_point(a, b, c, w, p.error);
     p.facet = facet_normal(a, b, c);
     uint corner = 3u * hit.triangle;
-    if (object_spaces != 0u && hit.inside != 0u) corner -= 3u * number_shift(hit.inside);
+    if (object_spaces != 0u && hit.inside != 0u) corner -= 3u * triangle_number_offset(hit.inside);
     p.at = kNoAttribute;
-    if (details != 0u && has_attributes(read_surface(hit.object).detail)) p.at = interpolate_attribute(corner, w);
+    if (details != 0u && has_vertex_attributes(read_surface(hit.object).detail)) p.at = interpolate_attribute(corner, w);
     p.inside = 0u;
     p.arm = p.arm_error = vec3(0);
     vec3 normal_a = NORMAL(corner), normal_b = NORMAL(corner + 1u), normal_c = NORMAL(corner + 2u);
@@ -117,42 +117,42 @@ SurfacePoint point_on_triangle(TraceHit hit) {
     vec3 lit_a = a, lit_b = b, lit_c = c; // corners in scene units
     if (object_spaces != 0u && hit.inside != 0u) {
         ObjectPlacement place = read_instance_placement(hit.inside);
-        lit_a = offset_from_centre(place, a), lit_b = offset_from_centre(place, b), lit_c = offset_from_centre(place, c);
-        normal_a = scene_normal(place, normal_a), normal_b = scene_normal(place, normal_b), normal_c = scene_normal(place, normal_c);
+        lit_a = rotate_to_scene_offset(place, a), lit_b = rotate_to_scene_offset(place, b), lit_c = rotate_to_scene_offset(place, c);
+        normal_a = transform_normal_out_of_object_space(place, normal_a), normal_b = transform_normal_out_of_object_space(place, normal_b), normal_c = transform_normal_out_of_object_space(place, normal_c);
         p.facet = facet_normal(lit_a, lit_b, lit_c);
         transform_point_to_scene(p, hit.inside);
     }
     p.sides = kNoSides;
-    if (has_normal_textures != 0u && has_attributes(read_surface(hit.object).detail)) {
-        vec4 uv = attribute_of(corner).uv;
-        p.sides = TriangleSides(lit_b - lit_a, lit_c - lit_a, attribute_of(corner + 1u).uv - uv, attribute_of(corner + 2u).uv - uv);
+    if (has_normal_textures != 0u && has_vertex_attributes(read_surface(hit.object).detail)) {
+        vec4 uv = read_attribute_of_corner(corner).uv;
+        p.sides = TriangleTextureSides(lit_b - lit_a, lit_c - lit_a, read_attribute_of_corner(corner + 1u).uv - uv, read_attribute_of_corner(corner + 2u).uv - uv);
     }
     p.lift = smooth_surface_offset(lit_a, lit_b, lit_c, normal_a, normal_b, normal_c, w);
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
     if (object_spaces != 0u && hit.inside != 0u) {
         ObjectPlacement place = read_instance_placement(hit.inside);
-        exact_a = exact_scene_position(place, a), exact_b = exact_scene_position(place, b), exact_c = exact_scene_position(place, c);
+        exact_a = transform_exact_position_to_scene(place, a), exact_b = transform_exact_position_to_scene(place, b), exact_c = transform_exact_position_to_scene(place, c);
     }
-    dvec3 exact_w = exact_triangle_hit(exact_a, exact_b, exact_c, w);
+    dvec3 exact_w = refine_exact_triangle_hit(exact_a, exact_b, exact_c, w);
     exact_normal = exact_w.x * dvec3(NORMAL(corner)) + exact_w.y * dvec3(NORMAL(corner + 1u)) +
                    exact_w.z * dvec3(NORMAL(corner + 2u));
-    if (object_spaces != 0u && hit.inside != 0u) exact_normal = exact_scene_normal(read_instance_placement(hit.inside), exact_normal);
+    if (object_spaces != 0u && hit.inside != 0u) exact_normal = transform_exact_normal_to_scene(read_instance_placement(hit.inside), exact_normal);
     exact_normal = normalize(exact_normal);
     p.position = vec3(exact_point);
     p.normal = vec3(exact_normal);
 #endif
     p.object = hit.object;
-    p.leaves = keeps_rule(kOriginErrorBoundRule) ? hit.triangle + 1u : 0u;
+    p.leaves = is_precision_rule_kept(kOriginErrorBoundRule) ? hit.triangle + 1u : 0u;
     return p;
 }
 
 SurfacePoint point_on_sphere(Ray ray, float t, uint object) {
     SurfacePoint p;
     Surface of = read_surface(object);
-    p.position = sphere_point(of.centre, of.radius, ray, t, p.error);
+    p.position = sphere_hit_point(of.centre, of.radius, ray, t, p.error);
 #ifdef DOUBLES
-    exact_sphere_hit(dvec3(of.centre), double(of.radius), t);
+    refine_exact_sphere_hit(dvec3(of.centre), double(of.radius), t);
     p.position = vec3(exact_point);
 #endif
     p.normal = p.facet = (p.position - of.centre) / of.radius;
@@ -170,8 +170,8 @@ SurfacePoint point_on_sphere(Ray ray, float t, uint object) {
 SurfacePoint point_on_instance_sphere(Ray ray, vec3 low, TraceHit hit) {
     SurfacePoint p;
     ObjectPlacement place = read_instance_placement(hit.inside);
-    float radius = own_radius(hit.inside);
-    p.position = sphere_point(vec3(0), radius, ray_in_object_space(place, ray, low), hit.t, p.error);
+    float radius = object_space_sphere_radius(hit.inside);
+    p.position = sphere_hit_point(vec3(0), radius, transform_ray_to_object_space(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
     p.lift = 0.0;
     p.at = kNoAttribute;
@@ -181,7 +181,7 @@ SurfacePoint point_on_instance_sphere(Ray ray, vec3 low, TraceHit hit) {
     transform_point_to_scene(p, hit.inside);
     p.facet = p.normal;
 #ifdef DOUBLES
-    exact_sphere_hit(exact_scene_position(place, vec3(0)), double(radius) * length(dvec3(place.scene_x)), hit.t);
+    refine_exact_sphere_hit(transform_exact_position_to_scene(place, vec3(0)), double(radius) * length(dvec3(place.scene_x)), hit.t);
     p.normal = p.facet = vec3(exact_normal);
     p.position = vec3(exact_point);
 #endif
@@ -202,35 +202,35 @@ const uint kUnknownHit = 0u, kKnownHit = 1u;
 // Intersects the camera ray with the triangle that the rasteriser drew in the ray's pixel. Returns kUnknownHit if no
 // triangle is named, or if the ray misses the triangle. The latter happens at edges, where the rasteriser rounds corners
 // to parts of a pixel.
-uint known_hit(Ray ray, out TraceHit hit) {
+uint intersect_rasterised_triangle(Ray ray, out TraceHit hit) {
     hit = TraceHit(kLargestFloat, vec3(0), 0u, 0u, 0u, 0u);
     if (!is_first_hit(first_words)) return kUnknownHit;
-    uint object = first_hit_object(first_words);
+    uint object = read_first_hit_object(first_words);
     uint record = first_hits_at(2u * object);
-    uint place = first_hits_at(first_hits_at(2u * object + 1u) + first_hit_triangle(first_words));
+    uint place = first_hits_at(first_hits_at(2u * object + 1u) + read_first_hit_triangle(first_words));
     if (record == kNoFirstHit || place == kNoFirstHit) return kUnknownHit;
     Ray own = ray;
     uint shift = 0u;
     if (object_spaces != 0u && record != 0u) {
-        own = ray_in_object_space(read_instance_placement(record), ray, trace_low);
-        shift = number_shift(record);
+        own = transform_ray_to_object_space(read_instance_placement(record), ray, trace_low);
+        shift = triangle_number_offset(record);
     }
     vec3 a, b, c, weights;
-    triangle_corners(place, a, b, c);
+    read_triangle_corners(place, a, b, c);
     float t;
-    RayShear shear = make_ray_shear(own.direction);
-    bool meets = keeps_rule(kWatertightRule) ? triangle_test(a, b, c, own.origin, shear, t, weights)
+    TriangleTestRayShear shear = make_ray_shear(own.direction);
+    bool meets = is_precision_rule_kept(kWatertightRule) ? intersect_triangle_watertight(a, b, c, own.origin, shear, t, weights)
                                     : plain_triangle_test(a, b, c, own, t, weights);
     uint triangle = (floatBitsToUint(bvh_triangles_at(3u * place + 1u).w) & kBvhIdMask) + shift;
-    hit = TraceHit(t, barycentric(weights), triangle, object, place, record);
+    hit = TraceHit(t, normalise_barycentric(weights), triangle, object, place, record);
     return meets ? kKnownHit : kUnknownHit;
 }
 
-// Finds the surface that the ray meets. `known` and `hit` are the result of known_hit, or kUnknownHit and any hit.
+// Finds the surface that the ray meets. `known` and `hit` are the result of intersect_rasterised_triangle, or kUnknownHit and any hit.
 bool trace_ray(Ray ray, uint skipped, uint known, TraceHit hit, out SurfacePoint p) {
     vec3 low = trace_low;
     bool found = known == kKnownHit;
-    if (known == kUnknownHit) found = find_closest_hit(ray, kLargestFloat, skipped | kBvhOneSided | ray_mask(), hit);
+    if (known == kUnknownHit) found = find_closest_hit(ray, kLargestFloat, skipped | kBvhOneSided | skipped_triangle_flags(), hit);
     trace_low = vec3(0);
     if (found && object_spaces != 0u && hit.place == kHitOnExactSphere) p = point_on_instance_sphere(ray, low, hit);
     else if (found && exact_spheres != 0u && read_surface(hit.object).radius > 0.0) p = point_on_sphere(ray, hit.t, hit.object);
@@ -243,12 +243,12 @@ bool trace_ray(Ray ray, uint skipped, uint known, TraceHit hit, out SurfacePoint
 Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
     Surface surface = read_surface(p.object);
     if (details != 0u) {
-        vec3 turned = turn_normal_to_viewer(surface.detail, p.normal, p.facet, direction);
+        vec3 turned = turn_shading_normal_to_viewer(surface.detail, p.normal, p.facet, direction);
         // From the back the smooth surface is hollow, so it lies below the triangle.
         bool is_front = turned == p.normal;
         if (!is_front) p.lift = 0.0;
         if (has_normal_textures != 0u) {
-            vec3 bent = bend_normal_by_texture(surface.detail, p.at, p.normal, p.sides);
+            vec3 bent = apply_normal_texture(surface.detail, p.at, p.normal, p.sides);
 #ifdef DOUBLES
             if (bent != p.normal) exact_normal = dvec3(is_front ? bent : -bent);
 #endif
@@ -265,11 +265,11 @@ Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
 }
 
 // Returns the origin of a ray that leaves the point along `direction`. Sets trace_low if the point is on an instance.
-vec3 leaving_ray_origin(SurfacePoint p, vec3 direction) {
+vec3 find_leaving_ray_origin(SurfacePoint p, vec3 direction) {
     if (object_spaces != 0u && p.inside != 0u)
-        return scene_point(read_instance_placement(p.inside), spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
-    return keeps_rule(kOriginErrorBoundRule) ? spawn_origin(p.position, p.error, p.facet, direction)
-        : plain_spawn_origin(p.position, p.facet, direction);
+        return add_offset_to_object_centre(read_instance_placement(p.inside), ray_spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
+    return is_precision_rule_kept(kOriginErrorBoundRule) ? ray_spawn_origin(p.position, p.error, p.facet, direction)
+        : plain_ray_spawn_origin(p.position, p.facet, direction);
 }
 
 // Returns the origin of a shadow ray that goes below the facet's plane, although the light is above the shading
@@ -277,8 +277,8 @@ vec3 leaving_ray_origin(SurfacePoint p, vec3 direction) {
 // would hit neighbouring facets, and a smooth body's shadow terminator would show its facets.
 vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
     if (object_spaces != 0u && p.inside != 0u)
-        return scene_point(read_instance_placement(p.inside), spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
-    return spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
+        return add_offset_to_object_centre(read_instance_placement(p.inside), ray_spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
+    return ray_spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
 
 #include "lib/paths.glsl"
@@ -286,8 +286,8 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
 
 // Returns the origin of a ray that leaves the surface along `direction`, for paths that leave diffuse surfaces, too.
 vec3 reflected_ray_origin(SurfacePoint p, vec3 direction) {
-    bool goes_below = traces_paths != 0u && keeps_rule(kOriginErrorBoundRule) && dot(direction, facet_side(p.normal, p.facet)) < 0.0;
-    return goes_below ? lifted_shadow_ray_origin(p, p.normal) : leaving_ray_origin(p, direction);
+    bool goes_below = traces_paths != 0u && is_precision_rule_kept(kOriginErrorBoundRule) && dot(direction, facet_normal_on_shading_side(p.normal, p.facet)) < 0.0;
+    return goes_below ? lifted_shadow_ray_origin(p, p.normal) : find_leaving_ray_origin(p, direction);
 }
 
 // With samples_lamps, a ray to a point drawn on a lamp is traced before the path goes on: that point, the weight of its
@@ -296,21 +296,21 @@ bool traces_to_lamp = false;
 LampPoint lamp;
 vec3 lamp_weight, path_low;
 Ray path_ray;
-const uint kLampDimensions = 0x10000u; // first dimension of sample_point for lamps; lobes have those below
+const uint kLampDimensions = 0x10000u; // first dimension of sample_pattern_point for lamps; lobes have those below
 
 // Replaces the path's next ray by one to a point drawn on a lamp, unless the surface reflects no light from there to
 // where `direction` comes from. `weight` is the path's weight before the surface. Light that drawn rays meet, too,
 // counts by the shares of both densities (multiple importance sampling, balance heuristic: Veach and Guibas,
 // "Optimally Combining Sampling Techniques for Monte Carlo Rendering", 1995).
-void aim_at_lamp(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, vec3 weight, inout Ray ray) {
+void replace_ray_by_ray_to_lamp(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, vec3 weight, inout Ray ray) {
     float u, v, density;
-    sample_point(path_pixel, path_sample, kLampDimensions + bounce, path_seed, u, v);
+    sample_pattern_point(path_pixel, path_sample, kLampDimensions + bounce, path_seed, u, v);
     lamp = draw_lamp_point(u, v);
     vec3 to_lamp = lamp.position - p.position;
     vec3 reflected = evaluate_reflection(p, parts, direction, normalize(to_lamp), density);
     float lamp_density = solid_angle_density(lamp_point_density(lamp.object), to_lamp, lamp.normal);
     lamp_weight = weight * reflected / (density + lamp_density);
-    traces_to_lamp = largest(lamp_weight) > 0.0;
+    traces_to_lamp = largest_vector_component(lamp_weight) > 0.0;
     if (!traces_to_lamp) return;
     path_ray = ray;
     path_low = trace_low;
@@ -320,50 +320,50 @@ void aim_at_lamp(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, 
 }
 
 // Goes on with the path after its ray to a lamp.
-void resume_path(out Ray ray) {
+void resume_path_after_lamp_ray(out Ray ray) {
     ray = path_ray;
     trace_low = path_low;
     traces_to_lamp = false;
 }
 
 // Returns whether the ray has met the point drawn on a lamp, and no other surface before.
-bool meets_lamp_point(SurfacePoint p, vec3 origin) {
+bool does_ray_meet_lamp_point(SurfacePoint p, vec3 origin) {
     // Part of the distance by which the direction's rounding may move the point, even on a lamp seen edge-on. Positions
     // add their own rounding.
     const float kTolerance = 1e-4;
     vec3 miss = p.position - lamp.position;
-    float allowed = kTolerance * length(lamp.position - origin) + length(p.error + gamma_bound(4) * abs(lamp.position));
+    float allowed = kTolerance * length(lamp.position - origin) + length(p.error + rounding_error_gamma_bound(4) * abs(lamp.position));
     return p.object == lamp.object && length(miss) <= allowed;
 }
 
 // Returns the share of a surface's emission that counts where a ray meets it: the rest is counted by rays to lamps.
 // `ray_density` is the density with which the ray was drawn, 0 for a ray that no lamp ray accompanies.
-float met_emission_share(SurfacePoint p, vec3 origin, float ray_density) {
+float counted_share_of_met_emission(SurfacePoint p, vec3 origin, float ray_density) {
     float density = lamp_point_density(p.object);
     if (ray_density == 0.0 || density == 0.0) return 1.0;
     return ray_density / (ray_density + solid_angle_density(density, p.position - origin, p.facet));
 }
 
-float light_visible(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
+float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
         return sample_shadow_map(light, position, normal, dot(abs(normal), point.error));
     float visible;
     if (has_shadow_map != 0u && first_raster != 0u &&
-        try_shadow_map(light, position, normal, dot(abs(normal), point.error), visible))
+        find_light_share_by_shadow_map(light, position, normal, dot(abs(normal), point.error), visible))
         return visible;
     ++shadow_rays;
-    bool goes_below = keeps_rule(kOriginErrorBoundRule) && dot(direction, facet_side(normal, point.facet)) < 0.0;
+    bool goes_below = is_precision_rule_kept(kOriginErrorBoundRule) && dot(direction, facet_normal_on_shading_side(normal, point.facet)) < 0.0;
     vec3 origin;
     if (goes_below) origin = lifted_shadow_ray_origin(point, normal);
-    else origin = leaving_ray_origin(point, direction);
+    else origin = find_leaving_ray_origin(point, direction);
     Ray ray = Ray(origin, read_light(light).position - origin, point.leaves);
-    float t = keeps_rule(kShadowRayEndRule) ? kShadowRayEnd : 1.0;
-    if (is_directional(light)) {
+    float t = is_precision_rule_kept(kShadowRayEndRule) ? kShadowRayEnd : 1.0;
+    if (is_directional_light(light)) {
         ray.direction = direction;
         t = kLargestFloat;
     }
-    return has_any_hit(ray, t, kBvhCastsNoShadow | ray_mask()) ? 0.0 : 1.0;
+    return has_any_hit(ray, t, kBvhCastsNoShadow | skipped_triangle_flags()) ? 0.0 : 1.0;
 }
 #include "lib/lighting.glsl"
 
@@ -390,21 +390,21 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     met = 0u;
     uint skipped = first == 0u ? kBvhHiddenFromCamera : 0u;
 #ifdef DOUBLES
-    set_exact_ray(ray, trace_low);
+    set_double_precision_ray(ray, trace_low);
 #endif
     bool done = false;
     uint bounce = first;
     TraceHit hit;
     uint known = kUnknownHit;
     float ray_density = 0.0; // with which the path's ray was drawn; 0: a ray of the camera or of a smooth surface
-    if (first_raster != 0u && first == 0u) known = known_hit(ray, hit);
+    if (first_raster != 0u && first == 0u) known = intersect_rasterised_triangle(ray, hit);
     if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
         bool found = trace_ray(ray, skipped, known, hit, point);
         known = kUnknownHit;
         bool is_to_lamp = samples_lamps != 0u && traces_to_lamp;
         if (is_to_lamp && !found) {
-            resume_path(ray);
+            resume_path_after_lamp_ray(ray);
             done = weight == vec3(0);
             continue;
         }
@@ -415,12 +415,12 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         }
         Surface surface = evaluate_surface(point, ray.direction);
         if (is_to_lamp) {
-            if (meets_lamp_point(point, ray.origin)) result += lamp_weight * surface.emission;
-            resume_path(ray);
+            if (does_ray_meet_lamp_point(point, ray.origin)) result += lamp_weight * surface.emission;
+            resume_path_after_lamp_ray(ray);
             done = weight == vec3(0);
             continue;
         }
-        if (samples_lamps != 0u) surface.emission *= met_emission_share(point, ray.origin, ray_density);
+        if (samples_lamps != 0u) surface.emission *= counted_share_of_met_emission(point, ray.origin, ray_density);
         bool is_recorded = bounce < first + 2u && met < kHitRoughSurface << kHitMirrorBits;
         if (is_recorded) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
@@ -435,7 +435,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             done = bounce == max_depth;
             if (!done) split_at_glass(point, surface.detail, bounce, ray, weight);
 #ifdef DOUBLES
-            set_exact_ray(ray, trace_low);
+            set_double_precision_ray(ray, trace_low);
 #endif
             done = done || weight == vec3(0);
             ++bounce;
@@ -446,7 +446,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         }
         // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
         // the whole BVH walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || traces_paths != 0u);
+        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || traces_paths != 0u);
         if (!reflects && (traces_paths == 0u || surface.albedo == vec3(0))) {
             done = true;
         } else if (bounce == max_depth) {
@@ -456,13 +456,13 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             Reflection parts = split_reflection(surface, reflects, -dot(point.normal, arriving));
             bool is_drawn = draw_reflection(point, parts, arriving, bounce, weight, direction, ray_density);
 #ifdef DOUBLES
-            if (!is_drawn) direction = exact_reflection();
+            if (!is_drawn) direction = reflect_exact_ray();
 #endif
             ray = Ray(reflected_ray_origin(point, direction), direction, point.leaves);
             skipped = 0u;
             ++mirror_rays;
             if (samples_lamps != 0u && (is_drawn || parts.diffuse != vec3(0)))
-                aim_at_lamp(point, parts, arriving, bounce, weight_before, ray);
+                replace_ray_by_ray_to_lamp(point, parts, arriving, bounce, weight_before, ray);
             ++bounce;
             if (traces_lobes != 0u) done = weight == vec3(0) && !traces_to_lamp;
         }

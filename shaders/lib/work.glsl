@@ -13,13 +13,13 @@ layout(constant_id = COUNT_WORK_CONSTANT) const uint count_work = 0u;
 layout(set = 0, binding = 43, scalar) buffer WorkBuffer { uvec2 work_counts[kShaderWorkKindCount]; };
 
 // Adds to a count of the pass, kWork... in shared.h. Helper invocations of a fragment shader add nothing.
-void add_work(uint kind, uint count) {
+void add_to_work_count(uint kind, uint count) {
     if (count_work == 0u || count == 0u) return;
     uint before = atomicAdd(work_counts[kind].x, count);
     if (before + count < before) atomicAdd(work_counts[kind].y, 1u);
 }
-void count_once(uint kind) {
-    if (count_work != 0u) add_work(kind, 1u);
+void count_work_once(uint kind) {
+    if (count_work != 0u) add_to_work_count(kind, 1u);
 }
 
 #endif

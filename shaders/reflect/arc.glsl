@@ -21,7 +21,7 @@ const float kMinArcAngle = kPi / 2.0 / 16384.0;
 
 // Sets up the arc of a ray that starts at `offset` from the capture's centre. Returns false if the ray's line passes
 // through the centre, so that the arc is only the ray's own direction.
-bool make_arc(vec3 offset, vec3 direction, out RayArc arc) {
+bool make_ray_arc(vec3 offset, vec3 direction, out RayArc arc) {
     float size = length(offset);
     arc.from = size > 0.0 ? offset / size : direction;
     arc.end.x = dot(arc.from, direction);
@@ -32,13 +32,13 @@ bool make_arc(vec3 offset, vec3 direction, out RayArc arc) {
     return arc.end.y > kMinArcAngle;
 }
 
-vec3 direction_at(RayArc arc, vec2 place) { return arc.from * place.x + arc.side * place.y; }
+vec3 arc_direction_at(RayArc arc, vec2 place) { return arc.from * place.x + arc.side * place.y; }
 float sine_between(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
-vec2 rotate_vector(vec2 place, float sine) { return normalize(place + sine * vec2(-place.y, place.x)); }
+vec2 rotate_arc_place(vec2 place, float sine) { return normalize(place + sine * vec2(-place.y, place.x)); }
 
-// Returns the ray's inverse distance at a place. ray_plane returns the vector whose dot product with a place is this
+// Returns the ray's inverse distance at a place. make_inverse_distance_plane returns the vector whose dot product with a place is this
 // inverse distance.
-float ray_at(RayArc arc, vec2 place) { return sine_between(place, arc.end) / arc.height; }
-vec2 ray_plane(RayArc arc) { return vec2(arc.end.y, -arc.end.x) / arc.height; }
+float inverse_ray_distance_at(RayArc arc, vec2 place) { return sine_between(place, arc.end) / arc.height; }
+vec2 make_inverse_distance_plane(RayArc arc) { return vec2(arc.end.y, -arc.end.x) / arc.height; }
 
 #endif

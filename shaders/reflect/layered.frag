@@ -33,24 +33,24 @@ struct ArcSample {
 // layer.
 float first_layer_distance(uint mirror, ivec3 texel) {
 #define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_distance_unit(mirror)
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, FIRST)
 }
 float second_layer_distance(uint mirror, ivec3 texel) {
 #define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_distance_unit(mirror)
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, SECOND)
 }
-// Returns the captured distances, scene units, of four texels in the first layer. gather_second_layer reads the second
+// Returns the captured distances, scene units, of four texels in the first layer. gather_second_layer_distances reads the second
 // layer.
-vec4 gather_first_layer(uint mirror, vec3 at) {
+vec4 gather_first_layer_distances(uint mirror, vec3 at) {
 #define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_distance_unit(mirror)
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, FIRSTS)
 }
-vec4 gather_second_layer(uint mirror, vec3 at) {
+vec4 gather_second_layer_distances(uint mirror, vec3 at) {
 #define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_distance_unit(mirror)
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, SECONDS)
 }
 // Returns the weighted sum of the colours of four texels in both layers.
@@ -62,20 +62,20 @@ vec3 sum_weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 1)),                                               \
          dot(in_first, textureGather(FACES_OF(colour1, i), at, 2)) +                                                   \
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 2)))
-    add_work(kWorkColourLookups, 6u);
+    add_to_work_count(kWorkColourLookups, 6u);
     RETURN_OF_ARRAY(mirror, WEIGHTED)
 }
 // Returns a direction's position on its cube face, in texels, and the array layer of that face.
-vec3 direction_to_texel(uint mirror, vec3 direction) {
+vec3 direction_to_texel_position(uint mirror, vec3 direction) {
     int face = cube_face(direction);
     vec3 c = cube_coordinates(face, direction);
-    return vec3((c.xy / c.z * 0.5 + 0.5) * float(distance_edge(mirror)), float(first_face_of(mirror)) + float(face));
+    return vec3((c.xy / c.z * 0.5 + 0.5) * float(distance_edge(mirror)), float(first_face_layer_of_mirror(mirror)) + float(face));
 }
 
 ArcSample sample_layers_on_arc(uint mirror, RayArc arc, vec2 place) {
-    ivec3 texel = ivec3(direction_to_texel(mirror, direction_at(arc, place)));
+    ivec3 texel = ivec3(direction_to_texel_position(mirror, arc_direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
-    return ArcSample(place, ray_at(arc, place), reciprocal_or_zero(first_layer_distance(mirror, texel)),
+    return ArcSample(place, inverse_ray_distance_at(arc, place), reciprocal_or_zero(first_layer_distance(mirror, texel)),
                   reciprocal_or_zero(second_layer_distance(mirror, texel)));
 }
 
@@ -92,17 +92,17 @@ bool are_similar_distances(float a, float b) { return abs(a - b) <= kMaxSurfaceS
 
 // Returns whether a surface ends between two samples of the march. At both samples the same number of captured surfaces
 // is nearer to the capture's centre than the ray, but only one sample has a surface that is farther than the ray.
-bool surface_ends_between(ArcSample a, ArcSample b) {
+bool does_surface_end_between(ArcSample a, ArcSample b) {
     return count_surfaces_in_front(a) == count_surfaces_in_front(b) &&
         (inverse_distance_of_next_surface(a) > 0.0) != (inverse_distance_of_next_surface(b) > 0.0);
 }
 
 // Returns whether two samples of the march see the same surfaces: as many surfaces are nearer to the capture's centre
 // than the ray, and the nearest surface is the same.
-bool see_same_surfaces(ArcSample a, ArcSample b) {
+bool do_samples_see_same_surfaces(ArcSample a, ArcSample b) {
     uint count = count_surfaces_in_front(a);
     return count == count_surfaces_in_front(b) && (count == 0u || are_similar_distances(b.first, a.first)) &&
-        !surface_ends_between(a, b);
+        !does_surface_end_between(a, b);
 }
 
 // Returns the texel's inverse distance from the layer whose inverse distance is closer to `about`.
@@ -128,9 +128,9 @@ float smaller_inverse_distance_change(uint mirror, float about, float mean, ivec
 
 // Returns the plane of the surface with the inverse distance `about` in the texel at a place. The dot product of the
 // result with a nearby place is the plane's inverse distance in that place.
-vec2 surface_plane_at(uint mirror, RayArc arc, vec2 place, float about) {
-    int face = cube_face(direction_at(arc, place));
-    ivec3 texel = ivec3(direction_to_texel(mirror, direction_at(arc, place)));
+vec2 find_surface_plane_at(uint mirror, RayArc arc, vec2 place, float about) {
+    int face = cube_face(arc_direction_at(arc, place));
+    ivec3 texel = ivec3(direction_to_texel_position(mirror, arc_direction_at(arc, place)));
     texel.xy = min(texel.xy, ivec2(distance_edge(mirror) - 1));
     float size = 2.0 / float(distance_edge(mirror));
     vec3 centre = vec3((vec2(texel.xy) + 0.5) * size - 1.0, 1.0);
@@ -143,46 +143,46 @@ vec2 surface_plane_at(uint mirror, RayArc arc, vec2 place, float about) {
 }
 
 // The four texels around a direction, in the order of textureGather.
-struct FourTexels {
+struct GatheredTexels {
     vec3 at; // texture coordinates of the common corner of the four texels
     vec4 weights, first; // bilinear weights, and distances in the first layer
 };
-FourTexels four_texels_around(uint mirror, vec3 direction) {
-    vec3 texel = direction_to_texel(mirror, direction);
+GatheredTexels gather_texels_around(uint mirror, vec3 direction) {
+    vec3 texel = direction_to_texel_position(mirror, direction);
     vec2 corner = floor(texel.xy - 0.5), share = texel.xy - 0.5 - corner;
-    FourTexels taps;
+    GatheredTexels taps;
     taps.at = vec3((corner + 1.0) / float(distance_edge(mirror)), texel.z);
     taps.weights = vec4(1.0 - share.x, share.x, share.x, 1.0 - share.x) * vec4(share.yy, 1.0 - share.yy);
-    taps.first = gather_first_layer(mirror, taps.at);
+    taps.first = gather_first_layer_distances(mirror, taps.at);
     return taps;
 }
 
 // Returns 1 for each of four distances that belongs to the surface at about `distance`, else 0.
-vec4 mark_texels_on_surface(vec4 distances, float distance) {
+vec4 mark_texels_at_distance(vec4 distances, float distance) {
     return vec4(lessThanEqual(abs(distances - distance), vec4(kMaxSurfaceStep * distance)));
 }
 bool are_all_texels_chosen(vec4 chosen) { return dot(chosen, vec4(1)) == 4.0; }
 
 // Chooses, for each of the four texels, the layer that shows the surface at about `distance`. Returns the texels'
 // weights in the first and second layer. A texel whose layers do not show the surface has weight 0 in both.
-void choose_layer_of_texels(uint mirror, FourTexels taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
-    second = gather_second_layer(mirror, taps.at);
+void choose_layer_of_texels(uint mirror, GatheredTexels taps, float distance, out vec4 second, out vec4 in_first, out vec4 in_second) {
+    second = gather_second_layer_distances(mirror, taps.at);
     vec4 is_second = vec4(lessThan(abs(second - distance), abs(taps.first - distance)));
-    in_first = taps.weights * (1.0 - is_second) * mark_texels_on_surface(taps.first, distance);
-    in_second = taps.weights * is_second * mark_texels_on_surface(second, distance);
+    in_first = taps.weights * (1.0 - is_second) * mark_texels_at_distance(taps.first, distance);
+    in_second = taps.weights * is_second * mark_texels_at_distance(second, distance);
 }
 
 // The distance of the looked-up surface from the capture's centre; 0: no surface was found. The variable has no initial
 // value, because glslang 12 fails with -gVS on initial values.
 float found_distance;
 
-float last_hit_distance() { return found_distance; }
-void set_last_hit_distance(float distance) { found_distance = distance; }
+float distance_of_last_search_hit() { return found_distance; }
+void set_distance_of_last_search_hit(float distance) { found_distance = distance; }
 
 vec3 lookup_colour(uint mirror, Lookup lookup) {
     if (!(found_distance > 0.0)) return environment_radiance(lookup.direction);
-    FourTexels taps = four_texels_around(mirror, lookup.direction);
-    if (are_all_texels_chosen(mark_texels_on_surface(taps.first, found_distance))) return captured_colour(mirror,
+    GatheredTexels taps = gather_texels_around(mirror, lookup.direction);
+    if (are_all_texels_chosen(mark_texels_at_distance(taps.first, found_distance))) return captured_colour(mirror,
         lookup.direction);
     vec4 second, in_first, in_second;
     choose_layer_of_texels(mirror, taps, found_distance, second, in_first, in_second);
@@ -193,29 +193,29 @@ vec3 lookup_colour(uint mirror, Lookup lookup) {
 
 // Returns the intersection of the ray with a plane near `place`.
 Lookup intersect_surface_plane(uint mirror, RayArc arc, vec2 plane, vec2 place, float layer) {
-    vec2 depth = plane - ray_plane(arc), met = normalize(vec2(-depth.y, depth.x));
+    vec2 depth = plane - make_inverse_distance_plane(arc), met = normalize(vec2(-depth.y, depth.x));
     if (dot(met, place) < 0.0) met = -met;
     // The intersection may be at most four half texels from `place`, as far as a texel's plane is valid.
     float reach = 4.0 / float(distance_edge(mirror)), apart = sine_between(place, met);
     if (!(abs(apart) <= reach)) met = place;
     found_distance = 1.0 / dot(plane, met);
-    return Lookup(direction_at(arc, met), kHit, min(abs(dot(depth, met)) * found_distance, 1.0), layer);
+    return Lookup(arc_direction_at(arc, met), kHit, min(abs(dot(depth, met)) * found_distance, 1.0), layer);
 }
 
 // Returns whether the ray meets a surface of either of two samples that are a part of a texel apart. `is_lost` tells
 // whether the surface ahead of the ray at `a` ends before `b`.
 bool meets_sampled_surface(uint mirror, RayArc arc, ArcSample a, ArcSample b, out Lookup found, out bool is_lost) {
-    vec2 ray = ray_plane(arc);
+    vec2 ray = make_inverse_distance_plane(arc);
     uint count = count_surfaces_in_front(a);
     is_lost = inverse_distance_of_next_surface(a) > 0.0;
-    vec2 first = b.first > 0.0 ? surface_plane_at(mirror, arc, b.place, b.first) : vec2(0);
-    vec2 second = b.second > 0.0 ? surface_plane_at(mirror, arc, b.place, b.second) : vec2(0);
+    vec2 first = b.first > 0.0 ? find_surface_plane_at(mirror, arc, b.place, b.first) : vec2(0);
+    vec2 second = b.second > 0.0 ? find_surface_plane_at(mirror, arc, b.place, b.second) : vec2(0);
     uint next = count;
     do {
         uint i = next++;
         float before = i == 0u ? a.first : a.second;
         if (i > 1u || before == 0.0) break;
-        vec2 plane = surface_plane_at(mirror, arc, a.place, before);
+        vec2 plane = find_surface_plane_at(mirror, arc, a.place, before);
         float at_b = dot(plane, b.place);
         bool in_first = are_similar_distances(dot(first, b.place), at_b),
             in_second = are_similar_distances(dot(second, b.place), at_b);
@@ -238,7 +238,7 @@ bool meets_sampled_surface(uint mirror, RayArc arc, ArcSample a, ArcSample b, ou
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     found_distance = 0.0;
     RayArc arc;
-    if (!make_arc(offset, direction, arc)) {
+    if (!make_ray_arc(offset, direction, arc)) {
         float distance = captured_distance(mirror, direction);
         if (is_miss(distance)) return Lookup(direction, kMiss, 0.0, 0.0);
         found_distance = distance;
@@ -257,7 +257,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         bool changes = false; // whether a and b differ and are less than a texel apart
         do {
-            if (see_same_surfaces(a, b)) {
+            if (do_samples_see_same_surfaces(a, b)) {
                 a = b;
                 is_done = a.place == arc.end || ++samples > kMaxSearchSamples;
                 if (a.place == next && !is_done) {
@@ -267,7 +267,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
                 if (!is_done) b = sample_layers_on_arc(mirror, arc, next);
             } else if (sine_between(a.place, b.place) > 0.25 * half_texel) {
                 ArcSample middle = sample_layers_on_arc(mirror, arc, normalize(a.place + b.place));
-                if (see_same_surfaces(a, middle)) a = middle;
+                if (do_samples_see_same_surfaces(a, middle)) a = middle;
                 else b = middle;
                 is_done = ++samples > kMaxSearchSamples;
             } else changes = true;
@@ -278,7 +278,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         bool is_lost;
         if (meets_sampled_surface(mirror, arc, a, b, found, is_lost)) return found;
         if (is_lost) {
-            guess = Lookup(direction_at(arc, rotate_vector(a.place, -2.0 * half_texel)), kUnknown, 1.0, 0.0);
+            guess = Lookup(arc_direction_at(arc, rotate_arc_place(a.place, -2.0 * half_texel)), kUnknown, 1.0, 0.0);
             guessed_distance = 1.0 / before;
         } else if (before == 0.0 && count_surfaces_in_front(b) > count_surfaces_in_front(a)) {
             guess = Lookup(direction, kUnknown, 1.0, kLeaves);

@@ -10,9 +10,9 @@ void main() {
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye));
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
-    Surface surface = surface_at_fragment(n, facet);
-    count_once(kWorkColourLookups);
+    Surface surface = find_surface_at_fragment(n, facet);
+    count_work_once(kWorkColourLookups);
     vec3 shown = surface.reflectance * texelFetch(mirrored, ivec2(gl_FragCoord.xy), 0).rgb;
-    if (lights_mirrors != 0u) shown += shade_fragment(surface, n, facet);
-    write_surface(shown);
+    if (lights_mirrors != 0u) shown += shade_drawn_fragment(surface, n, facet);
+    write_captured_surface(shown);
 }

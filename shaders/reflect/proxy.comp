@@ -8,7 +8,7 @@
 
 layout(local_size_x = 256) in;
 layout(set = 0, binding = 20) uniform FACES(distance_faces);
-layout(set = 0, binding = 21, scalar) writeonly buffer Proxies { Proxy proxies[]; };
+layout(set = 0, binding = 21, scalar) writeonly buffer Proxies { ProxyShapes proxies[]; };
 
 const uint kMaxTexelsAcross = 64u;
 
@@ -22,7 +22,7 @@ int captured_face_edge(uint mirror) {
 }
 float read_stored_distance(uint mirror, ivec3 texel) {
 #define STORED_AT(i) texelFetch(FACES_OF(distance_faces, i), texel, 0).r
-    count_once(kWorkDistanceLookups);
+    count_work_once(kWorkDistanceLookups);
     RETURN_OF_ARRAY(mirror, STORED_AT)
 }
 
@@ -37,7 +37,7 @@ void main() {
         uint side = i / (across * across);
         // The middle texel of the sampled cell. No product overflows if a face's edge has fewer than 2^26 texels.
         uvec2 texel = (cell * face + face / 2u) / across;
-        float stored = read_stored_distance(mirror, ivec3(texel, first_face_of(mirror) + side));
+        float stored = read_stored_distance(mirror, ivec3(texel, first_face_layer_of_mirror(mirror) + side));
         if (is_miss(stored) || (has_distance_limit(mirror) && stored >= 1.0)) continue;
         vec2 place = (vec2(texel) + 0.5) / float(face) * 2.0 - 1.0;
         vec3 direction = normalize(cube_direction(int(side), vec3(place, 1)));
@@ -57,5 +57,5 @@ void main() {
         }
         barrier();
     }
-    if (me == 0u) proxies[mirror] = Proxy(lows[0], highs[0], sums[0].y > 0.0 ? sums[0].x / sums[0].y : 0.0);
+    if (me == 0u) proxies[mirror] = ProxyShapes(lows[0], highs[0], sums[0].y > 0.0 ? sums[0].x / sums[0].y : 0.0);
 }

@@ -8,7 +8,7 @@
 #include "lib/probe.glsl"
 #include "reflect/proxy.glsl"
 
-layout(set = 0, binding = 20, scalar) readonly buffer Proxies { Proxy proxies[]; };
+layout(set = 0, binding = 20, scalar) readonly buffer Proxies { ProxyShapes proxies[]; };
 const uint kBoxProxy = 0u, kSphereProxy = 1u;
 layout(constant_id = OWN_CONSTANTS) const uint shape = kBoxProxy;
 // A lookup is a hit if the captured surface is at most this far from the box or sphere, relative to the distance from
@@ -38,11 +38,11 @@ Lookup make_outward_lookup(uint mirror, vec3 direction) {
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
-    Proxy proxy = proxies[mirror];
+    ProxyShapes proxy = proxies[mirror];
     float t = 0.0;
     bool met = proxy.radius > 0.0 &&
                (shape == kBoxProxy ? intersects_box(proxy.lo, proxy.hi, offset, direction, t)
-                              : sphere_test(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargestFloat, t));
+                              : intersect_sphere_robustly(vec3(0), proxy.radius, Ray(offset, direction, 0u), kLargestFloat, t));
     vec3 p = offset + direction * t;
     float size = length(p);
     if (!met || !(size > 0.0 && size <= kLargestFloat)) return make_outward_lookup(mirror, direction);

@@ -9,15 +9,15 @@
 #define CATOPTRIC_PYRAMID_GLSL
 
 // Returns the number of cells along an edge of a level, for a face with `face` texels along its edge.
-int level_edge(int face, int level) { return (face + (1 << level) - 1) >> level; }
+int cells_along_level_edge(int face, int level) { return (face + (1 << level) - 1) >> level; }
 
 // Returns the number of the topmost level, at least 1. The topmost level has one cell for the face.
-int top_level(int face) { return face <= 2 ? 1 : findMSB(uint(face - 1)) + 1; }
+int top_pyramid_level(int face) { return face <= 2 ? 1 : findMSB(uint(face - 1)) + 1; }
 
 // Returns the column at which a level begins in its layer. Each level is half as wide as the level below, so all levels
 // fit into twice the width of level 1.
-int level_column(int face, int level) {
-    int full = 1 << top_level(face);
+int first_column_of_level(int face, int level) {
+    int full = 1 << top_pyramid_level(face);
     return full - (full >> (level - 1));
 }
 
@@ -26,7 +26,7 @@ const float kSmallestNormalHalf = 6.103515625e-5;
 
 // Packs the least and the largest distance of a cell into a word. `low` is +infinity if the cell shows no surface at
 // all, `high` is +infinity if some texel shows no surface.
-uint pack_bounds(float low, float high) {
+uint pack_distance_bounds(float low, float high) {
     uint a = kHalfInfinity, b = kHalfInfinity;
     if (!isinf(low)) {
         low = low < kSmallestNormalHalf ? 0.0 : min(low, kLargestHalf);

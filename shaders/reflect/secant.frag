@@ -18,7 +18,7 @@ layout(constant_id = OWN_CONSTANTS) const uint steps = 2u;
 const uint kBisectionSteps = 6u;
 
 // Returns the place at which the ray is as far along as the surface that the capture shows in the ray's own direction.
-vec2 guess_crossing_place(RayArc arc, vec3 offset, vec3 direction, float distance) {
+vec2 guess_crossing_at_captured_distance(RayArc arc, vec3 offset, vec3 direction, float distance) {
     float t = max(distance - dot(offset, direction), 0.0);
     return normalize(vec2(length(offset) + t * arc.end.x, t * arc.end.y));
 }
@@ -28,38 +28,38 @@ vec2 guess_crossing_place(RayArc arc, vec3 offset, vec3 direction, float distanc
 void bisect_towards_surface_edge(uint mirror, RayArc arc, inout ArcSample front, inout ArcSample end) {
     uint i = 0u;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
-        if (!is_behind(end)) {
+        if (!is_ray_behind_surface(end)) {
             ArcSample middle = sample_capture_on_arc(mirror, arc, normalize(front.place + end.place));
-            if (middle.captured > 0.0 && !is_behind(middle)) front = middle;
+            if (middle.captured > 0.0 && !is_ray_behind_surface(middle)) front = middle;
             else end = middle;
         }
         ++i;
-    } while (i < kBisectionSteps && !is_behind(end));
+    } while (i < kBisectionSteps && !is_ray_behind_surface(end));
 }
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {
     float first = captured_distance(mirror, direction);
     RayArc arc;
-    if (!make_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kMiss : kHit, 0.0, 0.0);
+    if (!make_ray_arc(offset, direction, arc)) return Lookup(direction, is_miss(first) ? kMiss : kHit, 0.0, 0.0);
     bool leaves = is_miss(first);
     ArcSample front = ArcSample(vec2(1, 0), 0.0, -1.0 / length(offset)), behind = ArcSample(arc.end,
         reciprocal_or_zero(first), reciprocal_or_zero(first));
     if (leaves) {
         bisect_towards_surface_edge(mirror, arc, front, behind);
-        if (!is_behind(behind)) {
-            if (front.captured > 0.0 && bisect_to_surface_edge(mirror, arc, front, behind))
-                return Lookup(direction_at(arc, front.place), kHit, abs(front.depth) / front.captured, 0.0);
-            if (!is_behind(behind)) return Lookup(direction, kMiss, 0.0, 0.0);
+        if (!is_ray_behind_surface(behind)) {
+            if (front.captured > 0.0 && bisect_to_missing_surface_edge(mirror, arc, front, behind))
+                return Lookup(arc_direction_at(arc, front.place), kHit, abs(front.depth) / front.captured, 0.0);
+            if (!is_ray_behind_surface(behind)) return Lookup(direction, kMiss, 0.0, 0.0);
         }
     } else {
-        vec2 place = guess_crossing_place(arc, offset, direction, first);
+        vec2 place = guess_crossing_at_captured_distance(arc, offset, direction, first);
         for (uint i = 0u; i < steps; ++i) {
             ArcSample next = sample_capture_on_arc(mirror, arc, place);
-            if (is_behind(next)) behind = next;
+            if (is_ray_behind_surface(next)) behind = next;
             else front = next;
-            place = estimate_crossing_place(front, behind);
+            place = estimate_crossing_between_samples(front, behind);
             float residual = abs(next.depth) / next.captured;
-            if (residual <= kSurfaceTolerance) return Lookup(direction_at(arc, place), kHit, residual, 0.0);
+            if (residual <= kSurfaceTolerance) return Lookup(arc_direction_at(arc, place), kHit, residual, 0.0);
         }
     }
     Lookup found = find_surface_crossing(mirror, arc, front, behind);

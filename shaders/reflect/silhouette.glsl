@@ -12,7 +12,7 @@ const float kMaxSurfaceSlope = 4.0;
 const float kMaxContinuousStep = 1.0 / 128.0;
 
 // Angle of a texel in the middle of a face.
-float texel_angle(uint mirror) { return 2.0 / float(distance_edge(mirror)); }
+float texel_angle_of_mirror_capture(uint mirror) { return 2.0 / float(distance_edge(mirror)); }
 // inverse distance; 0: no surface
 float reciprocal_or_zero(float distance) { return is_miss(distance) ? 0.0 : 1.0 / distance; }
 
@@ -28,10 +28,10 @@ uint classify_surface_between(uint mirror, vec3 front, vec3 behind, float captur
     if (captured_front == 0.0) return kSurfaceSilhouette;
     float rise = captured_behind - captured_front, angle = length(behind - front);
     if (abs(rise) <= max(kMaxSurfaceSlope,
-        kMaxContinuousStep / texel_angle(mirror)) * angle * captured_front) return kSurfaceContinues;
+        kMaxContinuousStep / texel_angle_of_mirror_capture(mirror)) * angle * captured_front) return kSurfaceContinues;
     // A plane seen at a grazing angle is as steep on at least one of the two sides. The lookups lie beyond the texels
     // that the given distances interpolate.
-    float apart = 1.25 * texel_angle(mirror);
+    float apart = 1.25 * texel_angle_of_mirror_capture(mirror);
     vec3 move = (behind - front) * (apart / angle);
     // A loop around a single call of captured_distance() keeps the compiled code small. In ablated shaders
     // (lib/ablate.glsl) this call traces a ray, and four separate calls would be inlined four times. In other shaders

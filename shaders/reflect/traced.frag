@@ -9,9 +9,9 @@ layout(constant_id = TRACER_CONSTANT) const uint tracer = 0u;
 
 void main() {
     discard_cut_out_fragments();
-    write_surface(vec3(0));
+    write_captured_surface(vec3(0));
 #ifdef FIRST_HIT
-    out_colour = first_hit_words(uint(gl_PrimitiveID), drawn_object(), drawn_mirror(), tracer);
+    out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), drawn_mirror_number(), tracer);
 #endif
     out_distance = float(tracer);
 }

@@ -11,8 +11,8 @@ layout(set = 0, binding = 21, rgba16f) readonly uniform image2DArray below;
 layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
 layout(constant_id = OWN_CONSTANTS) const uint from_level = 0u; // 0: the level below is the captured colour
 
-vec3 colour_below(ivec3 texel) {
-    count_once(kWorkColourLookups);
+vec3 colour_of_level_below(ivec3 texel) {
+    count_work_once(kWorkColourLookups);
     return from_level != 0u ? imageLoad(below, texel).rgb : texelFetch(captured, texel, 0).rgb;
 }
 
@@ -28,7 +28,7 @@ void main() {
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
             vec2 share = min(high, vec2(x + 1, y + 1)) - max(low, vec2(x, y));
-            sum += share.x * share.y * colour_below(ivec3(x, y, layer));
+            sum += share.x * share.y * colour_of_level_below(ivec3(x, y, layer));
         }
     imageStore(level, ivec3(texel, layer), vec4(min(sum / (scale * scale), vec3(kLargestHalf)), 1));
 }

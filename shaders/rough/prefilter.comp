@@ -41,7 +41,7 @@ void main() {
         for (int turn = 0; turn < 4; ++turn) {
             vec4 place = vec4(drawn.x * tangent + drawn.y * bitangent + drawn.z * normal, layer / 6);
             vec3 colour = from < 1.0 ? textureLod(captured, place, 0).rgb : textureLod(boxes, place, from - 1.0).rgb;
-            count_once(kWorkColourLookups);
+            count_work_once(kWorkColourLookups);
             sum += drawn.z * colour;
             weights += drawn.z;
             drawn.xy = vec2(-drawn.y, drawn.x);

@@ -19,42 +19,42 @@ layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
-void append(uint word) { words[next++] = word; }
-void append(float number) { append(floatBitsToUint(number)); }
-void append(vec2 v) { append(v.x), append(v.y); }
-void append(uvec2 v) { append(v.x), append(v.y); }
-void append(vec3 v) { append(v.x), append(v.y), append(v.z); }
-void append(vec4 v) { append(v.x), append(v.y), append(v.z), append(v.w); }
-void append(Surface s) {
-    append(s.albedo), append(s.emission), append(s.reflectance), append(s.mirror), append(s.detail), append(s.centre),
-        append(s.radius);
+void append_result_word(uint word) { words[next++] = word; }
+void append_result_word(float number) { append_result_word(floatBitsToUint(number)); }
+void append_result_word(vec2 v) { append_result_word(v.x), append_result_word(v.y); }
+void append_result_word(uvec2 v) { append_result_word(v.x), append_result_word(v.y); }
+void append_result_word(vec3 v) { append_result_word(v.x), append_result_word(v.y), append_result_word(v.z); }
+void append_result_word(vec4 v) { append_result_word(v.x), append_result_word(v.y), append_result_word(v.z), append_result_word(v.w); }
+void append_result_word(Surface s) {
+    append_result_word(s.albedo), append_result_word(s.emission), append_result_word(s.reflectance), append_result_word(s.mirror), append_result_word(s.detail), append_result_word(s.centre),
+        append_result_word(s.radius);
 }
 
 void main() {
-    append(vertices[1].position), append(vertices[1].normal);
-    append(surfaces[1]);
+    append_result_word(vertices[1].position), append_result_word(vertices[1].normal);
+    append_result_word(surfaces[1]);
     Light l = lights[1];
-    append(l.position), append(l.normal), append(l.intensity), append(l.right), append(l.down), append(l.forward),
-        append(l.near);
-    append(l.reach), append(l.cos_outer), append(l.sharpness), append(l.kind);
-    append(probes[1].centre), append(probes[1].sphere), append(probes[1].radius), append(probes[1].reflectance);
-    append(probes[1].lowest), append(probes[1].highest), append(probes[1].kind);
+    append_result_word(l.position), append_result_word(l.normal), append_result_word(l.intensity), append_result_word(l.right), append_result_word(l.down), append_result_word(l.forward),
+        append_result_word(l.near);
+    append_result_word(l.reach), append_result_word(l.cos_outer), append_result_word(l.sharpness), append_result_word(l.kind);
+    append_result_word(probes[1].centre), append_result_word(probes[1].sphere), append_result_word(probes[1].radius), append_result_word(probes[1].reflectance);
+    append_result_word(probes[1].lowest), append_result_word(probes[1].highest), append_result_word(probes[1].kind);
     View v = views[1];
-    append(v.eye), append(v.right), append(v.down), append(v.forward), append(v.near), append(v.eye_low),
-        append(v.parallel), append(v.clip);
+    append_result_word(v.eye), append_result_word(v.right), append_result_word(v.down), append_result_word(v.forward), append_result_word(v.near), append_result_word(v.eye_low),
+        append_result_word(v.parallel), append_result_word(v.clip);
     Sky s = skies[1];
-    append(s.size), append(s.scale), append(s.turn);
-    for (int i = 0; i < 9; ++i) append(s.irradiance[i]);
-    for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append(s.level_first[i]);
-    for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append(s.level_width[i]);
+    append_result_word(s.size), append_result_word(s.scale), append_result_word(s.turn);
+    for (int i = 0; i < 9; ++i) append_result_word(s.irradiance[i]);
+    for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append_result_word(s.level_first[i]);
+    for (int i = 0; i < SKY_LEVEL_COUNT; ++i) append_result_word(s.level_width[i]);
     Frame f = frames[1];
-    append(f.ambient), append(f.light_count), append(f.mirror_count), append(f.object_count), append(f.shadow_faces);
-    append(draws[1].first_view), append(draws[1].ablated);
+    append_result_word(f.ambient), append_result_word(f.light_count), append_result_word(f.mirror_count), append_result_word(f.object_count), append_result_word(f.shadow_faces);
+    append_result_word(draws[1].first_view), append_result_word(draws[1].ablated);
     Placement p = placements[1];
-    append(p.x), append(p.y), append(p.z), append(p.centre), append(p.centre_low);
+    append_result_word(p.x), append_result_word(p.y), append_result_word(p.z), append_result_word(p.centre), append_result_word(p.centre_low);
     TraceParameters t = traces[1];
-    append(t.sample_offset), append(t.sample_index), append(t.sample_count), append(t.size), append(t.seed);
+    append_result_word(t.sample_offset), append_result_word(t.sample_index), append_result_word(t.sample_count), append_result_word(t.size), append_result_word(t.seed);
     Counters c = counters[1];
-    append(c.primary_rays), append(c.mirror_rays), append(c.shadow_rays), append(c.longest_walk), append(c.exhausted);
-    append(c.mirror_pixels), append(c.listed);
+    append_result_word(c.primary_rays), append_result_word(c.mirror_rays), append_result_word(c.shadow_rays), append_result_word(c.longest_walk), append_result_word(c.exhausted);
+    append_result_word(c.mirror_pixels), append_result_word(c.listed);
 }

@@ -16,7 +16,7 @@ void main() {
     if (i >= count) return;
     vec3 to_eye = asked[i].xyz;
     float alpha = roughness_to_alpha(asked[i].w), u, v;
-    sample_point(i % 97u, i, i % 5u, 7u, u, v);
+    sample_pattern_point(i % 97u, i, i % 5u, 7u, u, v);
     vec3 to_light = sample_lobe(alpha, to_eye, u, v);
     answers[2u * i] = vec4(to_light, lobe_sample_weight(alpha, vec3(0.5), vec3(1), to_eye, to_light).x);
     answers[2u * i + 1u] = vec4(lobe_pdf(alpha, to_eye, to_light),

@@ -17,12 +17,12 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
     vec3 a, b, c, error;
-    triangle_corners(starts[2u * i].w, a, b, c);
-    vec3 point = triangle_point(a, b, c, uintBitsToFloat(starts[2u * i].xyz), error);
+    read_triangle_corners(starts[2u * i].w, a, b, c);
+    vec3 point = triangle_hit_point(a, b, c, uintBitsToFloat(starts[2u * i].xyz), error);
     vec3 facet = facet_normal(a, b, c);
     vec3 direction = uintBitsToFloat(starts[2u * i + 1u].xyz);
-    vec3 origin = keeps_rule(kOriginErrorBoundRule) ? spawn_origin(point, error, facet, direction)
-        : plain_spawn_origin(point, facet, direction);
+    vec3 origin = is_precision_rule_kept(kOriginErrorBoundRule) ? ray_spawn_origin(point, error, facet, direction)
+        : plain_ray_spawn_origin(point, facet, direction);
     leavings[3u * i] = uvec4(floatBitsToUint(point), 0u);
     leavings[3u * i + 1u] = uvec4(floatBitsToUint(facet), 0u);
     leavings[3u * i + 2u] = uvec4(floatBitsToUint(origin), 0u);

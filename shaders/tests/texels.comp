@@ -9,29 +9,29 @@ layout(set = 0, binding = 50, scalar) writeonly buffer Words { uint words[]; };
 layout(push_constant) uniform Push { uint number; };
 
 uint next = 0u;
-void append(uint word) { words[next++] = word; }
-void append(float number) { append(floatBitsToUint(number)); }
-void append(vec3 v) { append(v.x), append(v.y), append(v.z); }
-void append(vec4 v) { append(v.x), append(v.y), append(v.z), append(v.w); }
-void append(TextureUse use) {
-    append(use.first), append(use.size), append(use.how), append(use.u_row), append(use.v_row);
+void append_result_word(uint word) { words[next++] = word; }
+void append_result_word(float number) { append_result_word(floatBitsToUint(number)); }
+void append_result_word(vec3 v) { append_result_word(v.x), append_result_word(v.y), append_result_word(v.z); }
+void append_result_word(vec4 v) { append_result_word(v.x), append_result_word(v.y), append_result_word(v.z), append_result_word(v.w); }
+void append_result_word(TextureUse use) {
+    append_result_word(use.first), append_result_word(use.size), append_result_word(use.how), append_result_word(use.u_row), append_result_word(use.v_row);
 }
 
 void main() {
     Surface s = read_surface(number);
-    append(s.albedo), append(s.emission), append(s.reflectance), append(s.mirror), append(s.detail), append(s.centre),
-        append(s.radius);
-    Probe p = probe_at(number);
-    append(p.centre), append(p.sphere), append(p.radius), append(p.reflectance), append(p.lowest), append(p.highest),
-        append(p.kind);
+    append_result_word(s.albedo), append_result_word(s.emission), append_result_word(s.reflectance), append_result_word(s.mirror), append_result_word(s.detail), append_result_word(s.centre),
+        append_result_word(s.radius);
+    Probe p = read_probe(number);
+    append_result_word(p.centre), append_result_word(p.sphere), append_result_word(p.radius), append_result_word(p.reflectance), append_result_word(p.lowest), append_result_word(p.highest),
+        append_result_word(p.kind);
     MaterialParameters d = read_material_parameters(number);
-    append(d.flags), append(d.first_attribute), append(d.max_specular_roughness), append(d.alpha),
-        append(d.alpha_cutoff);
-    append(d.f0), append(d.f90), append(d.albedo), append(d.emission), append(d.rough), append(d.normal), append(d.normal_scale);
-    append(d.absorption), append(d.ior);
-#define PUT_FACTOR(name) append(d.name);
+    append_result_word(d.flags), append_result_word(d.first_attribute), append_result_word(d.max_specular_roughness), append_result_word(d.alpha),
+        append_result_word(d.alpha_cutoff);
+    append_result_word(d.f0), append_result_word(d.f90), append_result_word(d.albedo), append_result_word(d.emission), append_result_word(d.rough), append_result_word(d.normal), append_result_word(d.normal_scale);
+    append_result_word(d.absorption), append_result_word(d.ior);
+#define PUT_FACTOR(name) append_result_word(d.name);
     MATERIAL_FACTORS(PUT_FACTOR)
     VertexAttribute a = read_vertex_attribute(number);
-    append(a.uv), append(a.colour);
-    append(texture_words_at(number));
+    append_result_word(a.uv), append_result_word(a.colour);
+    append_result_word(texture_words_at(number));
 }

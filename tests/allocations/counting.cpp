@@ -9,22 +9,23 @@
 namespace {
 
 thread_local std::size_t taken = 0;
-constexpr std::size_t kAll = ~std::size_t{0};
-std::atomic<std::size_t> granted = kAll; // allocations left before one is refused
+constexpr std::size_t kAllAllocationsAllowed = ~std::size_t{0};
+std::atomic<std::size_t> granted = kAllAllocationsAllowed; // allocations left before one is refused
 
-bool is_refused() { return granted != kAll && granted-- == 0; }
+bool is_allocation_refused() { return granted != kAllAllocationsAllowed && granted-- == 0; }
 
 } // namespace
 
 std::size_t test::allocations() { return taken; }
 
-test::Refusal::Refusal(std::size_t after) { granted = after; }
-test::Refusal::~Refusal() { granted = kAll; }
+test::AllocationRefusal::AllocationRefusal(std::size_t after) { granted = after; }
+test::AllocationRefusal::~AllocationRefusal() { granted = kAllAllocationsAllowed; }
 
 // NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what malloc is for
 void* operator new(std::size_t bytes) {
     ++taken;
-    if (void* const memory = is_refused() ? nullptr : std::malloc(bytes ? bytes : 1)) return memory;
+    if (void* const memory = is_allocation_refused() ? nullptr : std::malloc(bytes ? bytes : 1))
+        return memory;
     throw std::bad_alloc();
 }
 void* operator new[](std::size_t bytes) { return operator new(bytes); }

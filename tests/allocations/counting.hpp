@@ -9,12 +9,12 @@ namespace test {
 std::size_t allocations();
 
 /// Makes one allocation fail while this object exists: the one after `after` others, on any thread.
-class Refusal {
+class AllocationRefusal {
 public:
-    explicit Refusal(std::size_t after);
-    ~Refusal();
-    Refusal(const Refusal&) = delete;
-    Refusal& operator=(const Refusal&) = delete;
+    explicit AllocationRefusal(std::size_t after);
+    ~AllocationRefusal();
+    AllocationRefusal(const AllocationRefusal&) = delete;
+    AllocationRefusal& operator=(const AllocationRefusal&) = delete;
 };
 
 } // namespace test

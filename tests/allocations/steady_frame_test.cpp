@@ -15,9 +15,9 @@ namespace {
 using namespace catoptric;
 
 /// Number of heap allocations for declaring and for recording one frame.
-struct Taken {
+struct AllocationCounts {
     std::size_t declaring = 0, recording = 0;
-    friend auto operator<=>(const Taken&, const Taken&) = default;
+    friend auto operator<=>(const AllocationCounts&, const AllocationCounts&) = default;
 };
 
 class SteadyFrame : public testing::TestWithParam<const char*> {};
@@ -30,23 +30,23 @@ INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrame,
                          });
 
 TEST_P(SteadyFrame, EachFrameMakesTheSameNumberOfAllocations) {
-    gpu::Device device({}); // without the validation layer, whose allocations would count
-    gpu::Pipelines pipelines(device);
+    gpu::GpuDevice device({}); // without the validation layer, whose allocations would count
+    gpu::PipelineStore pipelines(device);
     const scene::Scene scene = scene::make_cornell_mirrors();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {32, 32}, 0);
     graph::GraphRunner runner(device, pipelines, 2);
-    std::set<Taken> seen;
+    std::set<AllocationCounts> seen;
     std::size_t passes = 0;
     for (int frame = 1; frame <= 20; ++frame) {
         const std::size_t before = test::allocations();
-        graph::Graph graph(runner.history());
+        graph::Graph graph(runner.make_history());
         const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
         graph.mark_output(test::add_technique(graph, inputs, GetParam()).hdr);
         const std::size_t declared = test::allocations();
         runner.submit_frame(graph, graph::PassTiming::isolated);
         const std::size_t recorded = test::allocations();
-        passes = runner.compiled(graph).passes.size();
+        passes = runner.find_or_make_plan(graph).passes.size();
         if (frame >= 5) seen.insert({declared - before, recorded - declared});
     }
     EXPECT_EQ(runner.planned_shape_count(), 1u);

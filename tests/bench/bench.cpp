@@ -23,23 +23,24 @@ namespace {
 using namespace catoptric;
 
 /// One side of a compared pair: an engine and a technique.
-struct Side {
+struct ComparedSide {
     const char* name;
     app::Engine& engine;
     std::string technique;
 };
 
-app::BenchmarkSubject frames_of(const Side& side, app::Request request, int rounds) {
+app::BenchmarkSubject make_frame_subject_of_side(const ComparedSide& side, app::Request request,
+                                                 int rounds) {
     request.techniques = {side.technique};
     const auto session = std::make_shared<app::Session>(side.engine, request.scene);
-    app::BenchmarkSubject subject = app::make_frame_subject(session, request,
-                                                            rounds * request.frames);
+    app::BenchmarkSubject subject = app::make_frame_benchmark_subject(session, request,
+                                                                      rounds * request.frames);
     subject.name = side.name; // two engines may draw the same technique
     subject.caller.clear();
     return subject;
 }
 
-std::vector<double> gpu_ms(const measure::Benchmark& benchmark) {
+std::vector<double> list_gpu_ms_of_rounds(const measure::BenchmarkResult& benchmark) {
     std::vector<double> samples;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         samples.push_back(round.counters.at("gpu_ms"));
@@ -47,81 +48,87 @@ std::vector<double> gpu_ms(const measure::Benchmark& benchmark) {
 }
 
 /// GPU milliseconds of each side, and the ratio a / b of each pair of frames.
-struct Pairs {
+struct PairedTimes {
     measure::SampleSummary a, b, ratio;
 };
 
-Pairs run_pairs(const Side& a, const Side& b, const app::Request& base, int rounds) {
-    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
-    const std::vector<measure::Benchmark> found = app::measure_in_rounds(
-        {frames_of(a, base, rounds), frames_of(b, base, rounds)}, meter,
-        {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
-    const std::vector<double> a_ms = gpu_ms(found[0]), b_ms = gpu_ms(found[1]);
+PairedTimes measure_paired_frames(const ComparedSide& a, const ComparedSide& b,
+                                  const app::Request& base, int rounds) {
+    const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
+    const std::vector<measure::BenchmarkResult> found = app::measure_benchmarks_in_rounds(
+        {make_frame_subject_of_side(a, base, rounds), make_frame_subject_of_side(b, base, rounds)},
+        meter, {.iterations = rounds * base.frames, .rounds = rounds, .watcher = {}});
+    const std::vector<double> a_ms = list_gpu_ms_of_rounds(found[0]),
+                              b_ms = list_gpu_ms_of_rounds(found[1]);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < a_ms.size(); ++i) ratios.push_back(a_ms[i] / b_ms[i]);
     return {measure::summarise_samples(a_ms), measure::summarise_samples(b_ms),
             measure::summarise_samples(ratios)};
 }
 
-void compare(const char* title, const Side& a, const Side& b, const app::Request& base,
-             int rounds) {
-    const Pairs pairs = run_pairs(a, b, base, rounds);
+void compare_sides(const char* title, const ComparedSide& a, const ComparedSide& b,
+                   const app::Request& base, int rounds) {
+    const PairedTimes pairs = measure_paired_frames(a, b, base, rounds);
     std::printf("%s\n  %-28s %8.2f ms\n  %-28s %8.2f ms\n  ratio %.3f [%.3f, %.3f] over %d pairs\n",
                 title, a.name, pairs.a.median, b.name, pairs.b.median, pairs.ratio.median,
                 pairs.ratio.p05, pairs.ratio.p95, rounds);
 }
 
-void compare_shapes(const app::Request& base, int rounds) {
-    const std::string device = test::wanted_device();
+void compare_tree_shapes(const app::Request& base, int rounds) {
+    const std::string device = test::read_wanted_device_name();
     app::Engine plain({.device = device}),
         naive_engine(app::Access::make_engine(
             {.device = device}, {.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}})),
         faces_engine(app::Access::make_engine({.device = device}, {.layered = false}));
-    Side fast{"default", plain, "raytrace:depth=4"},
+    ComparedSide fast{"default", plain, "raytrace:depth=4"},
         naive{"naive", naive_engine, "raytrace:depth=4"};
     std::printf("%s, %s\n", plain.device().name.c_str(), plain.device().driver.c_str());
-    compare("raytrace:depth=4 512x512: texel buffers, shared stack, scattered groups against "
-            "storage buffers, "
-            "private stack, groups in order",
-            fast, naive, base, rounds);
-    Side layered{"six faces in one pass", plain, "parallax"},
+    compare_sides("raytrace:depth=4 512x512: texel buffers, shared stack, scattered groups against "
+                  "storage buffers, "
+                  "private stack, groups in order",
+                  fast, naive, base, rounds);
+    ComparedSide layered{"six faces in one pass", plain, "parallax"},
         faces{"six passes", faces_engine, "parallax"};
-    compare("parallax 512x512: captures in layered passes against one pass a face", layered, faces,
-            base, rounds);
+    compare_sides("parallax 512x512: captures in layered passes against one pass a face", layered,
+                  faces, base, rounds);
 }
 
 /// Measures the rules that run on the processor. They are always in use, so only their time is
 /// printed.
 void compare_processor_rules(const app::Request& base) {
-    constexpr int kTimes = 25;
+    constexpr int kRepetitions = 25;
     const render::SceneUnits space = render::make_scene_units(base.scene);
-    const render::Geometry geometry = render::make_geometry(base.scene, space);
+    const render::FrameGeometry geometry = render::make_frame_geometry(base.scene, space);
     render::NearestTriangleQuery nearest;
     nearest.set_geometry(geometry);
     volatile float kept = 0; // volatile, so that the compiler keeps the measured work
     const std::vector<app::BenchmarkSubject> subjects{
-        app::make_subject("near planes from the nearest gap | frame",
-                          [&] {
-                              // One search each for the camera, four captures and the light.
-                              for (int i = 0; i < 6; ++i)
-                                  kept = nearest.distance_to_nearest(
-                                      geometry, dvec3(0.1 * i),
-                                      [](std::size_t, const render::DrawRange&) { return false; });
-                          }),
-        app::make_subject("centre and scale in doubles, then floats | frame",
-                          [&] {
-                              kept = render::make_geometry(base.scene,
-                                                           render::make_scene_units(base.scene))
-                                         .vertices.front()
-                                         .position.x;
-                          }),
-        app::make_subject("areas and normals of meshes | load", [&] {
+        app::make_benchmark_subject("near planes from the nearest gap | frame",
+                                    [&] {
+                                        // One search each for the camera, four captures and the
+                                        // light.
+                                        for (int i = 0; i < 6; ++i)
+                                            kept = nearest.distance_to_nearest(
+                                                geometry, dvec3(0.1 * i),
+                                                [](std::size_t, const render::ObjectDrawRange&) {
+                                                    return false;
+                                                });
+                                    }),
+        app::make_benchmark_subject("centre and scale in doubles, then floats | frame",
+                                    [&] {
+                                        kept = render::make_frame_geometry(
+                                                   base.scene, render::make_scene_units(base.scene))
+                                                   .vertices.front()
+                                                   .position.x;
+                                    }),
+        app::make_benchmark_subject("areas and normals of meshes | load", [&] {
             for (scene::Mesh mesh : base.scene.meshes) scene::repair_mesh(mesh);
         })};
-    const app::UsageMeter meter(app::UsageMeter::CountedThreads::process);
+    const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
     std::printf("\n| On the processor, always | ms | when |\n|---|---:|---|\n");
-    for (const measure::Benchmark& found : app::measure_in_rounds(
-             subjects, meter, {.iterations = kTimes, .rounds = kTimes, .watcher = {}})) {
+    for (const measure::BenchmarkResult& found : app::measure_benchmarks_in_rounds(
+             subjects, meter,
+             {.iterations = kRepetitions, .rounds = kRepetitions, .watcher = {}})) {
         const double ms = measure::compute_percentile(
             list_round_costs(found, measure::CostKind::real_time), .5);
         const std::size_t bar = found.name.find('|');
@@ -132,13 +139,13 @@ void compare_processor_rules(const app::Request& base) {
 
 /// Compares the device's time of a frame with and without each rule that a row can leave out. Then
 /// measures the rules on the processor, which are never left out.
-void compare_rules(const app::Request& base, int rounds) {
-    struct Rule {
+void compare_culling_rules(const app::Request& base, int rounds) {
+    struct TimedRule {
         const char* name;
         const char* with;
         const char* without;
     };
-    constexpr Rule kRules[] = {
+    constexpr TimedRule kTimedRules[] = {
         {"watertight triangles", "raytrace", "raytrace:without=watertight"},
         {"boxes with slack", "raytrace", "raytrace:without=box_slack"},
         {"rays start off the surface by an error bound", "raytrace",
@@ -149,14 +156,14 @@ void compare_rules(const app::Request& base, int rounds) {
         {"\"nothing there\" is asked for", "parallax", "parallax:without=void_test"},
         {"hit points in doubles (no rule)", "raytrace:hit=f64", "raytrace"},
         {"colour in floats (no rule)", "parallax:colour=float", "parallax"}};
-    app::Engine engine({.device = test::wanted_device()});
+    app::Engine engine({.device = test::read_wanted_device_name()});
     std::printf("%s, %s; 512x512, %d pairs\n\n", engine.device().name.c_str(),
                 engine.device().driver.c_str(), rounds);
     std::printf(
         "| Rule | With | ms | Without | ms | Ratio [p05 - p95] |\n|---|---|---:|---|---:|---:|\n");
-    for (const Rule& rule : kRules) {
-        Side with{"with", engine, rule.with}, without{"without", engine, rule.without};
-        const Pairs pairs = run_pairs(with, without, base, rounds);
+    for (const TimedRule& rule : kTimedRules) {
+        ComparedSide with{"with", engine, rule.with}, without{"without", engine, rule.without};
+        const PairedTimes pairs = measure_paired_frames(with, without, base, rounds);
         std::printf("| %s | %s | %.1f | %s | %.1f | %.3f [%.3f - %.3f] |\n", rule.name, rule.with,
                     pairs.a.median, rule.without, pairs.b.median, pairs.ratio.median,
                     pairs.ratio.p05, pairs.ratio.p95);
@@ -169,7 +176,7 @@ void compare_rules(const app::Request& base, int rounds) {
 
 int main(int argc, char** argv) try {
     if (argc > 4 && std::string_view(argv[1]) == "repeats") {
-        repeat_compare(std::max(1, std::atoi(argv[2])), {argv + 3, argv + argc});
+        repeat_comparison_of_rows(std::max(1, std::atoi(argv[2])), {argv + 3, argv + argc});
         return 0;
     }
     const bool rules = argc > 1 && std::string_view(argv[1]) == "rules";
@@ -180,7 +187,7 @@ int main(int argc, char** argv) try {
     base.camera = base.scene.cameras.front();
     base.frames = 5;
     base.warmup = 3;
-    rules ? compare_rules(base, rounds) : compare_shapes(base, rounds);
+    rules ? compare_culling_rules(base, rounds) : compare_tree_shapes(base, rounds);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "catoptric_bench: %s\n", error.what());

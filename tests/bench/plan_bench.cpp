@@ -10,41 +10,43 @@ namespace {
 
 using namespace catoptric;
 
-constexpr graph::GraphLimits kLimits{.max_layers = 1u << 20};
+constexpr graph::GraphLimits kTestGraphLimits{.max_layers = 1u << 20};
 
 /// Adds the time per pass to the result, beside the time per graph.
-void count(benchmark::State& state, const graph::Graph& graph) {
+void report_time_per_pass(benchmark::State& state, const graph::Graph& graph) {
     state.counters["a pass"] = benchmark::Counter(
-        static_cast<double>(state.iterations()) * static_cast<double>(graph.passes().size()),
+        static_cast<double>(state.iterations()) * static_cast<double>(graph.list_passes().size()),
         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void declare(benchmark::State& state) {
+void measure_graph_declaration(benchmark::State& state) {
     const auto mirrors = static_cast<std::uint32_t>(state.range(0)) - 3;
     for (auto _ : state) benchmark::DoNotOptimize(test::make_reuse_graph(mirrors));
-    count(state, test::make_reuse_graph(mirrors));
+    report_time_per_pass(state, test::make_reuse_graph(mirrors));
 }
 
-void plan(benchmark::State& state) {
+void measure_graph_planning(benchmark::State& state) {
     const graph::Graph graph = test::make_reuse_graph(static_cast<std::uint32_t>(state.range(0)) -
                                                       3);
-    const graph::MemorySizer sizer = graph::make_default_sizer();
-    for (auto _ : state) benchmark::DoNotOptimize(graph::plan_graph(graph, kLimits, sizer));
-    count(state, graph);
+    const graph::MemoryRequirementQueries sizer = graph::make_default_requirement_queries();
+    for (auto _ : state)
+        benchmark::DoNotOptimize(graph::plan_graph(graph, kTestGraphLimits, sizer));
+    report_time_per_pass(state, graph);
 }
 
-void dump(benchmark::State& state) {
+void measure_graph_dump(benchmark::State& state) {
     const graph::Graph graph = test::make_reuse_graph(static_cast<std::uint32_t>(state.range(0)) -
                                                       3);
-    const graph::GraphPlan plan = graph::plan_graph(graph, kLimits, graph::make_default_sizer());
-    for (auto _ : state) benchmark::DoNotOptimize(graph::to_text(graph, plan));
-    count(state, graph);
+    const graph::GraphPlan plan = graph::plan_graph(graph, kTestGraphLimits,
+                                                    graph::make_default_requirement_queries());
+    for (auto _ : state) benchmark::DoNotOptimize(graph::plan_to_text(graph, plan));
+    report_time_per_pass(state, graph);
 }
 
 // The arguments are the numbers of passes of a graph.
-BENCHMARK(declare)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
-BENCHMARK(plan)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
-BENCHMARK(dump)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
+BENCHMARK(measure_graph_declaration)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
+BENCHMARK(measure_graph_planning)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
+BENCHMARK(measure_graph_dump)->Arg(34)->Arg(130)->Arg(302)->Arg(1003);
 
 } // namespace
 

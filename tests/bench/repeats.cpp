@@ -14,30 +14,30 @@ using namespace catoptric;
 
 namespace {
 
-struct Count {
+struct PairOutcomeCount {
     int faster = 0, slower = 0;
     std::vector<double> ratios; ///< ratios of the two rows' median times
 };
 
 } // namespace
 
-void repeat_compare(int times, const std::vector<std::string>& rows) {
+void repeat_comparison_of_rows(int times, const std::vector<std::string>& rows) {
     app::Engine engine({});
     app::CompareRequest request;
     request.base.scene = scene::make_cornell_mirrors();
     request.base.camera = request.base.scene.cameras.front();
     request.base.size = {128, 128};
     request.base.techniques = rows;
-    std::map<std::pair<std::size_t, std::size_t>, Count> pairs;
+    std::map<std::pair<std::size_t, std::size_t>, PairOutcomeCount> pairs;
     int noisy = 0;
     for (int k = 0; k < times; ++k) {
         const measure::Comparison found = app::compare(engine, request);
         noisy += !measure::find_noisy_rows(found).empty();
         for (std::size_t b = 1; b < rows.size(); ++b)
             for (std::size_t a = 0; a < b; ++a) {
-                Count& count = pairs[{a, b}];
-                count.faster += measure::is_faster(found.rows[b], found.rows[a]);
-                count.slower += measure::is_faster(found.rows[a], found.rows[b]);
+                PairOutcomeCount& count = pairs[{a, b}];
+                count.faster += measure::is_confidently_faster(found.rows[b], found.rows[a]);
+                count.slower += measure::is_confidently_faster(found.rows[a], found.rows[b]);
                 count.ratios.push_back(found.rows[b].time_ms().median /
                                        found.rows[a].time_ms().median);
             }

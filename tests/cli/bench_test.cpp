@@ -13,7 +13,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 /// Returns a file of benchmark results with one round per value of `ms`, in milliseconds.
-std::string file_of(const std::vector<double>& ms, const std::string& name = "frame/x") {
+std::string make_benchmark_file(const std::vector<double>& ms,
+                                const std::string& name = "frame/x") {
     json list = json::array();
     for (const double value : ms)
         list.push_back(
@@ -23,12 +24,12 @@ std::string file_of(const std::vector<double>& ms, const std::string& name = "fr
 const std::vector<double> kSix{10, 11, 12, 13, 14, 15}, kMore{12, 13, 14, 15, 16, 17};
 
 TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
-    const test::ProcessResult ended = cli({"bench", "flat", "--techniques", "raytrace:depth=1",
-                                           "--size", "16x16", "--frames", "6", "--warmup", "1",
-                                           "-o", "out.json", "--quiet"});
+    const test::ProcessResult ended = run_cli({"bench", "flat", "--techniques", "raytrace:depth=1",
+                                               "--size", "16x16", "--frames", "6", "--warmup", "1",
+                                               "-o", "out.json", "--quiet"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("medians of 6 rounds"));
-    const json document = json::parse(read("out.json"));
+    const json document = json::parse(read_output_file("out.json"));
     const bool counted = document["context"]["cycles"] == "user mode, all threads";
     std::map<std::string, int> rounds;
     for (const json& entry : document["benchmarks"]) {
@@ -50,7 +51,7 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
     EXPECT_THAT(ended.out,
                 HasSubstr(counted ? "Mcycles" : "cycles are not counted (perf_event_open: "));
     // A measurement compared with itself has no slower benchmark.
-    const test::ProcessResult same = cli({"bench", "--compare", "out.json", "out.json"});
+    const test::ProcessResult same = run_cli({"bench", "--compare", "out.json", "out.json"});
     EXPECT_EQ(same.exit_code, 0) << same.err;
     EXPECT_THAT(same.out, testing::ContainsRegex("counted work: all [0-9]+ counts are equal"));
     // More visited nodes are found even if the times are equal.
@@ -62,16 +63,17 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
             entry["work/nodes"] = 2 * nodes;
         }
     ASSERT_GT(nodes, 0);
-    write("grown.json", grown.dump());
-    const test::ProcessResult more = cli({"bench", "--compare", "out.json", "grown.json"});
+    write_input_file("grown.json", grown.dump());
+    const test::ProcessResult more = run_cli({"bench", "--compare", "out.json", "grown.json"});
     EXPECT_EQ(more.exit_code, 1);
     EXPECT_THAT(more.err, HasSubstr("catoptric: more work: frame/flat/16x16/raytrace:depth=1 "
                                     "work/nodes "));
 }
 
 TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
-    write("before.json", file_of(kSix)), write("after.json", file_of(kMore));
-    const test::ProcessResult slower = cli({"bench", "--compare", "before.json", "after.json"});
+    write_input_file("before.json", make_benchmark_file(kSix)),
+        write_input_file("after.json", make_benchmark_file(kMore));
+    const test::ProcessResult slower = run_cli({"bench", "--compare", "before.json", "after.json"});
     EXPECT_EQ(slower.exit_code, 1);
     EXPECT_THAT(slower.out, HasSubstr("compared by processor time, ms"));
     EXPECT_THAT(slower.out, testing::ContainsRegex("frame/x +12.500 +14.500 +1.160 +"
@@ -80,56 +82,58 @@ TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
                 testing::StartsWith("catoptric: warning: the files hold times, not cycles"));
     EXPECT_THAT(slower.err,
                 testing::EndsWith("\ncatoptric: slower: frame/x 1.160 [1.133 - 1.200]\n"));
-    const test::ProcessResult faster = cli(
+    const test::ProcessResult faster = run_cli(
         {"bench", "--compare", "after.json", "before.json", "--json", "-o", "out.json", "--quiet"});
     EXPECT_EQ(faster.exit_code, 0) << faster.err;
     EXPECT_EQ(json::parse(faster.out)["benchmarks"][0]["outcome"], "faster");
-    EXPECT_EQ(read("out.json"), faster.out);
+    EXPECT_EQ(read_output_file("out.json"), faster.out);
 }
 
 TEST_F(Cli, BenchRefusesInvalidOptionsAndFiles) {
-    write("good.json", file_of(kSix)), write("bad.json", "{\"benchmarks\": 3}");
-    expect_refused({"bench", "--compare", "good.json"}, 2,
-                   {"--compare: wanted OLD and NEW, found 1 file"});
-    expect_refused({"bench", "--compare", "good.json", "none.json"}, 66, {"none.json: "});
-    expect_refused(
+    write_input_file("good.json", make_benchmark_file(kSix)),
+        write_input_file("bad.json", "{\"benchmarks\": 3}");
+    expect_usage_refused({"bench", "--compare", "good.json"}, 2,
+                         {"--compare: wanted OLD and NEW, found 1 file"});
+    expect_usage_refused({"bench", "--compare", "good.json", "none.json"}, 66, {"none.json: "});
+    expect_usage_refused(
         {"bench", "--compare", "bad.json", "good.json"}, 65,
         {"bad.json: wanted an object with a list 'benchmarks'", "found benchmarks: '3'"});
-    expect_refused(
+    expect_usage_refused(
         {"bench", "--compare", "good.json", "good.json", "-o", "good.json"}, 2,
         {"good.json: cannot be written: it is the same file as good.json, which is compared"});
-    expect_refused({"bench", "-o", "none/out.json", "--techniques", "reuse"}, 73,
-                   {"none/out.json: cannot be created: there is no folder"});
-    write("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    expect_refused(
+    expect_usage_refused({"bench", "-o", "none/out.json", "--techniques", "reuse"}, 73,
+                         {"none/out.json: cannot be created: there is no folder"});
+    write_input_file("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_usage_refused(
         {"bench", "room.obj", "-o", "room.obj", "--quiet", "--techniques", "raytrace", "--mirror",
          "*"},
         2,
         {"room.obj: cannot be written: it is the same file as ", ", which the scene is read from"});
-    expect_refused({"bench", "--techniques", "reuse", "flat"}, 2,
-                   {"--techniques: wanted a technique, found the scene 'flat'"});
-    expect_refused({"bench", "--techniques", "reuse", "reuse"}, 2,
-                   {"technique 'reuse' is asked for twice"});
-    expect_refused({"bench", "--model", "both"}, 2,
-                   {"--model both: wanted everything or required"});
-    expect_refused({"bench", "--rounds", "0"}, 2, {"--rounds: wanted a whole number from 1"});
-    expect_refused({"bench", "--against", "./none", "--rounds", "5"}, 2,
-                   {"rounds: wanted at least 6", "found 5"});
-    expect_refused({"bench", "--against", "./none"}, 66, {"./none: cannot be run: No such file"});
-    expect_refused({"bench", "--against", "./none", "--compare", "a", "b"}, 2,
-                   {"--compare and --against: wanted one of them, found both"});
+    expect_usage_refused({"bench", "--techniques", "reuse", "flat"}, 2,
+                         {"--techniques: wanted a technique, found the scene 'flat'"});
+    expect_usage_refused({"bench", "--techniques", "reuse", "reuse"}, 2,
+                         {"technique 'reuse' is asked for twice"});
+    expect_usage_refused({"bench", "--model", "both"}, 2,
+                         {"--model both: wanted everything or required"});
+    expect_usage_refused({"bench", "--rounds", "0"}, 2, {"--rounds: wanted a whole number from 1"});
+    expect_usage_refused({"bench", "--against", "./none", "--rounds", "5"}, 2,
+                         {"rounds: wanted at least 6", "found 5"});
+    expect_usage_refused({"bench", "--against", "./none"}, 66,
+                         {"./none: cannot be run: No such file"});
+    expect_usage_refused({"bench", "--against", "./none", "--compare", "a", "b"}, 2,
+                         {"--compare and --against: wanted one of them, found both"});
 }
 
 class BenchTune : public Cli {
 protected:
     /// Runs the program with the user's configuration folder inside the folder of the test.
-    test::ProcessResult cli_at_home(const Words& words) const {
-        test::ProcessStart asked = start(words);
+    test::ProcessResult run_cli_with_home_folder(const Words& words) const {
+        test::ProcessStartOptions asked = make_process_start(words);
         asked.environment = {{"XDG_CONFIG_HOME", (folder / "mine").string()}};
         return test::run_process(asked);
     }
-    json device_of(const Words& words) const {
-        const test::ProcessResult ended = cli_at_home(words);
+    json read_device_json(const Words& words) const {
+        const test::ProcessResult ended = run_cli_with_home_folder(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(ended.err, "");
         const json document = json::parse(ended.out);
@@ -138,15 +142,16 @@ protected:
 };
 
 TEST_F(BenchTune, TuningWritesAProfileThatLaterRunsUse) {
-    const test::ProcessResult tuned = cli_at_home({"bench", "flat", "--tune", "--size", "16x16",
-                                                   "--frames", "6", "--warmup", "0", "--quiet"});
+    const test::ProcessResult tuned = run_cli_with_home_folder({"bench", "flat", "--tune", "--size",
+                                                                "16x16", "--frames", "6",
+                                                                "--warmup", "0", "--quiet"});
     ASSERT_EQ(tuned.exit_code, 0) << tuned.err;
     EXPECT_THAT(tuned.out, HasSubstr("frame/flat/16x16/raytrace:depth=4, 6 rounds"));
     const std::filesystem::path devices = folder / "mine/catoptric/devices";
     ASSERT_TRUE(std::filesystem::exists(devices)) << tuned.err;
     const std::filesystem::path file = std::filesystem::directory_iterator(devices)->path();
-    const json profile = json::parse(read_path(file));
-    json info = device_of({"info", "--json"});
+    const json profile = json::parse(read_file_at_path(file));
+    json info = read_device_json({"info", "--json"});
     EXPECT_EQ(profile["device"]["driver"], info["driver"]);
     EXPECT_EQ(info["profile"], file.filename().string());
     EXPECT_EQ(info["variants"], profile["variants"]);
@@ -158,52 +163,54 @@ TEST_F(BenchTune, TuningWritesAProfileThatLaterRunsUse) {
                                                       (below ? "  taken" : "not taken")));
     }
     info.erase("lanes"); // `list devices` runs no dispatch that counts lanes
-    EXPECT_EQ(device_of({"list", "devices", "--json"}), info);
-    const json none = device_of({"info", "--json", "--device-profile", "none"});
+    EXPECT_EQ(read_device_json({"list", "devices", "--json"}), info);
+    const json none = read_device_json({"info", "--json", "--device-profile", "none"});
     EXPECT_TRUE(none["profile"].is_null());
     EXPECT_EQ(none["variants"]["groups"], "scattered");
 }
 
 TEST_F(BenchTune, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
-    const json device = device_of({"info", "--json"});
+    const json device = read_device_json({"info", "--json"});
     json profile{{"schema", "catoptric/device-profile/1"},
                  {"variants", {{"hierarchy", "storage"}}}};
     profile["device"] = {
         {"name", device["name"]}, {"driver", device["driver"]}, {"id", device["id"]}};
-    write("p.json", profile.dump());
+    write_input_file("p.json", profile.dump());
     const Words render{"render", "flat",  "--technique", "raytrace:depth=1",
                        "--size", "16x16", "--json",      "--quiet"};
     const auto with = [&](Words more) {
         more.insert(more.begin(), render.begin(), render.end());
         return more;
     };
-    const json stored = device_of(with({"-o", "a.png", "--device-profile", "p.json"}));
+    const json stored = read_device_json(with({"-o", "a.png", "--device-profile", "p.json"}));
     EXPECT_EQ(stored["profile"], "p.json");
     EXPECT_EQ(stored["variants"]["hierarchy"], "storage");
-    EXPECT_EQ(device_of(with({"-o", "b.png"}))["variants"]["hierarchy"], "texel");
-    EXPECT_EQ(read("a.png"), read("b.png"));
-    expect_refused({"info", "--device-profile", "none.json"}, 66, {"none.json: "});
+    EXPECT_EQ(read_device_json(with({"-o", "b.png"}))["variants"]["hierarchy"], "texel");
+    EXPECT_EQ(read_output_file("a.png"), read_output_file("b.png"));
+    expect_usage_refused({"info", "--device-profile", "none.json"}, 66, {"none.json: "});
     profile["device"]["driver"] = "of last year";
-    write("p.json", profile.dump());
-    expect_refused({"info", "--device-profile", "p.json"}, 65,
-                   {"p.json: is another device's or driver's profile: device.driver: wanted '",
-                    "', found 'of last year'"});
+    write_input_file("p.json", profile.dump());
+    expect_usage_refused(
+        {"info", "--device-profile", "p.json"}, 65,
+        {"p.json: is another device's or driver's profile: device.driver: wanted '",
+         "', found 'of last year'"});
 }
 
 TEST_F(BenchTune, InvalidOptionsAreRefused) {
-    expect_refused({"bench", "--tune", "--compare", "a", "b"}, 2,
-                   {"--tune and --compare: wanted one of them, found both"});
-    expect_refused({"bench", "--tune", "--against", "a"}, 2,
-                   {"--tune and --against: wanted one of them, found both"});
-    expect_refused({"bench", "--tune", "--device-profile", "a"}, 2,
-                   {"--tune and --device-profile: wanted one of them, found both"});
-    expect_refused({"bench", "flat", "room", "--tune"}, 2, {"--tune: wanted at most one SCENE"});
-    expect_refused({"bench", "--tune", "--frames", "5"}, 2, {"wanted at least 6", "found 5"});
-    expect_refused({"bench", "--tune", "-o", "none/p.json"}, 73, {"none/p.json"});
+    expect_usage_refused({"bench", "--tune", "--compare", "a", "b"}, 2,
+                         {"--tune and --compare: wanted one of them, found both"});
+    expect_usage_refused({"bench", "--tune", "--against", "a"}, 2,
+                         {"--tune and --against: wanted one of them, found both"});
+    expect_usage_refused({"bench", "--tune", "--device-profile", "a"}, 2,
+                         {"--tune and --device-profile: wanted one of them, found both"});
+    expect_usage_refused({"bench", "flat", "room", "--tune"}, 2,
+                         {"--tune: wanted at most one SCENE"});
+    expect_usage_refused({"bench", "--tune", "--frames", "5"}, 2, {"wanted at least 6", "found 5"});
+    expect_usage_refused({"bench", "--tune", "-o", "none/p.json"}, 73, {"none/p.json"});
 }
 
 TEST(BenchAgainst, EachRoundGetsTheOptionsOfTheCommandLine) {
-    EXPECT_THAT(cli::command_words_for_round(
+    EXPECT_THAT(cli::make_command_words_for_round(
                     {"room.glb", "--against", "old/catoptric", "--size=64x64", "--rounds=8", "-q",
                      "-o", "x.json", "--frames", "99", "--json", "--techniques", "reuse", "march"},
                     4),
@@ -215,22 +222,27 @@ class BenchInTurn : public Cli {
 protected:
     /// Writes an executable script that appends its name and arguments to the file `log`, then runs
     /// the shell text `rest`. Returns the path of the script.
-    std::string program(const std::string& name, const std::string& rest) const {
+    std::string write_logging_program(const std::string& name, const std::string& rest) const {
         const std::filesystem::path path = folder / name;
-        write(name, "#!/bin/sh\necho \"" + name + " $*\" >> '" + (folder / "log").string() + "'\n" +
-                        rest);
+        write_input_file(name, "#!/bin/sh\necho \"" + name + " $*\" >> '" +
+                                   (folder / "log").string() + "'\n" + rest);
         ::chmod(path.c_str(), 0755);
         return path.string();
     }
-    std::string measured(double ms) const { return "echo '" + file_of({ms}) + "'\n"; }
+    std::string make_measured_json(double ms) const {
+        return "echo '" + make_benchmark_file({ms}) + "'\n";
+    }
 };
 
 TEST_F(BenchInTurn, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
     const std::array runs = cli::bench_programs_in_turn(
-        {program("old", measured(10)), program("new", measured(12))}, {"flat"}, 6, {});
-    EXPECT_EQ(read("log"), "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
-                           "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
-                           "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n");
+        {write_logging_program("old", make_measured_json(10)),
+         write_logging_program("new", make_measured_json(12))},
+        {"flat"}, 6, {});
+    EXPECT_EQ(read_output_file("log"),
+              "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
+              "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n"
+              "old bench flat\nnew bench flat\nnew bench flat\nold bench flat\n");
     const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(runs[0], runs[1]);
     EXPECT_EQ(cli::describe_slower_benchmarks(changes), "frame/x 1.200 [1.200 - 1.200]");
     EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
@@ -238,7 +250,7 @@ TEST_F(BenchInTurn, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
 
 TEST_F(BenchInTurn, ErrorNamesTheProgramThatFailed) {
     const auto refused = [&](const std::string& rest, const std::string& message) {
-        const std::string wrong = program("wrong", rest);
+        const std::string wrong = write_logging_program("wrong", rest);
         try {
             cli::bench_programs_in_turn({wrong, wrong}, {}, 6, {});
             ADD_FAILURE() << message;
@@ -254,7 +266,7 @@ TEST_F(BenchInTurn, ErrorNamesTheProgramThatFailed) {
 }
 
 TEST_F(BenchInTurn, SignalEndsTheRunningProgram) {
-    const std::string slow = program("slow", "exec sleep 600\n");
+    const std::string slow = write_logging_program("slow", "exec sleep 600\n");
     const std::atomic<int> stop{15};
     app::Watcher watcher;
     watcher.stop = &stop;

@@ -20,12 +20,12 @@ class Bomb : public Cli {
 protected:
     /// Renders the file and expects the exit code, each of `parts` in stderr, short messages and
     /// little memory. Exit code 0 means that the file loads and renders. Prints a row of the table.
-    void expect(const std::string& what, const std::string& file, int exit_code,
-                const Words& parts = {}) const {
+    void expect_exit_code_and_texts(const std::string& what, const std::string& file, int exit_code,
+                                    const Words& parts = {}) const {
         // The program runs without limits, so that its time and memory are those that a user would
         // see.
-        const test::ProcessResult ended = test::run_process(
-            start(quick({"render", file, "--technique", "raytrace", "-o", "x.png"})));
+        const test::ProcessResult ended = test::run_process(make_process_start(
+            with_small_quick_frame({"render", file, "--technique", "raytrace", "-o", "x.png"})));
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
         EXPECT_LE(ended.peak_bytes, 1ull << 30);
@@ -44,82 +44,90 @@ protected:
                   << " | " << exit_code << " | " << std::ceil(ended.seconds * 10) / 10 << " | "
                   << (ended.peak_bytes >> 20) << " | " << said << " |\n";
     }
-    void expect(const std::string& what, const std::string& file, const Json& scene, int exit_code,
-                const Words& parts = {}) const {
-        write(file, scene.dump());
-        expect(what, file, exit_code, parts);
+    void expect_exit_code_and_texts(const std::string& what, const std::string& file,
+                                    const Json& scene, int exit_code,
+                                    const Words& parts = {}) const {
+        write_input_file(file, scene.dump());
+        expect_exit_code_and_texts(what, file, exit_code, parts);
     }
     /// Writes 20,000 triangles to a.bin. Returns a glTF document that shows them once.
-    Json many_triangles() const {
-        Json scene = triangle("a.bin");
+    Json write_gltf_of_many_triangles() const {
+        Json scene = make_triangle_gltf("a.bin");
         scene["accessors"][0]["count"] = 60'000;
         scene["bufferViews"][0]["byteLength"] = scene["buffers"][0]["byteLength"] = 720'000;
         std::string floats;
-        for (int i = 0; i < 20'000; ++i) floats += corners();
-        write("a.bin", floats);
+        for (int i = 0; i < 20'000; ++i) floats += encode_triangle_corners();
+        write_input_file("a.bin", floats);
         return scene;
     }
-    void SetUp() override { write("a.bin", corners()); }
+    void SetUp() override { write_input_file("a.bin", encode_triangle_corners()); }
 };
 
 TEST_F(Bomb, ManyEmptyObjectsExceedTheMaterialBudget) {
     std::string text = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
     for (int i = 0; i < 330'000; ++i) text += ",{}";
-    write("empty.gltf", text + "]}");
-    expect("1 MB of empty objects", "empty.gltf", 65,
-           {"empty.gltf", "wanted at most 125000 materials, the budget of a scene, found 125001"});
+    write_input_file("empty.gltf", text + "]}");
+    expect_exit_code_and_texts(
+        "1 MB of empty objects", "empty.gltf", 65,
+        {"empty.gltf", "wanted at most 125000 materials, the budget of a scene, found 125001"});
 }
 
 /// 600,000 accessors exceed the memory budget for a parsed JSON document.
 TEST_F(Bomb, ManyAccessorsExceedTheMemoryBudget) {
-    Json scene = triangle("a.bin");
+    Json scene = make_triangle_gltf("a.bin");
     std::string text = scene.dump(), more;
     for (int i = 0; i < 600'000; ++i)
         more += R"({"componentType":5126,"count":1,"type":"SCALAR"},)";
     text.insert(text.find('[', text.find("accessors")) + 1, more);
-    write("accessors.gltf", text);
-    expect("600,000 accessors", "accessors.gltf", 65, {"bytes of memory for its JSON"});
+    write_input_file("accessors.gltf", text);
+    expect_exit_code_and_texts("600,000 accessors", "accessors.gltf", 65,
+                               {"bytes of memory for its JSON"});
 }
 
 TEST_F(Bomb, AccessorOfFourThousandMillionElementsIsRefused) {
-    Json scene = triangle("a.bin");
+    Json scene = make_triangle_gltf("a.bin");
     scene["accessors"][0]["count"] = 4'000'000'000;
-    expect("accessor of 4e9 elements", "count.gltf", scene, 65,
-           {"accessors[0]: wanted 4000000000 elements", "holds 3"});
+    expect_exit_code_and_texts("accessor of 4e9 elements", "count.gltf", scene, 65,
+                               {"accessors[0]: wanted 4000000000 elements", "holds 3"});
     scene["accessors"][0].erase("bufferView");
-    expect("the same without a view", "view.gltf", scene, 65,
-           {"accessors[0]: wanted at most 134217728 bytes of sparse accessors"});
+    expect_exit_code_and_texts(
+        "the same without a view", "view.gltf", scene, 65,
+        {"accessors[0]: wanted at most 134217728 bytes of sparse accessors"});
 }
 
 TEST_F(Bomb, NodeWithTwoParentsIsRefused) {
-    Json scene = triangle("a.bin");
+    Json scene = make_triangle_gltf("a.bin");
     scene["nodes"] = Json::array();
     for (int i = 0; i < 30; ++i) scene["nodes"].push_back({{"children", {i + 1, i + 1}}});
     scene["nodes"].push_back({{"mesh", 0}});
-    expect("30 nodes, each twice in the one before", "double.gltf", scene, 65,
-           {"nodes[1]: wanted one parent at most, found nodes[0] and nodes[0]"});
+    expect_exit_code_and_texts(
+        "30 nodes, each twice in the one before", "double.gltf", scene, 65,
+        {"nodes[1]: wanted one parent at most, found nodes[0] and nodes[0]"});
 }
 
 TEST_F(Bomb, ManyUsesOfOneMeshExceedTheVertexBudget) {
-    Json nodes = many_triangles();
+    Json nodes = write_gltf_of_many_triangles();
     for (int i = 0; i < 20'000; ++i) nodes["nodes"].push_back({{"mesh", 0}});
-    expect("20,000 nodes of a mesh of 20,000 triangles", "nodes.gltf", nodes, 65,
-           {"wanted at most 200000000 vertices shown by objects, the budget of a scene, found "});
-    Json primitives = many_triangles();
+    expect_exit_code_and_texts(
+        "20,000 nodes of a mesh of 20,000 triangles", "nodes.gltf", nodes, 65,
+        {"wanted at most 200000000 vertices shown by objects, the budget of a scene, found "});
+    Json primitives = write_gltf_of_many_triangles();
     Json& list = primitives["meshes"][0]["primitives"];
     const Json one = list[0];
     for (int i = 0; i < 10'000; ++i) list.push_back(one);
-    expect("10,000 primitives of the same numbers", "primitives.gltf", primitives, 65,
-           {"wanted at most 4000000 vertices in meshes, the budget of a scene, found "});
+    expect_exit_code_and_texts(
+        "10,000 primitives of the same numbers", "primitives.gltf", primitives, 65,
+        {"wanted at most 4000000 vertices in meshes, the budget of a scene, found "});
 }
 
 TEST_F(Bomb, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string text = "mtllib m.mtl", materials;
     for (int i = 0; i < 80'000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
     for (int i = 0; i < 600; ++i) text += " m.mtl";
-    write("m.mtl", materials);
-    write("library.obj", text + "\n" + kTriangle + "f 1 2 3\n");
-    expect("600 times a library of 80,000 materials: read once", "library.obj", 0);
+    write_input_file("m.mtl", materials);
+    write_input_file("library.obj", text + "\n" + kTriangle + "f 1 2 3\n");
+    expect_exit_code_and_texts("600 times a library of 80,000 materials: read once", "library.obj",
+                               0);
 }
 
 TEST_F(Bomb, ExpensiveObjFileIsRefused) {
@@ -130,61 +138,66 @@ TEST_F(Bomb, ExpensiveObjFileIsRefused) {
                 std::to_string(radius * std::sin(angle)) + " 0\n";
         face += " " + std::to_string(i + 1);
     }
-    write("star.obj", text + face + "\n");
-    expect("a star of 20,000 corners", "star.obj", 65,
-           {"wanted at most 100000000 comparisons to cut concave polygons"});
-    write("negative.obj", kTriangle + "f 1 2 -9223372036854775808\n");
-    expect("index -9223372036854775808", "negative.obj", 65, {"found -9223372036854775808"});
+    write_input_file("star.obj", text + face + "\n");
+    expect_exit_code_and_texts("a star of 20,000 corners", "star.obj", 65,
+                               {"wanted at most 100000000 comparisons to cut concave polygons"});
+    write_input_file("negative.obj", kTriangle + "f 1 2 -9223372036854775808\n");
+    expect_exit_code_and_texts("index -9223372036854775808", "negative.obj", 65,
+                               {"found -9223372036854775808"});
     text = "mtllib m.mtl\n" + kTriangle + "o " + std::string(100'000, 'n') + "\n";
     for (int i = 0; i < 400; ++i) {
         materials += "newmtl " + std::to_string(i) + "\n";
         text += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
     }
-    write("m.mtl", materials), write("names.obj", text);
-    expect("a name of 100 kB in 400 materials", "names.obj", 65, {"bytes of names"});
+    write_input_file("m.mtl", materials), write_input_file("names.obj", text);
+    expect_exit_code_and_texts("a name of 100 kB in 400 materials", "names.obj", 65,
+                               {"bytes of names"});
 }
 
 TEST_F(Bomb, LongUnknownNameIsLookedUpQuickly) {
     std::string materials;
     for (int i = 0; i < 50'000; ++i) materials += "newmtl material" + std::to_string(i) + "\n";
-    write("m.mtl", materials);
-    write("name.obj",
-          "mtllib m.mtl\n" + kTriangle + "usemtl " + std::string(20'000, 'm') + "\nf 1 2 3\n");
-    expect("a misspelt name of 20 kB, 50,000 names", "name.obj", 0,
-           {"drawn grey: 1", "mmm...' (20000 bytes)"});
+    write_input_file("m.mtl", materials);
+    write_input_file("name.obj", "mtllib m.mtl\n" + kTriangle + "usemtl " +
+                                     std::string(20'000, 'm') + "\nf 1 2 3\n");
+    expect_exit_code_and_texts("a misspelt name of 20 kB, 50,000 names", "name.obj", 0,
+                               {"drawn grey: 1", "mmm...' (20000 bytes)"});
 }
 
 TEST_F(Bomb, FileOutsideTheFolderOrOfAnotherNameIsRefused) {
     fs::create_directories(folder / "in");
-    write("secret.bin", corners()), write("a b.bin", corners());
+    write_input_file("secret.bin", encode_triangle_corners()),
+        write_input_file("a b.bin", encode_triangle_corners());
     fs::create_symlink("../secret.bin", folder / "in/link.bin");
-    expect("a link out of the folder", "in/link.gltf", triangle("link.bin"), 65,
-           {"buffers[0]: wanted a file below '", "--root", "secret.bin'"});
-    expect("`a+b.bin` where `a b.bin` lies", "plus.gltf", triangle("a+b.bin"), 66,
-           {"'a+b.bin' is not there"});
+    expect_exit_code_and_texts("a link out of the folder", "in/link.gltf",
+                               make_triangle_gltf("link.bin"), 65,
+                               {"buffers[0]: wanted a file below '", "--root", "secret.bin'"});
+    expect_exit_code_and_texts("`a+b.bin` where `a b.bin` lies", "plus.gltf",
+                               make_triangle_gltf("a+b.bin"), 66, {"'a+b.bin' is not there"});
 }
 
 TEST_F(Bomb, InvalidGltfValueIsRefused) {
-    Json scene = triangle("a.bin");
+    Json scene = make_triangle_gltf("a.bin");
     scene["nodes"][0]["rotation"] = {0, 0, 0, 0};
-    expect("a quaternion of zeros", "rotation.gltf", scene, 65,
-           {"nodes[0]: rotation: wanted a quaternion with a length, found 0"});
+    expect_exit_code_and_texts("a quaternion of zeros", "rotation.gltf", scene, 65,
+                               {"nodes[0]: rotation: wanted a quaternion with a length, found 0"});
 
-    scene = triangle("a.bin");
-    write("a.bin", corners() + std::string(8, '\0') + std::string(4, '\xff'));
+    scene = make_triangle_gltf("a.bin");
+    write_input_file("a.bin",
+                     encode_triangle_corners() + std::string(8, '\0') + std::string(4, '\xff'));
     scene["buffers"][0]["byteLength"] = 48;
     scene["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 12}});
     scene["accessors"].push_back(
         {{"bufferView", 1}, {"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}});
     scene["meshes"][0]["primitives"][0]["indices"] = 1;
-    expect("index 4294967295", "index.gltf", scene, 65,
-           {"indices: wanted indices below 3, found 4294967295"});
+    expect_exit_code_and_texts("index 4294967295", "index.gltf", scene, 65,
+                               {"indices: wanted indices below 3, found 4294967295"});
 
-    scene = triangle("a.bin");
+    scene = make_triangle_gltf("a.bin");
     for (int i = 0; i < 20'000; ++i) scene["nodes"][i] = {{"children", {i + 1}}};
     scene["nodes"].push_back({{"mesh", 0}});
-    expect("20,000 nodes one in another", "deep.gltf", scene, 65,
-           {"nodes[4096]: wanted at most 4096 nodes one in another"});
+    expect_exit_code_and_texts("20,000 nodes one in another", "deep.gltf", scene, 65,
+                               {"nodes[4096]: wanted at most 4096 nodes one in another"});
 }
 
 } // namespace

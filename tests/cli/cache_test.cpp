@@ -12,17 +12,17 @@ namespace fs = std::filesystem;
 class Cache : public Cli {
 protected:
     /// Renders a.png with XDG_CACHE_HOME set to `cache_home`. Messages are in `err` of the result.
-    test::ProcessResult render(const std::string& cache_home) const {
-        test::ProcessStart asked = start({"render", "--technique",
-                                          "naive:bounces=1,face=8,shadow=none", "--size", "16x16",
-                                          "-o", "a.png", "-q"});
+    test::ProcessResult render_with_cache_home(const std::string& cache_home) const {
+        test::ProcessStartOptions asked = make_process_start(
+            {"render", "--technique", "naive:bounces=1,face=8,shadow=none", "--size", "16x16", "-o",
+             "a.png", "-q"});
         asked.environment = {{"XDG_CACHE_HOME", cache_home},
                              {"HOME", folder.string()},
                              {"MESA_SHADER_CACHE_DISABLE", "true"}}; // avoids driver messages
         return test::run_process(asked);
     }
-    std::string picture() const { return read("a.png"); }
-    static std::vector<fs::path> files_in(const fs::path& where) {
+    std::string read_rendered_picture() const { return read_output_file("a.png"); }
+    static std::vector<fs::path> list_files_in_folder(const fs::path& where) {
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(where)) files.push_back(entry.path());
         return files;
@@ -30,22 +30,23 @@ protected:
 };
 
 TEST_F(Cache, PipelineCacheIsMadeInTheUsersCacheFolder) {
-    ASSERT_EQ(render((folder / "mine").string()).err, "");
-    ASSERT_EQ(files_in(folder / "mine" / "catoptric").size(), 1u);
-    ASSERT_EQ(render("").err, "");
-    EXPECT_EQ(files_in(folder / ".cache" / "catoptric").size(), 1u) << "XDG_CACHE_HOME is empty";
-    ASSERT_EQ(render("relative").err, "");
+    ASSERT_EQ(render_with_cache_home((folder / "mine").string()).err, "");
+    ASSERT_EQ(list_files_in_folder(folder / "mine" / "catoptric").size(), 1u);
+    ASSERT_EQ(render_with_cache_home("").err, "");
+    EXPECT_EQ(list_files_in_folder(folder / ".cache" / "catoptric").size(), 1u)
+        << "XDG_CACHE_HOME is empty";
+    ASSERT_EQ(render_with_cache_home("relative").err, "");
     EXPECT_FALSE(fs::exists(folder / "relative")) << "no absolute path counts as none";
 }
 
 TEST_F(Cache, ReportSaysWhetherThePipelineCacheWasUsed) {
-    test::ProcessStart asked = start({"compare", "-o", "out", "--techniques", "raytrace:depth=0",
-                                      "--size", "16x16", "--frames", "1", "--warmup", "0",
-                                      "--reference", "raytrace:depth=0", "-q"});
+    test::ProcessStartOptions asked = make_process_start(
+        {"compare", "-o", "out", "--techniques", "raytrace:depth=0", "--size", "16x16", "--frames",
+         "1", "--warmup", "0", "--reference", "raytrace:depth=0", "-q"});
     const auto setup = [&](const std::string& cache_home) {
         asked.environment = {{"XDG_CACHE_HOME", cache_home}, {"HOME", ""}};
         EXPECT_EQ(test::run_process(asked).exit_code, 0);
-        return nlohmann::json::parse(read("out/report.json"))["setup"];
+        return nlohmann::json::parse(read_output_file("out/report.json"))["setup"];
     };
     EXPECT_EQ(setup("")["pipeline_cache"], "none");
     EXPECT_EQ(setup(folder.string())["pipeline_cache"], "made");
@@ -57,32 +58,32 @@ TEST_F(Cache, ReportSaysWhetherThePipelineCacheWasUsed) {
 }
 
 TEST_F(Cache, BrokenCacheFileGivesOneWarningAndIsReplaced) {
-    ASSERT_EQ(render(folder.string()).exit_code, 0);
-    const std::string wanted = picture();
-    const std::vector<fs::path> files = files_in(folder / "catoptric");
+    ASSERT_EQ(render_with_cache_home(folder.string()).exit_code, 0);
+    const std::string wanted = read_rendered_picture();
+    const std::vector<fs::path> files = list_files_in_folder(folder / "catoptric");
     ASSERT_EQ(files.size(), 1u);
-    const std::string whole = read_path(files[0]);
+    const std::string whole = read_file_at_path(files[0]);
     for (const std::string& broken :
          {std::string(), whole.substr(0, whole.size() - 1), whole + "x"}) {
         std::ofstream(files[0], std::ios::binary) << broken;
-        const test::ProcessResult said = render(folder.string());
+        const test::ProcessResult said = render_with_cache_home(folder.string());
         EXPECT_EQ(said.exit_code, 0);
         EXPECT_THAT(said.err, testing::AllOf(testing::HasSubstr(files[0].string()),
                                              testing::HasSubstr("wanted a whole pipeline cache")));
         EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
-        EXPECT_EQ(picture(), wanted);
-        EXPECT_EQ(render(folder.string()).err, "") << "a new one was made";
+        EXPECT_EQ(read_rendered_picture(), wanted);
+        EXPECT_EQ(render_with_cache_home(folder.string()).err, "") << "a new one was made";
     }
 }
 
 TEST_F(Cache, UnwritableCacheFolderOnlyGivesAWarning) {
     std::ofstream(folder / "file") << "not a folder";
-    const test::ProcessResult said = render((folder / "file").string());
+    const test::ProcessResult said = render_with_cache_home((folder / "file").string());
     EXPECT_EQ(said.exit_code, 0);
     EXPECT_THAT(said.err, testing::AllOf(testing::HasSubstr("cannot be created"),
                                          testing::HasSubstr("XDG_CACHE_HOME")));
     EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
-    EXPECT_EQ(read("file"), "not a folder");
+    EXPECT_EQ(read_output_file("file"), "not a folder");
 }
 
 } // namespace

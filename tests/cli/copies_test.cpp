@@ -10,16 +10,17 @@ using namespace test::loading;
 
 /// Returns the vertex positions of a ball of 2 * 70 * 70 triangles, as bytes of a glTF buffer.
 /// Triangles share no vertices.
-std::string ball() {
-    constexpr int kEdge = 70;
+std::string make_ball_positions() {
+    constexpr int kBallSegments = 70;
     std::vector<float> floats;
     const auto add = [&](int i, int j) {
-        const double a = 2 * std::numbers::pi * i / kEdge, b = std::numbers::pi * j / kEdge;
+        const double a = 2 * std::numbers::pi * i / kBallSegments,
+                     b = std::numbers::pi * j / kBallSegments;
         for (const double x : {std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a)})
             floats.push_back(static_cast<float>(x));
     };
-    for (int i = 0; i < kEdge; ++i)
-        for (int j = 0; j < kEdge; ++j) {
+    for (int i = 0; i < kBallSegments; ++i)
+        for (int j = 0; j < kBallSegments; ++j) {
             for (const auto& [di, dj] : {std::pair{0, 0}, {0, 1}, {1, 1}}) add(i + di, j + dj);
             for (const auto& [di, dj] : {std::pair{0, 0}, {1, 1}, {1, 0}}) add(i + di, j + dj);
         }
@@ -28,8 +29,8 @@ std::string ball() {
 
 /// Returns a glTF document with `count` balls side by side that share one mesh. `bytes` is the size
 /// of the mesh's buffer.
-Json balls(std::size_t bytes, int count) {
-    Json scene = triangle("ball.bin");
+Json make_gltf_of_balls(std::size_t bytes, int count) {
+    Json scene = make_triangle_gltf("ball.bin");
     scene["accessors"][0]["count"] = bytes / 12;
     scene["bufferViews"][0]["byteLength"] = scene["buffers"][0]["byteLength"] = bytes;
     scene["nodes"] = Json::array();
@@ -40,13 +41,14 @@ Json balls(std::size_t bytes, int count) {
 }
 
 TEST_F(Cli, CopiesOfAMeshShareItsMemory) {
-    const std::string bytes = ball();
-    write("ball.bin", bytes);
+    const std::string bytes = make_ball_positions();
+    write_input_file("ball.bin", bytes);
     std::uint64_t peaks[2];
     for (const int k : {0, 1}) {
-        write("balls.gltf", balls(bytes.size(), k ? 2000 : 20).dump());
+        write_input_file("balls.gltf", make_gltf_of_balls(bytes.size(), k ? 2000 : 20).dump());
         const test::ProcessResult ended = test::run_process(
-            start(quick({"render", "balls.gltf", "--technique", "raytrace", "-o", "x.png"})));
+            make_process_start(with_small_quick_frame(
+                {"render", "balls.gltf", "--technique", "raytrace", "-o", "x.png"})));
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         peaks[k] = ended.peak_bytes;
     }
@@ -56,7 +58,7 @@ TEST_F(Cli, CopiesOfAMeshShareItsMemory) {
 
 /// Returns an OBJ file of 100,000 objects of one triangle each. The objects lie side by side if
 /// `apart` is set, else in one place.
-std::string objects(bool apart) {
+std::string make_obj_of_many_objects(bool apart) {
     std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (int i = 0; i < 100'000; ++i) {
         text += "o part" + std::to_string(i) + "\n";
@@ -73,8 +75,8 @@ std::string objects(bool apart) {
 
 /// Returns a glTF document of 100,000 nodes that share one triangle. The nodes lie side by side if
 /// `apart` is set, else in one place.
-Json nodes(bool apart) {
-    Json scene = triangle("corners.bin");
+Json make_gltf_of_many_nodes(bool apart) {
+    Json scene = make_triangle_gltf("corners.bin");
     scene["nodes"] = Json::array();
     for (int i = 0; i < 100'000; ++i)
         scene["nodes"].push_back(
@@ -83,21 +85,21 @@ Json nodes(bool apart) {
 }
 
 TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
-    write("corners.bin", corners());
+    write_input_file("corners.bin", encode_triangle_corners());
     for (const bool apart : {false, true}) {
-        write("many.obj", objects(apart));
-        write("many.gltf", nodes(apart).dump());
+        write_input_file("many.obj", make_obj_of_many_objects(apart));
+        write_input_file("many.gltf", make_gltf_of_many_nodes(apart).dump());
         for (const std::string file : {"many.obj", "many.gltf"}) {
             std::vector<std::vector<std::string>> commands{
-                quick({"render", file, "--technique", "hybrid", "-o", "x.png"})};
+                with_small_quick_frame({"render", file, "--technique", "hybrid", "-o", "x.png"})};
             // The other commands need less memory than `hybrid`, and most in one place.
             if (!apart) {
                 commands.push_back({"info", file});
-                commands.push_back(
-                    quick({"render", file, "--technique", "raytrace", "-o", "x.png"}));
+                commands.push_back(with_small_quick_frame(
+                    {"render", file, "--technique", "raytrace", "-o", "x.png"}));
             }
             for (const std::vector<std::string>& words : commands) {
-                const test::ProcessResult ended = test::run_process(start(words));
+                const test::ProcessResult ended = test::run_process(make_process_start(words));
                 ASSERT_EQ(ended.exit_code, 0) << ended.err;
                 EXPECT_LE(ended.peak_bytes, 512U << 20)
                     << words[0] << " " << file << " " << words.back() << ", apart: " << apart;
@@ -109,10 +111,10 @@ TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
 /// Rays that search for mirrors test coincident triangles once, not each of them.
 TEST_F(Cli, MirrorsAmongCoincidentObjectsAreFoundQuickly) {
     for (const bool apart : {false, true}) {
-        write("many.obj", objects(apart));
+        write_input_file("many.obj", make_obj_of_many_objects(apart));
         for (const std::string mirror : {"part1", "part99999"}) {
-            const test::ProcessResult ended = test::run_process(
-                start(quick({"graph", "many.obj", "--why", "--mirror", mirror})));
+            const test::ProcessResult ended = test::run_process(make_process_start(
+                with_small_quick_frame({"graph", "many.obj", "--why", "--mirror", mirror})));
             ASSERT_EQ(ended.exit_code, 0) << ended.err;
             EXPECT_THAT(ended.out, testing::HasSubstr("mirror 1 '" + mirror + "'"));
             EXPECT_LE(ended.peak_bytes, 512U << 20) << mirror << ", apart: " << apart;

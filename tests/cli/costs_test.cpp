@@ -16,51 +16,54 @@ constexpr const char* kCard = R"({
 
 class Costs : public Cli {
 protected:
-    json compared(Words words) const {
+    json run_comparison_with_costs(Words words) const {
         words.insert(words.begin(), "compare");
         for (const char* word :
              {"-o", "out", "--json", "--techniques", "naive:bounces=0,face=16", "raytrace:depth=1"})
             words.emplace_back(word);
-        const test::ProcessResult ended = cli(quick(words));
+        const test::ProcessResult ended = run_cli(with_small_quick_frame(words));
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
 };
 
-double count_of(const json& row, const char* kind) { return row["work"][kind].get<double>(); }
+double find_work_count(const json& row, const char* kind) {
+    return row["work"][kind].get<double>();
+}
 
 TEST_F(Costs, CountedWorkIsInAllFilesAndRepeats) {
-    const json document = compared({"--work"});
+    const json document = run_comparison_with_costs({"--work"});
     const json &naive = document["rows"][0], &traced = document["rows"][1];
-    EXPECT_EQ(count_of(traced, "camera_rays"), 32 * 32);
-    EXPECT_EQ(count_of(traced, "camera_rays"), traced["rays"]["primary"].get<double>());
-    EXPECT_EQ(count_of(naive, "camera_rays"), 0);
-    EXPECT_GT(count_of(naive, "vertices"), 100);
-    EXPECT_EQ(count_of(naive, "frames"), 1);
+    EXPECT_EQ(find_work_count(traced, "camera_rays"), 32 * 32);
+    EXPECT_EQ(find_work_count(traced, "camera_rays"), traced["rays"]["primary"].get<double>());
+    EXPECT_EQ(find_work_count(naive, "camera_rays"), 0);
+    EXPECT_GT(find_work_count(naive, "vertices"), 100);
+    EXPECT_EQ(find_work_count(naive, "frames"), 1);
     // The passes add up to the row.
     for (const json& row : {naive, traced})
         for (const char* kind : {"fragments", "draws", "bytes", "passes"}) {
             double sum = 0;
             for (const json& pass : row["work_by_pass"]) sum += pass.value(kind, 0.0);
-            EXPECT_EQ(sum, count_of(row, kind)) << kind;
+            EXPECT_EQ(sum, find_work_count(row, kind)) << kind;
         }
-    EXPECT_THAT(read("out/report.md"), HasSubstr("Work of one frame"));
-    EXPECT_THAT(read("out/report.html"), HasSubstr("Work of one frame"));
-    const json again = compared({"--work"});
+    EXPECT_THAT(read_output_file("out/report.md"), HasSubstr("Work of one frame"));
+    EXPECT_THAT(read_output_file("out/report.html"), HasSubstr("Work of one frame"));
+    const json again = run_comparison_with_costs({"--work"});
     for (int row : {0, 1}) {
         EXPECT_EQ(again["rows"][row]["work"], document["rows"][row]["work"]);
         EXPECT_EQ(again["rows"][row]["work_by_pass"], document["rows"][row]["work_by_pass"]);
     }
-    EXPECT_FALSE(compared({})["rows"][0].contains("work"));
+    EXPECT_FALSE(run_comparison_with_costs({})["rows"][0].contains("work"));
 }
 
 TEST_F(Costs, TimeOnAnotherDeviceFollowsFromTheCounts) {
-    write("card.json", kCard);
-    const json document = compared({"--costs", "card.json"});
+    write_input_file("card.json", kCard);
+    const json document = run_comparison_with_costs({"--costs", "card.json"});
     for (const json& row : document["rows"]) {
         const json& device = row["costs"][0];
         EXPECT_EQ(device["device"], "card (given)");
-        const double rays = count_of(row, "camera_rays"), other = count_of(row, "fragments") + 1e6;
+        const double rays = find_work_count(row, "camera_rays"),
+                     other = find_work_count(row, "fragments") + 1e6;
         EXPECT_NEAR(device["ms"].get<double>(), 1e-6 * (100 * rays + other), 1e-9);
         EXPECT_NEAR(device["low_ms"].get<double>(), 1e-6 * (50 * rays + other), 1e-9);
         EXPECT_NEAR(device["high_ms"].get<double>(), 1e-6 * (200 * rays + other), 1e-9);
@@ -69,36 +72,37 @@ TEST_F(Costs, TimeOnAnotherDeviceFollowsFromTheCounts) {
     EXPECT_EQ(document["rows"][0]["costs"][0]["on_front"], false);
     EXPECT_EQ(document["rows"][1]["costs"][0]["on_front"], true);
     EXPECT_THAT(
-        read("out/report.md"),
+        read_output_file("out/report.md"),
         HasSubstr("Front on card (given): raytrace:depth=1 (0 of 1 not ray traced alone)."));
 }
 
 TEST_F(Costs, FileOfCostsIsRefusedBeforeAnyWork) {
-    write("bad.json", R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given"})");
-    write("card.json", kCard);
+    write_input_file("bad.json",
+                     R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given"})");
+    write_input_file("card.json", kCard);
     const Words compare{"compare", "-o", "out", "--costs"};
     const auto with = [&](Words more) {
         Words words = compare;
         words.insert(words.end(), more.begin(), more.end());
         return words;
     };
-    expect_refused(with({"bad.json"}), 65,
-                   {"bad.json: costs: wanted a list with at least one entry, found nothing"});
-    expect_refused(with({"none.json"}), 66, {"none.json: "});
+    expect_usage_refused(with({"bad.json"}), 65,
+                         {"bad.json: costs: wanted a list with at least one entry, found nothing"});
+    expect_usage_refused(with({"none.json"}), 66, {"none.json: "});
     EXPECT_FALSE(std::filesystem::exists(folder / "out" / "report.json"));
 }
 
 TEST_F(Costs, BenchFitsTheTimesOfAnotherDevice) {
-    write("times.json", R"({"schema": "catoptric/times/1", "device": "old card",
+    write_input_file("times.json", R"({"schema": "catoptric/times/1", "device": "old card",
         "work": ["camera_rays", "frames"],
         "rows": [{"technique": "raytrace:depth=0", "ms": 12},
                  {"technique": "raytrace:depth=1", "ms": 12},
                  {"technique": "naive:bounces=0,face=16", "ms": 2}]})");
-    const test::ProcessResult ended = cli({"bench", "--costs", "--times", "times.json", "--size",
-                                           "32x32", "--json", "-o", "costs.json"});
+    const test::ProcessResult ended = run_cli({"bench", "--costs", "--times", "times.json",
+                                               "--size", "32x32", "--json", "-o", "costs.json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
-    EXPECT_EQ(read("costs.json"), ended.out);
+    EXPECT_EQ(read_output_file("costs.json"), ended.out);
     EXPECT_EQ(document["device"], "old card");
     EXPECT_EQ(document["origin"], "fitted");
     // 12 ms = frame + 1024 rays, 2 ms = frame.
@@ -107,19 +111,19 @@ TEST_F(Costs, BenchFitsTheTimesOfAnotherDevice) {
     EXPECT_NEAR(document["costs"][1]["ns"].get<double>(), 2e6, 200);
     EXPECT_EQ(document["fit"]["rows"], 3);
     // A comparison takes the file.
-    const json predicted = compared({"--costs", "costs.json"});
+    const json predicted = run_comparison_with_costs({"--costs", "costs.json"});
     EXPECT_NEAR(predicted["rows"][1]["costs"][0]["ms"].get<double>(), 12, .01);
 }
 
 TEST_F(Costs, BenchFitsThisDevice) {
-    const test::ProcessResult ended = cli({"bench", "flat", "--costs", "--size", "16x16",
-                                           "--frames", "2", "--warmup", "1", "--rounds", "2", "-o",
-                                           "costs.json", "--techniques", "reuse", "naive:bounces=1",
-                                           "parallax", "raytrace:depth=0", "raytrace:depth=4"});
+    const test::ProcessResult ended = run_cli(
+        {"bench", "flat", "--costs", "--size", "16x16", "--frames", "2", "--warmup", "1",
+         "--rounds", "2", "-o", "costs.json", "--techniques", "reuse", "naive:bounces=1",
+         "parallax", "raytrace:depth=0", "raytrace:depth=4"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::ContainsRegex("[0-9]+ rows, each predicted by costs that were "
                                                   "fitted to the others: [0-9]+ % within 20 %"));
-    const json document = json::parse(read("costs.json"));
+    const json document = json::parse(read_output_file("costs.json"));
     EXPECT_GE(document["costs"].size(), 2u);
     for (const json& cost : document["costs"]) EXPECT_GT(cost["ns"].get<double>(), 0) << cost;
     for (const json& row : document["fit"]["left_out"])
@@ -127,15 +131,15 @@ TEST_F(Costs, BenchFitsThisDevice) {
 }
 
 TEST_F(Costs, BenchRefusesOptionsThatDoNotFit) {
-    expect_refused({"bench", "--times", "t.json"}, 2,
-                   {"--times: wanted together with --costs, found it alone"});
-    expect_refused({"bench", "--costs", "--tune"}, 2,
-                   {"--costs and --tune: wanted one of them, found both"});
-    expect_refused({"bench", "--costs", "--times", "none.json"}, 66, {"none.json: "});
-    write("t.json", R"({"schema": "catoptric/times/1", "device": "d", "work": ["rays"],
+    expect_usage_refused({"bench", "--times", "t.json"}, 2,
+                         {"--times: wanted together with --costs, found it alone"});
+    expect_usage_refused({"bench", "--costs", "--tune"}, 2,
+                         {"--costs and --tune: wanted one of them, found both"});
+    expect_usage_refused({"bench", "--costs", "--times", "none.json"}, 66, {"none.json: "});
+    write_input_file("t.json", R"({"schema": "catoptric/times/1", "device": "d", "work": ["rays"],
                         "rows": [{"technique": "reuse", "ms": 1}]})");
-    expect_refused({"bench", "--costs", "--times", "t.json"}, 65,
-                   {"t.json: work[0]: wanted a kind of work, found 'rays'"});
+    expect_usage_refused({"bench", "--costs", "--times", "t.json"}, 65,
+                         {"t.json: work[0]: wanted a kind of work, found 'rays'"});
 }
 
 TEST_F(Costs, ShippedFilesAreReadAndNameASourceForEachCost) {
@@ -145,7 +149,7 @@ TEST_F(Costs, ShippedFilesAreReadAndNameASourceForEachCost) {
         if (entry.path().extension() != ".json" || entry.path().string().ends_with(".times.json"))
             continue;
         ++files;
-        const json document = json::parse(read_path(entry.path()));
+        const json document = json::parse(read_file_at_path(entry.path()));
         EXPECT_EQ(document["schema"], "catoptric/costs/1") << entry.path();
         for (const json& cost : document["costs"])
             EXPECT_FALSE(cost.value("source", "").empty()) << entry.path() << cost;

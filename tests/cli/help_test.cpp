@@ -11,7 +11,7 @@ using testing::Not;
 const std::vector<std::string> kVerbs{"compare", "render", "stress", "bench",
                                       "diff",    "graph",  "list",   "info"};
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> split_into_lines(const std::string& text) {
     std::vector<std::string> lines;
     std::istringstream stream(text);
     for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -22,13 +22,13 @@ TEST_F(Cli, HelpFitsEightyColumns) {
     std::vector<Words> asked{{"--help"}};
     for (const std::string& verb : kVerbs) asked.push_back({verb, "--help"});
     for (const Words& words : asked)
-        for (const std::string& line : lines_of(cli(words).out))
+        for (const std::string& line : split_into_lines(run_cli(words).out))
             EXPECT_LE(line.size(), 80U) << words.front() << ": " << line;
 }
 
 TEST_F(Cli, HelpShowsCommonOptionsFirst) {
     for (const std::string verb : {"compare", "render"}) {
-        const std::string help = cli({verb, "--help"}).out;
+        const std::string help = run_cli({verb, "--help"}).out;
         const std::size_t common = help.find("Common options:"), scene = help.find("The scene:");
         ASSERT_NE(common, std::string::npos) << help;
         ASSERT_NE(scene, std::string::npos) << help;
@@ -42,41 +42,42 @@ TEST_F(Cli, HelpShowsCommonOptionsFirst) {
 }
 
 TEST_F(Cli, HelpVerbPrintsTheTextOfTheHelpOption) {
-    EXPECT_EQ(cli({"help"}).out, cli({"--help"}).out);
+    EXPECT_EQ(run_cli({"help"}).out, run_cli({"--help"}).out);
     for (const std::string& verb : kVerbs) {
-        const test::ProcessResult ended = cli({"help", verb});
+        const test::ProcessResult ended = run_cli({"help", verb});
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
-        EXPECT_EQ(ended.out, cli({verb, "--help"}).out);
+        EXPECT_EQ(ended.out, run_cli({verb, "--help"}).out);
     }
-    expect_refused({"help", "rendr"}, 2, {"'rendr'", "did you mean 'render'"});
-    expect_refused({"help", "list", "render"}, 2, {"at most one verb", "'render'"});
+    expect_usage_refused({"help", "rendr"}, 2, {"'rendr'", "did you mean 'render'"});
+    expect_usage_refused({"help", "list", "render"}, 2, {"at most one verb", "'render'"});
 }
 
 TEST_F(Cli, ShortVersionFlagPrintsTheVersion) {
-    EXPECT_EQ(cli({"-V"}).out, cli({"--version"}).out);
-    EXPECT_THAT(cli({"-V"}).out, testing::StartsWith("catoptric "));
+    EXPECT_EQ(run_cli({"-V"}).out, run_cli({"--version"}).out);
+    EXPECT_THAT(run_cli({"-V"}).out, testing::StartsWith("catoptric "));
 }
 
 TEST_F(Cli, ListOfTechniquesHasOneLinePerTechnique) {
-    const std::string text = cli({"list", "techniques"}).out;
+    const std::string text = run_cli({"list", "techniques"}).out;
     EXPECT_THAT(text, HasSubstr("\nparallax "));
     EXPECT_THAT(text, HasSubstr("\nauto "));
     EXPECT_THAT(text, Not(HasSubstr("shadow_map")));
-    EXPECT_LE(lines_of(text).size(), 16U);
+    EXPECT_LE(split_into_lines(text).size(), 16U);
 }
 
 TEST_F(Cli, ListOfOneTechniqueShowsItsKnobs) {
-    const std::string text = cli({"list", "techniques", "parallax"}).out;
+    const std::string text = run_cli({"list", "techniques", "parallax"}).out;
     EXPECT_THAT(text, testing::StartsWith("parallax "));
     EXPECT_THAT(text, HasSubstr("shadow_map"));
     EXPECT_THAT(text, Not(HasSubstr("hybrid ")));
-    const auto listed = nlohmann::json::parse(cli({"list", "techniques", "march", "--json"}).out);
+    const auto listed = nlohmann::json::parse(
+        run_cli({"list", "techniques", "march", "--json"}).out);
     ASSERT_EQ(listed["techniques"].size(), 1U);
     EXPECT_EQ(listed["techniques"][0]["name"], "march");
-    EXPECT_THAT(cli({"list", "techniques", "auto"}).out, testing::StartsWith("auto "));
-    expect_refused({"list", "techniques", "parralax"}, 2,
-                   {"'parralax'", "did you mean 'parallax'"});
-    expect_refused({"list", "scenes", "parallax"}, 2, {"list scenes", "'parallax'"});
+    EXPECT_THAT(run_cli({"list", "techniques", "auto"}).out, testing::StartsWith("auto "));
+    expect_usage_refused({"list", "techniques", "parralax"}, 2,
+                         {"'parralax'", "did you mean 'parallax'"});
+    expect_usage_refused({"list", "scenes", "parallax"}, 2, {"list scenes", "'parallax'"});
 }
 
 } // namespace

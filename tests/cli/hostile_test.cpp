@@ -16,46 +16,49 @@ protected:
     void SetUp() override {
         Cli::SetUp();
         const std::string name = kName;
-        write(scene + ".obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no " + name + "\nusemtl " +
-                                  name + "\nf 1 2 3\n" + name + " 1\n");
-        write("m.mtl", "newmtl " + name + "\nillum 3\nKs 1 1 1\n" + name + "\n");
+        write_input_file(scene + ".obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no " + name +
+                                             "\nusemtl " + name + "\nf 1 2 3\n" + name + " 1\n");
+        write_input_file("m.mtl", "newmtl " + name + "\nillum 3\nKs 1 1 1\n" + name + "\n");
     }
 
     /// Expects text without control characters and invalid bytes. No line of the text may start
     /// with text that a line break in a name moved there.
-    static void expect_plain(const std::string& text, const std::string& where) {
+    static void expect_printable_text(const std::string& text, const std::string& where) {
         for (const char c : text)
             ASSERT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= 0x20) << where << text;
         EXPECT_THAT(text, Not(HasSubstr("\xff"))) << where;
         EXPECT_THAT("\n" + text, Not(HasSubstr("\ncatoptric: forged"))) << where;
     }
-    test::ProcessResult plain(const Words& words, int exit_code = 0) const {
-        test::ProcessResult ended = cli(words);
+    test::ProcessResult run_and_expect_printable(const Words& words, int exit_code = 0) const {
+        test::ProcessResult ended = run_cli(words);
         EXPECT_EQ(ended.exit_code, exit_code) << words[0] << ended.err;
-        expect_plain(ended.out, words[0] + " stdout: ");
-        expect_plain(ended.err, words[0] + " stderr: ");
+        expect_printable_text(ended.out, words[0] + " stdout: ");
+        expect_printable_text(ended.err, words[0] + " stderr: ");
         return ended;
     }
 };
 
 TEST_F(Hostile, VerbsPrintNoTerminalControlCharacters) {
     const std::string file = scene + ".obj";
-    EXPECT_THAT(plain({"info", file}).out, HasSubstr("=1+1\\x1b[2J"));
-    plain({"graph", file, "--technique", "auto", "--why"});
-    plain({"graph", file, "--technique", "reuse"});
-    plain({"graph", file, "--technique", "reuse", "--format", "dot"});
-    plain(quick({"render", file, "--technique", "reuse", "-o", "x.png", "--progress", "always"}));
-    plain(quick({"compare", file, "-o", "one", "--techniques", "reuse"}));
-    plain(quick({"compare", file, "cornell-mirrors", "-o", "two", "--techniques", "reuse"}));
-    plain(quick({"bench", file}));
-    plain({"diff", file, file}, 65);
-    plain({"diff", scene, scene}, 66);
-    plain({"info", scene + ".glb"}, 66);
-    plain({file}, 2);
-    plain({"render", file, "--technique", file, "-o", "x.png"}, 2);
-    plain({"render", file, "--technique", "reuse", "-o", scene + "/x.png"}, 73);
-    plain({"list", scene}, 2);
-    plain({"stress", "--only", scene}, 2);
+    EXPECT_THAT(run_and_expect_printable({"info", file}).out, HasSubstr("=1+1\\x1b[2J"));
+    run_and_expect_printable({"graph", file, "--technique", "auto", "--why"});
+    run_and_expect_printable({"graph", file, "--technique", "reuse"});
+    run_and_expect_printable({"graph", file, "--technique", "reuse", "--format", "dot"});
+    run_and_expect_printable(with_small_quick_frame(
+        {"render", file, "--technique", "reuse", "-o", "x.png", "--progress", "always"}));
+    run_and_expect_printable(
+        with_small_quick_frame({"compare", file, "-o", "one", "--techniques", "reuse"}));
+    run_and_expect_printable(with_small_quick_frame(
+        {"compare", file, "cornell-mirrors", "-o", "two", "--techniques", "reuse"}));
+    run_and_expect_printable(with_small_quick_frame({"bench", file}));
+    run_and_expect_printable({"diff", file, file}, 65);
+    run_and_expect_printable({"diff", scene, scene}, 66);
+    run_and_expect_printable({"info", scene + ".glb"}, 66);
+    run_and_expect_printable({file}, 2);
+    run_and_expect_printable({"render", file, "--technique", file, "-o", "x.png"}, 2);
+    run_and_expect_printable({"render", file, "--technique", "reuse", "-o", scene + "/x.png"}, 73);
+    run_and_expect_printable({"list", scene}, 2);
+    run_and_expect_printable({"stress", "--only", scene}, 2);
 }
 
 TEST_F(Hostile, JsonWithHostileNamesIsValid) {
@@ -64,27 +67,29 @@ TEST_F(Hostile, JsonWithHostileNamesIsValid) {
          {Words{"info", file, "--json"},
           Words{"graph", file, "--technique", "auto", "--why", "--format", "json"},
           Words{"graph", file, "--technique", "reuse", "--format", "json"},
-          quick({"render", file, "--technique", "reuse", "-o", "x.png", "--json"})}) {
-        const test::ProcessResult ended = plain(words);
+          with_small_quick_frame(
+              {"render", file, "--technique", "reuse", "-o", "x.png", "--json"})}) {
+        const test::ProcessResult ended = run_and_expect_printable(words);
         EXPECT_TRUE(nlohmann::json::accept(ended.out)) << words[0] << ended.out;
     }
 }
 
 TEST_F(Hostile, ReportsEscapeHostileNames) {
-    plain(quick({"compare", scene + ".obj", "-o", "out", "--techniques", "reuse"}));
+    run_and_expect_printable(
+        with_small_quick_frame({"compare", scene + ".obj", "-o", "out", "--techniques", "reuse"}));
     for (const char* name : {"report.json", "report.md", "report.html"})
-        expect_plain(read(std::string("out/") + name), name);
+        expect_printable_text(read_output_file(std::string("out/") + name), name);
     // A quoted CSV cell may hold a line break (RFC 4180). All other control characters of the name
     // must be escaped.
-    const std::string csv = read("out/rows.csv");
+    const std::string csv = read_output_file("out/rows.csv");
     EXPECT_THAT(csv, HasSubstr(",\"'=1+1\\x1b[2J|\"\"`<script>x\\xff\ncatoptric: forged\","));
     for (const char c : csv)
         ASSERT_TRUE(c == '\n' || c == '\r' || static_cast<unsigned char>(c) >= 0x20) << csv;
     EXPECT_THAT(csv, HasSubstr("'=1+1"));
     for (const char* beginning : {",=", "\n=", "\"="})
         EXPECT_THAT(csv, Not(HasSubstr(beginning))) << "a spreadsheet computes this cell";
-    EXPECT_THAT(read("out/report.html"), Not(HasSubstr("<script>x")));
-    const std::string markdown = read("out/report.md");
+    EXPECT_THAT(read_output_file("out/report.html"), Not(HasSubstr("<script>x")));
+    const std::string markdown = read_output_file("out/report.md");
     for (const std::string mark : {"<script", "|\"", "`<"})
         for (std::size_t at = markdown.find(mark); at != markdown.npos;
              at = markdown.find(mark, at + 1))

@@ -11,12 +11,14 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_F(Cli, OutputFileInAMissingFolderIsRefused) {
-    expect_refused({"render", "--technique", "reuse", "-o", "none/x.png"}, 73,
-                   {"none/x.png", "no folder none"});
-    expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--trace", "none/t.json"}, 73,
-                   {"none/t.json"});
-    expect_refused({"render", "--technique", "reuse", "-o", "x.png", "--profile", "none/p.json"},
-                   73, {"none/p.json"});
+    expect_usage_refused({"render", "--technique", "reuse", "-o", "none/x.png"}, 73,
+                         {"none/x.png", "no folder none"});
+    expect_usage_refused(
+        {"render", "--technique", "reuse", "-o", "x.png", "--trace", "none/t.json"}, 73,
+        {"none/t.json"});
+    expect_usage_refused(
+        {"render", "--technique", "reuse", "-o", "x.png", "--profile", "none/p.json"}, 73,
+        {"none/p.json"});
     EXPECT_FALSE(fs::exists(folder / "none"));
 }
 
@@ -24,20 +26,20 @@ TEST_F(Cli, OutputFileInAMissingFolderIsRefused) {
 /// slash.
 TEST_F(Cli, OutputFolderIsMadeWithItsParents) {
     for (const std::string name : {"./a/../b/out/", "b/out/again"}) {
-        const test::ProcessResult ended = cli(
-            quick({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
+        const test::ProcessResult ended = run_cli(
+            with_small_quick_frame({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
         EXPECT_EQ(ended.exit_code, 0) << name << ": " << ended.err;
         EXPECT_TRUE(fs::exists(folder / name / "images/raytrace-depth1.png")) << name;
         EXPECT_TRUE(fs::exists(folder / name / "report.json")) << name;
     }
-    const test::ProcessResult ended = cli(
+    const test::ProcessResult ended = run_cli(
         {"stress", "--size", "16x16", "--only", "N10", "-o", "c/d"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_TRUE(fs::exists(folder / "c/d/stress.json"));
 }
 
 TEST_F(Cli, ImpossibleOutputFolderIsRefusedBeforeAnyWork) {
-    write("file", "old");
+    write_input_file("file", "old");
     fs::create_symlink("nowhere", folder / "dangling");
     for (const Words& verb : {Words{"compare"}, Words{"stress"}}) {
         const auto into = [&](const std::string& name) {
@@ -45,36 +47,36 @@ TEST_F(Cli, ImpossibleOutputFolderIsRefusedBeforeAnyWork) {
             words.insert(words.end(), {"-o", name});
             return words;
         };
-        expect_refused(into("file/a/out"), 73, {"file/a/out", "wanted file to be a folder"});
-        expect_refused(into("dangling/out"), 73, {"dangling/out", "dangling to be a folder"});
-        expect_refused(into("/proc/a/out"), 73, {"/proc/a/out"});
+        expect_usage_refused(into("file/a/out"), 73, {"file/a/out", "wanted file to be a folder"});
+        expect_usage_refused(into("dangling/out"), 73, {"dangling/out", "dangling to be a folder"});
+        expect_usage_refused(into("/proc/a/out"), 73, {"/proc/a/out"});
     }
-    EXPECT_EQ(read("file"), "old");
+    EXPECT_EQ(read_output_file("file"), "old");
     EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
 TEST_F(Cli, OutputPathOfTheWrongKindIsRefused) {
-    expect_refused({"render", "--technique", "reuse", "-o", folder.string()}, 73,
-                   {folder.string(), "found a folder"});
+    expect_usage_refused({"render", "--technique", "reuse", "-o", folder.string()}, 73,
+                         {folder.string(), "found a folder"});
     fs::create_directory(folder / "x.png");
-    expect_refused({"render", "--technique", "reuse", "-o", "x.png"}, 73,
-                   {"x.png", "found a folder"});
-    expect_refused({"render", "--technique", "reuse", "-o", "y.png/"}, 73, {"y.png/"});
-    write("file", "old");
-    expect_refused({"compare", "-o", "file"}, 73, {"file", "wanted a folder"});
-    EXPECT_EQ(read("file"), "old");
+    expect_usage_refused({"render", "--technique", "reuse", "-o", "x.png"}, 73,
+                         {"x.png", "found a folder"});
+    expect_usage_refused({"render", "--technique", "reuse", "-o", "y.png/"}, 73, {"y.png/"});
+    write_input_file("file", "old");
+    expect_usage_refused({"compare", "-o", "file"}, 73, {"file", "wanted a folder"});
+    EXPECT_EQ(read_output_file("file"), "old");
 }
 
 TEST_F(Cli, WritingToAFullDeviceExitsWith74) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     fs::create_symlink("/dev/full", folder / "full.png");
-    const test::ProcessResult ended = cli(
-        quick({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
-    expect_ended(ended, 74, {"full.png"});
+    const test::ProcessResult ended = run_cli(
+        with_small_quick_frame({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
+    expect_exit_code(ended, 74, {"full.png"});
 
-    test::ProcessStart process = start({"list", "techniques"});
+    test::ProcessStartOptions process = make_process_start({"list", "techniques"});
     process.out_path = "/dev/full";
-    expect_ended(test::run_process(process), 74, {"stdout"});
+    expect_exit_code(test::run_process(process), 74, {"stdout"});
 }
 
 TEST_F(Cli, FullDiskLeavesTheOldFile) {
@@ -82,21 +84,21 @@ TEST_F(Cli, FullDiskLeavesTheOldFile) {
     fs::create_directory(disk);
     if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0)
         GTEST_SKIP() << "cannot mount a small tmpfs: " << std::strerror(errno);
-    write("disk/x.exr", "old");
-    const test::ProcessResult ended = cli({"render", "--technique", "reuse", "-o", "disk/x.exr",
-                                           "--size", "256x256", "--frames", "1", "--warmup", "0",
-                                           "--quiet"});
-    const std::string old = read("disk/x.exr");
+    write_input_file("disk/x.exr", "old");
+    const test::ProcessResult ended = run_cli({"render", "--technique", "reuse", "-o", "disk/x.exr",
+                                               "--size", "256x256", "--frames", "1", "--warmup",
+                                               "0", "--quiet"});
+    const std::string old = read_output_file("disk/x.exr");
     const auto entries = std::distance(fs::directory_iterator(disk), fs::directory_iterator());
     ::umount(disk.c_str());
-    expect_ended(ended, 74, {"disk/x.exr"});
+    expect_exit_code(ended, 74, {"disk/x.exr"});
     EXPECT_EQ(old, "old");
     EXPECT_EQ(entries, 1) << "a temporary was left behind";
 }
 
 TEST_F(Cli, ClosedPipeOnStdoutExitsWith74) {
     for (const Words& words : {Words{"list", "techniques"}, Words{"info", "--json"}}) {
-        test::ProcessStart process = start(words);
+        test::ProcessStartOptions process = make_process_start(words);
         process.no_reader = true;
         const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 74);
@@ -105,15 +107,18 @@ TEST_F(Cli, ClosedPipeOnStdoutExitsWith74) {
 }
 
 TEST_F(Cli, RenderWritesAPngToStdout) {
-    const test::ProcessResult ended = cli(quick({"render", "--technique", "reuse", "-o", "-"}));
+    const test::ProcessResult ended = run_cli(
+        with_small_quick_frame({"render", "--technique", "reuse", "-o", "-"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::StartsWith("\x89PNG\r\n"));
-    EXPECT_EQ(cli(quick({"render", "--technique", "reuse", "-o", "x.png"})).exit_code, 0);
-    EXPECT_EQ(read("x.png"), ended.out);
+    EXPECT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "reuse", "-o", "x.png"}))
+                  .exit_code,
+              0);
+    EXPECT_EQ(read_output_file("x.png"), ended.out);
 }
 
 /// Returns the command line of a comparison of eight rows in five rounds.
-std::vector<std::string> eight_rows() {
+std::vector<std::string> make_eight_row_command() {
     std::vector<std::string> words{"compare",
                                    "-o",
                                    "out",
@@ -133,13 +138,13 @@ std::vector<std::string> eight_rows() {
 }
 
 TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
-    test::ProcessStart process = start(eight_rows());
+    test::ProcessStartOptions process = make_process_start(make_eight_row_command());
     process.signal = SIGINT;
     process.signal_at = "[2/40] parallax:face=64, round 1 of 5";
     const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("of 8 rows"));
-    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    const nlohmann::json document = nlohmann::json::parse(read_output_file("out/report.json"));
     EXPECT_EQ(document["complete"], false);
     EXPECT_GE(document["rows"].size(), 1U);
     EXPECT_LT(document["rows"].size(), 8U);
@@ -147,12 +152,12 @@ TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
 }
 
 TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
-    test::ProcessStart process = start(eight_rows());
+    test::ProcessStartOptions process = make_process_start(make_eight_row_command());
     process.signal = SIGINT;
     process.signal_at = "reuse:face=64, round 4 of 5";
     const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
-    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    const nlohmann::json document = nlohmann::json::parse(read_output_file("out/report.json"));
     ASSERT_EQ(document["rows"].size(), 8U);
     EXPECT_THAT(document["incomplete"], testing::MatchesRegex("8 of 8 rows: .*; [34] of 5 rounds"));
     for (const nlohmann::json& row : document["rows"]) {
@@ -162,9 +167,9 @@ TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
 }
 
 TEST_F(Cli, CompareInterruptedBeforeTheFirstRowWritesNothing) {
-    test::ProcessStart process = start({"compare", "-o", "out", "--size", "32x32", "--frames",
-                                        "1000", "--warmup", "1", "--progress", "always",
-                                        "--techniques", "reuse"});
+    test::ProcessStartOptions process = make_process_start(
+        {"compare", "-o", "out", "--size", "32x32", "--frames", "1000", "--warmup", "1",
+         "--progress", "always", "--techniques", "reuse"});
     process.signal = SIGTERM;
     process.signal_at = "reference";
     const test::ProcessResult ended = test::run_process(process);
@@ -174,15 +179,15 @@ TEST_F(Cli, CompareInterruptedBeforeTheFirstRowWritesNothing) {
 }
 
 TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
-    test::ProcessStart process = start({"compare", "-o", "out", "--lag", "--size", "32x32",
-                                        "--frames", "1", "--warmup", "1", "--progress", "always",
-                                        "--techniques", "raytrace", "reuse:face=16"});
+    test::ProcessStartOptions process = make_process_start(
+        {"compare", "-o", "out", "--lag", "--size", "32x32", "--frames", "1", "--warmup", "1",
+         "--progress", "always", "--techniques", "raytrace", "reuse:face=16"});
     process.signal = SIGINT;
     process.signal_at = "lag of reuse";
     const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("2 of 2 rows, while their lag was measured"));
-    const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+    const nlohmann::json document = nlohmann::json::parse(read_output_file("out/report.json"));
     EXPECT_EQ(document["complete"], false);
     EXPECT_EQ(document["rows"].size(), 2U);
     EXPECT_EQ(document["lag"]["complete"], false);
@@ -190,14 +195,15 @@ TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
 }
 
 TEST_F(Cli, InterruptedRenderKeepsTheOldPicture) {
-    write("x.png", "old");
-    test::ProcessStart process = start({"render", "-o", "x.png", "--size", "32x32", "--frames",
-                                        "100000", "--technique", "reuse", "--progress", "always"});
+    write_input_file("x.png", "old");
+    test::ProcessStartOptions process = make_process_start(
+        {"render", "-o", "x.png", "--size", "32x32", "--frames", "100000", "--technique", "reuse",
+         "--progress", "always"});
     process.signal = SIGINT;
     process.signal_at = "reuse";
     const test::ProcessResult ended = test::run_process(process);
     EXPECT_EQ(ended.exit_code, 130) << ended.err;
-    EXPECT_EQ(read("x.png"), "old");
+    EXPECT_EQ(read_output_file("x.png"), "old");
 }
 
 } // namespace

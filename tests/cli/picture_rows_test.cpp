@@ -12,26 +12,28 @@ protected:
     void SetUp() override {
         Cli::SetUp();
         for (const char* file : {"own.exr", "own.png"})
-            ASSERT_EQ(
-                cli(quick({"render", "--technique", "parallax:face=16", "-o", file})).exit_code, 0);
+            ASSERT_EQ(run_cli(with_small_quick_frame(
+                                  {"render", "--technique", "parallax:face=16", "-o", file}))
+                          .exit_code,
+                      0);
     }
 
     /// Compares with the rows given as NAME=FILE.
-    test::ProcessResult compare(const Words& rows) const {
+    test::ProcessResult compare_picture_rows(const Words& rows) const {
         Words words{"compare", "-o", "out", "--techniques", "parallax:face=16", "reuse:face=16"};
         for (const std::string& row : rows) words.insert(words.end(), {"--row", row});
-        return cli(quick(words));
+        return run_cli(with_small_quick_frame(words));
     }
 
-    json report_row(std::size_t index) const {
-        return json::parse(read_path(folder / "out/report.json"))["rows"][index];
+    json read_report_row(std::size_t index) const {
+        return json::parse(read_file_at_path(folder / "out/report.json"))["rows"][index];
     }
 };
 
 TEST_F(PictureRows, OwnPictureHandedBackHasTheSameFigures) {
-    const test::ProcessResult ended = compare({"mine=own.exr", "8 bits=own.png"});
+    const test::ProcessResult ended = compare_picture_rows({"mine=own.exr", "8 bits=own.png"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    const json own = report_row(0), back = report_row(2), rounded = report_row(3);
+    const json own = read_report_row(0), back = read_report_row(2), rounded = read_report_row(3);
     EXPECT_EQ(back["label"], "mine");
     EXPECT_EQ(back["technique"], "picture");
     for (const char* mask : {"error", "error_all", "error_first_order"})
@@ -44,9 +46,9 @@ TEST_F(PictureRows, OwnPictureHandedBackHasTheSameFigures) {
     EXPECT_TRUE(back["gpu_ms"].is_null());
     EXPECT_THAT(ended.out, testing::HasSubstr("mine"));
     EXPECT_THAT(ended.out, testing::Not(testing::HasSubstr("nan")));
-    const std::string csv = read_path(folder / "out/rows.csv"),
-                      page = read_path(folder / "out/report.html"),
-                      text = read_path(folder / "out/report.md");
+    const std::string csv = read_file_at_path(folder / "out/rows.csv"),
+                      page = read_file_at_path(folder / "out/report.html"),
+                      text = read_file_at_path(folder / "out/report.md");
     EXPECT_THAT(csv, testing::HasSubstr("mine"));
     EXPECT_THAT(page, testing::HasSubstr("mine"));
     EXPECT_THAT(text, testing::HasSubstr("since their time is not known: mine (FLIP"));
@@ -57,14 +59,15 @@ TEST_F(PictureRows, OwnPictureHandedBackHasTheSameFigures) {
 
 /// A PNG is read with the comparison's exposure taken off.
 TEST_F(PictureRows, PngHoldsWhatIsDisplayedAtTheExposure) {
-    ASSERT_EQ(cli(quick({"render", "--technique", "parallax:face=16", "--exposure", "1", "-o",
-                         "bright.png"}))
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "parallax:face=16",
+                                              "--exposure", "1", "-o", "bright.png"}))
                   .exit_code,
               0);
     Words words{"compare",    "-o", "out",   "--techniques",   "parallax:face=16",
                 "--exposure", "1",  "--row", "mine=bright.png"};
-    ASSERT_EQ(cli(quick(words)).exit_code, 0);
-    EXPECT_NEAR(report_row(1)["error"]["rmse"], report_row(0)["error"]["rmse"].get<double>(), .005);
+    ASSERT_EQ(run_cli(with_small_quick_frame(words)).exit_code, 0);
+    EXPECT_NEAR(read_report_row(1)["error"]["rmse"],
+                read_report_row(0)["error"]["rmse"].get<double>(), .005);
 }
 
 TEST_F(PictureRows, PictureUpsideDownOrOfOtherLightIsNamed) {
@@ -76,10 +79,11 @@ TEST_F(PictureRows, PictureUpsideDownOrOfOtherLightIsNamed) {
     for (auto& pixel : bright.pixels) pixel *= 3;
     measure::write_exr(turned, folder / "turned.exr");
     measure::write_exr(bright, folder / "bright.exr");
-    const test::ProcessResult ended = compare({"t=turned.exr", "b=bright.exr", "o=own.exr"});
+    const test::ProcessResult ended = compare_picture_rows(
+        {"t=turned.exr", "b=bright.exr", "o=own.exr"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const std::string warnings =
-        json::parse(read_path(folder / "out/report.json"))["warnings"].dump();
+        json::parse(read_file_at_path(folder / "out/report.json"))["warnings"].dump();
     EXPECT_THAT(warnings, testing::HasSubstr("'t': its picture is upside down"));
     EXPECT_THAT(warnings, testing::HasSubstr("'b': its rmse is "));
     EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("'o'")));
@@ -89,7 +93,7 @@ TEST_F(PictureRows, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
     namespace measure = catoptric::measure;
     measure::write_exr(measure::Picture(5, 4), folder / "small.exr");
     const auto refused = [&](const Words& rows, int code, const std::string& says) {
-        const test::ProcessResult ended = compare(rows);
+        const test::ProcessResult ended = compare_picture_rows(rows);
         EXPECT_EQ(ended.exit_code, code) << ended.err;
         EXPECT_THAT(ended.err, testing::HasSubstr(says));
         EXPECT_FALSE(std::filesystem::exists(folder / "out/report.json"));

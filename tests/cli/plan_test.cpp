@@ -12,9 +12,9 @@ using Json = nlohmann::json;
 constexpr const char* kMixed = "1=reuse:face=16 2=hybrid:face=16 *=raytrace:shadow=map";
 
 TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
-    const test::ProcessResult ended = cli({"render", "--plan", kMixed, "--size", "16x16",
-                                           "--frames", "1", "--warmup", "0", "-o", "p.png",
-                                           "--json"});
+    const test::ProcessResult ended = run_cli({"render", "--plan", kMixed, "--size", "16x16",
+                                               "--frames", "1", "--warmup", "0", "-o", "p.png",
+                                               "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json document = Json::parse(ended.out);
     EXPECT_EQ(document["technique"], "plan");
@@ -34,9 +34,9 @@ TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
     EXPECT_EQ(plan[3]["why"], "rule '*'");
     // The JSON that `render` prints can be given to `--plan` and draws the same picture.
     std::ofstream(folder / "saved.json") << document.dump();
-    const test::ProcessResult again = cli({"render", "--plan", (folder / "saved.json").string(),
-                                           "--size", "16x16", "--frames", "1", "--warmup", "0",
-                                           "-o", "q.png", "--json"});
+    const test::ProcessResult again = run_cli({"render", "--plan", (folder / "saved.json").string(),
+                                               "--size", "16x16", "--frames", "1", "--warmup", "0",
+                                               "-o", "q.png", "--json"});
     ASSERT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(Json::parse(again.out)["mean"], document["mean"]);
 }
@@ -47,7 +47,7 @@ TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
     const Words size{"--size", "48x48", "--frames", "1", "--warmup", "1", "--json"};
     const auto render = [&](Words words) {
         words.insert(words.end(), size.begin(), size.end());
-        const test::ProcessResult ended = cli(words);
+        const test::ProcessResult ended = run_cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return Json::parse(ended.out);
     };
@@ -64,15 +64,15 @@ TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
     }
     EXPECT_EQ(plan[12]["name"], "left panel");
     render({"render", "gallery", "--plan", rules, "-o", "b.exr"});
-    EXPECT_EQ(read("a.exr"), read("b.exr"));
-    const test::ProcessResult list = cli({"list", "techniques"});
+    EXPECT_EQ(read_output_file("a.exr"), read_output_file("b.exr"));
+    const test::ProcessResult list = run_cli({"list", "techniques"});
     EXPECT_NE(list.out.find("\nauto  "), std::string::npos);
 }
 
 /// If a technique cannot draw a mirror, its row of the table and stderr say so.
 TEST_F(Cli, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
-    const test::ProcessResult ended = cli(
-        quick({"compare", "-o", "out", "--techniques", "planar"}));
+    const test::ProcessResult ended = run_cli(
+        with_small_quick_frame({"compare", "-o", "out", "--techniques", "planar"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const std::string said = "not flat, drawn by reuse";
     EXPECT_NE(ended.err.find("planar: mirrors 1 'ball1', 2 'ball2', 3 'ball3' and 1 more: " + said),
@@ -83,16 +83,16 @@ TEST_F(Cli, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
     EXPECT_NE(ended.out.substr(row, ended.out.find('\n', row + 1) - row).find(said),
               std::string::npos)
         << ended.out;
-    EXPECT_NE(read("out/report.md").find(said), std::string::npos);
+    EXPECT_NE(read_output_file("out/report.md").find(said), std::string::npos);
 }
 
 TEST_F(Cli, CompareAcceptsPlansAsRows) {
     std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
                {"mirror": "*", "technique": "raytrace:capture=none"}])";
     const std::string file = "plan:" + (folder / "mixed.json").string();
-    const test::ProcessResult ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames",
-                                           "1", "--warmup", "1", "--causes", "--techniques",
-                                           "reuse:face=16", file, kMixed, "--json"});
+    const test::ProcessResult ended = run_cli(
+        {"compare", "-o", "out", "--size", "16x16", "--frames", "1", "--warmup", "1", "--causes",
+         "--techniques", "reuse:face=16", file, kMixed, "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json rows = Json::parse(ended.out)["rows"];
     ASSERT_EQ(rows.size(), 3u);
@@ -112,23 +112,23 @@ TEST_F(Cli, CompareAcceptsPlansAsRows) {
 
 TEST_F(Cli, ModelRequiredDrawsTheSamePictureAsModelEverything) {
     for (const char* model : {"everything", "required"}) {
-        const test::ProcessResult ended = cli({"render", "--plan", kMixed, "--size", "16x16",
-                                               "--model", model, "-o", std::string(model) + ".exr",
-                                               "--json"});
+        const test::ProcessResult ended = run_cli({"render", "--plan", kMixed, "--size", "16x16",
+                                                   "--model", model, "-o",
+                                                   std::string(model) + ".exr", "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(Json::parse(ended.out)["model"], model);
         EXPECT_TRUE(Json::parse(ended.out)["left_out"].is_array());
     }
-    EXPECT_EQ(read("everything.exr"), read("required.exr"));
+    EXPECT_EQ(read_output_file("everything.exr"), read_output_file("required.exr"));
     const std::string plan =
-        cli({"graph", "--technique", "parallax:face=16", "--model", "required"}).out;
+        run_cli({"graph", "--technique", "parallax:face=16", "--model", "required"}).out;
     EXPECT_THAT(plan, testing::StartsWith("2 passes"));
 }
 
 TEST_F(Cli, CompareWithModelBothHasARowForEachModel) {
-    const test::ProcessResult ended = cli({"compare", "-o", "out", "--size", "16x16", "--frames",
-                                           "6", "--model", "both", "--techniques",
-                                           "parallax:face=16", "raytrace", "--json"});
+    const test::ProcessResult ended = run_cli({"compare", "-o", "out", "--size", "16x16",
+                                               "--frames", "6", "--model", "both", "--techniques",
+                                               "parallax:face=16", "raytrace", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json document = Json::parse(ended.out);
     EXPECT_EQ(document["model"], "both");
@@ -150,7 +150,7 @@ TEST_F(Cli, InvalidPlanIsRefused) {
                              const std::vector<std::string>& words) {
         std::vector<std::string> arguments{"render", "-o", "x.png", "--size", "16x16"};
         arguments.insert(arguments.end(), options.begin(), options.end());
-        expect_refused(arguments, exit_code, words);
+        expect_usage_refused(arguments, exit_code, words);
         EXPECT_FALSE(exists(folder / "x.png"));
     };
     refused({"--plan", "1=reuse 5=hybrid *=secant"}, 2,
@@ -161,11 +161,12 @@ TEST_F(Cli, InvalidPlanIsRefused) {
     refused({"--technique", "reuse", "--plan", "*=reuse"}, 2, {"wanted one of them, found both"});
     refused({"--plan", "none.json"}, 66, {"none.json"});
     refused({"--plan", "*=reuse", "--reference", "1=reuse *=raytrace"}, 2, {"--reference"});
-    expect_refused({"compare", "-o", "out", "--techniques", "reuse", "7=reuse *=secant"}, 2,
-                   {"pattern '7' matches no mirror"});
+    expect_usage_refused({"compare", "-o", "out", "--techniques", "reuse", "7=reuse *=secant"}, 2,
+                         {"pattern '7' matches no mirror"});
     EXPECT_FALSE(exists(folder / "out" / "report.json"));
-    expect_refused({"compare", "-o", "out", "--techniques", "1=reuse *=secant", "1=reuse *=secant"},
-                   2, {"asked for twice"});
+    expect_usage_refused(
+        {"compare", "-o", "out", "--techniques", "1=reuse *=secant", "1=reuse *=secant"}, 2,
+        {"asked for twice"});
 }
 
 } // namespace

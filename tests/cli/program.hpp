@@ -17,37 +17,42 @@ class Cli : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
 
-    test::ProcessStart start(const Words& words) const {
-        test::ProcessStart start{.command = {CATOPTRIC_CLI}};
+    test::ProcessStartOptions make_process_start(const Words& words) const {
+        test::ProcessStartOptions start{.command = {CATOPTRIC_CLI}};
         start.command.insert(start.command.end(), words.begin(), words.end());
         start.folder = folder;
         return start;
     }
-    test::ProcessResult cli(const Words& words) const { return test::run_process(start(words)); }
+    test::ProcessResult run_cli(const Words& words) const {
+        return test::run_process(make_process_start(words));
+    }
 
     /// Appends options for one small and quick frame to the command line of a verb that renders.
-    static Words quick(Words words) {
+    static Words with_small_quick_frame(Words words) {
         words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "1"});
         return words;
     }
 
     /// Runs the program and expects the exit code, an empty stdout, and every one of `parts` in
     /// stderr.
-    void expect_refused(const Words& words, int exit_code, const Words& parts) const {
-        expect_ended(cli(words), exit_code, parts);
+    void expect_usage_refused(const Words& words, int exit_code, const Words& parts) const {
+        expect_exit_code(run_cli(words), exit_code, parts);
     }
-    static void expect_ended(const test::ProcessResult& ended, int exit_code, const Words& parts) {
+    static void expect_exit_code(const test::ProcessResult& ended, int exit_code,
+                                 const Words& parts) {
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         EXPECT_EQ(ended.out, "");
         EXPECT_THAT(ended.err, testing::StartsWith("catoptric: "));
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
     }
 
-    void write(const std::string& name, const std::string& text) const {
+    void write_input_file(const std::string& name, const std::string& text) const {
         std::ofstream(folder / name, std::ios::binary) << text;
     }
-    std::string read(const std::string& name) const { return read_path(folder / name); }
-    static std::string read_path(const std::filesystem::path& path) {
+    std::string read_output_file(const std::string& name) const {
+        return read_file_at_path(folder / name);
+    }
+    static std::string read_file_at_path(const std::filesystem::path& path) {
         std::ifstream file(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }

@@ -15,8 +15,8 @@ using nlohmann::json;
 
 /// Returns the mean of each channel over the pixels that `counts` accepts. Values are clamped to
 /// [0, `most`].
-std::vector<double> mean_of(const Picture& picture, double most,
-                            const std::function<bool(std::size_t)>& counts) {
+std::vector<double> mean_colour_of_pixels(const Picture& picture, double most,
+                                          const std::function<bool(std::size_t)>& counts) {
     std::vector<double> sum(3);
     double pixels = 0;
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -28,26 +28,27 @@ std::vector<double> mean_of(const Picture& picture, double most,
     return sum;
 }
 
-bool every_pixel(std::size_t) { return true; }
+bool accept_every_pixel(std::size_t) { return true; }
 
-void expect_near(const json& found, const std::vector<double>& wanted) {
+void expect_near_numbers(const json& found, const std::vector<double>& wanted) {
     ASSERT_EQ(found.size(), wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
         EXPECT_NEAR(found[i].get<double>(), wanted[i], 1e-6) << i;
 }
 
 TEST_F(Cli, RenderReportsThePicturesMeanAndThePassesTimes) {
-    const test::ProcessResult ended = cli({"render", "--technique", "parallax:face=32", "-o",
-                                           "x.exr", "--size", "48x32", "--frames", "3", "--warmup",
-                                           "1", "--trace", "t.json", "--json"});
+    const test::ProcessResult ended = run_cli({"render", "--technique", "parallax:face=32", "-o",
+                                               "x.exr", "--size", "48x32", "--frames", "3",
+                                               "--warmup", "1", "--trace", "t.json", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
     const Picture picture = read_picture(folder / "x.exr");
-    expect_near(document["mean"], mean_of(picture, 1e9, every_pixel));
-    expect_near(document["mean_clamped"], mean_of(picture, 1, every_pixel));
+    expect_near_numbers(document["mean"], mean_colour_of_pixels(picture, 1e9, accept_every_pixel));
+    expect_near_numbers(document["mean_clamped"],
+                        mean_colour_of_pixels(picture, 1, accept_every_pixel));
     EXPECT_NE(document["mean"], document["mean_clamped"]) << "the lamp is in view";
 
-    const json trace = json::parse(read("t.json"));
+    const json trace = json::parse(read_output_file("t.json"));
     std::size_t pass = 0;
     double first = 0, end = 0; // microseconds
     for (const json& event : trace["traceEvents"]) {
@@ -67,14 +68,16 @@ TEST_F(Cli, RenderReportsThePicturesMeanAndThePassesTimes) {
 
 TEST_F(Cli, DiffFiguresMatchThePicturesUnderTheMask) {
     for (const std::string technique : {"reuse:face=32", "raytrace"})
-        ASSERT_EQ(
-            cli(quick({"render", "--technique", technique, "-o", technique.substr(0, 5) + ".exr"}))
-                .exit_code,
-            0);
-    ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "mask.png"})).exit_code,
+        ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", technique, "-o",
+                                                  technique.substr(0, 5) + ".exr"}))
+                      .exit_code,
+                  0);
+    ASSERT_EQ(run_cli(with_small_quick_frame(
+                          {"render", "--technique", "naive:bounces=0", "-o", "mask.png"}))
+                  .exit_code,
               0); // mirrors and background are black, so they are masked out
     const json found = json::parse(
-        cli({"diff", "reuse.exr", "raytr.exr", "--mask", "mask.png", "--json"}).out);
+        run_cli({"diff", "reuse.exr", "raytr.exr", "--mask", "mask.png", "--json"}).out);
     const Picture a = read_picture(folder / "reuse.exr"), b = read_picture(folder / "raytr.exr"),
                   mask = read_picture(folder / "mask.png");
     const auto counts = [&](std::size_t i) { return mask.pixels[i] != catoptric::vec3(0); };
@@ -101,30 +104,33 @@ TEST_F(Cli, DiffFiguresMatchThePicturesUnderTheMask) {
     EXPECT_NEAR(found["p99"].get<double>(), largest[std::size_t(.99 * (pixels - 1))].first, 2e-2);
     EXPECT_LT(found["p99"].get<double>(), found["max"].get<double>());
     EXPECT_EQ(found["max_at"], json({largest.back().second % 32, largest.back().second / 32}));
-    expect_near(found["mean"]["a"], mean_of(a, 1e9, counts));
-    expect_near(found["mean"]["b"], mean_of(b, 1e9, counts));
-    expect_near(found["mean_clamped"]["a"], mean_of(a, 1, counts));
-    expect_near(found["mean_clamped"]["b"], mean_of(b, 1, counts));
+    expect_near_numbers(found["mean"]["a"], mean_colour_of_pixels(a, 1e9, counts));
+    expect_near_numbers(found["mean"]["b"], mean_colour_of_pixels(b, 1e9, counts));
+    expect_near_numbers(found["mean_clamped"]["a"], mean_colour_of_pixels(a, 1, counts));
+    expect_near_numbers(found["mean_clamped"]["b"], mean_colour_of_pixels(b, 1, counts));
     EXPECT_NE(found["flip"],
-              json::parse(cli({"diff", "reuse.exr", "raytr.exr", "--json"}).out)["flip"]);
+              json::parse(run_cli({"diff", "reuse.exr", "raytr.exr", "--json"}).out)["flip"]);
 }
 
 /// A mask without pixels leaves nothing to compare. `diff` must then fail every threshold.
 TEST_F(Cli, DiffWithAnEmptyMaskFailsEveryThreshold) {
-    write("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    ASSERT_EQ(cli(quick({"render", "scene.obj", "--technique", "raytrace", "--camera",
-                         "0,0,9:0,0,20:40", "--environment", "none", "-o", "black.png"}))
+    write_input_file("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "scene.obj", "--technique", "raytrace",
+                                              "--camera", "0,0,9:0,0,20:40", "--environment",
+                                              "none", "-o", "black.png"}))
                   .exit_code,
               0);
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.exr"})).exit_code, 0);
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.exr"}))
+                  .exit_code,
+              0);
     for (const std::string option : {"--max-flip", "--max-rmse"}) {
-        const test::ProcessResult ended = cli(
+        const test::ProcessResult ended = run_cli(
             {"diff", "a.exr", "a.exr", "--mask", "black.png", option, "1"});
         EXPECT_EQ(ended.exit_code, 1) << option;
         EXPECT_THAT(ended.err, testing::HasSubstr("nan is over " + option + " 1"));
     }
     const json found = json::parse(
-        cli({"diff", "a.exr", "a.exr", "--mask", "black.png", "--json"}).out);
+        run_cli({"diff", "a.exr", "a.exr", "--mask", "black.png", "--json"}).out);
     EXPECT_EQ(found["pixels"], 0);
     for (const char* figure : {"rmse", "mae", "flip", "max"}) EXPECT_TRUE(found[figure].is_null());
 }

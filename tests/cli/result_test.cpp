@@ -9,11 +9,11 @@ using nlohmann::json;
 
 TEST_F(Cli, ListJsonIsValid) {
     for (const std::string kind : {"techniques", "scenes", "devices", "metrics"}) {
-        const test::ProcessResult ended = cli({"list", kind, "--json"});
+        const test::ProcessResult ended = run_cli({"list", kind, "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         const json document = json::parse(ended.out);
         EXPECT_FALSE(document[kind].empty()) << kind;
-        const std::string text = cli({"list", kind}).out;
+        const std::string text = run_cli({"list", kind}).out;
         for (const json& row : document[kind])
             EXPECT_THAT(text, testing::HasSubstr(row["name"].get<std::string>()));
     }
@@ -28,7 +28,7 @@ TEST_F(Cli, ListMetricsShowsEveryMetric) {
     for (const auto& quantity : catoptric::measure::list_difference_metrics())
         of_differences.emplace_back(quantity.name);
     std::vector<std::string> found;
-    const json metrics = json::parse(cli({"list", "metrics", "--json"}).out)["metrics"];
+    const json metrics = json::parse(run_cli({"list", "metrics", "--json"}).out)["metrics"];
     for (const json& row : metrics) {
         found.push_back(row["name"]);
         EXPECT_FALSE(row["summary"].get<std::string>().empty()) << row["name"];
@@ -40,9 +40,11 @@ TEST_F(Cli, ListMetricsShowsEveryMetric) {
     EXPECT_EQ(flip["mask"], "each");
     EXPECT_EQ(flip["better"], "less");
 
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.exr"})).exit_code, 0);
-    const json document = json::parse(cli({"diff", "a.exr", "a.exr", "--json"}).out);
-    const std::string text = cli({"diff", "a.exr", "a.exr"}).out;
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.exr"}))
+                  .exit_code,
+              0);
+    const json document = json::parse(run_cli({"diff", "a.exr", "a.exr", "--json"}).out);
+    const std::string text = run_cli({"diff", "a.exr", "a.exr"}).out;
     for (const std::string& name : of_differences) {
         EXPECT_TRUE(document.contains(name)) << name;
         EXPECT_THAT(text, testing::HasSubstr(name));
@@ -50,33 +52,41 @@ TEST_F(Cli, ListMetricsShowsEveryMetric) {
 }
 
 TEST_F(Cli, ReportStatesTheNumberOfLanes) {
-    ASSERT_EQ(cli(quick({"compare", "-o", "out", "--techniques", "reuse:face=8"})).exit_code, 0);
-    const json report = json::parse(read_path(folder / "out/report.json"))["device"],
-               info = json::parse(cli({"info", "--json"}).out)["device"];
+    ASSERT_EQ(
+        run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "reuse:face=8"}))
+            .exit_code,
+        0);
+    const json report = json::parse(read_file_at_path(folder / "out/report.json"))["device"],
+               info = json::parse(run_cli({"info", "--json"}).out)["device"];
     EXPECT_GT(report["lanes"], 0);
     EXPECT_EQ(report["lanes"], info["lanes"]);
-    EXPECT_THAT(read_path(folder / "out/report.md"),
+    EXPECT_THAT(read_file_at_path(folder / "out/report.md"),
                 testing::HasSubstr(" " + report["lanes"].dump() + " lanes"));
 }
 
 TEST_F(Cli, InfoJsonIsValid) {
-    const json document = json::parse(cli({"info", "--json"}).out);
+    const json document = json::parse(run_cli({"info", "--json"}).out);
     EXPECT_EQ(document["version"], "0.1.0");
     EXPECT_TRUE(document["device"]["usable"].get<bool>());
     EXPECT_FALSE(document["features"]["techniques"].empty());
-    EXPECT_THAT(cli({"info"}).out,
+    EXPECT_THAT(run_cli({"info"}).out,
                 testing::HasSubstr(document["device"]["name"].get<std::string>()));
 }
 
 TEST_F(Cli, SameRenderCommandWritesTheSameBytes) {
     for (const std::string ending : {".png", ".exr"})
         for (const std::string technique : {"raytrace:samples=3", "parallax:face=32"}) {
-            ASSERT_EQ(
-                cli(quick({"render", "--technique", technique, "-o", "a" + ending})).exit_code, 0);
-            ASSERT_EQ(
-                cli(quick({"render", "--technique", technique, "-o", "b" + ending})).exit_code, 0);
-            EXPECT_GT(read("a" + ending).size(), 100U);
-            EXPECT_EQ(read("a" + ending), read("b" + ending)) << technique << ending;
+            ASSERT_EQ(run_cli(with_small_quick_frame(
+                                  {"render", "--technique", technique, "-o", "a" + ending}))
+                          .exit_code,
+                      0);
+            ASSERT_EQ(run_cli(with_small_quick_frame(
+                                  {"render", "--technique", technique, "-o", "b" + ending}))
+                          .exit_code,
+                      0);
+            EXPECT_GT(read_output_file("a" + ending).size(), 100U);
+            EXPECT_EQ(read_output_file("a" + ending), read_output_file("b" + ending))
+                << technique << ending;
         }
 }
 
@@ -86,11 +96,11 @@ TEST_F(Cli, CompareSaysWhichRowKeepsABudget) {
     const auto compare = [&](const Words& more) {
         Words words{"compare", "-o", "out", "--techniques", "reuse:face=8", "raytrace:depth=2"};
         words.insert(words.end(), more.begin(), more.end());
-        return cli(quick(words));
+        return run_cli(with_small_quick_frame(words));
     };
     const test::ProcessResult plenty = compare({"--max-ms", "100000"});
     EXPECT_EQ(plenty.exit_code, 0) << plenty.err;
-    const json budget = json::parse(read_path(folder / "out/report.json"))["budget"];
+    const json budget = json::parse(read_file_at_path(folder / "out/report.json"))["budget"];
     EXPECT_EQ(budget["max_ms"], 100000);
     EXPECT_TRUE(budget["max_flip"].is_null());
     EXPECT_EQ(budget["row"], "raytrace:depth=2");
@@ -98,42 +108,49 @@ TEST_F(Cli, CompareSaysWhichRowKeepsABudget) {
     EXPECT_THAT(text, testing::StartsWith("Within 100000 ms on "));
     EXPECT_THAT(plenty.out, testing::HasSubstr(text));
     for (const char* file : {"out/report.md", "out/report.html"})
-        EXPECT_THAT(read_path(folder / file), testing::HasSubstr("has the least FLIP")) << file;
+        EXPECT_THAT(read_file_at_path(folder / file), testing::HasSubstr("has the least FLIP"))
+            << file;
 
     const test::ProcessResult none = compare({"--max-ms", "0", "--max-flip", "0.5"});
     EXPECT_EQ(none.exit_code, 1) << none.err;
     EXPECT_THAT(none.out, testing::HasSubstr("No row keeps 0 ms and FLIP 0.5 on "));
-    const json missed = json::parse(read_path(folder / "out/report.json"))["budget"];
+    const json missed = json::parse(read_file_at_path(folder / "out/report.json"))["budget"];
     EXPECT_TRUE(missed["row"].is_null());
     EXPECT_FALSE(missed["nearest"].is_null());
     ASSERT_EQ(compare({}).exit_code, 0);
-    EXPECT_FALSE(json::parse(read_path(folder / "out/report.json")).contains("budget"));
-    expect_refused({"compare", "-o", "out", "--max-flip", "2"}, 2, {"--max-flip", "from 0 to 1"});
+    EXPECT_FALSE(json::parse(read_file_at_path(folder / "out/report.json")).contains("budget"));
+    expect_usage_refused({"compare", "-o", "out", "--max-flip", "2"}, 2,
+                         {"--max-flip", "from 0 to 1"});
 }
 
 TEST_F(Cli, CameraOptionPlacesTheCamera) {
     // The text `same` below describes the camera that the scene uses by default.
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.png"}))
+                  .exit_code,
+              0);
     const std::string same = "278,273,-800:278,273,0:37.5", other = "278,273,-700:278,273,0:37.5";
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.png", "--camera", same}))
+    ASSERT_EQ(run_cli(with_small_quick_frame(
+                          {"render", "--technique", "raytrace", "-o", "b.png", "--camera", same}))
                   .exit_code,
               0);
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "c.png", "--camera", other}))
+    ASSERT_EQ(run_cli(with_small_quick_frame(
+                          {"render", "--technique", "raytrace", "-o", "c.png", "--camera", other}))
                   .exit_code,
               0);
-    ASSERT_EQ(
-        cli(quick({"render", "--technique", "raytrace", "-o", "d.png", "--camera", "0"})).exit_code,
-        0);
-    EXPECT_EQ(read("a.png"), read("b.png"));
-    EXPECT_NE(read("a.png"), read("c.png"));
-    EXPECT_EQ(read("a.png"), read("d.png"));
+    ASSERT_EQ(run_cli(with_small_quick_frame(
+                          {"render", "--technique", "raytrace", "-o", "d.png", "--camera", "0"}))
+                  .exit_code,
+              0);
+    EXPECT_EQ(read_output_file("a.png"), read_output_file("b.png"));
+    EXPECT_NE(read_output_file("a.png"), read_output_file("c.png"));
+    EXPECT_EQ(read_output_file("a.png"), read_output_file("d.png"));
 }
 
 TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
     const auto render = [&](const std::string& picture, const Words& more) {
         Words words{"render", "--technique", "parallax:face=32", "-o", picture};
         words.insert(words.end(), more.begin(), more.end());
-        const test::ProcessResult ended = cli(quick(words));
+        const test::ProcessResult ended = run_cli(with_small_quick_frame(words));
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return ended.err;
     };
@@ -146,16 +163,16 @@ TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
     render("b.exr", {"--camera", "seeded", "--seed", "7", "--time", "1.5"});
     render("c.exr", {"--camera", camera, "--time", "1.5"});
     render("d.exr", {"--camera", "seeded", "--seed", "8", "--time", "1.5"});
-    EXPECT_EQ(read("a.exr"), read("b.exr"));
-    EXPECT_EQ(read("a.exr"), read("c.exr")) << camera;
-    EXPECT_NE(read("a.exr"), read("d.exr"));
+    EXPECT_EQ(read_output_file("a.exr"), read_output_file("b.exr"));
+    EXPECT_EQ(read_output_file("a.exr"), read_output_file("c.exr")) << camera;
+    EXPECT_NE(read_output_file("a.exr"), read_output_file("d.exr"));
     EXPECT_EQ(render("e.exr", {"--camera", "seeded", "--quiet"}), "");
 }
 
 TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
-    const test::ProcessResult ended = cli(
-        quick({"render", "--technique", "naive:bounces=1", "--model", "everything", "-o", "x.exr",
-               "--trace", "t.json", "--json"}));
+    const test::ProcessResult ended = run_cli(
+        with_small_quick_frame({"render", "--technique", "naive:bounces=1", "--model", "everything",
+                                "-o", "x.exr", "--trace", "t.json", "--json"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
     EXPECT_EQ(document["label"], "naive:bounces=1");
@@ -163,7 +180,7 @@ TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
     EXPECT_EQ(document["scene_passes"], 6);
     EXPECT_EQ(document["size"], json({32, 32}));
     EXPECT_EQ(document["gpu_ms"]["n"], 1);
-    const json trace = json::parse(read("t.json"));
+    const json trace = json::parse(read_output_file("t.json"));
     std::size_t passes = 0;
     for (const json& event : trace["traceEvents"]) {
         if (event["ph"] != "X") continue;
@@ -176,11 +193,11 @@ TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
 /// `--profile FILE` writes the JSON that `--json` prints. The option also turns on the timing of
 /// frames.
 TEST_F(Cli, RenderProfileFileEqualsItsJson) {
-    const test::ProcessResult ended = cli({"render", "flat", "--technique", "reuse:face=16",
-                                           "--size", "16x16", "-o", "x.png", "--profile", "p.json",
-                                           "--json"});
+    const test::ProcessResult ended = run_cli({"render", "flat", "--technique", "reuse:face=16",
+                                               "--size", "16x16", "-o", "x.png", "--profile",
+                                               "p.json", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_EQ(read("p.json"), ended.out);
+    EXPECT_EQ(read_output_file("p.json"), ended.out);
     const json document = json::parse(ended.out);
     EXPECT_TRUE(document["settled"].is_null());
     for (const char* times : {"gpu_ms", "frame_ms", "host_ms", "cpu_record_ms", "wall_ms"})
@@ -199,7 +216,7 @@ TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
         Words words{"render", "--technique", technique, "--size", "48x48", "--time", "1.3"};
         words.insert(words.end(), {"--camera", "300,300,545:300,90,200:75", "--json"});
         words.insert(words.end(), more.begin(), more.end());
-        const test::ProcessResult ended = cli(words);
+        const test::ProcessResult ended = run_cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     };
@@ -208,7 +225,7 @@ TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
     EXPECT_TRUE(still["settled"].get<bool>());
     EXPECT_GT(still["frames"], 3) << "mirrors in mirrors take frames";
     EXPECT_LT(still["frames"], 28);
-    EXPECT_EQ(read("still.exr"), read("counted.exr"));
+    EXPECT_EQ(read_output_file("still.exr"), read_output_file("counted.exr"));
     EXPECT_TRUE(still["gpu_ms"].is_null()) << "its frames compile what they use first";
     EXPECT_EQ(counted["gpu_ms"]["n"], 20);
     EXPECT_TRUE(counted["settled"].is_null());
@@ -221,32 +238,32 @@ TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
 
 TEST_F(Cli, PixelsThatAreNotFiniteAreReported) {
     const Words too_bright{"--ambient", "1e300", "--quiet"};
-    Words render = quick({"render", "--technique", "raytrace", "-o", "x.exr"});
+    Words render = with_small_quick_frame({"render", "--technique", "raytrace", "-o", "x.exr"});
     render.insert(render.end(), too_bright.begin(), too_bright.end());
-    EXPECT_THAT(cli(render).err, testing::HasSubstr("pixels are not finite"));
-    Words compare = quick({"compare", "-o", "out", "--techniques", "raytrace"});
+    EXPECT_THAT(run_cli(render).err, testing::HasSubstr("pixels are not finite"));
+    Words compare = with_small_quick_frame({"compare", "-o", "out", "--techniques", "raytrace"});
     compare.insert(compare.end(), too_bright.begin(), too_bright.end());
-    const test::ProcessResult ended = cli(compare);
+    const test::ProcessResult ended = run_cli(compare);
     EXPECT_EQ(ended.exit_code, 70);
     EXPECT_THAT(ended.err, testing::HasSubstr("'raytrace' has "));
     EXPECT_TRUE(std::filesystem::exists(folder / "out/report.json"));
 }
 
 TEST_F(Cli, QuietRenderPrintsNothing) {
-    const test::ProcessResult ended = cli(
-        quick({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
+    const test::ProcessResult ended = run_cli(
+        with_small_quick_frame({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_EQ(ended.err, "");
     EXPECT_EQ(ended.out, "");
 }
 
 TEST_F(Cli, GraphPrintsTextDotAndJson) {
-    EXPECT_THAT(cli({"graph", "--technique", "reuse"}).out, testing::HasSubstr("capture"));
-    EXPECT_THAT(cli({"graph", "--technique", "reuse", "--format", "dot"}).out,
+    EXPECT_THAT(run_cli({"graph", "--technique", "reuse"}).out, testing::HasSubstr("capture"));
+    EXPECT_THAT(run_cli({"graph", "--technique", "reuse", "--format", "dot"}).out,
                 testing::HasSubstr("digraph"));
-    const std::string document = cli({"graph", "--technique", "reuse", "--format", "json"}).out;
+    const std::string document = run_cli({"graph", "--technique", "reuse", "--format", "json"}).out;
     EXPECT_TRUE(json::accept(document));
-    EXPECT_EQ(cli({"graph", "--technique", "reuse", "--json"}).out, document);
+    EXPECT_EQ(run_cli({"graph", "--technique", "reuse", "--json"}).out, document);
 }
 
 TEST_F(Cli, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
@@ -255,7 +272,7 @@ TEST_F(Cli, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
     const Words small{"--technique", "parallax:face=8,shadow_map=16", "--size", "16x16"};
     const auto run = [&](Words words) {
         words.insert(words.end(), small.begin(), small.end());
-        return cli(words).out;
+        return run_cli(words).out;
     };
     EXPECT_THAT(run({"graph", "--why", "--budget-ms", "1e-9"}), testing::HasSubstr(said + "\n"));
     const json moving = json::parse(run({"render", "--json", "--animate", "--frames", "6",
@@ -267,30 +284,31 @@ TEST_F(Cli, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
 }
 
 TEST_F(Cli, GraphWhyListsTheCapturesThatAPictureRequires) {
-    const std::string text = cli({"graph", "flat", "--why"}).out;
+    const std::string text = run_cli({"graph", "flat", "--why"}).out;
     EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': in the camera's view; captured, faces "
                                          "+X -X +Y -Y -Z, no other mirror in it"));
     EXPECT_THAT(text, testing::HasSubstr("face +Z of the capture of mirror 1 'mirror'"));
     EXPECT_THAT(text, testing::HasSubstr("changes: no pixel"));
     EXPECT_THAT(text, testing::HasSubstr("suggested --plan \"planar\""));
-    const json document = json::parse(cli({"graph", "flat", "--why", "--json"}).out);
+    const json document = json::parse(run_cli({"graph", "flat", "--why", "--json"}).out);
     EXPECT_EQ(document["schema"], "catoptric/why/1");
     EXPECT_EQ(document["mirrors"][0]["faces"].size(), 5u);
     EXPECT_EQ(document["left_out"][0]["error"], 0);
-    const test::ProcessResult dot = cli({"graph", "flat", "--why", "--format", "dot"});
+    const test::ProcessResult dot = run_cli({"graph", "flat", "--why", "--format", "dot"});
     EXPECT_EQ(dot.exit_code, 2);
     EXPECT_THAT(dot.err, testing::HasSubstr("--why: wanted --format text or json, found dot"));
 }
 
 TEST_F(Cli, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
     const auto render = [&](const char* depth, const char* name) {
-        ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "--exposure", depth, "-o", name}))
+        ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "--exposure",
+                                                  depth, "-o", name}))
                       .exit_code,
                   0);
     };
     render("0", "a.exr"), render("0", "a.png"), render(".004", "b.png");
     const auto diff = [&](const char* one, const char* other, const char* stops) {
-        return json::parse(cli({"diff", one, other, "--exposure", stops, "--json"}).out);
+        return json::parse(run_cli({"diff", one, other, "--exposure", stops, "--json"}).out);
     };
     EXPECT_EQ(diff("a.exr", "a.exr", "0")["flip_source"], "float");
     EXPECT_EQ(diff("a.png", "b.png", "0")["flip_source"], "8-bit");
@@ -302,27 +320,33 @@ TEST_F(Cli, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
 }
 
 TEST_F(Cli, DiffIsZeroForEqualPicturesOnly) {
-    ASSERT_EQ(cli(quick({"render", "--technique", "naive:bounces=0", "-o", "a.exr"})).exit_code, 0);
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "b.exr"})).exit_code, 0);
-    const json equal = json::parse(cli({"diff", "a.exr", "a.exr", "--json"}).out);
+    ASSERT_EQ(
+        run_cli(with_small_quick_frame({"render", "--technique", "naive:bounces=0", "-o", "a.exr"}))
+            .exit_code,
+        0);
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "b.exr"}))
+                  .exit_code,
+              0);
+    const json equal = json::parse(run_cli({"diff", "a.exr", "a.exr", "--json"}).out);
     EXPECT_EQ(equal["rmse"], 0.0);
     EXPECT_EQ(equal["flip"], 0.0);
     EXPECT_TRUE(equal["psnr"].is_null());
     EXPECT_EQ(equal["off"], 0.0);
     EXPECT_EQ(equal["longest_line"], 0.0);
-    EXPECT_EQ(cli({"diff", "a.exr", "a.exr", "--max-flip", "0", "--max-rmse", "0"}).exit_code, 0);
+    EXPECT_EQ(run_cli({"diff", "a.exr", "a.exr", "--max-flip", "0", "--max-rmse", "0"}).exit_code,
+              0);
 
-    const json other = json::parse(cli({"diff", "a.exr", "b.exr", "--json"}).out);
+    const json other = json::parse(run_cli({"diff", "a.exr", "b.exr", "--json"}).out);
     EXPECT_GT(other["rmse"], 0.0);
     EXPECT_EQ(other["pixels"], 32 * 32);
     EXPECT_GT(other["off"], 0.0);
     EXPECT_GT(other["longest_line"], 0.0);
-    EXPECT_THAT(cli({"diff", "a.exr", "b.exr"}).out,
+    EXPECT_THAT(run_cli({"diff", "a.exr", "b.exr"}).out,
                 testing::AllOf(testing::HasSubstr("rmse"), testing::HasSubstr("longest_line")));
-    const test::ProcessResult flip = cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
+    const test::ProcessResult flip = run_cli({"diff", "a.exr", "b.exr", "--max-flip", "0.0001"});
     EXPECT_EQ(flip.exit_code, 1);
     EXPECT_THAT(flip.err, testing::HasSubstr("over --max-flip 0.0001"));
-    const test::ProcessResult rmse = cli(
+    const test::ProcessResult rmse = run_cli(
         {"diff", "a.exr", "b.exr", "--max-rmse", "0.0001", "--max-flip", "1"});
     EXPECT_EQ(rmse.exit_code, 1);
     EXPECT_THAT(rmse.err, testing::HasSubstr("over --max-rmse 0.0001"));
@@ -331,34 +355,39 @@ TEST_F(Cli, DiffIsZeroForEqualPicturesOnly) {
 
 TEST_F(Cli, DiffOfAPngAndItsExrHasFlipZero) {
     for (const std::string name : {"a.exr", "a.png"})
-        ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", name})).exit_code, 0);
-    const json document = json::parse(cli({"diff", "a.exr", "a.png", "--json"}).out);
+        ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", name}))
+                      .exit_code,
+                  0);
+    const json document = json::parse(run_cli({"diff", "a.exr", "a.png", "--json"}).out);
     EXPECT_EQ(document["flip"], 0.0) << "a PNG shows what its EXR shows";
     EXPECT_LT(document["max"], 0.01);
     const json masked = json::parse(
-        cli({"diff", "a.exr", "a.png", "--mask", "a.png", "--json"}).out);
+        run_cli({"diff", "a.exr", "a.png", "--mask", "a.png", "--json"}).out);
     EXPECT_LT(masked["pixels"], 32 * 32 + 1);
 }
 
 TEST_F(Cli, DiffRefusesPicturesOfDifferentSizes) {
-    ASSERT_EQ(cli(quick({"render", "--technique", "raytrace", "-o", "a.png"})).exit_code, 0);
-    ASSERT_EQ(cli({"render", "--technique", "raytrace", "-o", "b.png", "--size", "16x32",
-                   "--frames", "1", "--warmup", "0"})
+    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.png"}))
                   .exit_code,
               0);
-    expect_refused({"diff", "a.png", "b.png"}, 65, {"a.png is 32x32", "b.png is 16x32"});
-    expect_refused({"diff", "a.png", "a.png", "--mask", "b.png"}, 65, {"b.png"});
-    expect_refused({"diff", "a.png", "a.png", "--max-flip", "nan"}, 2, {"--max-flip", "'nan'"});
+    ASSERT_EQ(run_cli({"render", "--technique", "raytrace", "-o", "b.png", "--size", "16x32",
+                       "--frames", "1", "--warmup", "0"})
+                  .exit_code,
+              0);
+    expect_usage_refused({"diff", "a.png", "b.png"}, 65, {"a.png is 32x32", "b.png is 16x32"});
+    expect_usage_refused({"diff", "a.png", "a.png", "--mask", "b.png"}, 65, {"b.png"});
+    expect_usage_refused({"diff", "a.png", "a.png", "--max-flip", "nan"}, 2,
+                         {"--max-flip", "'nan'"});
 }
 
 TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
-    const Words words = quick(
+    const Words words = with_small_quick_frame(
         {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
-    const test::ProcessResult ended = cli(words);
+    const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     for (const char* part : {"naive:bounces=1", "reuse", "raytrace:depth=16", "rmse", "flip"})
         EXPECT_THAT(ended.out, testing::HasSubstr(part));
-    const json document = json::parse(read("out/report.json"));
+    const json document = json::parse(read_output_file("out/report.json"));
     EXPECT_EQ(document["complete"], true);
     ASSERT_EQ(document["rows"].size(), 3U);
     EXPECT_EQ(document["rows"][2]["error"]["rmse"], 0.0);
@@ -368,11 +397,11 @@ TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
 }
 
 TEST_F(Cli, CompareJsonEqualsTheReportFile) {
-    const test::ProcessResult ended = cli(
-        quick({"compare", "-o", "out", "--json", "--together", "--techniques", "reuse:face=32",
-               "raytrace:depth=1"}));
+    const test::ProcessResult ended = run_cli(
+        with_small_quick_frame({"compare", "-o", "out", "--json", "--together", "--techniques",
+                                "reuse:face=32", "raytrace:depth=1"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_EQ(json::parse(ended.out), json::parse(read("out/report.json")));
+    EXPECT_EQ(json::parse(ended.out), json::parse(read_output_file("out/report.json")));
 }
 
 /// An OBJ scene of two facing mirrors and a lamp. Nothing moves, so lag is measured at one time
@@ -399,11 +428,11 @@ f 7 8 9
 )";
 
 TEST_F(Cli, CompareReportsLagIfAsked) {
-    write("two.obj", kTwoMirrors);
-    write("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
-    Words words = quick({"compare", "two.obj", "-o", "out", "--lag", "--json", "--techniques",
-                         "reuse:face=16", "raytrace"});
-    const test::ProcessResult ended = cli(words);
+    write_input_file("two.obj", kTwoMirrors);
+    write_input_file("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
+    Words words = with_small_quick_frame({"compare", "two.obj", "-o", "out", "--lag", "--json",
+                                          "--techniques", "reuse:face=16", "raytrace"});
+    const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json lag = json::parse(ended.out)["lag"];
     EXPECT_EQ(lag["without_history"], json::array({"raytrace"}));
@@ -412,14 +441,15 @@ TEST_F(Cli, CompareReportsLagIfAsked) {
     ASSERT_EQ(lag["rows"][0]["speeds"].size(), 6U);
     for (const json& speed : lag["rows"][0]["speeds"])
         EXPECT_EQ(speed["rmse"], json::array({0})) << speed;
-    EXPECT_THAT(read("out/report.md"), testing::HasSubstr("## Lag: frames after a cut"));
-    EXPECT_THAT(read("out/report.html"), testing::HasSubstr("<h2>Lag</h2>"));
+    EXPECT_THAT(read_output_file("out/report.md"),
+                testing::HasSubstr("## Lag: frames after a cut"));
+    EXPECT_THAT(read_output_file("out/report.html"), testing::HasSubstr("<h2>Lag</h2>"));
     std::erase(words, "--lag");
-    EXPECT_FALSE(json::parse(cli(words).out).contains("lag"));
+    EXPECT_FALSE(json::parse(run_cli(words).out).contains("lag"));
 }
 
 TEST_F(Cli, CompareGivesNoValidationMessages) {
-    const test::ProcessResult ended = cli(quick(
+    const test::ProcessResult ended = run_cli(with_small_quick_frame(
         {"compare", "-o", "out", "--validate", "--techniques", "parallax:face=32", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

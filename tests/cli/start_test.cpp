@@ -13,32 +13,34 @@ protected:
     static constexpr const char* kLibrary = "libOpenImageIO.so";
 
     /// Runs the program so that the dynamic linker prints the libraries that it loads to stderr.
-    test::ProcessResult traced(const Words& words) const {
-        test::ProcessStart asked = start(words);
+    test::ProcessResult run_with_library_trace(const Words& words) const {
+        test::ProcessStartOptions asked = make_process_start(words);
         asked.environment = {{"LD_DEBUG", "files"}};
         return test::run_process(asked);
     }
     /// Writes a.exr. The program needs OpenImageIO to read OpenEXR files, but not to read PNG
     /// files.
-    void write_picture() const {
-        const test::ProcessResult ended = test::run_process(start(quick(
-            {"render", "--technique", "raytrace:depth=0,shadow=none", "--quiet", "-o", "a.exr"})));
+    void write_exr_picture() const {
+        const test::ProcessResult ended = test::run_process(make_process_start(
+            with_small_quick_frame({"render", "--technique", "raytrace:depth=0,shadow=none",
+                                    "--quiet", "-o", "a.exr"})));
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
 };
 
 TEST_F(Start, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
     const auto expect_none = [&](const Words& words) {
-        const test::ProcessResult ended = traced(words);
+        const test::ProcessResult ended = run_with_library_trace(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_THAT(ended.err, HasSubstr("libstdc++.so")) << "nothing was traced";
         EXPECT_THAT(ended.err, Not(HasSubstr(kLibrary))) << words.front();
     };
     expect_none({"--version"});
-    expect_none(quick({"render", "--technique", "raytrace:depth=0,shadow=none", "-o", "a.png"}));
+    expect_none(with_small_quick_frame(
+        {"render", "--technique", "raytrace:depth=0,shadow=none", "-o", "a.png"}));
     expect_none({"diff", "a.png", "a.png"});
-    write_picture();
-    const test::ProcessResult reading = traced({"diff", "a.exr", "a.exr"});
+    write_exr_picture();
+    const test::ProcessResult reading = run_with_library_trace({"diff", "a.exr", "a.exr"});
     EXPECT_EQ(reading.exit_code, 0) << reading.err;
     EXPECT_THAT(reading.err, HasSubstr(kLibrary));
 }
@@ -48,10 +50,10 @@ TEST_F(Start, NoMemoryForOpenImageIoExitsWith75) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
-    write_picture();
-    test::ProcessStart limited = start({"diff", "a.exr", "a.exr"});
+    write_exr_picture();
+    test::ProcessStartOptions limited = make_process_start({"diff", "a.exr", "a.exr"});
     limited.memory_limit = 400 << 20;
-    expect_ended(test::run_process(limited), 75, {"no memory for OpenImageIO", "ulimit -v"});
+    expect_exit_code(test::run_process(limited), 75, {"no memory for OpenImageIO", "ulimit -v"});
 }
 
 /// Fixture with the program in bin/, as it is installed. Tests put the image module into lib/ or
@@ -59,26 +61,26 @@ TEST_F(Start, NoMemoryForOpenImageIoExitsWith75) {
 class Installed : public Start {
 protected:
     void SetUp() override {
-        write_picture();
+        write_exr_picture();
         fs::create_directories(modules);
         fs::create_directories(program.parent_path());
         std::error_code other_disk;
         fs::create_hard_link(CATOPTRIC_CLI, program, other_disk);
         if (other_disk) fs::copy_file(CATOPTRIC_CLI, program);
     }
-    test::ProcessResult installed(const Words& words) const {
-        test::ProcessStart asked = start(words);
+    test::ProcessResult run_installed_program(const Words& words) const {
+        test::ProcessStartOptions asked = make_process_start(words);
         asked.command.front() = program.string();
         asked.environment = {{"VK_DRIVER_FILES", "/none"}}; // no driver is needed
         return test::run_process(asked);
     }
-    void expect_missing(const Words& words, const Words& parts) const {
-        const test::ProcessResult ended = installed(words);
-        expect_ended(ended, 70, parts);
-        expect_ended(ended, 70,
-                     {"pictures cannot be read or written: ",
-                      "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
-                      "libopenimageio2.4)"});
+    void expect_missing_image_module(const Words& words, const Words& parts) const {
+        const test::ProcessResult ended = run_installed_program(words);
+        expect_exit_code(ended, 70, parts);
+        expect_exit_code(ended, 70,
+                         {"pictures cannot be read or written: ",
+                          "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
+                          "libopenimageio2.4)"});
     }
     const Words diff = {"diff", "a.exr", "a.exr"};
     const fs::path program = folder / "bin/catoptric";
@@ -89,29 +91,29 @@ protected:
 
 TEST_F(Installed, ProgramFindsTheImageModule) {
     fs::create_symlink(CATOPTRIC_IMAGES, module);
-    EXPECT_EQ(installed(diff).exit_code, 0) << installed(diff).err;
+    EXPECT_EQ(run_installed_program(diff).exit_code, 0) << run_installed_program(diff).err;
     fs::rename(module, folder / "bin/catoptric-images.so");
-    EXPECT_EQ(installed(diff).exit_code, 0) << installed(diff).err;
+    EXPECT_EQ(run_installed_program(diff).exit_code, 0) << run_installed_program(diff).err;
 }
 
 TEST_F(Installed, ErrorListsTheFoldersSearchedForTheImageModule) {
     const std::string bin = program.parent_path().string();
     const Words places = {"catoptric-images.so is in none of " + bin + ", " + bin + "/catoptric, " +
                           modules.string() + ". "};
-    expect_missing(diff, places);
-    expect_missing({"compare", "-o", "out"}, places);
-    expect_missing({"render", "--technique", "reuse", "-o", "b.exr"}, places);
+    expect_missing_image_module(diff, places);
+    expect_missing_image_module({"compare", "-o", "out"}, places);
+    expect_missing_image_module({"render", "--technique", "reuse", "-o", "b.exr"}, places);
     EXPECT_FALSE(fs::exists(folder / "b.exr"));
-    EXPECT_EQ(installed({"--version"}).exit_code, 0);
+    EXPECT_EQ(run_installed_program({"--version"}).exit_code, 0);
 }
 
 TEST_F(Installed, ErrorSaysWhyTheImageModuleCannotBeLoaded) {
-    write(fs::relative(module, folder).string(), "no library");
-    expect_missing(diff, {module.string() + " cannot be loaded: "});
+    write_input_file(fs::relative(module, folder).string(), "no library");
+    expect_missing_image_module(diff, {module.string() + " cannot be loaded: "});
     fs::remove(module);
     fs::create_symlink(CATOPTRIC_LIBRARY, module);
-    expect_ended(installed(diff), 70,
-                 {module.string() + " is of another version: wanted catoptric_image_codecs_3"});
+    expect_exit_code(run_installed_program(diff), 70,
+                     {module.string() + " is of another version: wanted catoptric_image_codecs_3"});
 }
 
 } // namespace

@@ -9,7 +9,7 @@ TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
     const std::vector<std::string> ids{"N4", "N10", "C8"};
     Words words{"stress", "-o", "out", "--json", "--size", "64x64", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
-    const test::ProcessResult ended = cli(words);
+    const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     const json document = json::parse(ended.out);
     EXPECT_EQ(document["schema"], "catoptric/stress/1");
@@ -21,8 +21,8 @@ TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
         EXPECT_GT(row["cases"].size(), 1u);
         EXPECT_LE(row["measured"].get<double>(), row["threshold"].get<double>());
     }
-    EXPECT_EQ(json::parse(read("out/stress.json")), document);
-    EXPECT_THAT(read("out/stress.html"), testing::HasSubstr("N10"));
+    EXPECT_EQ(json::parse(read_output_file("out/stress.json")), document);
+    EXPECT_THAT(read_output_file("out/stress.html"), testing::HasSubstr("N10"));
 }
 
 /// Every row of rough surfaces passes for another seed than the default, too.
@@ -30,7 +30,7 @@ TEST_F(Cli, StressMeasuresRoughSurfaces) {
     const std::vector<std::string> ids{"S1", "S2", "S3", "S4", "S5"};
     Words words{"stress", "--json", "--seed", "2", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
-    const test::ProcessResult ended = cli(words);
+    const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     const json document = json::parse(ended.out);
     ASSERT_EQ(document["rows"].size(), ids.size());
@@ -43,7 +43,7 @@ TEST_F(Cli, StressMeasuresRoughSurfaces) {
 TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
     const auto measured = [&](const std::string& seed) {
         return json::parse(
-            cli({"stress", "--json", "--size", "32x32", "--only", "C11", "--seed", seed})
+            run_cli({"stress", "--json", "--size", "32x32", "--only", "C11", "--seed", seed})
                 .out)["rows"][0]["cases"];
     };
     EXPECT_EQ(measured("3"), measured("3"));
@@ -51,10 +51,10 @@ TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
 }
 
 TEST_F(Cli, StressReportsQualityWarningsWithoutFailing) {
-    const test::ProcessResult ended = cli({"stress", "--size", "32x32", "--only", "C5"});
+    const test::ProcessResult ended = run_cli({"stress", "--size", "32x32", "--only", "C5"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, testing::HasSubstr("quality-warning"));
-    expect_refused({"stress", "--only", "N99"}, 2, {"N99", "did you mean"});
+    expect_usage_refused({"stress", "--only", "N99"}, 2, {"N99", "did you mean"});
 }
 
 } // namespace

@@ -8,7 +8,7 @@ namespace test::loading {
 using Json = nlohmann::json;
 
 /// Returns a glTF document of one triangle whose buffer is the file `uri`.
-inline Json triangle(const std::string& uri) {
+inline Json make_triangle_gltf(const std::string& uri) {
     return {{"asset", {{"version", "2.0"}}},
             {"nodes", {{{"mesh", 0}}}},
             {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
@@ -18,7 +18,7 @@ inline Json triangle(const std::string& uri) {
             {"buffers", {{{"byteLength", 36}, {"uri", uri}}}}};
 }
 
-inline std::string corners() {
+inline std::string encode_triangle_corners() {
     const float numbers[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     return {reinterpret_cast<const char*>(numbers), sizeof numbers};
 }

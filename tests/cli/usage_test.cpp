@@ -5,17 +5,17 @@
 namespace {
 
 TEST_F(Cli, CallWithoutArgumentsShowsHelp) {
-    const test::ProcessResult ended = cli({});
+    const test::ProcessResult ended = run_cli({});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_EQ(ended.out, "");
     EXPECT_THAT(ended.err, testing::HasSubstr("compare"));
 }
 
 TEST_F(Cli, HelpOfEveryVerbHasExamples) {
-    EXPECT_EQ(cli({"--help"}).exit_code, 0);
+    EXPECT_EQ(run_cli({"--help"}).exit_code, 0);
     for (const std::string verb :
          {"compare", "stress", "render", "diff", "graph", "list", "info"}) {
-        const test::ProcessResult ended = cli({verb, "--help"});
+        const test::ProcessResult ended = run_cli({verb, "--help"});
         EXPECT_EQ(ended.exit_code, 0) << verb;
         EXPECT_EQ(ended.err, "");
         EXPECT_THAT(ended.out, testing::HasSubstr("Example")) << verb;
@@ -25,7 +25,7 @@ TEST_F(Cli, HelpOfEveryVerbHasExamples) {
 }
 
 TEST_F(Cli, HelpNamesEveryCommonOption) {
-    const std::string help = cli({"render", "--help"}).out;
+    const std::string help = run_cli({"render", "--help"}).out;
     for (const char* option : {"--size",
                                "--frames",
                                "--warmup",
@@ -63,53 +63,53 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
 }
 
 TEST_F(Cli, VersionOptionPrintsNumberAndCommit) {
-    const test::ProcessResult ended = cli({"--version"});
+    const test::ProcessResult ended = run_cli({"--version"});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.out, testing::MatchesRegex("catoptric 0\\.1\\.0 \\([0-9a-z]+\\)\n"));
 }
 
 TEST_F(Cli, ErrorForAnUnknownVerbSuggestsASimilarName) {
-    expect_refused({"rendr"}, 2, {"'rendr'", "did you mean 'render'"});
-    expect_refused({"--versoin"}, 2, {"'--versoin'", "did you mean '--version'"});
+    expect_usage_refused({"rendr"}, 2, {"'rendr'", "did you mean 'render'"});
+    expect_usage_refused({"--versoin"}, 2, {"'--versoin'", "did you mean '--version'"});
 }
 
 TEST_F(Cli, ErrorForAnUnknownOptionSuggestsASimilarName) {
-    expect_refused({"render", "--sizee", "32x32"}, 2,
-                   {"'render'", "'--sizee'", "did you mean '--size'"});
-    expect_refused({"compare", "-o", "x", "--tecniques", "reuse"}, 2,
-                   {"'--tecniques'", "did you mean '--techniques'"});
-    expect_refused({"info", "--jsn=1"}, 2, {"'--jsn'", "did you mean '--json'"});
-    expect_refused({"list", "scenes", "devices"}, 2, {"'devices'"});
+    expect_usage_refused({"render", "--sizee", "32x32"}, 2,
+                         {"'render'", "'--sizee'", "did you mean '--size'"});
+    expect_usage_refused({"compare", "-o", "x", "--tecniques", "reuse"}, 2,
+                         {"'--tecniques'", "did you mean '--techniques'"});
+    expect_usage_refused({"info", "--jsn=1"}, 2, {"'--jsn'", "did you mean '--json'"});
+    expect_usage_refused({"list", "scenes", "devices"}, 2, {"'devices'"});
 }
 
 TEST_F(Cli, OptionWithoutItsValueIsRefused) {
-    expect_refused({"render", "--size"}, 2, {"--size", "render --help"});
+    expect_usage_refused({"render", "--size"}, 2, {"--size", "render --help"});
 }
 
 TEST_F(Cli, ErrorForAnUnknownTechniqueSuggestsASimilarName) {
-    expect_refused({"render", "--technique", "paralax", "-o", "x.png"}, 2,
-                   {"'paralax'", "did you mean 'parallax'"});
-    expect_refused({"compare", "-o", "x", "--techniques", "reuse", "naiv:bounces=1"}, 2,
-                   {"'naiv'", "did you mean 'naive'"});
-    expect_refused({"graph", "--technique", "ruse"}, 2, {"'ruse'", "did you mean 'reuse'"});
-    expect_refused(
+    expect_usage_refused({"render", "--technique", "paralax", "-o", "x.png"}, 2,
+                         {"'paralax'", "did you mean 'parallax'"});
+    expect_usage_refused({"compare", "-o", "x", "--techniques", "reuse", "naiv:bounces=1"}, 2,
+                         {"'naiv'", "did you mean 'naive'"});
+    expect_usage_refused({"graph", "--technique", "ruse"}, 2, {"'ruse'", "did you mean 'reuse'"});
+    expect_usage_refused(
         {"compare", "-o", "x", "--causes", "--reference", "raytrace:depth=2"}, 2,
         {"--causes: wanted the default reference, raytrace:depth=16", "found 'raytrace:depth=2'"});
-    expect_refused({"compare", "-o", "x", "--reference", "raytracer"}, 2,
-                   {"'raytracer'", "did you mean 'raytrace'"});
+    expect_usage_refused({"compare", "-o", "x", "--reference", "raytracer"}, 2,
+                         {"'raytracer'", "did you mean 'raytrace'"});
 }
 
 TEST_F(Cli, OptionsThatExcludeTheTruthAreNamed) {
-    expect_refused({"compare", "-o", "x", "--causes", "--truth", "paths"}, 2,
-                   {"--causes: wanted the default reference, raytrace:depth=16",
-                    "found 'raytrace:depth=16,rays=64,indirect=paths'"});
-    expect_refused({"compare", "-o", "x", "--truth", "paths", "--reference", "raytrace"}, 2,
-                   {"--truth chooses the reference", "found raytrace"});
+    expect_usage_refused({"compare", "-o", "x", "--causes", "--truth", "paths"}, 2,
+                         {"--causes: wanted the default reference, raytrace:depth=16",
+                          "found 'raytrace:depth=16,rays=64,indirect=paths'"});
+    expect_usage_refused({"compare", "-o", "x", "--truth", "paths", "--reference", "raytrace"}, 2,
+                         {"--truth chooses the reference", "found raytrace"});
 }
 
 TEST_F(Cli, SceneAfterTheTechniquesIsRefused) {
-    expect_refused({"compare", "-o", "x", "--techniques", "reuse", "room.glb"}, 2,
-                   {"'room.glb'", "SCENE comes before"});
+    expect_usage_refused({"compare", "-o", "x", "--techniques", "reuse", "room.glb"}, 2,
+                         {"'room.glb'", "SCENE comes before"});
 }
 
 /// Errors that the command line parser finds are worded like the program's own errors.
@@ -123,66 +123,66 @@ TEST_F(Cli, ParserErrorsUseTheProgramsOwnWording) {
         {{"diff", "a.png"}, "wanted B, picture of the same size, found nothing"},
         {{"list"}, "found nothing"}};
     for (const auto& [words, message] : cases) {
-        const test::ProcessResult ended = cli(words);
-        expect_ended(ended, 2, {message, "(try 'catoptric " + words.front() + " --help')"});
+        const test::ProcessResult ended = run_cli(words);
+        expect_exit_code(ended, 2, {message, "(try 'catoptric " + words.front() + " --help')"});
         for (const char* raw : {"required", "missing", "At Most", "Could not convert", "Should be"})
             EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr(raw))) << words.front();
     }
 }
 
 TEST_F(Cli, ErrorForAnUnknownKnobSuggestsASimilarName) {
-    expect_refused({"render", "--technique", "naive:bounce=3", "-o", "x.png"}, 2,
-                   {"naive", "'bounce'", "did you mean 'bounces'"});
+    expect_usage_refused({"render", "--technique", "naive:bounce=3", "-o", "x.png"}, 2,
+                         {"naive", "'bounce'", "did you mean 'bounces'"});
 }
 
 TEST_F(Cli, ErrorForAKnobOutOfRangeNamesTheRange) {
-    expect_refused({"render", "--technique", "naive:bounces=9", "-o", "x.png"}, 2,
-                   {"'bounces'", "0 to 8", "9"});
-    expect_refused({"render", "--technique", "reuse:face=0", "-o", "x.png"}, 2,
-                   {"'face'", "1 to 16384", "0"});
-    expect_refused({"render", "--technique", "reuse:face=many", "-o", "x.png"}, 2,
-                   {"'face'", "whole number", "'many'"});
+    expect_usage_refused({"render", "--technique", "naive:bounces=9", "-o", "x.png"}, 2,
+                         {"'bounces'", "0 to 8", "9"});
+    expect_usage_refused({"render", "--technique", "reuse:face=0", "-o", "x.png"}, 2,
+                         {"'face'", "1 to 16384", "0"});
+    expect_usage_refused({"render", "--technique", "reuse:face=many", "-o", "x.png"}, 2,
+                         {"'face'", "whole number", "'many'"});
 }
 
 TEST_F(Cli, ErrorForAnUnknownSceneSuggestsASimilarName) {
-    expect_refused({"render", "cornel-mirrors", "--technique", "reuse", "-o", "x.png"}, 2,
-                   {"'cornel-mirrors'", "did you mean 'cornell-mirrors'"});
+    expect_usage_refused({"render", "cornel-mirrors", "--technique", "reuse", "-o", "x.png"}, 2,
+                         {"'cornel-mirrors'", "did you mean 'cornell-mirrors'"});
 }
 
 TEST_F(Cli, ErrorForAnUnknownCameraListsTheScenesCameras) {
-    expect_refused({"render", "--camera", "nowhere", "--technique", "reuse", "-o", "x.png"}, 2,
-                   {"'nowhere'", "it has: 0 '"});
-    expect_refused({"render", "--camera", "7", "--technique", "reuse", "-o", "x.png"}, 2,
-                   {"'7'", "it has: 0 '"});
+    expect_usage_refused({"render", "--camera", "nowhere", "--technique", "reuse", "-o", "x.png"},
+                         2, {"'nowhere'", "it has: 0 '"});
+    expect_usage_refused({"render", "--camera", "7", "--technique", "reuse", "-o", "x.png"}, 2,
+                         {"'7'", "it has: 0 '"});
 }
 
 TEST_F(Cli, InvalidCameraIsRefused) {
     const auto camera = [](const std::string& text) {
         return Words{"render", "--camera", text, "--technique", "reuse", "-o", "x.png"};
     };
-    expect_refused(camera("0,0,0:0,0,0:40"), 2, {"--camera", "target away from the eye"});
-    expect_refused(camera("0,0:0,0,1:40"), 2, {"--camera", "X,Y,Z", "'0,0'"});
-    expect_refused(camera("0,0,0:0,0,1:180"), 2, {"--camera", "179", "'180'"});
-    expect_refused(camera("0,0,nan:0,0,1:40"), 2, {"--camera", "finite", "'nan'"});
-    expect_refused(camera("1e200,0,0:0,0,1:40"), 2, {"camera", "1e+18", "1e+200"});
-    expect_refused(camera("1e60,0,0:0,0,1:40"), 2, {"camera", "1e+18", "1e+60"});
-    expect_refused(camera("0,0,0:0,0,1:h=-1"), 2, {"--camera", "1e+18", "'-1'"});
-    expect_refused(camera("0,0,0:0,0,1"), 2, {"--camera", "EX,EY,EZ:TX,TY,TZ:FOV"});
+    expect_usage_refused(camera("0,0,0:0,0,0:40"), 2, {"--camera", "target away from the eye"});
+    expect_usage_refused(camera("0,0:0,0,1:40"), 2, {"--camera", "X,Y,Z", "'0,0'"});
+    expect_usage_refused(camera("0,0,0:0,0,1:180"), 2, {"--camera", "179", "'180'"});
+    expect_usage_refused(camera("0,0,nan:0,0,1:40"), 2, {"--camera", "finite", "'nan'"});
+    expect_usage_refused(camera("1e200,0,0:0,0,1:40"), 2, {"camera", "1e+18", "1e+200"});
+    expect_usage_refused(camera("1e60,0,0:0,0,1:40"), 2, {"camera", "1e+18", "1e+60"});
+    expect_usage_refused(camera("0,0,0:0,0,1:h=-1"), 2, {"--camera", "1e+18", "'-1'"});
+    expect_usage_refused(camera("0,0,0:0,0,1"), 2, {"--camera", "EX,EY,EZ:TX,TY,TZ:FOV"});
 }
 
 TEST_F(Cli, ErrorForAnUnknownDeviceNamesIt) {
-    expect_refused({"info", "--device", "no such device"}, 2, {"no such device"});
+    expect_usage_refused({"info", "--device", "no such device"}, 2, {"no such device"});
 }
 
 TEST_F(Cli, ErrorForAnUnknownListSuggestsASimilarName) {
-    expect_refused({"list", "scene"}, 2, {"'scene'", "did you mean 'scenes'"});
+    expect_usage_refused({"list", "scene"}, 2, {"'scene'", "did you mean 'scenes'"});
 }
 
 TEST_F(Cli, InvalidNumberOfAnOptionIsRefused) {
     const auto refused = [&](const std::string& option, const std::string& found,
                              const std::string& wanted) {
-        expect_refused({"render", "--technique", "reuse", "-o", "x.png", option, found}, 2,
-                       {option, wanted, "'" + found + "'"});
+        expect_usage_refused({"render", "--technique", "reuse", "-o", "x.png", option, found}, 2,
+                             {option, wanted, "'" + found + "'"});
     };
     for (const std::string size :
          {"0x0", "32", "32x", "-5x5", "32x0", "32x32x32", "nanxnan", "99999999999x1", " 32x32", ""})
@@ -216,27 +216,28 @@ TEST_F(Cli, MorePointsOnLampsThanADeviceHoldsAreRefused) {
         words.insert(words.end(), {"--light-samples", samples});
         return words;
     };
-    expect_refused(with("64"), 2,
-                   {"--light-samples 64", "3 lamps would become 192 lights", "wanted at most 128",
-                    "42 for each lamp"});
-    expect_refused(with("129"), 2, {"--light-samples", "from 1 to 128", "129"});
+    expect_usage_refused(with("64"), 2,
+                         {"--light-samples 64", "3 lamps would become 192 lights",
+                          "wanted at most 128", "42 for each lamp"});
+    expect_usage_refused(with("129"), 2, {"--light-samples", "from 1 to 128", "129"});
 }
 
 TEST_F(Cli, UnknownChoiceOfAnOptionIsRefused) {
-    expect_refused({"render", "--timing", "isolate"}, 2,
-                   {"--timing", "isolated, pipelined", "did you mean 'isolated'"});
-    expect_refused({"render", "--progress", "sometimes"}, 2, {"--progress", "auto, always, never"});
-    expect_refused({"graph", "--technique", "reuse", "--format", "dott"}, 2,
-                   {"--format", "did you mean 'dot'"});
-    expect_refused({"graph", "--technique", "reuse", "--format", "dot", "--json"}, 2,
-                   {"--format", "--json"});
+    expect_usage_refused({"render", "--timing", "isolate"}, 2,
+                         {"--timing", "isolated, pipelined", "did you mean 'isolated'"});
+    expect_usage_refused({"render", "--progress", "sometimes"}, 2,
+                         {"--progress", "auto, always, never"});
+    expect_usage_refused({"graph", "--technique", "reuse", "--format", "dott"}, 2,
+                         {"--format", "did you mean 'dot'"});
+    expect_usage_refused({"graph", "--technique", "reuse", "--format", "dot", "--json"}, 2,
+                         {"--format", "--json"});
 }
 
 TEST_F(Cli, SceneOverrideThatMatchesNothingIsRefused) {
     const auto refused = [&](const Words& wish, const Words& parts) {
         Words words{"render", "--technique", "reuse", "-o", "x.png"};
         words.insert(words.end(), wish.begin(), wish.end());
-        expect_refused(words, 2, parts);
+        expect_usage_refused(words, 2, parts);
     };
     refused({"--mirror", "bal1"}, {"--mirror 'bal1': matches no object or material of scene "
                                    "'cornell-mirrors'; it has: 'back', 'ball1'",
@@ -246,51 +247,58 @@ TEST_F(Cli, SceneOverrideThatMatchesNothingIsRefused) {
     refused({"--up", "x"}, {"--up: wanted one of y, z, found 'x'"});
     refused({"--environment-scale", "2"}, {"--environment-scale: wanted an environment"});
     refused({"--environment", ""}, {"--environment: wanted FILE.exr"});
-    expect_refused({"info", "--write"}, 2, {"--write: wanted a SCENE"});
-    expect_refused({"info", "cornell-mirrors", "--write"}, 2, {"--write: wanted a scene's file"});
-    expect_refused({"info", "--force"}, 2, {"--force: wanted --write"});
+    expect_usage_refused({"info", "--write"}, 2, {"--write: wanted a SCENE"});
+    expect_usage_refused({"info", "cornell-mirrors", "--write"}, 2,
+                         {"--write: wanted a scene's file"});
+    expect_usage_refused({"info", "--force"}, 2, {"--force: wanted --write"});
 }
 
 TEST_F(Cli, InvalidModelOptionIsRefused) {
-    expect_refused({"render", "--model", "evrything"}, 2, {"--model", "did you mean 'everything'"});
-    expect_refused({"render", "--technique", "reuse", "--model", "both", "-o", "x.png"}, 2,
-                   {"--model both: wanted everything or required, of which a picture has one"});
-    expect_refused({"graph", "--technique", "reuse", "--model", "both"}, 2,
-                   {"--model both: wanted everything or required, of which a plan has one"});
-    expect_refused({"compare", "-o", "x", "--techniques", "reuse", "--model", "both", "--together"},
-                   2, {"--model both and --together"});
-    expect_refused({"render", "--technique", "reuse", "--model", "everything", "--budget-ms", "4",
-                    "-o", "x.png"},
-                   2, {"--budget-ms and --model everything: wanted --model required"});
-    expect_refused({"graph", "--technique", "reuse", "--budget-ms", "4"}, 2,
-                   {"--budget-ms: wanted --why"});
-    expect_refused({"graph", "--why", "--budget-ms", "4"}, 2, {"'graph'", "--technique T"});
+    expect_usage_refused({"render", "--model", "evrything"}, 2,
+                         {"--model", "did you mean 'everything'"});
+    expect_usage_refused(
+        {"render", "--technique", "reuse", "--model", "both", "-o", "x.png"}, 2,
+        {"--model both: wanted everything or required, of which a picture has one"});
+    expect_usage_refused({"graph", "--technique", "reuse", "--model", "both"}, 2,
+                         {"--model both: wanted everything or required, of which a plan has one"});
+    expect_usage_refused(
+        {"compare", "-o", "x", "--techniques", "reuse", "--model", "both", "--together"}, 2,
+        {"--model both and --together"});
+    expect_usage_refused({"render", "--technique", "reuse", "--model", "everything", "--budget-ms",
+                          "4", "-o", "x.png"},
+                         2, {"--budget-ms and --model everything: wanted --model required"});
+    expect_usage_refused({"graph", "--technique", "reuse", "--budget-ms", "4"}, 2,
+                         {"--budget-ms: wanted --why"});
+    expect_usage_refused({"graph", "--why", "--budget-ms", "4"}, 2, {"'graph'", "--technique T"});
 }
 
 TEST_F(Cli, MissingRequiredArgumentIsRefused) {
-    expect_refused({"compare"}, 2, {"'compare'", "-o DIR"});
-    expect_refused({"render", "-o", "x.png"}, 2, {"'render'", "--technique T"});
-    expect_refused({"render", "--technique", "reuse"}, 2, {"'render'", "-o OUT"});
-    expect_refused({"graph"}, 2, {"'graph'", "--technique T"});
-    expect_refused({"diff", "a.png"}, 2,
-                   {"wanted B, picture of the same size, found nothing", "diff --help"});
-    expect_refused({"list"}, 2, {"wanted WHAT, techniques", "found nothing", "list --help"});
+    expect_usage_refused({"compare"}, 2, {"'compare'", "-o DIR"});
+    expect_usage_refused({"render", "-o", "x.png"}, 2, {"'render'", "--technique T"});
+    expect_usage_refused({"render", "--technique", "reuse"}, 2, {"'render'", "-o OUT"});
+    expect_usage_refused({"graph"}, 2, {"'graph'", "--technique T"});
+    expect_usage_refused({"diff", "a.png"}, 2,
+                         {"wanted B, picture of the same size, found nothing", "diff --help"});
+    expect_usage_refused({"list"}, 2, {"wanted WHAT, techniques", "found nothing", "list --help"});
 }
 
 TEST_F(Cli, PictureNameWithoutAKnownEndingIsRefused) {
-    expect_refused({"render", "--technique", "reuse", "-o", "x.jpg"}, 2,
-                   {"'x.jpg'", ".exr or .png"});
+    expect_usage_refused({"render", "--technique", "reuse", "-o", "x.jpg"}, 2,
+                         {"'x.jpg'", ".exr or .png"});
 }
 
 TEST_F(Cli, TwoResultsForStdoutAreRefused) {
-    expect_refused({"render", "--technique", "reuse", "-o", "-", "--json"}, 2, {"-o -", "--json"});
+    expect_usage_refused({"render", "--technique", "reuse", "-o", "-", "--json"}, 2,
+                         {"-o -", "--json"});
 }
 
 TEST_F(Cli, SameTechniqueTwiceIsRefused) {
-    expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse", "--together"}), 2,
-                   {"'reuse'", "twice"});
-    expect_refused(quick({"compare", "-o", "x", "--techniques", "reuse", "reuse:face=256"}), 2,
-                   {"'reuse:face=256' is asked for twice"});
+    expect_usage_refused(with_small_quick_frame({"compare", "-o", "x", "--techniques", "reuse",
+                                                 "reuse", "--together"}),
+                         2, {"'reuse'", "twice"});
+    expect_usage_refused(
+        with_small_quick_frame({"compare", "-o", "x", "--techniques", "reuse", "reuse:face=256"}),
+        2, {"'reuse:face=256' is asked for twice"});
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Tests of errors over drawn views: they must equal errors of pictures that `render` writes for the
-// same views.
+// Tests of errors over drawn views: they must equal errors of pictures that `render_reported_view`
+// writes for the same views.
 #include "cli/program.hpp"
 
 #include <fmt/format.h>
@@ -10,47 +10,51 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kViews = 6;
+constexpr int kDrawnViewCount = 6;
 
 class DrawnViews : public Cli {
 protected:
     /// Runs a small and quick comparison over drawn views. Returns its JSON document.
-    json compared(const std::string& folder_name, const std::string& seed,
-                  const Words& techniques) const {
-        Words words = quick({"compare", "-o", folder_name, "--views", std::to_string(kViews),
-                             "--seed", seed, "--json"});
+    json compare_over_drawn_views(const std::string& folder_name, const std::string& seed,
+                                  const Words& techniques) const {
+        Words words = with_small_quick_frame({"compare", "-o", folder_name, "--views",
+                                              std::to_string(kDrawnViewCount), "--seed", seed,
+                                              "--json"});
         words.emplace_back("--techniques");
         words.insert(words.end(), techniques.begin(), techniques.end());
-        const test::ProcessResult ended = cli(words);
+        const test::ProcessResult ended = run_cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
     /// Renders the picture of a view with the camera and time that the report states for the view.
-    void render(const json& view, const std::string& technique, const std::string& file) const {
-        const test::ProcessResult ended = cli(
+    void render_reported_view(const json& view, const std::string& technique,
+                              const std::string& file) const {
+        const test::ProcessResult ended = run_cli(
             {"render", "--technique", technique, "-o", file, "--size", "32x32", "--camera",
              view["camera"]["name"], "--time", fmt::format("{}", view["time"].get<double>())});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
 };
 
-std::string camera_text(const json& camera) {
+std::string format_camera_option(const json& camera) {
     const json &eye = camera["eye"], &target = camera["target"];
     return fmt::format("{},{},{}:{},{},{}:{}", eye[0].get<double>(), eye[1].get<double>(),
                        eye[2].get<double>(), target[0].get<double>(), target[1].get<double>(),
                        target[2].get<double>(), camera["vertical_fov_degrees"].get<double>());
 }
 
-/// `reuse` shows captures of earlier frames, so `render` draws frames until they stop changing.
+/// `reuse` shows captures of earlier frames, so `render_reported_view` draws frames until they stop
+/// changing.
 TEST_F(DrawnViews, ErrorsMatchPicturesRenderedFromTheSameViews) {
-    const json document = compared("out", "1", {"reuse:face=32", "naive:bounces=0"});
-    ASSERT_EQ(document["views"].size(), kViews);
+    const json document = compare_over_drawn_views("out", "1",
+                                                   {"reuse:face=32", "naive:bounces=0"});
+    ASSERT_EQ(document["views"].size(), kDrawnViewCount);
     for (const int i : {0, 4}) {
         const json& view = document["views"][i];
-        render(view, "raytrace:depth=16", "truth.exr");
+        render_reported_view(view, "raytrace:depth=16", "truth.exr");
         for (const json& row : document["rows"]) {
-            render(view, row["label"], "row.exr");
-            const json found = json::parse(cli({"diff", "row.exr", "truth.exr", "--json"}).out);
+            render_reported_view(view, row["label"], "row.exr");
+            const json found = json::parse(run_cli({"diff", "row.exr", "truth.exr", "--json"}).out);
             const json& all = row["views"]["error_all"];
             EXPECT_GT(found["flip"].get<double>(), 0);
             for (const char* figure : {"flip", "off", "mae", "rmse", "longest_line", "p99", "max"})
@@ -61,21 +65,22 @@ TEST_F(DrawnViews, ErrorsMatchPicturesRenderedFromTheSameViews) {
     }
     // The seed of a view gives its camera again. The same camera as text gives the same picture.
     const json& view = document["views"][4];
-    render({{"camera", {{"name", camera_text(view["camera"])}}}, {"time", view["time"]}},
-           "raytrace:depth=1", "typed.exr");
+    render_reported_view(
+        {{"camera", {{"name", format_camera_option(view["camera"])}}}, {"time", view["time"]}},
+        "raytrace:depth=1", "typed.exr");
     ASSERT_EQ(
-        cli({"render", "--technique", "raytrace:depth=1", "-o", "drawn.exr", "--size", "32x32",
-             "--camera", "seeded", "--seed", std::to_string(view["seed"].get<std::uint64_t>()),
-             "--time", fmt::format("{}", view["time"].get<double>())})
+        run_cli({"render", "--technique", "raytrace:depth=1", "-o", "drawn.exr", "--size", "32x32",
+                 "--camera", "seeded", "--seed", std::to_string(view["seed"].get<std::uint64_t>()),
+                 "--time", fmt::format("{}", view["time"].get<double>())})
             .exit_code,
         0);
-    EXPECT_EQ(read("typed.exr"), read("drawn.exr"));
+    EXPECT_EQ(read_output_file("typed.exr"), read_output_file("drawn.exr"));
 }
 
 TEST_F(DrawnViews, ViewsAreDrawnFromTheSeedAndSeeAMirror) {
-    const json one = compared("one", "1", {"naive:bounces=0"}),
-               again = compared("again", "1", {"naive:bounces=0"}),
-               other = compared("other", "2", {"naive:bounces=0"});
+    const json one = compare_over_drawn_views("one", "1", {"naive:bounces=0"}),
+               again = compare_over_drawn_views("again", "1", {"naive:bounces=0"}),
+               other = compare_over_drawn_views("other", "2", {"naive:bounces=0"});
     EXPECT_EQ(one["views"], again["views"]);
     EXPECT_EQ(one["rows"][0]["views"], again["rows"][0]["views"]);
     std::set<std::string> cameras;
@@ -88,7 +93,7 @@ TEST_F(DrawnViews, ViewsAreDrawnFromTheSeedAndSeeAMirror) {
                                                *std::max_element(values.begin(), values.end())}))
             << "of six views, the range";
     }
-    EXPECT_EQ(cameras.size(), 2 * kViews);
+    EXPECT_EQ(cameras.size(), 2 * kDrawnViewCount);
     // For each row the report has a picture of its worst view, beside the reference.
     std::set<std::size_t> worst_views;
     for (const auto& [place, document] : {std::pair("one", &one), std::pair("other", &other)}) {
@@ -100,13 +105,13 @@ TEST_F(DrawnViews, ViewsAreDrawnFromTheSeedAndSeeAMirror) {
         worst_views.insert(worst["view"].get<std::size_t>());
     }
     EXPECT_NE(worst_views, std::set<std::size_t>{0}) << "the first could be taken for it";
-    EXPECT_THAT(read("one/report.md"), testing::HasSubstr("## Over 6 views"));
-    EXPECT_THAT(read("one/report.html"), testing::HasSubstr("<h2>Worst views</h2>"));
+    EXPECT_THAT(read_output_file("one/report.md"), testing::HasSubstr("## Over 6 views"));
+    EXPECT_THAT(read_output_file("one/report.html"), testing::HasSubstr("<h2>Worst views</h2>"));
 }
 
 /// With `--views 1`, the report has no drawn views and no pictures of worst views.
 TEST_F(DrawnViews, ReportHasNoDrawnViewsUnlessAsked) {
-    const test::ProcessResult ended = cli(quick(
+    const test::ProcessResult ended = run_cli(with_small_quick_frame(
         {"compare", "-o", "out", "--json", "--views", "1", "--techniques", "naive:bounces=0"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out)["views"], json::array());
@@ -115,13 +120,15 @@ TEST_F(DrawnViews, ReportHasNoDrawnViewsUnlessAsked) {
 
 TEST_F(DrawnViews, TooFewViewsForAMedianAreRefused) {
     for (const std::string count : {"0", "-3", "x", "1e9"})
-        expect_refused({"compare", "-o", "out", "--views", count}, 2,
-                       {"--views: wanted a whole number from 1 to 10000, found '" + count + "'"});
+        expect_usage_refused(
+            {"compare", "-o", "out", "--views", count}, 2,
+            {"--views: wanted a whole number from 1 to 10000, found '" + count + "'"});
     for (const std::string count : {"2", "3", "5"})
-        expect_refused({"compare", "-o", "out", "--views", count}, 2,
-                       {"--views: wanted 1 or at least 6, since fewer bound no median with 95 % "
-                        "confidence, found " +
-                        count});
+        expect_usage_refused(
+            {"compare", "-o", "out", "--views", count}, 2,
+            {"--views: wanted 1 or at least 6, since fewer bound no median with 95 % "
+             "confidence, found " +
+             count});
 }
 
 } // namespace

@@ -10,16 +10,16 @@ namespace test {
 
 /// Traces rays with Embree on the CPU, in its robust mode. Embree is an independent ray tracer that
 /// computes in float, as the project's BVH traversal on the device does.
-class Embree {
+class EmbreeWitness {
 public:
-    explicit Embree(std::span<const bvh::Triangle> triangles)
-        : scene_(device_, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_MEDIUM) {
-        scene_.add_and_release(peers::triangle_geometry(device_, triangles));
-        EXPECT_NO_THROW(scene_.commit());
+    explicit EmbreeWitness(std::span<const bvh::Triangle> triangles)
+        : embree_scene_(device_, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_MEDIUM) {
+        embree_scene_.add_geometry_and_release(peers::make_triangle_geometry(device_, triangles));
+        EXPECT_NO_THROW(embree_scene_.build_tree());
     }
 
     /// Returns the first hit of each ray. `object` and `steps` of a hit stay 0.
-    std::vector<DeviceHit> closest(const std::vector<DeviceRay>& rays) const {
+    std::vector<DeviceHit> find_closest_hits(const std::vector<DeviceRay>& rays) const {
         std::vector<DeviceHit> hits(rays.size());
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const DeviceRay& ray = rays[i];
@@ -33,7 +33,7 @@ public:
             query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            rtcIntersect1(scene_.get(), &context, &query);
+            rtcIntersect1(embree_scene_.embree_scene(), &context, &query);
             if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
             hits[i] = {query.ray.tfar,
                        {1 - query.hit.u - query.hit.v, query.hit.u, query.hit.v},
@@ -47,7 +47,7 @@ public:
 
 private:
     peers::EmbreeDevice device_;
-    peers::EmbreeScene scene_;
+    peers::EmbreeScene embree_scene_;
 };
 
 } // namespace test

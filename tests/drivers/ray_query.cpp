@@ -10,21 +10,21 @@ namespace test {
 
 namespace {
 
-using gpu::check_vk;
+using gpu::throw_unless_vk_success;
 
-constexpr VkBufferUsageFlags kBuildInput =
+constexpr VkBufferUsageFlags kBuildInputUsage =
     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
 
 } // namespace
 
 /// An acceleration structure of Vulkan and its memory.
-struct RayQuery::Structure {
-    Memory memory;
+struct DriverRayQuery::Structure {
+    RayQueryMemory memory;
     VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
     VkDeviceAddress address = 0;
 };
 
-RayQuery::RayQuery(const RayQueryDevice& device) : device_(device) {
+DriverRayQuery::DriverRayQuery(const RayQueryDevice& device) : device_(device) {
     const std::array types{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR,
                            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
     std::array<VkDescriptorSetLayoutBinding, types.size()> bindings{};
@@ -34,8 +34,9 @@ RayQuery::RayQuery(const RayQueryDevice& device) : device_(device) {
     set.bindingCount = static_cast<std::uint32_t>(bindings.size());
     set.pBindings = bindings.data();
     VkDescriptorSetLayout set_handle = VK_NULL_HANDLE;
-    check_vk(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_handle),
-             "create a set layout");
+    throw_unless_vk_success(
+        vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &set_handle),
+        "create a set layout");
     set_layout_ = {device_.handle(), set_handle};
 
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(std::uint32_t)};
@@ -45,16 +46,18 @@ RayQuery::RayQuery(const RayQueryDevice& device) : device_(device) {
     layout.pushConstantRangeCount = 1;
     layout.pPushConstantRanges = &push;
     VkPipelineLayout layout_handle = VK_NULL_HANDLE;
-    check_vk(vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_handle),
-             "create a pipeline layout");
+    throw_unless_vk_success(
+        vkCreatePipelineLayout(device_.handle(), &layout, nullptr, &layout_handle),
+        "create a pipeline layout");
     pipeline_layout_ = {device_.handle(), layout_handle};
 
     VkShaderModuleCreateInfo module{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     module.codeSize = sizeof(ray_query_spirv);
     module.pCode = ray_query_spirv;
     VkShaderModule module_handle = VK_NULL_HANDLE;
-    check_vk(vkCreateShaderModule(device_.handle(), &module, nullptr, &module_handle),
-             "create a shader module");
+    throw_unless_vk_success(
+        vkCreateShaderModule(device_.handle(), &module, nullptr, &module_handle),
+        "create a shader module");
     const gpu::UniqueShaderModule owned(device_.handle(), module_handle);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -63,15 +66,15 @@ RayQuery::RayQuery(const RayQueryDevice& device) : device_(device) {
     create.stage.pName = "main";
     create.layout = layout_handle;
     VkPipeline handle = VK_NULL_HANDLE;
-    check_vk(
+    throw_unless_vk_success(
         vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &handle),
         "create the pipeline of the ray query");
     pipeline_ = {device_.handle(), handle};
 }
 
-RayQuery::Structure RayQuery::build(VkAccelerationStructureTypeKHR type,
-                                    const VkAccelerationStructureGeometryKHR& geometry,
-                                    std::uint32_t primitives) const {
+DriverRayQuery::Structure DriverRayQuery::build(VkAccelerationStructureTypeKHR type,
+                                                const VkAccelerationStructureGeometryKHR& geometry,
+                                                std::uint32_t primitives) const {
     VkAccelerationStructureBuildGeometryInfoKHR info{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
     info.type = type;
@@ -81,7 +84,7 @@ RayQuery::Structure RayQuery::build(VkAccelerationStructureTypeKHR type,
     info.pGeometries = &geometry;
     VkAccelerationStructureBuildSizesInfoKHR sizes{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    device_.find<PFN_vkGetAccelerationStructureBuildSizesKHR>(
+    device_.find_extension_function<PFN_vkGetAccelerationStructureBuildSizesKHR>(
         "vkGetAccelerationStructureBuildSizesKHR")(device_.handle(),
                                                    VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
                                                    &info, &primitives, &sizes);
@@ -94,34 +97,36 @@ RayQuery::Structure RayQuery::build(VkAccelerationStructureTypeKHR type,
     create.buffer = result.memory.buffer;
     create.size = sizes.accelerationStructureSize;
     create.type = type;
-    const auto make = device_.find<PFN_vkCreateAccelerationStructureKHR>(
+    const auto make = device_.find_extension_function<PFN_vkCreateAccelerationStructureKHR>(
         "vkCreateAccelerationStructureKHR");
-    check_vk(make(device_.handle(), &create, nullptr, &result.handle),
-             "create an acceleration structure");
+    throw_unless_vk_success(make(device_.handle(), &create, nullptr, &result.handle),
+                            "create an acceleration structure");
     VkPhysicalDeviceAccelerationStructurePropertiesKHR limits{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits};
-    vkGetPhysicalDeviceProperties2(device_.physical(), &properties);
+    vkGetPhysicalDeviceProperties2(device_.physical_device(), &properties);
     const std::uint64_t alignment = std::max(1u,
                                              limits.minAccelerationStructureScratchOffsetAlignment);
-    const Memory scratch = device_.make_memory(sizes.buildScratchSize + alignment,
-                                               VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const RayQueryMemory scratch = device_.make_memory(sizes.buildScratchSize + alignment,
+                                                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     info.dstAccelerationStructure = result.handle;
     info.scratchData.deviceAddress = (scratch.address + alignment - 1) / alignment * alignment;
     const VkAccelerationStructureBuildRangeInfoKHR range{primitives, 0, 0, 0};
     const VkAccelerationStructureBuildRangeInfoKHR* ranges = &range;
-    const auto record = device_.find<PFN_vkCmdBuildAccelerationStructuresKHR>(
+    const auto record = device_.find_extension_function<PFN_vkCmdBuildAccelerationStructuresKHR>(
         "vkCmdBuildAccelerationStructuresKHR");
-    device_.submit([&](VkCommandBuffer commands) { record(commands, 1, &info, &ranges); });
+    device_.submit_and_wait([&](VkCommandBuffer commands) { record(commands, 1, &info, &ranges); });
     VkAccelerationStructureDeviceAddressInfoKHR address{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
     address.accelerationStructure = result.handle;
-    result.address = device_.find<PFN_vkGetAccelerationStructureDeviceAddressKHR>(
-        "vkGetAccelerationStructureDeviceAddressKHR")(device_.handle(), &address);
+    result.address =
+        device_.find_extension_function<PFN_vkGetAccelerationStructureDeviceAddressKHR>(
+            "vkGetAccelerationStructureDeviceAddressKHR")(device_.handle(), &address);
     return result;
 }
 
-RayQuery::Structure RayQuery::bottom(const Memory& corners, std::uint32_t triangles) const {
+DriverRayQuery::Structure DriverRayQuery::bottom(const RayQueryMemory& corners,
+                                                 std::uint32_t triangles) const {
     VkAccelerationStructureGeometryKHR geometry{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
@@ -137,13 +142,13 @@ RayQuery::Structure RayQuery::bottom(const Memory& corners, std::uint32_t triang
 }
 
 /// Builds a top-level structure with one instance of `bottom` that is not moved.
-RayQuery::Structure RayQuery::top(const Structure& bottom) const {
+DriverRayQuery::Structure DriverRayQuery::top(const Structure& bottom) const {
     VkAccelerationStructureInstanceKHR once{};
     for (int i = 0; i < 3; ++i) once.transform.matrix[i][i] = 1;
     once.mask = 0xff;
     once.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
     once.accelerationStructureReference = bottom.address;
-    const Memory instances = device_.make_memory(sizeof once, kBuildInput, &once);
+    const RayQueryMemory instances = device_.make_memory(sizeof once, kBuildInputUsage, &once);
     VkAccelerationStructureGeometryKHR geometry{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
@@ -153,8 +158,8 @@ RayQuery::Structure RayQuery::top(const Structure& bottom) const {
     return build(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, geometry, 1);
 }
 
-void RayQuery::trace(const Structure& triangles, const Memory& rays, const Memory& hits,
-                     std::uint32_t count) const {
+void DriverRayQuery::trace(const Structure& triangles, const RayQueryMemory& rays,
+                           const RayQueryMemory& hits, std::uint32_t count) const {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}};
     VkDescriptorPoolCreateInfo create{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
@@ -162,8 +167,8 @@ void RayQuery::trace(const Structure& triangles, const Memory& rays, const Memor
     create.poolSizeCount = 2;
     create.pPoolSizes = sizes;
     VkDescriptorPool handle = VK_NULL_HANDLE;
-    check_vk(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &handle),
-             "create a descriptor pool");
+    throw_unless_vk_success(vkCreateDescriptorPool(device_.handle(), &create, nullptr, &handle),
+                            "create a descriptor pool");
     const gpu::UniqueDescriptorPool pool(device_.handle(), handle);
     const VkDescriptorSetLayout layout = set_layout_;
     VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
@@ -171,8 +176,8 @@ void RayQuery::trace(const Structure& triangles, const Memory& rays, const Memor
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
-    check_vk(vkAllocateDescriptorSets(device_.handle(), &allocate, &set),
-             "allocate a descriptor set");
+    throw_unless_vk_success(vkAllocateDescriptorSets(device_.handle(), &allocate, &set),
+                            "allocate a descriptor set");
     VkWriteDescriptorSetAccelerationStructureKHR structure{
         VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
     structure.accelerationStructureCount = 1;
@@ -186,7 +191,7 @@ void RayQuery::trace(const Structure& triangles, const Memory& rays, const Memor
                  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,      nullptr, buffers};
     vkUpdateDescriptorSets(device_.handle(), static_cast<std::uint32_t>(writes.size()),
                            writes.data(), 0, nullptr);
-    device_.submit([&](VkCommandBuffer commands) {
+    device_.submit_and_wait([&](VkCommandBuffer commands) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_layout_, 0, 1,
                                 &set, 0, nullptr);
@@ -200,23 +205,23 @@ void RayQuery::trace(const Structure& triangles, const Memory& rays, const Memor
     });
 }
 
-void RayQuery::destroy(const Structure& structure) const {
-    device_.find<PFN_vkDestroyAccelerationStructureKHR>("vkDestroyAccelerationStructureKHR")(
-        device_.handle(), structure.handle, nullptr);
+void DriverRayQuery::destroy(const Structure& structure) const {
+    device_.find_extension_function<PFN_vkDestroyAccelerationStructureKHR>(
+        "vkDestroyAccelerationStructureKHR")(device_.handle(), structure.handle, nullptr);
 }
 
-std::vector<DeviceHit> RayQuery::closest(std::span<const bvh::Triangle> triangles,
-                                         const std::vector<DeviceRay>& rays) const {
+std::vector<DeviceHit> DriverRayQuery::find_closest_hits(std::span<const bvh::Triangle> triangles,
+                                                         const std::vector<DeviceRay>& rays) const {
     std::vector<vec3> corners;
     for (const bvh::Triangle& t : triangles) corners.insert(corners.end(), {t.a, t.b, t.c});
-    const Memory vertices = device_.make_memory(corners.size() * sizeof(vec3), kBuildInput,
-                                                corners.data());
+    const RayQueryMemory vertices = device_.make_memory(corners.size() * sizeof(vec3),
+                                                        kBuildInputUsage, corners.data());
     const Structure lower = bottom(vertices, static_cast<std::uint32_t>(triangles.size()));
     const Structure upper = top(lower);
-    const Memory in = device_.make_memory(rays.size() * sizeof(DeviceRay),
-                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, rays.data());
-    const Memory out = device_.make_memory(rays.size() * sizeof(DeviceHit),
-                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const RayQueryMemory in = device_.make_memory(rays.size() * sizeof(DeviceRay),
+                                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, rays.data());
+    const RayQueryMemory out = device_.make_memory(rays.size() * sizeof(DeviceHit),
+                                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     trace(upper, in, out, static_cast<std::uint32_t>(rays.size()));
     std::vector<DeviceHit> hits(rays.size());
     std::memcpy(hits.data(), out.mapped, hits.size() * sizeof(DeviceHit));

@@ -9,22 +9,22 @@
 namespace test {
 
 /// Traces rays with the ray queries of the driver, in a compute pipeline (ray_query.comp).
-class RayQuery {
+class DriverRayQuery {
 public:
-    explicit RayQuery(const RayQueryDevice& device);
+    explicit DriverRayQuery(const RayQueryDevice& device);
 
     /// Returns the first hit of each ray. `object` and `steps` of a hit stay 0.
-    std::vector<DeviceHit> closest(std::span<const bvh::Triangle> triangles,
-                                   const std::vector<DeviceRay>& rays) const;
+    std::vector<DeviceHit> find_closest_hits(std::span<const bvh::Triangle> triangles,
+                                             const std::vector<DeviceRay>& rays) const;
 
 private:
     struct Structure;
     Structure build(VkAccelerationStructureTypeKHR type,
                     const VkAccelerationStructureGeometryKHR& geometry,
                     std::uint32_t primitives) const;
-    Structure bottom(const Memory& corners, std::uint32_t triangles) const;
+    Structure bottom(const RayQueryMemory& corners, std::uint32_t triangles) const;
     Structure top(const Structure& bottom) const;
-    void trace(const Structure& triangles, const Memory& rays, const Memory& hits,
+    void trace(const Structure& triangles, const RayQueryMemory& rays, const RayQueryMemory& hits,
                std::uint32_t count) const;
     void destroy(const Structure& structure) const;
 

@@ -9,33 +9,32 @@ namespace test {
 
 namespace {
 
-using gpu::check_vk;
+using gpu::throw_unless_vk_success;
 
-constexpr std::array kExtensions{VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-                                 VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
-                                 VK_KHR_RAY_QUERY_EXTENSION_NAME};
+constexpr std::array kDeviceExtensions{VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                       VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                       VK_KHR_RAY_QUERY_EXTENSION_NAME};
 
 bool has_ray_query(VkPhysicalDevice device) {
     std::uint32_t count = 0;
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> list(count);
     vkEnumerateDeviceExtensionProperties(device, nullptr, &count, list.data());
-    return std::ranges::all_of(kExtensions, [&](const char* wanted) {
+    return std::ranges::all_of(kDeviceExtensions, [&](const char* wanted) {
         return std::ranges::any_of(
             list, [&](const auto& e) { return !std::strcmp(e.extensionName, wanted); });
     });
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                          VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                          void* messages) {
+VKAPI_ATTR VkBool32 VKAPI_CALL
+record_validation_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
     static_cast<std::vector<std::string>*>(messages)->push_back(data->pMessage);
     return VK_FALSE;
 }
 
 template <typename Function>
-Function find_in(VkInstance instance, const char* function) {
+Function find_instance_function(VkInstance instance, const char* function) {
     return reinterpret_cast<Function>(vkGetInstanceProcAddr(instance, function));
 }
 
@@ -63,8 +62,8 @@ RayQueryDevice::~RayQueryDevice() {
     command_pool_ = {};
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_)
-        find_in<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(
-            instance_, messenger_, nullptr);
+        find_instance_function<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            instance_, "vkDestroyDebugUtilsMessengerEXT")(instance_, messenger_, nullptr);
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
@@ -74,11 +73,11 @@ void RayQueryDevice::make_messenger() {
     create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                              VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     create.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-    create.pfnUserCallback = on_message;
+    create.pfnUserCallback = record_validation_message;
     create.pUserData = &messages_;
-    check_vk(
-        find_in<PFN_vkCreateDebugUtilsMessengerEXT>(instance_, "vkCreateDebugUtilsMessengerEXT")(
-            instance_, &create, nullptr, &messenger_),
+    throw_unless_vk_success(
+        find_instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(
+            instance_, "vkCreateDebugUtilsMessengerEXT")(instance_, &create, nullptr, &messenger_),
         "create the validation messenger");
 }
 
@@ -102,10 +101,10 @@ void RayQueryDevice::make_device() {
     VkDeviceCreateInfo create{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.core};
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queues;
-    create.enabledExtensionCount = static_cast<std::uint32_t>(kExtensions.size());
-    create.ppEnabledExtensionNames = kExtensions.data();
-    check_vk(vkCreateDevice(physical_, &create, nullptr, &device_),
-             "open device '" + name_ + "' with ray queries");
+    create.enabledExtensionCount = static_cast<std::uint32_t>(kDeviceExtensions.size());
+    create.ppEnabledExtensionNames = kDeviceExtensions.data();
+    throw_unless_vk_success(vkCreateDevice(physical_, &create, nullptr, &device_),
+                            "open device '" + name_ + "' with ray queries");
     vkGetDeviceQueue(device_, queues.queueFamilyIndex, 0, &queue_);
     make_commands(queues.queueFamilyIndex);
 }
@@ -115,43 +114,48 @@ void RayQueryDevice::make_commands(std::uint32_t queue_family) {
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family;
     VkCommandPool handle = VK_NULL_HANDLE;
-    check_vk(vkCreateCommandPool(device_, &pool, nullptr, &handle), "create a command pool");
+    throw_unless_vk_success(vkCreateCommandPool(device_, &pool, nullptr, &handle),
+                            "create a command pool");
     command_pool_ = {{device_}, handle};
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = handle;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    check_vk(vkAllocateCommandBuffers(device_, &allocate, &commands_), "allocate a command buffer");
+    throw_unless_vk_success(vkAllocateCommandBuffers(device_, &allocate, &commands_),
+                            "allocate a command buffer");
 }
 
-Memory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
-                                   const void* contents) const {
+RayQueryMemory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
+                                           const void* contents) const {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = std::max<std::uint64_t>(bytes, 16);
     create.usage = usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     VkBuffer buffer = VK_NULL_HANDLE;
-    check_vk(vkCreateBuffer(device_, &create, nullptr, &buffer), "create a buffer");
-    Memory result;
+    throw_unless_vk_success(vkCreateBuffer(device_, &create, nullptr, &buffer), "create a buffer");
+    RayQueryMemory result;
     result.buffer = {{device_}, buffer};
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device_, buffer, &needs);
     VkPhysicalDeviceMemoryProperties kinds;
     vkGetPhysicalDeviceMemoryProperties(physical_, &kinds);
-    constexpr VkMemoryPropertyFlags kShared = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kSharedMemoryFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                                         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags};
     allocate.allocationSize = needs.size;
     while (!(needs.memoryTypeBits >> allocate.memoryTypeIndex & 1) ||
-           (kinds.memoryTypes[allocate.memoryTypeIndex].propertyFlags & kShared) != kShared)
+           (kinds.memoryTypes[allocate.memoryTypeIndex].propertyFlags & kSharedMemoryFlags) !=
+               kSharedMemoryFlags)
         check(++allocate.memoryTypeIndex < kinds.memoryTypeCount, Failure::internal,
               "no memory that both sides see");
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    check_vk(vkAllocateMemory(device_, &allocate, nullptr, &memory), "allocate memory");
+    throw_unless_vk_success(vkAllocateMemory(device_, &allocate, nullptr, &memory),
+                            "allocate memory");
     result.memory = {{device_}, memory};
-    check_vk(vkBindBufferMemory(device_, buffer, memory, 0), "bind memory");
-    check_vk(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &result.mapped), "map memory");
+    throw_unless_vk_success(vkBindBufferMemory(device_, buffer, memory, 0), "bind memory");
+    throw_unless_vk_success(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &result.mapped),
+                            "map memory");
     if (contents) std::memcpy(result.mapped, contents, bytes);
     VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
     address.buffer = buffer;

@@ -12,7 +12,7 @@ namespace test {
 using namespace catoptric;
 
 /// A buffer in memory that host and device can access, with its device address.
-struct Memory {
+struct RayQueryMemory {
     gpu::UniqueMemory memory; // declared before the buffer, so destroyed after it
     gpu::UniqueBuffer buffer;
     void* mapped = nullptr;
@@ -30,33 +30,34 @@ public:
     RayQueryDevice(const RayQueryDevice&) = delete;
     RayQueryDevice& operator=(const RayQueryDevice&) = delete;
 
-    const std::string& name() const { return name_; }
-    VkPhysicalDevice physical() const { return physical_; }
+    const std::string& device_name() const { return name_; }
+    VkPhysicalDevice physical_device() const { return physical_; }
     gpu::DeviceHandle handle() const { return {device_}; }
     /// Returns the messages of the validation layer so far.
-    const std::vector<std::string>& messages() const { return messages_; }
+    const std::vector<std::string>& validation_messages() const { return messages_; }
 
     /// Returns the address of a function of a device extension.
     template <typename Function>
-    Function find(const char* function) const {
+    Function find_extension_function(const char* function) const {
         return reinterpret_cast<Function>(vkGetDeviceProcAddr(device_, function));
     }
-    Memory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
-                       const void* contents = nullptr) const;
+    RayQueryMemory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
+                               const void* contents = nullptr) const;
 
     /// Calls `record` to fill a command buffer, submits the buffer and waits for the device.
     template <typename Record>
-    void submit(Record&& record) const {
+    void submit_and_wait(Record&& record) const {
         VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
         begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        gpu::check_vk(vkBeginCommandBuffer(commands_, &begin), "begin a command buffer");
+        gpu::throw_unless_vk_success(vkBeginCommandBuffer(commands_, &begin),
+                                     "begin a command buffer");
         record(commands_);
-        gpu::check_vk(vkEndCommandBuffer(commands_), "end a command buffer");
+        gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
         VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
         info.commandBufferCount = 1;
         info.pCommandBuffers = &commands_;
-        gpu::check_vk(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "submit");
-        gpu::check_vk(vkQueueWaitIdle(queue_), "wait");
+        gpu::throw_unless_vk_success(vkQueueSubmit(queue_, 1, &info, VK_NULL_HANDLE), "submit");
+        gpu::throw_unless_vk_success(vkQueueWaitIdle(queue_), "wait");
     }
 
 private:

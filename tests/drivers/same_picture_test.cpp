@@ -14,7 +14,7 @@ protected:
     using Environment = std::map<std::string, std::string>;
 
     nlohmann::json json(const Words& words, const Environment& environment) const {
-        test::ProcessStart process = start(words);
+        test::ProcessStartOptions process = make_process_start(words);
         process.environment = environment;
         const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -22,12 +22,12 @@ protected:
     }
 
     /// Renders a picture of each technique into the folder `place`/images.
-    void render(const Words& techniques, const std::string& place,
-                const Environment& environment) const {
+    void render_techniques_into_folder(const Words& techniques, const std::string& place,
+                                       const Environment& environment) const {
         Words words = {"compare", "-o",       place, "--size",  "256x256",     "--frames",
                        "1",       "--warmup", "1",   "--quiet", "--techniques"};
         words.insert(words.end(), techniques.begin(), techniques.end());
-        test::ProcessStart process = start(words);
+        test::ProcessStartOptions process = make_process_start(words);
         process.environment = environment;
         const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -35,8 +35,8 @@ protected:
 };
 
 TEST_F(SamePicture, TwoDriverVersionsDrawTheSamePictures) {
-    constexpr double kFlip = 0.0005;
-    const auto second = test::second_driver();
+    constexpr double kMaxFlipBetweenDrivers = 0.0005;
+    const auto second = test::find_second_driver_environment();
     if (!second) GTEST_SKIP() << test::kNoSecondDriver;
     const std::string driver_1 = json({"info", "--json"}, {})["device"]["driver"],
                       driver_2 = json({"info", "--json"}, *second)["device"]["driver"];
@@ -46,8 +46,8 @@ TEST_F(SamePicture, TwoDriverVersionsDrawTheSamePictures) {
     Words techniques;
     const nlohmann::json list = json({"list", "techniques", "--json"}, {});
     for (const auto& technique : list["techniques"]) techniques.push_back(technique["name"]);
-    render(techniques, "first", {});
-    render(techniques, "second", *second);
+    render_techniques_into_folder(techniques, "first", {});
+    render_techniques_into_folder(techniques, "second", *second);
     for (const std::string& technique : techniques) {
         const measure::Picture a = measure::read_picture(folder / "first/images" /
                                                          (technique + ".exr"));
@@ -60,7 +60,7 @@ TEST_F(SamePicture, TwoDriverVersionsDrawTheSamePictures) {
             different += a.pixels[i] != b.pixels[i] ? 1 : 0;
         std::cout << "[ MEASURED ] D4 " << technique << ": FLIP " << flip << ", " << different
                   << " of " << a.pixels.size() << " pixels are not the same bits\n";
-        EXPECT_LE(flip, kFlip) << technique;
+        EXPECT_LE(flip, kMaxFlipBetweenDrivers) << technique;
     }
 }
 

@@ -15,7 +15,7 @@ inline constexpr const char* kNoSecondDriver =
 
 /// Returns the environment variables with which a process sees only the second driver. Returns
 /// nothing if that driver is not unpacked.
-inline std::optional<std::map<std::string, std::string>> second_driver() {
+inline std::optional<std::map<std::string, std::string>> find_second_driver_environment() {
     const std::filesystem::path place = source_folder() / "build/drivers/mesa25";
     if (!std::filesystem::exists(place / "icd.json")) return {};
     const char* libraries = std::getenv("LD_LIBRARY_PATH");

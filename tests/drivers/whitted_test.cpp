@@ -15,35 +15,39 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSize{128, 128};
+constexpr uvec2 kComparedPictureSize{128, 128};
 /// Allowed difference of a pixel's linear radiance, which is about 1.
-constexpr float kSame = 1e-3F;
-/// How many pixels may differ by more than kSame, because reflections enlarge rounding errors. As
-/// many pixels differ between our own pictures with hit points in single and double precision.
-constexpr std::size_t kMostSensitive = 4;
+constexpr float kEqualRadianceTolerance = 1e-3F;
+/// How many pixels may differ by more than kEqualRadianceTolerance, because reflections enlarge
+/// rounding errors. As many pixels differ between our own pictures with hit points in single and
+/// double precision.
+constexpr std::size_t kMaxSensitivePixels = 4;
 
-app::TechniqueResult rendered(const scene::Scene& scene, const std::string& technique) {
-    const app::Request asked = test::make_test_request(scene, {technique}, kSize);
-    return std::move(app::run(test::test_engine(), asked).parts.front());
+app::TechniqueResult render_scene_picture(const scene::Scene& scene, const std::string& technique) {
+    const app::Request asked = test::make_test_request(scene, {technique}, kComparedPictureSize);
+    return std::move(app::run(test::get_test_engine(), asked).parts.front());
 }
 
-float largest(const vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+float largest_of_channels(const vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
 
 /// Returns how much each pixel of our picture changes if hit points are computed in double
 /// precision.
 std::vector<float> sensitivity(const measure::Picture& single, const measure::Picture& precise) {
     std::vector<float> result;
     for (std::size_t i = 0; i < single.pixels.size(); ++i)
-        result.push_back(largest(single.pixels[i] - precise.pixels[i]));
+        result.push_back(largest_of_channels(single.pixels[i] - precise.pixels[i]));
     return result;
 }
 
-std::size_t other_pixels(const measure::Picture& a, const std::vector<peers::Vector>& b,
-                         const std::vector<float>& sensitivity) {
+std::size_t count_differing_pixels(const measure::Picture& a,
+                                   const std::vector<peers::PeerVector>& b,
+                                   const std::vector<float>& sensitivity) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
-        const float apart = largest(a.pixels[i] - vec3(b[i].x, b[i].y, b[i].z));
-        count += !(apart <= std::max(kSame, sensitivity[i]));
+        const float apart = largest_of_channels(a.pixels[i] - vec3(b[i].x, b[i].y, b[i].z));
+        count += !(apart <= std::max(kEqualRadianceTolerance, sensitivity[i]));
     }
     return count;
 }
@@ -51,18 +55,19 @@ std::size_t other_pixels(const measure::Picture& a, const std::vector<peers::Vec
 void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
     const std::string technique = "raytrace:depth=" + std::to_string(depth) +
                                   (exact ? ",sphere=exact" : "");
-    const app::Request asked = test::make_test_request(scene, {technique}, kSize);
-    const app::TechniqueResult ours = rendered(scene, technique);
-    const std::vector<float> sensitive = sensitivity(ours.hdr,
-                                                     rendered(scene, technique + ",hit=f64").hdr);
-    EXPECT_LE(std::ranges::count_if(sensitive, [](float apart) { return !(apart <= kSame); }),
-              kMostSensitive)
+    const app::Request asked = test::make_test_request(scene, {technique}, kComparedPictureSize);
+    const app::TechniqueResult ours = render_scene_picture(scene, technique);
+    const std::vector<float> sensitive = sensitivity(
+        ours.hdr, render_scene_picture(scene, technique + ",hit=f64").hdr);
+    EXPECT_LE(std::ranges::count_if(
+                  sensitive, [](float apart) { return !(apart <= kEqualRadianceTolerance); }),
+              kMaxSensitivePixels)
         << technique;
     const peers::EmbreeDevice device;
-    const peers::PeerScene peer(device, asked, depth, exact);
+    const peers::EmbreePeerScene peer(device, asked, depth, exact);
     for (const int width : {1, 8, 16}) {
-        const peers::Traced theirs = peer.trace(width, 2);
-        EXPECT_EQ(other_pixels(ours.hdr, theirs.pixels, sensitive), 0U)
+        const peers::TracedPeerPicture theirs = peer.trace_picture(width, 2);
+        EXPECT_EQ(count_differing_pixels(ours.hdr, theirs.pixels, sensitive), 0U)
             << technique << ", " << width;
         EXPECT_EQ(theirs.rays.primary, ours.rays->primary);
         EXPECT_EQ(theirs.rays.mirror, ours.rays->mirror) << technique << ", " << width;

@@ -11,7 +11,7 @@
 namespace test {
 
 /// A set of triangles, and rays to trace through them.
-struct Batch {
+struct WitnessRayBatch {
     std::string name;
     std::vector<bvh::Triangle> triangles;
     std::vector<DeviceRay> rays;
@@ -20,10 +20,10 @@ struct Batch {
 };
 
 /// Returns the triangles of the built-in scene as the ray tracer stores them, in scene units.
-inline std::vector<bvh::Triangle> built_in_scene() {
+inline std::vector<bvh::Triangle> list_built_in_triangles() {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const render::Geometry geometry = render::make_geometry(scene::scene_at_time(scene, 0),
-                                                            render::make_scene_units(scene));
+    const render::FrameGeometry geometry = render::make_frame_geometry(
+        scene::scene_at_time(scene, 0), render::make_scene_units(scene));
     std::vector<bvh::Triangle> result;
     const auto corner = [&](std::size_t i) {
         return geometry.vertices[geometry.indices[i]].position;
@@ -34,34 +34,36 @@ inline std::vector<bvh::Triangle> built_in_scene() {
 }
 
 /// Returns rays with random origins in the bounding box of the triangles and random directions.
-inline std::vector<DeviceRay> rays_anywhere(const std::vector<bvh::Triangle>& triangles,
-                                            std::size_t count, RandomNumbers& numbers) {
+inline std::vector<DeviceRay> make_rays_in_bounds(const std::vector<bvh::Triangle>& triangles,
+                                                  std::size_t count, RandomNumbers& numbers) {
     vec3 lo(std::numeric_limits<float>::infinity()), hi = -lo;
     for (const bvh::Triangle& t : triangles)
         for (const vec3& corner : {t.a, t.b, t.c})
             lo = glm::min(lo, corner), hi = glm::max(hi, corner);
     std::vector<DeviceRay> rays(count);
     for (DeviceRay& ray : rays) {
-        ray.origin = (lo + hi) / 2.0f + (hi - lo) / 2.0f * numbers.point_in_cube();
-        ray.direction = numbers.unit_direction();
+        ray.origin = (lo + hi) / 2.0f + (hi - lo) / 2.0f * numbers.random_point_in_cube();
+        ray.direction = numbers.random_unit_direction();
     }
     return rays;
 }
 
 /// Returns a random corner of a triangle, or a random point on an edge.
-inline vec3 on_an_edge(const std::vector<bvh::Triangle>& triangles, RandomNumbers& numbers) {
-    const bvh::Triangle& t = triangles[numbers.integer_below(triangles.size())];
-    const std::size_t first = numbers.integer_below(3);
+inline vec3 random_point_on_edge(const std::vector<bvh::Triangle>& triangles,
+                                 RandomNumbers& numbers) {
+    const bvh::Triangle& t = triangles[numbers.random_integer_below(triangles.size())];
+    const std::size_t first = numbers.random_integer_below(3);
     const vec3 from = std::array{t.a, t.b, t.c}[first], to = std::array{t.b, t.c, t.a}[first];
-    return numbers.random_word() % 4 == 0 ? from : from + numbers.unit_fraction() * (to - from);
+    return numbers.random_word() % 4 == 0 ? from
+                                          : from + numbers.random_unit_fraction() * (to - from);
 }
 
 /// Returns the rays, each turned towards a corner of a triangle or a point on an edge.
-inline std::vector<DeviceRay> turned_to_edges(std::vector<DeviceRay> rays,
-                                              const std::vector<bvh::Triangle>& triangles,
-                                              RandomNumbers& numbers) {
+inline std::vector<DeviceRay> turn_rays_to_edges(std::vector<DeviceRay> rays,
+                                                 const std::vector<bvh::Triangle>& triangles,
+                                                 RandomNumbers& numbers) {
     for (DeviceRay& ray : rays) {
-        ray.direction = on_an_edge(triangles, numbers) - ray.origin;
+        ray.direction = random_point_on_edge(triangles, numbers) - ray.origin;
         if (numbers.random_word() % 2 == 0) ray.direction = glm::normalize(ray.direction);
     }
     return rays;
@@ -69,29 +71,31 @@ inline std::vector<DeviceRay> turned_to_edges(std::vector<DeviceRay> rays,
 
 /// Returns rays through random points of triangles, at angles of 10^-1 to 10^-7 to the triangle's
 /// plane.
-inline std::vector<DeviceRay> grazing_rays(const std::vector<bvh::Triangle>& triangles,
-                                           std::size_t count, RandomNumbers& numbers) {
+inline std::vector<DeviceRay> make_grazing_rays(const std::vector<bvh::Triangle>& triangles,
+                                                std::size_t count, RandomNumbers& numbers) {
     std::vector<DeviceRay> rays(count);
     for (DeviceRay& ray : rays) {
-        const bvh::Triangle& t = triangles[numbers.integer_below(triangles.size())];
-        const vec3 w = numbers.barycentric_weights(), along = glm::normalize(t.b - t.a),
+        const bvh::Triangle& t = triangles[numbers.random_integer_below(triangles.size())];
+        const vec3 w = numbers.random_barycentric_weights(), along = glm::normalize(t.b - t.a),
                    normal = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
-        const float turn = numbers.number_between(-3.1416f, 3.1416f);
+        const float turn = numbers.random_number_between(-3.1416f, 3.1416f);
         const vec3 flat = std::cos(turn) * along + std::sin(turn) * glm::cross(normal, along);
-        ray.direction = glm::normalize(flat + numbers.log_uniform_number(-7, -1) * normal);
+        ray.direction = glm::normalize(flat + numbers.random_log_uniform_number(-7, -1) * normal);
         ray.origin = w.x * t.a + w.y * t.b + w.z * t.c -
-                     numbers.number_between(0.01f, 1) * glm::distance(t.a, t.b) * ray.direction;
+                     numbers.random_number_between(0.01f, 1) * glm::distance(t.a, t.b) *
+                         ray.direction;
     }
     return rays;
 }
 
 /// Returns rays with origins strictly inside a closed mesh and random directions.
-inline std::vector<DeviceRay> rays_inside(const ClosedMesh& closed, double scale, dvec3 offset,
-                                          std::size_t count, RandomNumbers& numbers) {
+inline std::vector<DeviceRay> make_rays_inside_mesh(const ClosedMesh& closed, double scale,
+                                                    dvec3 offset, std::size_t count,
+                                                    RandomNumbers& numbers) {
     std::vector<DeviceRay> rays(count);
     for (DeviceRay& ray : rays) {
         ray.origin = random_point_inside(closed, scale, offset, numbers);
-        ray.direction = numbers.unit_direction();
+        ray.direction = numbers.random_unit_direction();
     }
     return rays;
 }

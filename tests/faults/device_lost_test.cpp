@@ -13,7 +13,7 @@ namespace {
 
 using catoptric::Failure;
 
-constexpr double kDeviceLostLongest = 5; // seconds
+constexpr double kMaxSecondsAfterDeviceLoss = 5; // seconds
 
 class DeviceLost : public Faults {
 protected:
@@ -25,44 +25,44 @@ protected:
     void SetUp() override {
         Faults::SetUp();
         if (IsSkipped() || HasFatalFailure()) return;
-        write("x.exr", "old");
+        write_input_file("x.exr", "old");
     }
-    void expect_given_up(const Fault& fault, const Words& any_of) const {
+    void expect_given_up(const VulkanCallFault& fault, const Words& any_of) const {
         const std::string place = fault.call + std::to_string(fault.at) +
                                   std::to_string(
                                       fault.result); // tests that run at once use different folders
         std::filesystem::create_directory(folder / place);
-        write(place + "/x.exr", "old");
-        const Watched watched = watch(words, fault, place);
+        write_input_file(place + "/x.exr", "old");
+        const WatchedRun watched = watch(words, fault, place);
         const std::string where = fault.call + " " + std::to_string(fault.at) + ": " +
                                   watched.ended.err;
         if (fault.result == VK_ERROR_DEVICE_LOST)
-            expect_ended(watched.ended, 76, {"VK_ERROR_DEVICE_LOST"});
+            expect_exit_code(watched.ended, 76, {"VK_ERROR_DEVICE_LOST"});
         else
-            expect_ended(watched.ended, 75, {"VK_ERROR_OUT_OF_HOST_MEMORY"});
+            expect_exit_code(watched.ended, 75, {"VK_ERROR_OUT_OF_HOST_MEMORY"});
         EXPECT_TRUE(std::ranges::any_of(any_of, [&](const std::string& part) {
             return watched.ended.err.find(part) != std::string::npos;
         })) << where;
-        EXPECT_LT(watched.ended.seconds, kDeviceLostLongest) << where;
+        EXPECT_LT(watched.ended.seconds, kMaxSecondsAfterDeviceLoss) << where;
         EXPECT_EQ(watched.unfit(), "") << where;
-        EXPECT_EQ(read(place + "/x.exr"), "old") << where;
+        EXPECT_EQ(read_output_file(place + "/x.exr"), "old") << where;
         std::printf("  %s in %.2f s: %s", fault.call.c_str(), watched.ended.seconds,
                     watched.ended.err.c_str());
     }
-    int calls(const std::string& call) const {
-        const Watched whole = watch(words, std::nullopt);
+    int count_calls(const std::string& call) const {
+        const WatchedRun whole = watch(words, std::nullopt);
         EXPECT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
-        write("x.exr", "old");
+        write_input_file("x.exr", "old");
         return whole.counts.at(call).calls;
     }
 };
 
 TEST_F(DeviceLost, LossAtASubmitExitsWith76AndKeepsTheOldPicture) {
-    const int last = calls("vkQueueSubmit2");
+    const int last = count_calls("vkQueueSubmit2");
     ASSERT_GE(last, 3);
     const std::set chosen{1, 2, last / 2, last - 1, last};
     const std::vector<int> at(chosen.begin(), chosen.end());
-    two_at_a_time(at.size(), [&](std::size_t i) {
+    run_on_two_threads(at.size(), [&](std::size_t i) {
         expect_given_up({"vkQueueSubmit2", at[i], VK_ERROR_DEVICE_LOST},
                         {"'view'", "read back image '", "clear image '"});
     });
@@ -70,9 +70,9 @@ TEST_F(DeviceLost, LossAtASubmitExitsWith76AndKeepsTheOldPicture) {
 
 /// Each wait of the run fails in turn, and so do the first and the last read of timestamps.
 TEST_F(DeviceLost, FailedWaitExitsWithAnErrorAndKeepsTheOldPicture) {
-    const Watched whole = watch(words, std::nullopt);
+    const WatchedRun whole = watch(words, std::nullopt);
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
-    std::vector<Fault> faults;
+    std::vector<VulkanCallFault> faults;
     for (const char* call : {"vkWaitSemaphores", "vkQueueWaitIdle"}) {
         const int last = whole.counts.at(call).calls;
         for (int at = 1; at <= last; ++at) faults.push_back({call, at, VK_ERROR_DEVICE_LOST});
@@ -81,7 +81,7 @@ TEST_F(DeviceLost, FailedWaitExitsWithAnErrorAndKeepsTheOldPicture) {
     ASSERT_GE(faults.size(), 3 + 5 + 4u);
     for (const int at : {1, whole.counts.at("vkGetQueryPoolResults").calls})
         faults.push_back({"vkGetQueryPoolResults", at, VK_ERROR_DEVICE_LOST});
-    two_at_a_time(faults.size(), [&](std::size_t i) {
+    run_on_two_threads(faults.size(), [&](std::size_t i) {
         expect_given_up(faults[i],
                         {"passes '", "'view'", "read back ", "clear image 'capture/cubes.",
                          "clear image 'pyramid'", "clear image 'shadow_map'"});
@@ -95,7 +95,7 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
          {std::pair{VK_ERROR_DEVICE_LOST, Failure::device_lost},
           std::pair{VK_ERROR_OUT_OF_DEVICE_MEMORY, Failure::exhausted}}) {
         const std::string said = test::run_in_forked_process([&] {
-            WatchedHere here(folder / "calls");
+            FaultLayerHere here(folder / "calls");
             catoptric::app::Request request;
             request.scene = catoptric::scene::load("cornell-mirrors");
             request.camera = request.scene.cameras.front();
@@ -112,8 +112,9 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
                 }
                 return std::string("nothing was thrown");
             };
-            const Watched lost = here.run(
-                Fault{"vkWaitSemaphores", 2, result}, [&](catoptric::app::Engine& engine) {
+            const WatchedRun lost = here.run(
+                VulkanCallFault{"vkWaitSemaphores", 2, result},
+                [&](catoptric::app::Engine& engine) {
                     if (!engine.usable()) wrong += "unusable from the start; ";
                     const std::string first = failure_of(engine), again = failure_of(engine);
                     if (first.find("passes 'shadow' ") == std::string::npos) wrong += first;
@@ -124,7 +125,7 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
             if (!catoptric::app::has_abandoned_device()) wrong += "no device was abandoned; ";
             std::vector<catoptric::measure::Picture> pictures;
             for (int i = 0; i < 2; ++i) {
-                const Watched next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
+                const WatchedRun next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
                     pictures.push_back(catoptric::app::run(engine, request).parts.front().hdr);
                 });
                 wrong += next.ended.err + next.leaks();
@@ -138,14 +139,15 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
 }
 
 TEST_F(DeviceLost, LossWhileOpeningTheDeviceExitsWith76) {
-    const Watched watched = watch(words, Fault{"vkCreateDevice", 1, VK_ERROR_DEVICE_LOST});
-    expect_ended(watched.ended, 76, {"open device '", "VK_ERROR_DEVICE_LOST"});
+    const WatchedRun watched = watch(words,
+                                     VulkanCallFault{"vkCreateDevice", 1, VK_ERROR_DEVICE_LOST});
+    expect_exit_code(watched.ended, 76, {"open device '", "VK_ERROR_DEVICE_LOST"});
     EXPECT_EQ(watched.leaks(), "");
 }
 
 TEST_F(DeviceLost, LossDuringAComparisonKeepsTheOldReport) {
     std::filesystem::create_directory(folder / "out");
-    write("out/report.json", "old");
+    write_input_file("out/report.json", "old");
     const Words compare = {"compare",
                            "-o",
                            "out",
@@ -157,35 +159,39 @@ TEST_F(DeviceLost, LossDuringAComparisonKeepsTheOldReport) {
                            "1",
                            "--techniques",
                            "parallax:face=16,shadow_map=16"};
-    const Watched watched = watch(compare, Fault{"vkWaitSemaphores", 6, VK_ERROR_DEVICE_LOST});
-    expect_ended(watched.ended, 76, {"VK_ERROR_DEVICE_LOST", "passes '"});
+    const WatchedRun watched = watch(compare,
+                                     VulkanCallFault{"vkWaitSemaphores", 6, VK_ERROR_DEVICE_LOST});
+    expect_exit_code(watched.ended, 76, {"VK_ERROR_DEVICE_LOST", "passes '"});
     EXPECT_EQ(watched.unfit(), "");
-    EXPECT_EQ(read("out/report.json"), "old");
+    EXPECT_EQ(read_output_file("out/report.json"), "old");
     EXPECT_TRUE(std::filesystem::is_empty(folder / "out/images")) << "made before measuring";
 }
 
 class ReadBack : public DeviceLost {};
 
 TEST_F(ReadBack, FailedMemoryMappingExitsWith75) {
-    const int last = calls("vkMapMemory");
+    const int last = count_calls("vkMapMemory");
     for (const int at : std::set{1, last / 2, last}) {
-        const Watched watched = watch(words, Fault{"vkMapMemory", at, VK_ERROR_MEMORY_MAP_FAILED});
-        expect_ended(watched.ended, 75, {"map buffer '", "VK_ERROR_MEMORY_MAP_FAILED"});
+        const WatchedRun watched = watch(
+            words, VulkanCallFault{"vkMapMemory", at, VK_ERROR_MEMORY_MAP_FAILED});
+        expect_exit_code(watched.ended, 75, {"map buffer '", "VK_ERROR_MEMORY_MAP_FAILED"});
         EXPECT_EQ(watched.leaks(), "");
-        EXPECT_EQ(read("x.exr"), "old");
+        EXPECT_EQ(read_output_file("x.exr"), "old");
     }
-    const Watched end = watch(words, Fault{"vkMapMemory", last, VK_ERROR_MEMORY_MAP_FAILED});
+    const WatchedRun end = watch(words,
+                                 VulkanCallFault{"vkMapMemory", last, VK_ERROR_MEMORY_MAP_FAILED});
     EXPECT_THAT(end.ended.err, testing::HasSubstr("read-back of "));
 }
 
 /// A result that Vulkan does not define for a call is a defect of the driver. The program exits
 /// with 70 and keeps the old picture.
 TEST_F(ReadBack, UnknownVulkanResultExitsWith70) {
-    const int last = calls("vkQueueWaitIdle");
-    const Watched watched = watch(words, Fault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});
-    expect_ended(watched.ended, 70, {"read back image '", "-13"});
+    const int last = count_calls("vkQueueWaitIdle");
+    const WatchedRun watched = watch(words,
+                                     VulkanCallFault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});
+    expect_exit_code(watched.ended, 70, {"read back image '", "-13"});
     EXPECT_EQ(watched.unfit(), "");
-    EXPECT_EQ(read("x.exr"), "old");
+    EXPECT_EQ(read_output_file("x.exr"), "old");
 }
 
 } // namespace

@@ -7,8 +7,8 @@
 
 namespace {
 
-constexpr double kDeviceLongest = 2; // most seconds that a program may take to end
-constexpr int kFindsNone = VK_SUCCESS;
+constexpr double kMaxSecondsWithoutDevice = 2; // most seconds that a program may take to end
+constexpr int kNoDeviceResult = VK_SUCCESS;
 
 class NoDevice : public Faults {
 protected:
@@ -16,42 +16,43 @@ protected:
 };
 
 TEST_F(NoDevice, UnusableDriverFileExitsWith69) {
-    write(
+    write_input_file(
         "none.json",
         R"({"file_format_version": "1.0.0", "ICD": {"library_path": "/none/libnone.so", "api_version": "1.3.0"}})");
-    write("garbage.json", "no JSON");
+    write_input_file("garbage.json", "no JSON");
     for (const std::string name : {"missing.json", "none.json", "garbage.json", "."}) {
-        test::ProcessStart process = start(words);
+        test::ProcessStartOptions process = make_process_start(words);
         for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
             process.environment[variable] = (folder / name).string();
         const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 69) << name << ": " << ended.err;
         EXPECT_THAT(ended.err, testing::HasSubstr("apt-get install mesa-vulkan-drivers")) << name;
-        EXPECT_LT(ended.seconds, kDeviceLongest) << name;
+        EXPECT_LT(ended.seconds, kMaxSecondsWithoutDevice) << name;
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
 }
 
 TEST_F(NoDevice, DriverThatRefusesExitsWith69) {
-    for (const Fault& fault :
-         {Fault{"vkCreateInstance", 1, VK_ERROR_INCOMPATIBLE_DRIVER},
-          Fault{"vkCreateInstance", 1, VK_ERROR_INITIALIZATION_FAILED},
-          Fault{"vkEnumeratePhysicalDevices", 1, VK_ERROR_INITIALIZATION_FAILED},
-          Fault{"vkEnumeratePhysicalDevices", 2, VK_ERROR_INITIALIZATION_FAILED},
-          Fault{"vkEnumeratePhysicalDevices", 1, kFindsNone},
-          Fault{"vkEnumeratePhysicalDevices", 2, kFindsNone}}) {
-        const Watched watched = watch(words, fault);
-        expect_ended(watched.ended, 69, {"apt-get install mesa-vulkan-drivers"});
+    for (const VulkanCallFault& fault :
+         {VulkanCallFault{"vkCreateInstance", 1, VK_ERROR_INCOMPATIBLE_DRIVER},
+          VulkanCallFault{"vkCreateInstance", 1, VK_ERROR_INITIALIZATION_FAILED},
+          VulkanCallFault{"vkEnumeratePhysicalDevices", 1, VK_ERROR_INITIALIZATION_FAILED},
+          VulkanCallFault{"vkEnumeratePhysicalDevices", 2, VK_ERROR_INITIALIZATION_FAILED},
+          VulkanCallFault{"vkEnumeratePhysicalDevices", 1, kNoDeviceResult},
+          VulkanCallFault{"vkEnumeratePhysicalDevices", 2, kNoDeviceResult}}) {
+        const WatchedRun watched = watch(words, fault);
+        expect_exit_code(watched.ended, 69, {"apt-get install mesa-vulkan-drivers"});
         EXPECT_EQ(watched.leaks(), "");
-        EXPECT_LT(watched.ended.seconds, kDeviceLongest);
+        EXPECT_LT(watched.ended.seconds, kMaxSecondsWithoutDevice);
     }
 }
 
 TEST_F(NoDevice, DeviceThatCannotBeOpenedExitsWith69) {
-    const Watched watched = watch(words,
-                                  Fault{"vkCreateDevice", 1, VK_ERROR_INITIALIZATION_FAILED});
-    expect_ended(watched.ended, 69,
-                 {"no usable Vulkan device", "open device '", "VK_ERROR_INITIALIZATION_FAILED"});
+    const WatchedRun watched = watch(
+        words, VulkanCallFault{"vkCreateDevice", 1, VK_ERROR_INITIALIZATION_FAILED});
+    expect_exit_code(
+        watched.ended, 69,
+        {"no usable Vulkan device", "open device '", "VK_ERROR_INITIALIZATION_FAILED"});
     EXPECT_EQ(watched.leaks(), "");
 }
 
@@ -64,25 +65,25 @@ TEST_F(NoDevice, MissingLayerExtensionOrFeatureExitsWith69) {
           std::tuple{"vkCreateDevice", VK_ERROR_FEATURE_NOT_PRESENT, "FEATURE_NOT_PRESENT"},
           std::tuple{"vkCreateDevice", VK_ERROR_EXTENSION_NOT_PRESENT, "EXTENSION_NOT_PRESENT"},
           std::tuple{"vkCreateImage", VK_ERROR_FORMAT_NOT_SUPPORTED, "FORMAT_NOT_SUPPORTED"}}) {
-        const Watched watched = watch(words, Fault{call, 1, result});
-        expect_ended(watched.ended, 69, {"Vulkan: cannot ", name});
+        const WatchedRun watched = watch(words, VulkanCallFault{call, 1, result});
+        expect_exit_code(watched.ended, 69, {"Vulkan: cannot ", name});
         EXPECT_EQ(watched.leaks(), "");
     }
-    test::ProcessStart process = start(
+    test::ProcessStartOptions process = make_process_start(
         {"render", "--technique", "reuse", "-o", "x.png", "--validate"});
     process.environment = {{"VK_LAYER_PATH", folder.string()}}; // a folder without layers
-    expect_ended(test::run_process(process), 69,
-                 {"--validate needs the layer", "apt-get install vulkan-validationlayers"});
+    expect_exit_code(test::run_process(process), 69,
+                     {"--validate needs the layer", "apt-get install vulkan-validationlayers"});
 }
 
 /// The number of devices changes between counting and listing. The program goes on with the devices
 /// that are listed.
 TEST_F(NoDevice, ChangedNumberOfDevicesIsTolerated) {
     for (const int at : {1, 2}) {
-        const Watched watched = watch({"list", "devices"},
-                                      Fault{"vkEnumeratePhysicalDevices", at, VK_INCOMPLETE});
+        const WatchedRun watched = watch(
+            {"list", "devices"}, VulkanCallFault{"vkEnumeratePhysicalDevices", at, VK_INCOMPLETE});
         EXPECT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
-        EXPECT_EQ(watched.ended.out, cli({"list", "devices"}).out);
+        EXPECT_EQ(watched.ended.out, run_cli({"list", "devices"}).out);
         EXPECT_EQ(watched.leaks(), "");
     }
 }
@@ -92,9 +93,10 @@ TEST_F(NoDevice, DriverWithoutMemoryExitsWith75) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
-    test::ProcessStart process = start(words);
+    test::ProcessStartOptions process = make_process_start(words);
     process.memory_limit = 200 << 20; // bytes; the program itself takes 40 MiB
-    expect_ended(test::run_process(process), 75, {"no memory for a Vulkan driver", "ulimit -v"});
+    expect_exit_code(test::run_process(process), 75,
+                     {"no memory for a Vulkan driver", "ulimit -v"});
 }
 
 } // namespace

@@ -16,34 +16,34 @@ namespace fs = std::filesystem;
 
 /// Returns the folder of the driver's shader cache, which all runs share. Without the cache,
 /// compiling shaders would take most of the time.
-const fs::path& shader_cache() {
+const fs::path& find_shader_cache_folder() {
     static const struct Folder {
         Folder()
-            : path(fs::temp_directory_path() /
-                   ("catoptric-faults-cache-" + std::to_string(::getpid()))) {
-            fs::create_directories(path);
+            : folder_path(fs::temp_directory_path() /
+                          ("catoptric-faults-cache-" + std::to_string(::getpid()))) {
+            fs::create_directories(folder_path);
         }
         ~Folder() {
             std::error_code ignored;
-            fs::remove_all(path, ignored);
+            fs::remove_all(folder_path, ignored);
         }
-        fs::path path;
+        fs::path folder_path;
     } folder;
-    return folder.path;
+    return folder.folder_path;
 }
 
-std::map<std::string, std::string> layer_over_driver(const fs::path& report) {
+std::map<std::string, std::string> make_fault_layer_environment(const fs::path& report) {
     return {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
             {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
             {"CATOPTRIC_FAULT_REPORT", report.string()},
-            {"MESA_SHADER_CACHE_DIR", shader_cache().string()}};
+            {"MESA_SHADER_CACHE_DIR", find_shader_cache_folder().string()}};
 }
 
-std::string text_of(const Fault& fault) {
+std::string describe_fault(const VulkanCallFault& fault) {
     return fault.call + ":" + std::to_string(fault.at) + ":" + std::to_string(fault.result);
 }
 
-void read_report(const std::string& report, Watched& watched) {
+void read_fault_layer_report(const std::string& report, WatchedRun& watched) {
     std::istringstream lines(report);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
@@ -58,7 +58,7 @@ void read_report(const std::string& report, Watched& watched) {
         } else if (call == "most_bytes") {
             words >> watched.most_bytes;
         } else {
-            Count& count = watched.counts[call];
+            CallCount& count = watched.counts[call];
             words >> count.calls >> count.alive;
         }
     }
@@ -66,7 +66,7 @@ void read_report(const std::string& report, Watched& watched) {
 
 } // namespace
 
-std::string Watched::leaks() const {
+std::string WatchedRun::leaks() const {
     if (counts.empty()) return "no report of the layer: the program crashed";
     std::string text;
     for (const auto& [call, count] : counts)
@@ -77,7 +77,7 @@ std::string Watched::leaks() const {
     return text;
 }
 
-std::string Watched::unfit() const {
+std::string WatchedRun::unfit() const {
     if (counts.empty()) return "no report of the layer";
     std::string text;
     for (const char* call : {"vkCreateInstance", "vkCreateDevice"})
@@ -88,39 +88,39 @@ std::string Watched::unfit() const {
 }
 
 void Faults::SetUp() {
-    static const Watched probe = watch({"list", "devices"}, std::nullopt);
+    static const WatchedRun probe = watch({"list", "devices"}, std::nullopt);
     if (!probe.counts.empty()) return;
     FAIL() << "the loader did not load the layer of " << CATOPTRIC_FAULTS_LAYER << ": "
            << probe.ended.err;
 }
 
-Watched Faults::watch(const Words& words, const std::optional<Fault>& fault,
-                      const std::string& place) const {
-    test::ProcessStart process = start(words);
+WatchedRun Faults::watch(const Words& words, const std::optional<VulkanCallFault>& fault,
+                         const std::string& place) const {
+    test::ProcessStartOptions process = make_process_start(words);
     process.folder = folder / place;
     const fs::path report = folder / (place == "." ? "calls.txt" : place + ".calls.txt");
     fs::remove(report);
-    process.environment = layer_over_driver(report);
-    if (fault) process.environment["CATOPTRIC_FAULT"] = text_of(*fault);
-    Watched watched{.ended = test::run_process(process)};
-    read_report(read_path(report), watched);
+    process.environment = make_fault_layer_environment(report);
+    if (fault) process.environment["CATOPTRIC_FAULT"] = describe_fault(*fault);
+    WatchedRun watched{.ended = test::run_process(process)};
+    read_fault_layer_report(read_file_at_path(report), watched);
     fs::remove(report);
     return watched;
 }
 
-WatchedHere::WatchedHere(fs::path report) : report_(std::move(report)) {
-    for (const auto& [name, value] : layer_over_driver(report_))
+FaultLayerHere::FaultLayerHere(fs::path report) : report_(std::move(report)) {
+    for (const auto& [name, value] : make_fault_layer_environment(report_))
         ::setenv(name.c_str(), value.c_str(), 1);
 }
 
-Watched WatchedHere::run(const std::optional<Fault>& fault,
-                         const std::function<void(catoptric::app::Engine&)>& work) {
+WatchedRun FaultLayerHere::run(const std::optional<VulkanCallFault>& fault,
+                               const std::function<void(catoptric::app::Engine&)>& work) {
     fs::remove(report_);
     if (fault)
-        ::setenv("CATOPTRIC_FAULT", text_of(*fault).c_str(), 1);
+        ::setenv("CATOPTRIC_FAULT", describe_fault(*fault).c_str(), 1);
     else
         ::unsetenv("CATOPTRIC_FAULT");
-    Watched watched{.ended = {.exit_code = 0}};
+    WatchedRun watched{.ended = {.exit_code = 0}};
     try {
         catoptric::app::Engine engine({});
         work(engine);
@@ -129,11 +129,11 @@ Watched WatchedHere::run(const std::optional<Fault>& fault,
         watched.ended.err = error.what();
     }
     std::ifstream file(report_);
-    read_report({std::istreambuf_iterator<char>(file), {}}, watched);
+    read_fault_layer_report({std::istreambuf_iterator<char>(file), {}}, watched);
     return watched;
 }
 
-void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run) {
+void run_on_two_threads(std::size_t count, const std::function<void(std::size_t)>& run) {
     std::atomic<std::size_t> next{0};
     const auto work = [&] {
         for (std::size_t i; (i = next++) < count;) run(i);

@@ -8,7 +8,7 @@
 #include <optional>
 
 /// A Vulkan call that must fail: the `at`-th call of the name `call`, counted from 1.
-struct Fault {
+struct VulkanCallFault {
     std::string call;
     int at = 1;
     int result = 0; ///< a VkResult
@@ -16,14 +16,14 @@ struct Fault {
 
 /// How often a Vulkan call was made in a run, and how many objects that it created were never
 /// destroyed.
-struct Count {
+struct CallCount {
     int calls = 0, alive = 0;
 };
 
 /// The result of a run under the fault layer (tests/faults/layer).
-struct Watched {
+struct WatchedRun {
     test::ProcessResult ended;
-    std::map<std::string, Count>
+    std::map<std::string, CallCount>
         counts;                   ///< by call; empty if the program crashed or had no fault layer
     int strays = 0;               ///< handles destroyed although they were not alive
     int untimely = 0;             ///< handles destroyed while the device may use them
@@ -46,20 +46,20 @@ protected:
 
     /// Runs the program in `place`, an existing folder below the folder of the test. `fault`: the
     /// call that must fail, if any.
-    Watched watch(const Words& words, const std::optional<Fault>& fault,
-                  const std::string& place = ".") const;
+    WatchedRun watch(const Words& words, const std::optional<VulkanCallFault>& fault,
+                     const std::string& place = ".") const;
 };
 
 /// Puts the fault layer over the driver of this process, which must be a child process
 /// (test::run_in_forked_process). The layer counts calls of each Vulkan instance that is made
 /// afterwards. Keeps the driver loaded.
-class WatchedHere {
+class FaultLayerHere {
 public:
-    explicit WatchedHere(std::filesystem::path report);
+    explicit FaultLayerHere(std::filesystem::path report);
     /// Makes an engine and calls `work` with it. `ended` of the result has the exit code and
     /// message of the error that was thrown, or exit code 0.
-    Watched run(const std::optional<Fault>& fault,
-                const std::function<void(catoptric::app::Engine&)>& work);
+    WatchedRun run(const std::optional<VulkanCallFault>& fault,
+                   const std::function<void(catoptric::app::Engine&)>& work);
 
 private:
     std::filesystem::path report_;
@@ -68,4 +68,4 @@ private:
 
 /// Calls `run(i)` for each i below `count` on two threads, because a run of the program mostly uses
 /// one thread.
-void two_at_a_time(std::size_t count, const std::function<void(std::size_t)>& run);
+void run_on_two_threads(std::size_t count, const std::function<void(std::size_t)>& run);

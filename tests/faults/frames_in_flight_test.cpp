@@ -8,9 +8,9 @@ using namespace catoptric;
 
 class LostInFlight : public Faults {};
 
-graph::Graph frame() {
+graph::Graph make_one_frame_graph() {
     graph::Graph graph;
-    const graph::ImageHandle image = graph.add_image({"image", Format::rgba8_unorm, 4, 4});
+    const graph::ImageHandle image = graph.add_image({"image", TexelFormat::rgba8_unorm, 4, 4});
     graph.add_pass("clear it")
         .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
         .record([](graph::PassCommands&) {});
@@ -18,7 +18,7 @@ graph::Graph frame() {
     return graph;
 }
 
-std::string what_of(const std::function<void()>& action) {
+std::string error_text_of_action(const std::function<void()>& action) {
     try {
         action();
     } catch (const Error& error) {
@@ -30,22 +30,24 @@ std::string what_of(const std::function<void()>& action) {
 /// The test submits three frames, and the first wait fails.
 TEST_F(LostInFlight, WaitReportsTheLostDevice) {
     const std::string said = test::run_in_forked_process([&] {
-        WatchedHere here(folder / "calls");
+        FaultLayerHere here(folder / "calls");
         std::string wrong;
-        const Fault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
-        const Watched watched = here.run(fault, [&](app::Engine&) {
-            gpu::Device device({});
-            gpu::Pipelines pipelines(device);
+        const VulkanCallFault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
+        const WatchedRun watched = here.run(fault, [&](app::Engine&) {
+            gpu::GpuDevice device({});
+            gpu::PipelineStore pipelines(device);
             graph::GraphRunner runner(device, pipelines, 3);
-            std::vector<graph::FrameTicket> tickets;
+            std::vector<graph::SubmittedFrameTicket> tickets;
             for (int i = 0; i < 3; ++i)
-                tickets.push_back(runner.submit_frame(frame(), graph::PassTiming::isolated));
-            const std::string first = what_of([&] { runner.wait_for_frame(tickets[1]); });
+                tickets.push_back(
+                    runner.submit_frame(make_one_frame_graph(), graph::PassTiming::isolated));
+            const std::string first = error_text_of_action(
+                [&] { runner.wait_for_frame(tickets[1]); });
             if (first.find("run frame 2 (passes 'clear it')") == std::string::npos) wrong += first;
-            const std::string next = what_of(
-                [&] { runner.submit_frame(frame(), graph::PassTiming::isolated); });
+            const std::string next = error_text_of_action(
+                [&] { runner.submit_frame(make_one_frame_graph(), graph::PassTiming::isolated); });
             if (next != "the device was given up: " + first) wrong += next;
-            if (!device.abandoned()) wrong += "not abandoned";
+            if (!device.is_abandoned()) wrong += "not abandoned";
         });
         return wrong + watched.ended.err;
     });

@@ -15,10 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string plan_of(catoptric::app::Engine& engine, const catoptric::app::Request& request) {
+std::string compile_plan_text(catoptric::app::Engine& engine,
+                              const catoptric::app::Request& request) {
     catoptric::app::Session session(engine, request.scene);
     return catoptric::app::Access::format_frame_plan(session, request,
-                                                     catoptric::app::PlanFormat::json);
+                                                     catoptric::app::GraphPlanFormat::json);
 }
 
 /// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a
@@ -59,7 +60,7 @@ const std::map<std::string, std::string> kCalls = {
 const std::set<std::string> kWaits = {"vkWaitSemaphores", "vkQueueWaitIdle"};
 
 /// Returns the contents of all files below a folder, by relative path.
-std::map<std::string, std::string> files_of(const fs::path& folder) {
+std::map<std::string, std::string> read_all_files_of_folder(const fs::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         std::ifstream file(entry.path(), std::ios::binary);
@@ -74,8 +75,8 @@ using catoptric::uvec2;
 class Memory : public Faults {
 protected:
     /// Returns a request for one frame of the built-in scene after `warmup` other frames.
-    static catoptric::app::Request request_of(const std::string& technique, uvec2 size,
-                                              int warmup) {
+    static catoptric::app::Request make_one_frame_request(const std::string& technique, uvec2 size,
+                                                          int warmup) {
         catoptric::app::Request request;
         request.scene = catoptric::scene::load("cornell-mirrors");
         request.camera = request.scene.cameras.front();
@@ -86,8 +87,9 @@ protected:
     }
     /// Returns a text about what a run with a fault did wrong; empty: nothing. `speaker`: the
     /// program's name at the start of its message.
-    static std::string judge(const Fault& fault, const Watched& watched,
-                             const std::string& speaker) {
+    static std::string describe_wrong_behaviour(const VulkanCallFault& fault,
+                                                const WatchedRun& watched,
+                                                const std::string& speaker) {
         const std::string name = fault.result == VK_ERROR_OUT_OF_HOST_MEMORY
                                      ? "VK_ERROR_OUT_OF_HOST_MEMORY"
                                      : "VK_ERROR_OUT_OF_DEVICE_MEMORY";
@@ -106,9 +108,9 @@ protected:
     }
     /// Returns one fault for each selected call. `choose` gets the number of calls of a name and
     /// returns the numbers, from 1, of the calls that must fail.
-    static std::vector<Fault> faults_of(const Watched& whole,
-                                        std::vector<int> (*choose)(int calls)) {
-        std::vector<Fault> faults;
+    static std::vector<VulkanCallFault> list_faults_of_run(const WatchedRun& whole,
+                                                           std::vector<int> (*choose)(int calls)) {
+        std::vector<VulkanCallFault> faults;
         for (const auto& [call, count] : whole.counts) {
             if (call.starts_with("vkCmd")) continue; // recorded commands cannot fail
             EXPECT_TRUE(kCalls.contains(call))
@@ -137,17 +139,17 @@ TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
         for (int k = 1; k <= calls; k += k < 8 ? 1 : 4) numbers.push_back(k);
         return numbers;
     };
-    constexpr std::size_t kChildren = 2;
-    two_at_a_time(kChildren, [&](std::size_t child) {
+    constexpr std::size_t kChildProcessCount = 2;
+    run_on_two_threads(kChildProcessCount, [&](std::size_t child) {
         const std::string said = test::run_in_forked_process([&] {
-            WatchedHere here(folder / ("calls-" + std::to_string(child)));
-            const Watched whole = here.run(std::nullopt, render);
+            FaultLayerHere here(folder / ("calls-" + std::to_string(child)));
+            const WatchedRun whole = here.run(std::nullopt, render);
             std::string wrong = whole.ended.err + whole.leaks();
-            const std::vector<Fault> faults = faults_of(whole, most);
-            for (std::size_t i = child; i < faults.size(); i += kChildren)
-                wrong += judge(faults[i], here.run(faults[i], render), "");
+            const std::vector<VulkanCallFault> faults = list_faults_of_run(whole, most);
+            for (std::size_t i = child; i < faults.size(); i += kChildProcessCount)
+                wrong += describe_wrong_behaviour(faults[i], here.run(faults[i], render), "");
             std::printf("  %zu calls, of which this process makes every %zuth fail\n",
-                        faults.size(), kChildren);
+                        faults.size(), kChildProcessCount);
             std::fflush(stdout);
             return faults.size() < 100 ? wrong + "too few calls" : wrong;
         });
@@ -174,35 +176,36 @@ TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
         for (const std::string name : {"report.json", "report.html", "images/reference.png"}) {
             const fs::path file = folder / place / "out" / name;
             fs::create_directories(file.parent_path());
-            write(fs::relative(file, folder), "old");
+            write_input_file(fs::relative(file, folder), "old");
         }
-        return files_of(folder / place);
+        return read_all_files_of_folder(folder / place);
     };
     lay_out("whole");
-    const Watched whole = watch(words, std::nullopt, "whole");
+    const WatchedRun whole = watch(words, std::nullopt, "whole");
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
     ASSERT_EQ(whole.leaks(), "");
-    const std::vector<Fault> faults = faults_of(
+    const std::vector<VulkanCallFault> faults = list_faults_of_run(
         whole, [](int calls) { return std::vector{(calls + 1) / 2}; });
     std::atomic<int> kept = 0;
-    two_at_a_time(faults.size(), [&](std::size_t i) {
+    run_on_two_threads(faults.size(), [&](std::size_t i) {
         const std::string place = std::to_string(i);
         const auto before = lay_out(place);
-        Watched watched = watch(words, faults[i], place);
+        WatchedRun watched = watch(words, faults[i], place);
         const std::string after = ", after 1 of 2 rows; what there is lies in out, marked "
                                   "incomplete\n";
         if (watched.ended.err.ends_with(after)) {
-            const auto document = nlohmann::json::parse(read(place + "/out/report.json"));
+            const auto document = nlohmann::json::parse(
+                read_output_file(place + "/out/report.json"));
             EXPECT_EQ(document["complete"], false);
             EXPECT_EQ(document["rows"].size(), 1U);
             EXPECT_THAT(std::exchange(watched.ended.out, ""),
                         testing::HasSubstr("raytrace:depth=1"));
             ++kept;
         } else {
-            EXPECT_TRUE(files_of(folder / place) == before)
+            EXPECT_TRUE(read_all_files_of_folder(folder / place) == before)
                 << faults[i].call << ": files were touched: " << watched.ended.err;
         }
-        EXPECT_EQ(judge(faults[i], watched, "catoptric: "), "");
+        EXPECT_EQ(describe_wrong_behaviour(faults[i], watched, "catoptric: "), "");
         fs::remove_all(folder / place);
     });
     std::printf("  %zu kinds of calls, the middle one of each made to fail in its turn; a row was "
@@ -217,20 +220,21 @@ TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
 /// bytes per pixel through which pictures are read.
 TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
     const std::string said = test::run_in_forked_process([&] {
-        constexpr std::uint64_t kCounters = 256; // bytes; counters enlarge the buffer at 1x1
-        WatchedHere here(folder / "calls");
+        constexpr std::uint64_t kCounterBytes = 256; // bytes; counters enlarge the buffer at 1x1
+        FaultLayerHere here(folder / "calls");
         std::map<bool, std::uint64_t> scenes; // bytes without and with a BVH for rays
         std::string wrong;
         for (const std::string technique :
              {"raytrace", "parallax:face=64", "reuse:face=32", "hybrid:face=32"}) {
             for (const uvec2 size : {uvec2(1, 1), uvec2(1, 2000), uvec2(1500, 1100)}) {
-                const catoptric::app::Request request = request_of(technique, size, 1);
+                const catoptric::app::Request request = make_one_frame_request(technique, size, 1);
                 std::uint64_t announced = 0;
-                const Watched watched = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
-                    const std::string plan = plan_of(engine, request);
-                    announced = nlohmann::json::parse(plan).at("bytes").get<std::uint64_t>();
-                    catoptric::app::run(engine, request);
-                });
+                const WatchedRun watched = here.run(
+                    std::nullopt, [&](catoptric::app::Engine& engine) {
+                        const std::string plan = compile_plan_text(engine, request);
+                        announced = nlohmann::json::parse(plan).at("bytes").get<std::uint64_t>();
+                        catoptric::app::run(engine, request);
+                    });
                 const std::uint64_t known = announced + std::uint64_t{16} * size.x * size.y;
                 const std::uint64_t rest = watched.most_bytes - known;
                 std::printf("  %s at %ux%u: %llu bytes, announced %llu, the scene's share %llu\n",
@@ -241,7 +245,8 @@ TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
                 const bool traces = technique == "raytrace" || technique.starts_with("hybrid");
                 const std::uint64_t scene = scenes.try_emplace(traces, rest).first->second;
                 const std::uint64_t apart = std::max(rest, scene) - std::min(rest, scene);
-                if (watched.most_bytes < known || apart > kCounters || !watched.ended.err.empty())
+                if (watched.most_bytes < known || apart > kCounterBytes ||
+                    !watched.ended.err.empty())
                     wrong += technique + " at " + std::to_string(size.x) + "x" +
                              std::to_string(size.y) + ": " + watched.ended.err + "; ";
             }
@@ -258,16 +263,17 @@ TEST_F(Memory, FullDescriptorPoolIsFollowedByAnother) {
                          "--size", "64x64",       "--frames",
                          "1",      "--warmup",    "1",
                          "-o",     "x.exr"};
-    const Watched whole = watch(words, std::nullopt);
+    const WatchedRun whole = watch(words, std::nullopt);
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
-    const std::string picture = read("x.exr");
+    const std::string picture = read_output_file("x.exr");
     for (const int result : {VK_ERROR_OUT_OF_POOL_MEMORY, VK_ERROR_FRAGMENTED_POOL}) {
-        const Watched watched = watch(words, Fault{"vkAllocateDescriptorSets", 3, result});
+        const WatchedRun watched = watch(words,
+                                         VulkanCallFault{"vkAllocateDescriptorSets", 3, result});
         EXPECT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
         EXPECT_EQ(watched.leaks(), "");
         EXPECT_EQ(watched.counts.at("vkCreateDescriptorPool").calls,
                   whole.counts.at("vkCreateDescriptorPool").calls + 1);
-        EXPECT_EQ(read("x.exr"), picture);
+        EXPECT_EQ(read_output_file("x.exr"), picture);
     }
 }
 

@@ -14,7 +14,7 @@ TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
     Words words = {"compare", "-o",       "out", "--size",  "64x64",       "--frames",
                    "1",       "--warmup", "1",   "--quiet", "--techniques"};
     const nlohmann::json list = nlohmann::json::parse(
-        cli({"list", "techniques", "--json"}).out)["techniques"];
+        run_cli({"list", "techniques", "--json"}).out)["techniques"];
     for (const auto& technique : list) {
         std::string row = technique["name"].get<std::string>();
         char separator = ':';
@@ -25,16 +25,16 @@ TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
         words.push_back(row);
     }
 
-    struct Way {
+    struct SameBytesWay {
         const char* threads;
         bool validate;
     };
-    const std::vector<Way> ways = {{"2", false}, {"2", false}, {"1", false}, {"2", true}};
+    const std::vector<SameBytesWay> ways = {{"2", false}, {"2", false}, {"1", false}, {"2", true}};
     std::vector<std::map<std::string, std::string>> pictures(ways.size());
-    two_at_a_time(ways.size(), [&](std::size_t i) {
+    run_on_two_threads(ways.size(), [&](std::size_t i) {
         const fs::path place = folder / std::to_string(i);
         fs::create_directory(place);
-        test::ProcessStart process = start(words);
+        test::ProcessStartOptions process = make_process_start(words);
         if (ways[i].validate) process.command.insert(process.command.begin() + 2, "--validate");
         process.folder = place;
         process.environment = {{"LP_NUM_THREADS", ways[i].threads}};
@@ -42,7 +42,7 @@ TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         for (const auto& entry : fs::directory_iterator(place / "out/images"))
             if (!entry.path().stem().string().ends_with("-error"))
-                pictures[i][entry.path().filename()] = read_path(entry.path());
+                pictures[i][entry.path().filename()] = read_file_at_path(entry.path());
     });
     EXPECT_EQ(pictures[0].size(), 2 * list.size() + 1); // an EXR and a PNG each, and the reference
     for (std::size_t i = 1; i < ways.size(); ++i) {

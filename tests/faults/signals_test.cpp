@@ -10,18 +10,18 @@ namespace fs = std::filesystem;
 
 class Signals : public Cli {};
 
-constexpr double kSignalsLongest = 2; // seconds from the signal to the end
+constexpr double kMaxSecondsAfterSignal = 2; // seconds from the signal to the end
 
 TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
     double longest = 0;
     const Words words{"compare", "-o",       "old", "--size",       "16x16",       "--frames",
                       "1",       "--warmup", "0",   "--techniques", "reuse:face=8"};
-    ASSERT_EQ(cli(words).exit_code, 0);
+    ASSERT_EQ(run_cli(words).exit_code, 0);
     for (const auto& [signal, exit_code] : {std::pair{SIGINT, 130}, std::pair{SIGTERM, 143}})
         for (const std::string at : {"[1/20]", "[3/20]"}) {
             fs::remove_all(folder / "out");
             fs::copy(folder / "old", folder / "out", fs::copy_options::recursive);
-            test::ProcessStart process = start(
+            test::ProcessStartOptions process = make_process_start(
                 {"compare", "-o", "out", "--size", "32x32", "--frames", "5", "--warmup", "1",
                  "--progress", "always", "--techniques", "reuse:face=16", "raytrace:depth=1",
                  "parallax:face=16", "raytrace:depth=0"});
@@ -29,12 +29,13 @@ TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
             process.signal_at = at;
             const test::ProcessResult ended = test::run_process(process);
             EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
-            EXPECT_LE(ended.seconds_after_signal, kSignalsLongest) << at;
+            EXPECT_LE(ended.seconds_after_signal, kMaxSecondsAfterSignal) << at;
             longest = std::max(longest, ended.seconds_after_signal);
-            const nlohmann::json document = nlohmann::json::parse(read("out/report.json"));
+            const nlohmann::json document = nlohmann::json::parse(
+                read_output_file("out/report.json"));
             if (document["complete"] == true) { // no row was done: the old report stays
                 EXPECT_EQ(at, "[1/20]");
-                EXPECT_EQ(read("out/report.json"), read("old/report.json"));
+                EXPECT_EQ(read_output_file("out/report.json"), read_output_file("old/report.json"));
                 EXPECT_THAT(ended.err, testing::HasSubstr("0 of 4 rows; nothing was written"));
                 continue;
             }
@@ -51,20 +52,20 @@ TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
 /// dynamic linker prints when it starts the program and which libraries are opened later.
 class EarlySignals : public Cli {
 protected:
-    test::ProcessResult signalled(const Words& words, int signal, const std::string& at,
-                                  int milliseconds) {
-        test::ProcessStart process = start(words);
+    test::ProcessResult run_and_signal_before_driver(const Words& words, int signal,
+                                                     const std::string& at, int milliseconds) {
+        test::ProcessStartOptions process = make_process_start(words);
         process.environment = {{"LD_DEBUG", "files"}};
         process.signal = signal, process.signal_at = at;
         process.signal_after = std::chrono::milliseconds(milliseconds);
         return test::run_process(process);
     }
-    static bool has_sentence(const test::ProcessResult& ended, int signal) {
+    static bool has_signal_sentence(const test::ProcessResult& ended, int signal) {
         return ended.exit_code == 128 + signal &&
                ended.err.find("catoptric: stopped by signal " + std::to_string(signal)) !=
                    std::string::npos;
     }
-    static constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
+    static constexpr std::array kTestedSignals{SIGHUP, SIGINT, SIGTERM};
     const std::vector<Words> programs{
         {"render", "--technique", "raytrace:samples=64", "-o", "x.png"},
         {"compare", "-o", "out"},
@@ -79,11 +80,11 @@ protected:
 TEST_F(EarlySignals, SignalsAreAnsweredWhileTheDriverIsOpened) {
     std::mt19937 random(1);
     for (std::size_t i = 0; i < 2 * programs.size(); ++i) {
-        const int signal = kSignals[i % kSignals.size()];
+        const int signal = kTestedSignals[i % kTestedSignals.size()];
         const int after = static_cast<int>(random() % 6); // milliseconds
-        const test::ProcessResult ended = signalled(programs[i / 2], signal, "libvulkan_lvp",
-                                                    after);
-        EXPECT_TRUE(has_sentence(ended, signal))
+        const test::ProcessResult ended = run_and_signal_before_driver(programs[i / 2], signal,
+                                                                       "libvulkan_lvp", after);
+        EXPECT_TRUE(has_signal_sentence(ended, signal))
             << programs[i / 2].front() << " after " << after << ": " << ended.exit_code;
     }
 }
@@ -94,13 +95,13 @@ TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     std::mt19937 random(2);
     int answered = 0, wordless = 0;
     for (int i = 0; i < 30; ++i) {
-        const int signal = kSignals[static_cast<std::size_t>(i) % kSignals.size()];
+        const int signal = kTestedSignals[static_cast<std::size_t>(i) % kTestedSignals.size()];
         const int after = static_cast<int>(random() % 12); // milliseconds
-        const test::ProcessResult ended = signalled(
+        const test::ProcessResult ended = run_and_signal_before_driver(
             programs[static_cast<std::size_t>(i) % programs.size()], signal, "transferring control",
             after);
         EXPECT_EQ(ended.exit_code, 128 + signal);
-        ++(has_sentence(ended, signal) ? answered : wordless);
+        ++(has_signal_sentence(ended, signal) ? answered : wordless);
     }
     std::printf("  answered %d of 30 signals, %d came before the program's first object\n",
                 answered, wordless);
@@ -109,9 +110,9 @@ TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
 
 /// A frame is one submit, which cannot be stopped. Its picture is not written after the signal.
 TEST_F(Signals, SignalInTheLastFrameWritesNoPicture) {
-    test::ProcessStart process = start({"render", "--technique", "raytrace:samples=128", "--size",
-                                        "256x256", "--frames", "1", "--warmup", "0", "--progress",
-                                        "always", "-o", "x.png"});
+    test::ProcessStartOptions process = make_process_start(
+        {"render", "--technique", "raytrace:samples=128", "--size", "256x256", "--frames", "1",
+         "--warmup", "0", "--progress", "always", "-o", "x.png"});
     process.signal = SIGINT;
     process.signal_at = "[1/1]";
     process.signal_after = std::chrono::milliseconds(1000);

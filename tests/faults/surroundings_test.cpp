@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 
 class Surroundings : public Cli {
 protected:
-    static Words small(Words words) {
+    static Words with_small_picture(Words words) {
         words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "0"});
         return words;
     }
@@ -16,12 +16,14 @@ protected:
 
 TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
     for (const Words& words :
-         {small({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
-          small({"render", "--technique", "raytrace:depth=1", "--json", "-o", "x.png"}),
-          small({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
-          small({"compare", "-o", "json", "--json", "--techniques", "raytrace:depth=1"}),
+         {with_small_picture({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
+          with_small_picture(
+              {"render", "--technique", "raytrace:depth=1", "--json", "-o", "x.png"}),
+          with_small_picture({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
+          with_small_picture(
+              {"compare", "-o", "json", "--json", "--techniques", "raytrace:depth=1"}),
           Words{"diff", "--json", "x.png", "x.png"}}) {
-        test::ProcessStart process = start(words);
+        test::ProcessStartOptions process = make_process_start(words);
         process.no_reader = true;
         const test::ProcessResult ended = test::run_process(process);
         EXPECT_EQ(ended.exit_code, 74) << words[0];
@@ -32,10 +34,10 @@ TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
 }
 
 TEST_F(Surroundings, UnwritableCacheFolderOnlyGivesAWarning) {
-    write("file", "");
+    write_input_file("file", "");
     for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
-        test::ProcessStart process = start(
-            small({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
+        test::ProcessStartOptions process = make_process_start(
+            with_small_picture({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
         for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"})
             process.environment[variable] = place.string();
         const test::ProcessResult ended = test::run_process(process);

@@ -17,12 +17,12 @@
 /// Loading may only throw the two errors that blame a file: bad data and a missing input.
 namespace fuzz {
 
-inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+inline std::string_view fuzz_input_to_text(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
 /// Returns the folder of this process, on a file system in memory if the machine has one.
-inline const std::filesystem::path& folder() {
+inline const std::filesystem::path& find_process_folder() {
     static const std::filesystem::path kFolder = [] {
         const char* root = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
         std::string name = std::string(root) + "/catoptric-fuzz-XXXXXX";
@@ -36,8 +36,8 @@ inline const std::filesystem::path& folder() {
 }
 
 /// Writes the bytes directly to a file of the folder, without the rename and flush of a safe write.
-inline void put(const std::string& name, std::string_view bytes) {
-    std::FILE* const file = std::fopen((folder() / name).c_str(), "wb");
+inline void write_input_file(const std::string& name, std::string_view bytes) {
+    std::FILE* const file = std::fopen((find_process_folder() / name).c_str(), "wb");
     if (file == nullptr) std::abort();
     std::fwrite(bytes.data(), 1, bytes.size(), file);
     std::fclose(file);
@@ -57,7 +57,7 @@ void expect_only_bad_data(Body&& body) {
 
 /// Loads a scene file. A scene that loads is also hashed, advanced to 0.5 s and asked for its
 /// lights.
-inline void load(const std::string& name) {
+inline void load_and_use_scene_file(const std::string& name) {
     expect_only_bad_data([&] {
         const catoptric::scene::LoadBudget small{.file_bytes = 1 << 20,
                                                  .json_memory = 16 << 20,
@@ -68,10 +68,10 @@ inline void load(const std::string& name) {
                                                  .texels = 1 << 18,
                                                  .made_bytes = 1 << 20,
                                                  .cuts = 100'000};
-        const auto scene = catoptric::scene::load_file((folder() / name).string(),
-                                                       {.budget = small});
+        const auto scene = catoptric::scene::load_scene_file(
+            (find_process_folder() / name).string(), {.budget = small});
         catoptric::scene::hash_scene(scene);
-        lights(catoptric::scene::scene_at_time(scene, .5));
+        list_lights(catoptric::scene::scene_at_time(scene, .5));
     });
 }
 

@@ -6,7 +6,7 @@
 
 namespace {
 
-std::string bytes_of(std::string_view text) {
+std::string decode_picture_input(std::string_view text) {
     if (!text.starts_with("hex ")) return std::string(text);
     std::string bytes;
     int digits = 0, value = 0;
@@ -23,10 +23,10 @@ std::string bytes_of(std::string_view text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace catoptric::scene;
-    const std::string bytes = bytes_of(fuzz::text_of(data, size));
+    const std::string bytes = decode_picture_input(fuzz::fuzz_input_to_text(data, size));
     for (const char* name : {"x", "x.tga"})
         fuzz::expect_only_bad_data([&] {
-            BudgetAccount account({.texels = 1 << 18});
+            LoadBudgetUsage account({.texels = 1 << 18});
             decode_image(bytes, name, "x", account);
         });
     return 0;

@@ -14,33 +14,33 @@ using Json = nlohmann::json;
 using Random = std::mt19937_64; // its numbers are standard; those of distributions are not
 
 /// Returns a number from 0 to `count` - 1.
-std::size_t below(Random& random, std::size_t count);
+std::size_t random_number_below(Random& random, std::size_t count);
 
 /// Returns the bytes with one to four changes anywhere: flipped bits, replaced bytes, parts removed
 /// or repeated, or the end cut off.
-std::string changed_bytes(std::string bytes, Random& random);
+std::string change_random_bytes(std::string bytes, Random& random);
 
 /// Returns the document with one to three changes of its structure. Members are removed, doubled,
 /// renamed, or replaced by other members, values of other kinds or extreme numbers. The result is
 /// valid JSON.
-Json changed_json(Json document, Random& random);
+Json change_json_document(Json document, Random& random);
 
 /// Returns the text with one to four changes. Lines are removed, doubled or moved. Words are
 /// replaced by extreme numbers or by other words of the file.
-std::string changed_lines(const std::string& text, Random& random);
+std::string change_text_lines(const std::string& text, Random& random);
 
 /// Returns a PNG file with one or two chunks changed: their fields, data, order or count. Lengths
 /// and checksums of the chunks are correct again.
-std::string changed_png(const std::string& png, Random& random);
+std::string change_png_file(const std::string& png, Random& random);
 
 /// Returns an OpenEXR file with the values of one or two header attributes changed. Sizes stay the
 /// same.
-std::string changed_exr(const std::string& exr, Random& random);
+std::string change_exr_file(const std::string& exr, Random& random);
 
 /// Returns a .glb file with its JSON or its binary chunk changed. Lengths are correct again.
-std::string changed_glb(const std::string& glb, Random& random);
+std::string change_glb_file(const std::string& glb, Random& random);
 
 /// Returns a .glb file made of a document and the bytes of its buffer.
-std::string glb_of(const Json& document, const std::string& bytes);
+std::string make_glb_file(const Json& document, const std::string& bytes);
 
 } // namespace test::fuzzed

@@ -17,14 +17,14 @@ namespace {
 
 using namespace test::fuzzed;
 
-constexpr std::uint64_t kSeed = 20261124;
-constexpr std::uint64_t kMostBytes = 1ULL << 30;
-constexpr std::uint64_t kMostSeconds = 10;
-constexpr int kFewFiles = 24; ///< files per reader if CATOPTRIC_FUZZED is not set
+constexpr std::uint64_t kMutationSeed = 20261124;
+constexpr std::uint64_t kMaxMemoryBytes = 1ULL << 30;
+constexpr std::uint64_t kMaxProcessorSeconds = 10;
+constexpr int kDefaultFilesPerReader = 24; ///< files per reader if CATOPTRIC_FUZZED is not set
 
-int files_of_a_reader() {
+int count_files_per_reader() {
     const char* asked = std::getenv("CATOPTRIC_FUZZED");
-    return asked == nullptr ? kFewFiles : std::atoi(asked);
+    return asked == nullptr ? kDefaultFilesPerReader : std::atoi(asked);
 }
 
 /// Exit codes with which a reader may end: 0 accepted, 65 bad data, 66 missing file, 75 out of
@@ -39,36 +39,37 @@ protected:
     /// Writes each changed file under the name `file` and reads it with the command `words`.
     /// `good`: the unchanged file, which must be accepted, because a file that is always refused
     /// tests no change.
-    void feed(const std::string& file, const std::string& good, const Words& words,
-              const Change& anywhere, const Change& in_structure) const {
-        write(file, good);
-        const test::ProcessResult taken = cli(words);
+    void feed_changed_files_to_program(const std::string& file, const std::string& good,
+                                       const Words& words, const Change& anywhere,
+                                       const Change& in_structure) const {
+        write_input_file(file, good);
+        const test::ProcessResult taken = run_cli(words);
         ASSERT_EQ(taken.exit_code, 0) << file << ", unchanged\n" << taken.err;
         std::map<int, int> codes;
         int structured_taken = 0;
         std::uint64_t most_bytes = 0;
         double longest = 0;
-        const int count = files_of_a_reader();
+        const int count = count_files_per_reader();
         for (int i = 0; i < count; ++i) {
-            Random random(kSeed + static_cast<std::uint64_t>(i));
+            Random random(kMutationSeed + static_cast<std::uint64_t>(i));
             const bool is_structured = i % 2 == 0;
-            write(file, (is_structured ? in_structure : anywhere)(random));
-            test::ProcessStart process = start(words);
-            process.seconds_limit = kMostSeconds;
+            write_input_file(file, (is_structured ? in_structure : anywhere)(random));
+            test::ProcessStartOptions process = make_process_start(words);
+            process.seconds_limit = kMaxProcessorSeconds;
             const test::ProcessResult ended = test::run_process(process);
             ++codes[ended.exit_code];
             structured_taken += is_structured && ended.exit_code <= 1;
             most_bytes = std::max(most_bytes, ended.peak_bytes);
             longest = std::max(longest, ended.seconds);
-            const std::string which = file + " of seed " + std::to_string(kSeed) + " + " +
+            const std::string which = file + " of seed " + std::to_string(kMutationSeed) + " + " +
                                       std::to_string(i) +
                                       (is_structured ? ", in structure" : ", anywhere");
             EXPECT_TRUE(kExitCodes.contains(ended.exit_code))
                 << which << ": exit code " << ended.exit_code << "\n"
                 << ended.err;
-            EXPECT_LE(ended.peak_bytes, kMostBytes) << which;
+            EXPECT_LE(ended.peak_bytes, kMaxMemoryBytes) << which;
             EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("json.exception"))) << which;
-            if (HasFailure()) keep(file, i);
+            if (HasFailure()) keep_wrongly_read_file(file, i);
         }
         EXPECT_GT(codes[0], 0) << file << ": every change was refused";
         EXPECT_LT(codes[0], count) << file << ": the file is not read";
@@ -80,7 +81,7 @@ protected:
 
     /// Returns a glTF document with textures, lights, a camera and a motion. `buffer`: the file of
     /// its buffer; empty for a .glb.
-    Json scene(const std::string& buffer) const {
+    Json make_gltf_scene(const std::string& buffer) const {
         Json document = {
             {"asset", {{"version", "2.0"}}},
             {"scene", 0},
@@ -153,7 +154,7 @@ protected:
         if (!buffer.empty()) document["buffers"][0]["uri"] = buffer;
         return document;
     }
-    static std::string buffer() {
+    static std::string make_gltf_buffer() {
         std::string bytes;
         const auto floats = [&](std::initializer_list<float> numbers) {
             for (const float number : numbers)
@@ -162,111 +163,113 @@ protected:
         floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
         floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
         floats({0, 0, 1, 0, 0, 1, 1, 1});
-        constexpr std::uint16_t kIndices[] = {0, 1, 2, 2, 1, 3};
-        for (const std::uint16_t index : kIndices)
+        constexpr std::uint16_t kTestIndices[] = {0, 1, 2, 2, 1, 3};
+        for (const std::uint16_t index : kTestIndices)
             bytes.append(reinterpret_cast<const char*>(&index), sizeof index);
         floats({0, 1, 0, 0, 1, 0, 1, 1});
         return bytes;
     }
-    static catoptric::measure::Picture picture() {
+    static catoptric::measure::Picture make_test_picture() {
         catoptric::measure::Picture made(24, 16);
         for (std::size_t i = 0; i < made.pixels.size(); ++i)
             made.pixels[i] = {static_cast<float>(i % 24) / 24, static_cast<float>(i) / 384, .5F};
         return made;
     }
     /// Returns a Radiance picture file: a header and uncompressed pixels of four bytes.
-    static std::string hdr() {
+    static std::string make_hdr_file() {
         std::string file = "#?RADIANCE\nEXPOSURE=1.0\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 6\n";
         for (int i = 0; i < 24; ++i) file += std::string("\x40\x80\x20\x80", 4);
         return file;
     }
-    static std::string obj() {
+    static std::string make_obj_text() {
         return "# catoptric camera front 0 1 4 0 0 0 0 1 0 45\nmtllib m.mtl\no sheet\nv -1 0 0\nv 1 0 0\nv 1 2 0\n"
                "v -1 2 0 0.5 0.5 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nusemtl painted\n"
                "f 1/1/1 2/2/1 3/3/1 4/4/1\ng mirror\nusemtl silver\nv 0 0 1\nv 1 0 1\nv 0 1 1\n"
                "f -3 -2 -1\nl 1 2\ns off\n";
     }
-    static std::string mtl() {
+    static std::string make_mtl_text() {
         return "newmtl painted\nKd 0.5 0.4 0.3\nKe 0.1 0.1 0.1\nmap_Kd -s 2 2 1 p.png\nKs 0.2 0.2 0.2\nNs 40\nillum 2\n"
                "d 0.9\nNi 1.4\nnewmtl silver\nKd 0 0 0\nKs 1 1 1\nillum 3\nNs 1000\nKe 0 0 0\nPr 0\nPm 1\n";
     }
 
     void SetUp() override {
-        write("a.bin", buffer());
-        write("p.png", catoptric::measure::encode_picture_png(picture()));
-        write("good.exr", catoptric::measure::encode_exr(picture()));
-        write("m.mtl", mtl());
-        write("good.obj", obj());
-        std::filesystem::create_directory(kept());
+        write_input_file("a.bin", make_gltf_buffer());
+        write_input_file("p.png", catoptric::measure::encode_picture_png(make_test_picture()));
+        write_input_file("good.exr", catoptric::measure::encode_exr(make_test_picture()));
+        write_input_file("m.mtl", make_mtl_text());
+        write_input_file("good.obj", make_obj_text());
+        std::filesystem::create_directory(folder_of_kept_files());
     }
 
 private:
-    static std::filesystem::path kept() {
+    static std::filesystem::path folder_of_kept_files() {
         return std::filesystem::path(CATOPTRIC_CLI).parent_path() / "fuzzed";
     }
     /// Keeps a copy of a file that a reader handled wrongly, in the folder `fuzzed` beside the
     /// program.
-    void keep(const std::string& file, int index) const {
+    void keep_wrongly_read_file(const std::string& file, int index) const {
         std::error_code error;
-        std::filesystem::copy_file(folder / file, kept() / (std::to_string(index) + "-" + file),
+        std::filesystem::copy_file(folder / file,
+                                   folder_of_kept_files() / (std::to_string(index) + "-" + file),
                                    std::filesystem::copy_options::overwrite_existing, error);
     }
 };
 
 TEST_F(Readers, ChangedGltfFilesAreReadOrRefused) {
-    const Json document = scene("a.bin");
-    feed(
+    const Json document = make_gltf_scene("a.bin");
+    feed_changed_files_to_program(
         "scene.gltf", document.dump(1), {"info", "scene.gltf"},
-        [&](Random& random) { return changed_bytes(document.dump(1), random); },
-        [&](Random& random) { return changed_json(document, random).dump(1); });
+        [&](Random& random) { return change_random_bytes(document.dump(1), random); },
+        [&](Random& random) { return change_json_document(document, random).dump(1); });
 }
 
 TEST_F(Readers, ChangedGlbFilesAreReadOrRefused) {
-    const std::string glb = glb_of(scene(""), buffer());
-    feed(
+    const std::string glb = make_glb_file(make_gltf_scene(""), make_gltf_buffer());
+    feed_changed_files_to_program(
         "scene.glb", glb, {"info", "scene.glb"},
-        [&](Random& random) { return changed_bytes(glb, random); },
-        [&](Random& random) { return changed_glb(glb, random); });
+        [&](Random& random) { return change_random_bytes(glb, random); },
+        [&](Random& random) { return change_glb_file(glb, random); });
 }
 
 TEST_F(Readers, ChangedObjFilesAreReadOrRefused) {
-    feed(
-        "scene.obj", obj(), {"info", "scene.obj"},
-        [&](Random& random) { return changed_bytes(obj(), random); },
-        [&](Random& random) { return changed_lines(obj(), random); });
+    feed_changed_files_to_program(
+        "scene.obj", make_obj_text(), {"info", "scene.obj"},
+        [&](Random& random) { return change_random_bytes(make_obj_text(), random); },
+        [&](Random& random) { return change_text_lines(make_obj_text(), random); });
 }
 
 TEST_F(Readers, ChangedMtlFilesAreReadOrRefused) {
-    feed(
-        "m.mtl", mtl(), {"info", "good.obj"},
-        [&](Random& random) { return changed_bytes(mtl(), random); },
-        [&](Random& random) { return changed_lines(mtl(), random); });
+    feed_changed_files_to_program(
+        "m.mtl", make_mtl_text(), {"info", "good.obj"},
+        [&](Random& random) { return change_random_bytes(make_mtl_text(), random); },
+        [&](Random& random) { return change_text_lines(make_mtl_text(), random); });
 }
 
 TEST_F(Readers, ChangedExrFilesAreReadOrRefused) {
-    const std::string exr = read("good.exr");
-    feed(
+    const std::string exr = read_output_file("good.exr");
+    feed_changed_files_to_program(
         "a.exr", exr, {"diff", "a.exr", "good.exr"},
-        [&](Random& random) { return changed_bytes(exr, random); },
-        [&](Random& random) { return changed_exr(exr, random); });
+        [&](Random& random) { return change_random_bytes(exr, random); },
+        [&](Random& random) { return change_exr_file(exr, random); });
 }
 
 TEST_F(Readers, ChangedHdrFilesAreReadOrRefused) {
-    feed(
-        "a.hdr", hdr(), {"info", "good.obj", "--environment", "a.hdr"},
-        [&](Random& random) { return changed_bytes(hdr(), random); },
+    feed_changed_files_to_program(
+        "a.hdr", make_hdr_file(), {"info", "good.obj", "--environment", "a.hdr"},
+        [&](Random& random) { return change_random_bytes(make_hdr_file(), random); },
         [&](Random& random) {
-            const std::size_t pixels = hdr().find('\x40');
-            return changed_lines(hdr().substr(0, pixels), random) + hdr().substr(pixels);
+            const std::size_t pixels = make_hdr_file().find('\x40');
+            return change_text_lines(make_hdr_file().substr(0, pixels), random) +
+                   make_hdr_file().substr(pixels);
         });
 }
 
 TEST_F(Readers, ChangedPngFilesAreReadOrRefused) {
-    const std::string png = read("p.png");
-    feed(
+    const std::string png = read_output_file("p.png");
+    feed_changed_files_to_program(
         "a.png", png, {"diff", "a.png", "p.png"},
-        [&](Random& random) { return changed_bytes(png, random); },
-        [&](Random& random) { return changed_png(png, random); });
+        [&](Random& random) { return change_random_bytes(png, random); },
+        [&](Random& random) { return change_png_file(png, random); });
 }
 
 TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
@@ -284,10 +287,10 @@ TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
                            {"camera", "0,1.6,3:0,1,0:50"},
                            {"up", "y"},
                            {"animation", "none"}};
-    feed(
+    feed_changed_files_to_program(
         "good.obj.catoptric.json", document.dump(1), {"info", "good.obj"},
-        [&](Random& random) { return changed_bytes(document.dump(1), random); },
-        [&](Random& random) { return changed_json(document, random).dump(1); });
+        [&](Random& random) { return change_random_bytes(document.dump(1), random); },
+        [&](Random& random) { return change_json_document(document, random).dump(1); });
 }
 
 TEST_F(Readers, ChangedPlanFilesAreReadOrRefused) {
@@ -296,10 +299,10 @@ TEST_F(Readers, ChangedPlanFilesAreReadOrRefused) {
          {{{"mirror", 1}, {"technique", "secant"}, {"settings", {{"face", 64}, {"steps", "2"}}}},
           {{"mirror", "ball*"}, {"technique", "reuse"}, {"name", "b"}, {"why", "small"}},
           {{"mirror", "*"}, {"technique", "hybrid"}}}}};
-    feed(
+    feed_changed_files_to_program(
         "plan.json", document.dump(1), {"graph", "--plan", "plan.json", "--why"},
-        [&](Random& random) { return changed_bytes(document.dump(1), random); },
-        [&](Random& random) { return changed_json(document, random).dump(1); });
+        [&](Random& random) { return change_random_bytes(document.dump(1), random); },
+        [&](Random& random) { return change_json_document(document, random).dump(1); });
 }
 
 TEST_F(Readers, ChangedBenchmarkFilesAreReadOrRefused) {
@@ -316,26 +319,26 @@ TEST_F(Readers, ChangedBenchmarkFilesAreReadOrRefused) {
                                               {"real_time", 4.0 + round / 10.0},
                                               {"cpu_time", 8.0},
                                               {"time_unit", "ms"}});
-    write("before.json", document.dump());
-    ASSERT_EQ(cli({"bench", "--compare", "before.json", "before.json"}).exit_code, 0);
-    feed(
+    write_input_file("before.json", document.dump());
+    ASSERT_EQ(run_cli({"bench", "--compare", "before.json", "before.json"}).exit_code, 0);
+    feed_changed_files_to_program(
         "now.json", document.dump(1), {"bench", "--compare", "before.json", "now.json"},
-        [&](Random& random) { return changed_bytes(document.dump(1), random); },
-        [&](Random& random) { return changed_json(document, random).dump(1); });
+        [&](Random& random) { return change_random_bytes(document.dump(1), random); },
+        [&](Random& random) { return change_json_document(document, random).dump(1); });
 }
 
 TEST_F(Readers, ChangedDeviceProfilesAreReadOrRefused) {
-    const Json info = Json::parse(cli({"list", "devices", "--json"}).out)["devices"][0];
+    const Json info = Json::parse(run_cli({"list", "devices", "--json"}).out)["devices"][0];
     const Json document = {
         {"schema", "catoptric/device-profile/1"},
         {"version", "0.1.0"},
         {"device", {{"name", info["name"]}, {"driver", info["driver"]}, {"id", info["id"]}}},
         {"variants", {{"groups", "scattered"}}},
         {"measured", Json::array()}};
-    feed(
+    feed_changed_files_to_program(
         "profile.json", document.dump(1), {"info", "--device-profile", "profile.json"},
-        [&](Random& random) { return changed_bytes(document.dump(1), random); },
-        [&](Random& random) { return changed_json(document, random).dump(1); });
+        [&](Random& random) { return change_random_bytes(document.dump(1), random); },
+        [&](Random& random) { return change_json_document(document, random).dump(1); });
 }
 
 TEST_F(Readers, ChangedCostFilesAreReadOrRefused) {
@@ -346,12 +349,12 @@ TEST_F(Readers, ChangedCostFilesAreReadOrRefused) {
     for (const char* work : {"camera_rays", "mirror_rays", "colour_lookups", "fragments", "draws"})
         document["costs"].push_back(
             {{"work", work}, {"ns", 2.5}, {"range", {1.0, 4.0}}, {"source", "a paper"}});
-    feed(
+    feed_changed_files_to_program(
         "costs.json", document.dump(1),
         {"compare", "-o", "out", "--size", "8x8", "--frames", "1", "--warmup", "0", "--techniques",
          "reuse:face=8", "--costs", "costs.json"},
-        [&](Random& random) { return changed_bytes(document.dump(1), random); },
-        [&](Random& random) { return changed_json(document, random).dump(1); });
+        [&](Random& random) { return change_random_bytes(document.dump(1), random); },
+        [&](Random& random) { return change_json_document(document, random).dump(1); });
 }
 
 } // namespace

@@ -6,20 +6,20 @@ namespace {
 
 using namespace catoptric;
 
-constexpr int kChangedFrames = 12, kLit = 4;
-constexpr uvec2 kChangedSceneSize{64, 64};
+constexpr int kFramesAfterChange = 12, kLit = 4;
+constexpr uvec2 kChangedScenePictureSize{64, 64};
 
 /// Renders `frames` frames of a test room and returns the last picture. The material of the first
 /// lamp is made dark after `lit_frames` frames.
-measure::Picture changed_scene_picture(int lit_frames, int frames) {
+measure::Picture render_changed_scene(int lit_frames, int frames) {
     scene::Scene scene = test::make_lit_room(2, 2);
     const std::size_t out = test::add_material(scene, {.name = "out"});
     const auto lamp = std::ranges::find(scene.objects, "lamp1", &scene::Object::name);
     const scene::Edit put_out = scene::paint(static_cast<std::size_t>(lamp - scene.objects.begin()),
                                              out);
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     const app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"},
-                                                        kChangedSceneSize);
+                                                        kChangedScenePictureSize);
     measure::Picture last;
     for (int k = 1; k <= frames; ++k) {
         if (k == lit_frames + 1) session.change(put_out);
@@ -29,21 +29,22 @@ measure::Picture changed_scene_picture(int lit_frames, int frames) {
 }
 
 TEST(ChangedScene, PicturesEqualUnchangedScenesBeforeTheEditAndAfterSettling) {
-    EXPECT_TRUE(test::have_equal_pixel_bytes(changed_scene_picture(kLit, kLit),
-                                             changed_scene_picture(kChangedFrames, kLit)));
-    EXPECT_TRUE(test::have_equal_pixel_bytes(changed_scene_picture(kLit, kChangedFrames),
-                                             changed_scene_picture(0, kChangedFrames)));
-    EXPECT_FALSE(test::have_equal_pixel_bytes(changed_scene_picture(kChangedFrames, kChangedFrames),
-                                              changed_scene_picture(0, kChangedFrames)));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kLit),
+                                             render_changed_scene(kFramesAfterChange, kLit)));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kFramesAfterChange),
+                                             render_changed_scene(0, kFramesAfterChange)));
+    EXPECT_FALSE(
+        test::have_equal_pixel_bytes(render_changed_scene(kFramesAfterChange, kFramesAfterChange),
+                                     render_changed_scene(0, kFramesAfterChange)));
 }
 
 TEST(ChangedScene, EditKeepsTheHistory) {
     // The first frame without the lamp still shows its light in mirrors that are seen in mirrors,
     // because those come from the history. A session without history shows black in these pixels.
-    EXPECT_FALSE(test::have_equal_pixel_bytes(changed_scene_picture(kLit, kLit + 1),
-                                              changed_scene_picture(0, 1)));
-    EXPECT_FALSE(test::have_equal_pixel_bytes(changed_scene_picture(kLit, kLit + 1),
-                                              changed_scene_picture(0, kLit + 1)));
+    EXPECT_FALSE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kLit + 1),
+                                              render_changed_scene(0, 1)));
+    EXPECT_FALSE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kLit + 1),
+                                              render_changed_scene(0, kLit + 1)));
 }
 
 } // namespace

@@ -9,15 +9,15 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kShell = 1, kBall = .25, kAway = 3;
+constexpr double kShellRadius = 1, kBall = .25, kAway = 3;
 
 /// Returns a scene with a mirror ball at the origin, a larger mirror ball (the shell) around it,
 /// and eight mirror balls outside. With `turned_out`, a transform turns the last ball inside out.
-scene::Scene crowd_crowd(bool turned_out) {
+scene::Scene make_crowd_of_balls(bool turned_out) {
     scene::Scene scene{.name = "crowd"};
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_ball(scene, "inner", mirror, dvec3(0), kBall, 4);
-    test::add_ball(scene, "shell", mirror, dvec3(0), kShell, 4);
+    test::add_ball(scene, "shell", mirror, dvec3(0), kShellRadius, 4);
     for (int corner = 0; corner < 8; ++corner)
         test::add_ball(scene, "ball", mirror,
                        kAway * dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
@@ -28,19 +28,20 @@ scene::Scene crowd_crowd(bool turned_out) {
 }
 
 /// Nearest and farthest captured distance, in world units.
-struct Seen {
+struct CapturedDistanceRange {
     double nearest = 1e9, farthest = 0;
 };
 /// Returns the range of the distances in the capture of mirror `from` (numbered from 0). Reads the
 /// directions whose cosine with `along` is at least `cosine`. A cosine of -1 selects all
 /// directions.
-Seen seen(const test::CapturedCubes& captured, std::uint32_t from, const dvec3& along,
-          double cosine) {
-    Seen seen;
+CapturedDistanceRange find_captured_distance_range(const test::CapturedCubes& captured,
+                                                   std::uint32_t from, const dvec3& along,
+                                                   double cosine) {
+    CapturedDistanceRange seen;
     stress::for_each_cube_texel(
         captured.face, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
             if (dot(glm::normalize(direction), along) < cosine) return;
-            const double distance = captured.distance(from, face, x, y, Format::r32f) /
+            const double distance = captured.distance(from, face, x, y, TexelFormat::r32f) /
                                     captured.space.scale;
             seen.nearest = std::min(seen.nearest, distance);
             seen.farthest = std::max(seen.farthest, distance);
@@ -50,19 +51,22 @@ Seen seen(const test::CapturedCubes& captured, std::uint32_t from, const dvec3& 
 
 TEST(Crowd, CapturesShowBallsFromOutsideAndTheShellFromInside) {
     for (const bool turned_out : {false, true}) {
-        const test::CapturedCubes captured = test::capture_mirrors(crowd_crowd(turned_out), 64,
-                                                                   Format::r32f);
-        const Seen within = seen(captured, 0, dvec3(1, 0, 0), -1);
-        EXPECT_NEAR(within.nearest, kShell, .02);
-        EXPECT_NEAR(within.farthest, kShell, .02) << "the shell is closed";
+        const test::CapturedCubes captured = test::capture_mirrors(make_crowd_of_balls(turned_out),
+                                                                   64, TexelFormat::r32f);
+        const CapturedDistanceRange within = find_captured_distance_range(captured, 0,
+                                                                          dvec3(1, 0, 0), -1);
+        EXPECT_NEAR(within.nearest, kShellRadius, .02);
+        EXPECT_NEAR(within.farthest, kShellRadius, .02) << "the shell is closed";
         // The capture of the first outer ball shows the front of the shell.
         const dvec3 first = kAway * dvec3(-1), last = kAway * dvec3(1);
-        EXPECT_NEAR(seen(captured, 2, glm::normalize(-first), .9995).nearest,
-                    length(first) - kShell, .1);
+        EXPECT_NEAR(
+            find_captured_distance_range(captured, 2, glm::normalize(-first), .9995).nearest,
+            length(first) - kShellRadius, .1);
         // The capture of the seventh outer ball, looking along an edge of the cube of outer balls,
         // shows the eighth ball.
         const dvec3 seventh(-kAway, kAway, kAway);
-        EXPECT_NEAR(seen(captured, 8, glm::normalize(last - seventh), .9995).nearest,
+        EXPECT_NEAR(find_captured_distance_range(captured, 8, glm::normalize(last - seventh), .9995)
+                        .nearest,
                     length(last - seventh) - kBall, .1)
             << (turned_out ? "turned inside out" : "as made");
     }

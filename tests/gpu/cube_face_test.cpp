@@ -12,31 +12,31 @@
 namespace {
 
 using namespace catoptric;
-using stress::GlyphRoom;
+using stress::LetterRoom;
 
-constexpr std::uint32_t kFace = 64;
+constexpr std::uint32_t kCubeFaceTexels = 64;
 // Error of projected wall positions, as a share of a wall's width. Rasterisers snap vertices to
 // 1/256 of a texel, which is 2^-13 of a face's half width; a wall at a flat angle enlarges this
 // error.
-constexpr double kSnap = 0.001;
+constexpr double kSnappingError = 0.001;
 // Error of a linear texture lookup, as a share of a wall's width. The error is half the diagonal of
 // a texel, enlarged by walls at a flat angle.
-constexpr double kTexel = 0.03;
+constexpr double kTexelLookupError = 0.03;
 
 TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
-    const GlyphRoom room;
-    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kFace,
-                                                               Format::r32f);
+    const LetterRoom room;
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_letter_room_scene(),
+                                                               kCubeFaceTexels, TexelFormat::r32f);
     std::size_t wrong = 0, judged = 0, inked = 0;
     stress::for_each_cube_texel(
-        kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const GlyphRoom::SeenWallPoint seen = room.seen_wall_point(direction);
+        kCubeFaceTexels, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+            const LetterRoom::SeenWallPoint seen = room.seen_wall_point(direction);
             // Skip texels whose centre lies on an edge of a glyph.
-            if (seen.margin < kSnap) return;
+            if (seen.margin < kSnappingError) return;
             ++judged, inked += seen.glyph;
-            wrong += captured.colour(0, face, x, y) != room.colour(seen);
+            wrong += captured.colour(0, face, x, y) != room.colour_of_wall_point(seen);
         });
-    EXPECT_GT(judged, 6 * kFace * kFace * 95 / 100);
+    EXPECT_GT(judged, 6 * kCubeFaceTexels * kCubeFaceTexels * 95 / 100);
     EXPECT_GT(inked, 1000u);
     EXPECT_EQ(wrong, 0u);
 }
@@ -44,11 +44,11 @@ TEST(CubeFace, EveryTexelShowsWhatLiesInItsDirection) {
 /// Tests the middle of each stroke of a glyph. Projected by the cube map table of the Vulkan
 /// specification, this point must lie on a texel with the stroke's colour.
 TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
-    const GlyphRoom room;
-    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kFace,
-                                                               Format::r32f);
+    const LetterRoom room;
+    const test::CapturedCubes captured = test::capture_mirrors(room.make_letter_room_scene(),
+                                                               kCubeFaceTexels, TexelFormat::r32f);
     for (int wall = 0; wall < 6; ++wall)
-        for (const GlyphRoom::Stroke& stroke : GlyphRoom::kGlyphStrokes) {
+        for (const LetterRoom::LetterStroke& stroke : LetterRoom::kLetterStrokes) {
             const dvec3 middle = room.wall_point(wall, (stroke.u0 + stroke.u1) / 2,
                                                  (stroke.v0 + stroke.v1) / 2) -
                                  room.centre;
@@ -56,10 +56,10 @@ TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
             const vec3 place = f32::cube_coordinates(face, vec3(middle));
             const auto texel = [](float coordinate) {
                 return static_cast<std::uint32_t>((coordinate * .5f + .5f) *
-                                                  static_cast<float>(kFace));
+                                                  static_cast<float>(kCubeFaceTexels));
             };
             EXPECT_EQ(captured.colour(0, face, texel(place.x / place.z), texel(place.y / place.z)),
-                      GlyphRoom::glyph_colour(wall))
+                      LetterRoom::letter_colour_of_wall(wall))
                 << "wall " << wall << ", face " << face;
         }
 }
@@ -67,9 +67,9 @@ TEST(CubeFace, GlyphsLieWhereTheSpecificationProjectsThem) {
 /// Tests the device's cube map lookup, which does not use the views with which the engine draws the
 /// faces.
 TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
-    const GlyphRoom room;
-    auto& [device, pipelines] = test::test_device();
-    const scene::Scene scene = room.make_scene();
+    const LetterRoom room;
+    auto& [device, pipelines] = test::get_test_device();
+    const scene::Scene scene = room.make_letter_room_scene();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
     std::mt19937 random(1);
@@ -77,16 +77,16 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
     std::vector<vec4> directions;
     for (int i = 0; i < 4096; ++i)
         directions.emplace_back(vec3(normal(random), normal(random), normal(random)), 0.0f);
-    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
-                      gpu::BufferUsage::plain);
-    asked.write(std::span<const vec4>(directions));
+    gpu::GpuBuffer asked(device, "directions", directions.size() * sizeof(vec4),
+                         gpu::BufferUsage::plain);
+    asked.write_contents(std::span<const vec4>(directions));
 
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     render::CaptureOptions options;
-    options.face = 256, options.distance = Format::r32f;
-    const render::CubeArray cubes = test::add_black_captures(graph, inputs, options);
+    options.face = 256, options.distance = TexelFormat::r32f;
+    const render::CubeCaptureArray cubes = test::add_black_captures(graph, inputs, options);
     const graph::BufferHandle found = graph.add_buffer({"found", directions.size() * sizeof(vec4)});
     graph.add_pass("look")
         .reads(cubes.colour, graph::ResourceUse::sampled)
@@ -94,46 +94,51 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
         .writes(found, graph::ResourceUse::storage_write)
         .record([&, cubes, found](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
-            commands.bind("colour_cubes", cubes.colour, graph::TextureFilter::linear);
-            commands.bind("distance_cubes", *cubes.distance, graph::TextureFilter::nearest);
-            commands.bind("Directions", asked);
-            commands.bind("Found", found);
+            commands.bind_resource("colour_cubes", cubes.colour, graph::TextureFilter::linear);
+            commands.bind_resource("distance_cubes", *cubes.distance,
+                                   graph::TextureFilter::nearest);
+            commands.bind_resource("Directions", asked);
+            commands.bind_resource("Found", found);
             commands.dispatch(static_cast<std::uint32_t>((directions.size() + 63) / 64), 1);
         });
     graph.mark_output(found);
     test::run_graph(runner, graph);
-    const std::vector<vec4> answers = test::read_values<vec4>(runner, found);
+    const std::vector<vec4> answers = test::read_resource_values<vec4>(runner, found);
     std::size_t judged = 0, wrong = 0;
     for (std::size_t i = 0; i < answers.size(); ++i) {
-        const GlyphRoom::SeenWallPoint seen = room.seen_wall_point(dvec3(directions[i]));
-        if (seen.margin < kTexel) continue;
+        const LetterRoom::SeenWallPoint seen = room.seen_wall_point(dvec3(directions[i]));
+        if (seen.margin < kTexelLookupError) continue;
         ++judged;
-        wrong += vec3(answers[i]) != room.colour(seen);
+        wrong += vec3(answers[i]) != room.colour_of_wall_point(seen);
         // A lookup of the nearest texel reads a distance at most half a texel's diagonal aside. The
         // distance changes little over that length.
-        EXPECT_NEAR(answers[i].w, gpu_scene.space().to_scene_length(seen.distance),
-                    0.02 * gpu_scene.space().to_scene_length(seen.distance));
+        EXPECT_NEAR(answers[i].w, gpu_scene.scene_units().world_to_scene_length(seen.distance),
+                    0.02 * gpu_scene.scene_units().world_to_scene_length(seen.distance));
     }
     EXPECT_GT(judged, 1000u);
     EXPECT_EQ(wrong, 0u);
 }
 
-class Distances : public testing::TestWithParam<Format> {};
+class Distances : public testing::TestWithParam<TexelFormat> {};
 INSTANTIATE_TEST_SUITE_P(Formats, Distances,
-                         testing::Values(Format::r32f, Format::r16f, Format::r8_unorm),
-                         [](const auto& instance) { return std::string(name_of(instance.param)); });
+                         testing::Values(TexelFormat::r32f, TexelFormat::r16f,
+                                         TexelFormat::r8_unorm),
+                         [](const auto& instance) {
+                             return std::string(texel_format_name(instance.param));
+                         });
 
 TEST_P(Distances, CapturedDistancesEqualTheDistancesOfTheWalls) {
-    const GlyphRoom room;
-    constexpr double kRange = 5; // range of unorm8 in world units; some walls are farther away
-    const bool unorm = GetParam() == Format::r8_unorm;
-    const test::CapturedCubes captured = test::capture_mirrors(room.make_scene(), kFace, GetParam(),
-                                                               kRange);
-    const double unit = unorm ? captured.space.to_scene_length(kRange) : 1.0;
+    const LetterRoom room;
+    constexpr double kUnormRangeInWorldUnits =
+        5; // range of unorm8 in world units; some walls are farther away
+    const bool unorm = GetParam() == TexelFormat::r8_unorm;
+    const test::CapturedCubes captured = test::capture_mirrors(
+        room.make_letter_room_scene(), kCubeFaceTexels, GetParam(), kUnormRangeInWorldUnits);
+    const double unit = unorm ? captured.space.world_to_scene_length(kUnormRangeInWorldUnits) : 1.0;
     double worst = 0;
     stress::for_each_cube_texel(
-        kFace, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
-            const double wanted = captured.space.to_scene_length(
+        kCubeFaceTexels, [&](const dvec3& direction, int face, std::uint32_t x, std::uint32_t y) {
+            const double wanted = captured.space.world_to_scene_length(
                                       room.seen_wall_point(direction).distance) /
                                   unit;
             const double found = captured.distance(0, face, x, y, GetParam());
@@ -150,15 +155,17 @@ TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     // The only wall lies towards +X of the ball.
-    test::add_mesh(scene, test::wall(0, {-2, -9, -9}, {2, 9, 9}), hot);
+    test::add_mesh(scene, test::make_box_wall(0, {-2, -9, -9}, {2, 9, 9}), hot);
     test::add_ball(scene, "ball", mirror, {0, 0, 0}, 1);
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
-    const test::CapturedCubes captured = test::capture_mirrors(scene, kFace, GetParam(), 100);
-    const float nothing = GetParam() == Format::r8_unorm ? 1.0f
-                                                         : std::numeric_limits<float>::infinity();
+    const test::CapturedCubes captured = test::capture_mirrors(scene, kCubeFaceTexels, GetParam(),
+                                                               100);
+    const float nothing = GetParam() == TexelFormat::r8_unorm
+                              ? 1.0f
+                              : std::numeric_limits<float>::infinity();
     std::size_t wrong = 0;
-    for (std::uint32_t y = 0; y < kFace; ++y)
-        for (std::uint32_t x = 0; x < kFace; ++x) {
+    for (std::uint32_t y = 0; y < kCubeFaceTexels; ++y)
+        for (std::uint32_t x = 0; x < kCubeFaceTexels; ++x) {
             wrong += captured.distance(0, 1, x, y, GetParam()) != nothing;
             wrong += captured.colour(0, 1, x, y) != vec3(0);
             wrong += !(captured.distance(0, 0, x, y, GetParam()) < nothing);
@@ -167,23 +174,23 @@ TEST_P(Distances, EmptyDirectionsHaveInfiniteOrLargestDistance) {
 }
 
 TEST(CubeFace, CaptureLeavesOutItsOwnMirrorAndShowsOtherMirrors) {
-    const test::CapturedCubes captured = test::capture_mirrors(test::make_furnace_scene(2), kFace,
-                                                               Format::r32f);
+    const test::CapturedCubes captured = test::capture_mirrors(test::make_furnace_scene(2),
+                                                               kCubeFaceTexels, TexelFormat::r32f);
     std::size_t black[2] = {0, 0}, hot[2] = {0, 0};
     for (std::uint32_t mirror = 0; mirror < 2; ++mirror)
-        stress::for_each_cube_texel(kFace,
+        stress::for_each_cube_texel(kCubeFaceTexels,
                                     [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
                                         const vec3 colour = captured.colour(mirror, face, x, y);
                                         black[mirror] += colour == vec3(0);
-                                        hot[mirror] += colour == test::kFurnaceRadiance;
+                                        hot[mirror] += colour == test::kFurnaceWallRadiance;
                                     });
     // The other ball is seen from outside. Its radius over its distance is the sine of the half
     // angle under which it is seen, and gives its share of all directions.
     const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)),
-                 texels = 6.0 * kFace * kFace;
+                 texels = 6.0 * kCubeFaceTexels * kCubeFaceTexels;
     const double radii[2] = {1.2, 1};
     for (int mirror = 0; mirror < 2; ++mirror) {
-        EXPECT_EQ(black[mirror] + hot[mirror], 6 * kFace * kFace);
+        EXPECT_EQ(black[mirror] + hot[mirror], 6 * kCubeFaceTexels * kCubeFaceTexels);
         const double cosine = std::sqrt(1 - std::pow(radii[mirror] / gap, 2));
         EXPECT_NEAR(static_cast<double>(black[mirror]) / texels, (1 - cosine) / 2, 0.03);
     }

@@ -8,7 +8,7 @@ using namespace catoptric;
 
 TEST(Device, UnknownIndexIsRefusedWithTheNumberOfDevices) {
     const std::size_t count = gpu::list_devices().size();
-    test::expect_error([] { gpu::Device device({.wanted = "99"}); }, Failure::usage,
+    test::expect_error([] { gpu::GpuDevice device({.wanted = "99"}); }, Failure::usage,
                        {"no device '99'", "there are " + std::to_string(count), "counted from 0"});
 }
 
@@ -16,14 +16,15 @@ TEST(Device, UnknownNameIsRefusedWithTheNearestName) {
     std::string name = gpu::list_devices().front().name;
     name.front() = '?';
     test::expect_error(
-        [&] { gpu::Device device({.wanted = name}); }, Failure::usage,
+        [&] { gpu::GpuDevice device({.wanted = name}); }, Failure::usage,
         {"no device '" + name + "'", "did you mean '" + gpu::list_devices().front().name + "'"});
 }
 
 TEST(Device, DeviceIsChosenByIndexOrPartOfItsName) {
     const gpu::DeviceProperties first = gpu::list_devices().front();
-    EXPECT_EQ(gpu::Device({.wanted = "0"}).info().name, first.name);
-    EXPECT_EQ(gpu::Device({.wanted = first.name.substr(0, 4)}).info().name, first.name);
+    EXPECT_EQ(gpu::GpuDevice({.wanted = "0"}).device_properties().name, first.name);
+    EXPECT_EQ(gpu::GpuDevice({.wanted = first.name.substr(0, 4)}).device_properties().name,
+              first.name);
 }
 
 TEST(Device, ListNamesDriverVersionAndThreads) {
@@ -36,18 +37,18 @@ TEST(Device, ListNamesDriverVersionAndThreads) {
 }
 
 TEST(Device, LayeredRenderingCanBeSwitchedOff) {
-    EXPECT_FALSE(gpu::Device({.layered = false}).supports_layered_rendering());
+    EXPECT_FALSE(gpu::GpuDevice({.layered = false}).supports_layered_rendering());
 }
 
 TEST(Device, GraphLargerThanDeviceMemoryIsRefusedWithBothSizes) {
-    auto& [device, pipelines] = test::test_device();
+    auto& [device, pipelines] = test::get_test_device();
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     // All images of 1 GiB together need more memory than the device has.
     const std::uint64_t count = device.memory_budget() / (std::uint64_t{1} << 30) + 1;
     for (std::uint64_t i = 0; i < count; ++i) {
         const graph::ImageHandle image = graph.add_image(
-            {"huge" + std::to_string(i), Format::rgba32f, 8192, 8192});
+            {"huge" + std::to_string(i), TexelFormat::rgba32f, 8192, 8192});
         graph.add_pass("fill" + std::to_string(i))
             .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
             .record([](graph::PassCommands&) {});

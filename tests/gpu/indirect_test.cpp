@@ -7,13 +7,13 @@ namespace {
 
 using namespace catoptric;
 
-constexpr std::uint32_t kTurns = 7;
+constexpr std::uint32_t kDispatchCount = 7;
 
 /// Dispatches `groups` work groups in x, y and z indirectly. Returns what each of the first four
 /// work groups counted; 0: the group did not run. `declared`: the pass declares the buffer as
 /// indirect arguments.
-std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
+std::vector<std::uint32_t> dispatch_and_count_groups(std::uint32_t groups, bool declared = true) {
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
     const graph::BufferHandle counts = graph.add_buffer({"counts", 16}),
                               arguments = graph.add_buffer({"arguments", 16});
@@ -30,23 +30,24 @@ std::vector<std::uint32_t> counts_of(std::uint32_t groups, bool declared = true)
         .writes(counts, graph::ResourceUse::storage)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
-            commands.bind("Counts", counts);
-            commands.push_constants(kTurns);
+            commands.bind_resource("Counts", counts);
+            commands.push_constants(kDispatchCount);
             commands.dispatch_indirect(arguments, 4);
         });
     graph.mark_output(counts);
     test::run_graph(runner, graph);
-    return test::read_values<std::uint32_t>(runner, counts);
+    return test::read_resource_values<std::uint32_t>(runner, counts);
 }
 
 TEST(Indirect, NumberOfWorkGroupsComesFromTheBuffer) {
-    EXPECT_EQ(counts_of(0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
-    EXPECT_EQ(counts_of(1), (std::vector<std::uint32_t>{kTurns, 0, 0, 0}));
-    EXPECT_EQ(counts_of(3), (std::vector<std::uint32_t>{kTurns, kTurns, kTurns, 0}));
+    EXPECT_EQ(dispatch_and_count_groups(0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
+    EXPECT_EQ(dispatch_and_count_groups(1), (std::vector<std::uint32_t>{kDispatchCount, 0, 0, 0}));
+    EXPECT_EQ(dispatch_and_count_groups(3),
+              (std::vector<std::uint32_t>{kDispatchCount, kDispatchCount, kDispatchCount, 0}));
 }
 
 TEST(Indirect, BufferNotDeclaredAsIndirectIsRefused) {
-    test::expect_error([] { counts_of(1, false); }, Failure::internal,
+    test::expect_error([] { dispatch_and_count_groups(1, false); }, Failure::internal,
                        {"'spin'", "'arguments'", "indirect"});
 }
 

@@ -13,23 +13,23 @@ using test::DeviceHit;
 using test::DeviceRay;
 using test::DeviceRayTracer;
 
-std::vector<bvh::Triangle> ball() {
-    return *test::place_triangles(scene::ball("ball", 5), 1, dvec3(0));
+std::vector<bvh::Triangle> make_ball_triangles() {
+    return *test::make_placed_triangles(scene::ball("ball", 5), 1, dvec3(0));
 }
 
-float& field(DeviceRay& ray, std::size_t i) {
+float& ray_component(DeviceRay& ray, std::size_t i) {
     return i < 3   ? ray.origin[static_cast<int>(i)]
            : i < 6 ? ray.direction[static_cast<int>(i) - 3]
                    : ray.t_max;
 }
 
-struct Steps {
+struct TraversalStepCounts {
     double mean = 0;
     std::uint32_t most = 0;
 };
 
-Steps steps_of(const std::vector<DeviceHit>& hits) {
-    Steps result;
+TraversalStepCounts count_traversal_steps(const std::vector<DeviceHit>& hits) {
+    TraversalStepCounts result;
     for (const DeviceHit& hit : hits) {
         result.mean += hit.steps / static_cast<double>(hits.size());
         result.most = std::max(result.most, hit.steps);
@@ -39,20 +39,20 @@ Steps steps_of(const std::vector<DeviceHit>& hits) {
 
 /// Returns rays with random origins and directions. A `reach` of 0.5 puts all origins inside the
 /// ball.
-std::vector<DeviceRay> normal_rays(std::size_t count, float reach) {
+std::vector<DeviceRay> make_ordinary_rays(std::size_t count, float reach) {
     test::RandomNumbers numbers(16);
     std::vector<DeviceRay> rays(count);
     for (DeviceRay& ray : rays) {
-        ray.origin = reach * numbers.point_in_cube();
-        ray.direction = numbers.unit_direction();
+        ray.origin = reach * numbers.random_point_in_cube();
+        ray.direction = numbers.random_unit_direction();
     }
     return rays;
 }
 
 TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
-    DeviceRayTracer kernel(ball());
-    const std::vector<DeviceRay> normal = normal_rays(10000, 0.5f);
-    const Steps usual = steps_of(kernel.find_closest_hits(normal));
+    DeviceRayTracer kernel(make_ball_triangles());
+    const std::vector<DeviceRay> normal = make_ordinary_rays(10000, 0.5f);
+    const TraversalStepCounts usual = count_traversal_steps(kernel.find_closest_hits(normal));
     std::vector<DeviceRay> bad;
     // The words are quiet and signalling NaN of both signs and the two infinities. An infinite
     // t_max is skipped below, because that is a valid ray.
@@ -61,7 +61,7 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
         for (std::size_t i = 0; i < 7; ++i)
             for (std::size_t k = 0; k < 200 && !(i == 6 && word == 0x7f800000u); ++k) {
                 bad.push_back(normal[k]);
-                field(bad.back(), i) = std::bit_cast<float>(word);
+                ray_component(bad.back(), i) = std::bit_cast<float>(word);
             }
     for (std::size_t k = 0; k < 200; ++k) {
         bad.push_back(normal[k]);
@@ -76,10 +76,10 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
                                                    : kernel.find_closest_hits(bad);
         std::size_t found = 0;
         for (std::size_t i = 0; i < bad.size(); ++i)
-            if ((hits[i].is_hit() || hits[i].reached_step_limit()) && found++ == 0)
+            if ((hits[i].is_hit() || hits[i].has_reached_step_limit()) && found++ == 0)
                 ADD_FAILURE() << "ray " << i << ", " << test::format_for_message(bad[i]) << ": "
                               << test::format_for_message(hits[i]);
-        const Steps steps = steps_of(hits);
+        const TraversalStepCounts steps = count_traversal_steps(hits);
         std::cout << "[ MEASURED ] N16 " << (shadow ? "shadow rays: " : "nearest: ") << found
                   << " of " << bad.size() << " bad rays do not miss, at most " << steps.most
                   << " steps; normal rays take " << usual.mean << ", at most " << usual.most
@@ -92,19 +92,19 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
 /// Tests that the sign of a zero coordinate of a ray changes neither its hit nor, beyond the bound,
 /// its number of steps.
 TEST(KernelBadRays, N16_NegativeZeroActsAsZero) {
-    DeviceRayTracer kernel(ball());
-    std::vector<DeviceRay> positive = normal_rays(60000, 1.2f);
+    DeviceRayTracer kernel(make_ball_triangles());
+    std::vector<DeviceRay> positive = make_ordinary_rays(60000, 1.2f);
     for (std::size_t i = 0; i < positive.size(); ++i) {
-        field(positive[i], i % 6) = 0.0f;
+        ray_component(positive[i], i % 6) = 0.0f;
         if (i % 4 == 0)
             // Some rays lie along an axis or in a coordinate plane, or start at the centre.
-            field(positive[i], (i + 1) % 6) = 0.0f;
-        if (i % 8 == 0) field(positive[i], (i + 2) % 6) = 0.0f;
+            ray_component(positive[i], (i + 1) % 6) = 0.0f;
+        if (i % 8 == 0) ray_component(positive[i], (i + 2) % 6) = 0.0f;
     }
     std::vector<DeviceRay> negative = positive;
     for (DeviceRay& ray : negative)
         for (std::size_t i = 0; i < 6; ++i)
-            if (field(ray, i) == 0) field(ray, i) = -0.0f;
+            if (ray_component(ray, i) == 0) ray_component(ray, i) = -0.0f;
     const std::vector<DeviceHit> expected = kernel.find_closest_hits(positive),
                                  hits = kernel.find_closest_hits(negative);
     std::size_t other = 0, found = 0;

@@ -17,18 +17,18 @@ using test::DeviceHit;
 using test::DeviceRay;
 using test::DeviceRayTracer;
 
-float random_bits(test::RandomNumbers& numbers) {
+float random_float_of_bits(test::RandomNumbers& numbers) {
     return std::bit_cast<float>(numbers.random_word());
 }
-vec3 random_bits3(test::RandomNumbers& numbers) {
-    const float x = random_bits(numbers), y = random_bits(numbers);
-    return {x, y, random_bits(numbers)};
+vec3 random_vector_of_bits(test::RandomNumbers& numbers) {
+    const float x = random_float_of_bits(numbers), y = random_float_of_bits(numbers);
+    return {x, y, random_float_of_bits(numbers)};
 }
 
 /// Returns the triangles that remain after a scene loader has repaired a mesh of `triangles`. Adds
 /// the number of triangles without area to `dropped`.
-std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
-                                  std::size_t& dropped) {
+std::vector<bvh::Triangle> repair_triangles_as_loader(const std::vector<bvh::Triangle>& triangles,
+                                                      std::size_t& dropped) {
     scene::Mesh mesh{.name = "bits"};
     for (const bvh::Triangle& t : triangles) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -46,29 +46,32 @@ std::vector<bvh::Triangle> loaded(const std::vector<bvh::Triangle>& triangles,
 
 /// Returns rays of which every second consists of random bits. The others start at random points
 /// and aim at corners of the triangles.
-std::vector<DeviceRay> rays_at(const std::vector<bvh::Triangle>& triangles,
-                               test::RandomNumbers& numbers) {
+std::vector<DeviceRay> make_rays_at_triangles(const std::vector<bvh::Triangle>& triangles,
+                                              test::RandomNumbers& numbers) {
     std::vector<DeviceRay> rays(128);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        rays[i].origin = i % 2 == 0 ? random_bits3(numbers) : numbers.point_in_cube();
-        rays[i].direction = i % 2 == 0 ? random_bits3(numbers)
-                                       : triangles[numbers.integer_below(triangles.size())].b -
-                                             rays[i].origin;
-        if (i % 4 == 0) rays[i].t_max = random_bits(numbers);
+        rays[i].origin = i % 2 == 0 ? random_vector_of_bits(numbers)
+                                    : numbers.random_point_in_cube();
+        rays[i].direction = i % 2 == 0
+                                ? random_vector_of_bits(numbers)
+                                : triangles[numbers.random_integer_below(triangles.size())].b -
+                                      rays[i].origin;
+        if (i % 4 == 0) rays[i].t_max = random_float_of_bits(numbers);
     }
     return rays;
 }
 
 TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) {
-    constexpr std::size_t kSeeds = 1000, kTriangles = 60;
+    constexpr std::size_t kRandomMeshCount = 1000, kTriangles = 60;
     std::size_t not_finite = 0, flat = 0, kept = 0, hits = 0;
     std::uint32_t most_steps = 0;
-    for (std::size_t seed = 0; seed < kSeeds; ++seed) {
+    for (std::size_t seed = 0; seed < kRandomMeshCount; ++seed) {
         SCOPED_TRACE(seed);
         test::RandomNumbers numbers(seed);
         std::vector<bvh::Triangle> triangles(kTriangles);
         for (bvh::Triangle& t : triangles)
-            t = {random_bits3(numbers), random_bits3(numbers), random_bits3(numbers)};
+            t = {random_vector_of_bits(numbers), random_vector_of_bits(numbers),
+                 random_vector_of_bits(numbers)};
         std::set<std::size_t> finite;
         std::vector<bvh::Triangle> good;
         for (std::size_t i = 0; i < kTriangles; ++i) {
@@ -80,18 +83,18 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         // Build a BVH of all triangles without repair, and check the loader's result on the finite
         // triangles.
         DeviceRayTracer kernel(triangles);
-        const bvh::Bvh& hierarchy = kernel.bvh_tree();
+        const bvh::Bvh& hierarchy = kernel.traversed_bvh();
         ASSERT_EQ(hierarchy.dropped, kTriangles - finite.size());
         ASSERT_EQ(bvh::count_triangles(hierarchy), finite.size());
         for (const vec4& corner : hierarchy.triangles) ASSERT_TRUE(f32::is_finite(vec3(corner)));
-        const std::vector<bvh::Triangle> area = loaded(good, flat);
+        const std::vector<bvh::Triangle> area = repair_triangles_as_loader(good, flat);
         ASSERT_EQ(bvh::build_bvh(area).dropped, 0u);
         not_finite += hierarchy.dropped;
         kept += area.size();
 
-        const std::vector<DeviceRay> rays = rays_at(triangles, numbers);
+        const std::vector<DeviceRay> rays = make_rays_at_triangles(triangles, numbers);
         for (const DeviceHit& hit : kernel.find_closest_hits(rays)) {
-            ASSERT_FALSE(hit.reached_step_limit());
+            ASSERT_FALSE(hit.has_reached_step_limit());
             most_steps = std::max(most_steps, hit.steps);
             ASSERT_LE(hit.steps, bvh::count_nodes(hierarchy) + bvh::count_triangles(hierarchy))
                 << "nothing is looked at twice";
@@ -102,7 +105,7 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
         }
         for (const DeviceRay& ray : rays) test::find_hit_on_cpu(hierarchy, ray);
     }
-    std::cout << "[ MEASURED ] N19 " << kSeeds << " seeds: " << not_finite
+    std::cout << "[ MEASURED ] N19 " << kRandomMeshCount << " seeds: " << not_finite
               << " triangles dropped as not finite, " << flat << " without an area, " << kept
               << " kept; " << hits << " hits, at most " << most_steps << " steps\n";
     EXPECT_GT(not_finite, 0u);
@@ -111,7 +114,7 @@ TEST(KernelGeometry, N19_TrianglesOfRandomBitsAreDroppedOrTracedInBoundedSteps) 
 
 const bvh::Triangle kOne{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}};
 
-std::vector<bvh::Triangle> copies(std::size_t count, bool of_one_object) {
+std::vector<bvh::Triangle> make_triangle_copies(std::size_t count, bool of_one_object) {
     std::vector<bvh::Triangle> result(count, kOne);
     for (std::size_t i = 0; i < count; ++i)
         result[i].object = of_one_object ? 0 : static_cast<std::uint32_t>(count - i);
@@ -119,13 +122,14 @@ std::vector<bvh::Triangle> copies(std::size_t count, bool of_one_object) {
 }
 
 /// Returns rays that start on either side of the triangle. Some hit the triangle, others pass it.
-std::vector<DeviceRay> rays_at_the_copies() {
+std::vector<DeviceRay> make_rays_at_triangle_copies() {
     test::RandomNumbers numbers(21);
     std::vector<DeviceRay> rays(256);
     for (DeviceRay& ray : rays) {
-        ray.origin = {0.4f * numbers.number_between(-1, 1), 0.4f * numbers.number_between(-1, 1),
+        ray.origin = {0.4f * numbers.random_number_between(-1, 1),
+                      0.4f * numbers.random_number_between(-1, 1),
                       numbers.random_word() % 2 == 0 ? 0.0f : 2.0f};
-        ray.direction = vec3(0.3f, 0.3f, 1) * numbers.point_in_cube();
+        ray.direction = vec3(0.3f, 0.3f, 1) * numbers.random_point_in_cube();
     }
     return rays;
 }
@@ -133,17 +137,18 @@ std::vector<DeviceRay> rays_at_the_copies() {
 /// Tests 100,000 copies of one triangle. A ray meets all copies at the same t, so it would have to
 /// test every copy. Copies of one object cannot be distinguished, so the BVH keeps one copy.
 TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
-    const std::vector<bvh::Triangle> triangles = copies(100000, true);
+    const std::vector<bvh::Triangle> triangles = make_triangle_copies(100000, true);
     const auto start = std::chrono::steady_clock::now();
     bvh::Bvh hierarchy = bvh::build_bvh(triangles);
     const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
     DeviceRayTracer kernel(std::move(hierarchy));
-    const std::vector<DeviceRay> rays = rays_at_the_copies();
+    const std::vector<DeviceRay> rays = make_rays_at_triangle_copies();
     const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays),
                                  shadows = kernel.find_any_hits(rays);
     std::size_t found = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_FALSE(hits[i].reached_step_limit()) << "gave up after " << hits[i].steps << " steps";
+        ASSERT_FALSE(hits[i].has_reached_step_limit())
+            << "gave up after " << hits[i].steps << " steps";
         ASSERT_EQ(hits[i].triangle, 0u);
         ASSERT_EQ(hits[i].is_hit(), shadows[i].is_hit());
         found += hits[i].is_hit() ? 1 : 0;
@@ -160,18 +165,18 @@ TEST(KernelGeometry, N21_CopiesOfOneTriangleAreTracedAsOne) {
 /// copies within its step limit, the lowest number wins. Otherwise the ray reports that it gave up.
 /// Its neighbouring lanes may give up too, because the driver ends their loops as well.
 TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
-    const std::vector<DeviceRay> rays = rays_at_the_copies();
+    const std::vector<DeviceRay> rays = make_rays_at_triangle_copies();
     for (const std::size_t count : {std::size_t{5000}, std::size_t{100000}}) {
-        DeviceRayTracer kernel(copies(count, false));
-        ASSERT_EQ(bvh::count_triangles(kernel.bvh_tree()), count);
+        DeviceRayTracer kernel(make_triangle_copies(count, false));
+        ASSERT_EQ(bvh::count_triangles(kernel.traversed_bvh()), count);
         const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
         std::size_t found = 0, gave_up = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const DeviceHit expected = test::find_hit_on_cpu(kernel.bvh_tree(), rays[i]);
-            gave_up += hits[i].reached_step_limit() ? 1 : 0;
+            const DeviceHit expected = test::find_hit_on_cpu(kernel.traversed_bvh(), rays[i]);
+            gave_up += hits[i].has_reached_step_limit() ? 1 : 0;
             found += expected.is_hit() ? 1 : 0;
             ASSERT_EQ(expected.triangle, 0u);
-            ASSERT_TRUE(hits[i].reached_step_limit() || test::are_equal_hits(hits[i], expected))
+            ASSERT_TRUE(hits[i].has_reached_step_limit() || test::are_equal_hits(hits[i], expected))
                 << i << ' ' << test::format_for_message(hits[i]);
         }
         std::cout << "[ MEASURED ] case N21, copies of one triangle in " << count
@@ -189,8 +194,8 @@ TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
 /// another order. Among hits of equal t the lowest number must win, whichever leaf holds it. No ray
 /// may hit the second copy. The test prints a checksum of all hits, which the next test compares.
 TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
-    std::vector<bvh::Triangle> triangles = *test::place_triangles(scene::ball("ball", 5), 1,
-                                                                  dvec3(0));
+    std::vector<bvh::Triangle> triangles = *test::make_placed_triangles(scene::ball("ball", 5), 1,
+                                                                        dvec3(0));
     const std::size_t once = triangles.size();
     for (std::size_t i = 0; i < once; ++i) triangles.push_back(triangles[i]);
     for (std::size_t i = 0; i < once; ++i)
@@ -199,18 +204,18 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
     test::RandomNumbers numbers(22);
     std::vector<DeviceRay> rays(50000);
     for (DeviceRay& ray : rays) {
-        ray.origin = 0.5f * numbers.point_in_cube();
-        const bvh::Triangle& t = triangles[numbers.integer_below(once)];
+        ray.origin = 0.5f * numbers.random_point_in_cube();
+        const bvh::Triangle& t = triangles[numbers.random_integer_below(once)];
         ray.direction = numbers.random_word() % 2 == 0
-                            ? numbers.unit_direction()
-                            : t.a + numbers.unit_fraction() * (t.b - t.a) - ray.origin;
+                            ? numbers.random_unit_direction()
+                            : t.a + numbers.random_unit_fraction() * (t.b - t.a) - ray.origin;
     }
     const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
     std::size_t not_lowest = 0;
     std::uint64_t checksum = 14695981039346656037u; // offset basis of the FNV-1a hash
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const auto lowest = bvh::find_closest_hit<float>(
-            kernel.bvh_tree(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
+            kernel.traversed_bvh(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
         const bool second = hits[i].triangle >= once && hits[i].triangle < 2 * once;
         not_lowest += lowest && !second && hits[i].triangle == lowest->triangle &&
                               hits[i].t == lowest->t
@@ -225,7 +230,7 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
 }
 
 TEST(KernelGeometry, N21_OneAndTwoDriverThreadsAgree) {
-    if (!test::test_device().device.is_cpu())
+    if (!test::get_test_device().device.is_cpu_device())
         GTEST_SKIP() << "only a software driver can be told its number of threads";
     const auto checksum = [](const char* threads) {
         const test::ProcessResult ended = test::run_process(

@@ -14,26 +14,28 @@ using test::DeviceHit;
 using test::DeviceRay;
 using test::DeviceRayTracer;
 
-std::vector<DeviceRay> random_rays(std::size_t count, vec3 lo, vec3 hi, unsigned seed) {
+std::vector<DeviceRay> make_random_rays_in_box(std::size_t count, vec3 lo, vec3 hi, unsigned seed) {
     test::RandomNumbers numbers(seed);
     std::vector<DeviceRay> rays(count);
     for (DeviceRay& ray : rays) {
-        ray.origin = lo + (hi - lo) * vec3(numbers.unit_fraction(), numbers.unit_fraction(),
-                                           numbers.unit_fraction());
-        ray.direction = numbers.unit_direction();
-        if (numbers.random_word() % 4 == 0) ray.t_max = numbers.number_between(0, 1);
+        ray.origin = lo + (hi - lo) * vec3(numbers.random_unit_fraction(),
+                                           numbers.random_unit_fraction(),
+                                           numbers.random_unit_fraction());
+        ray.direction = numbers.random_unit_direction();
+        if (numbers.random_word() % 4 == 0) ray.t_max = numbers.random_number_between(0, 1);
     }
     return rays;
 }
 
 TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     const scene::Scene room = scene::make_cornell_mirrors();
-    const render::Geometry geometry = render::make_geometry(room, render::make_scene_units(room));
+    const render::FrameGeometry geometry = render::make_frame_geometry(
+        room, render::make_scene_units(room));
     DeviceRayTracer kernel(app::build_bvh_without_object(geometry, geometry.ranges.size()));
-    const std::vector<DeviceRay> rays = random_rays(100000, vec3(kernel.bvh_tree().nodes[0]),
-                                                    vec3(kernel.bvh_tree().nodes[1]), 1);
+    const std::vector<DeviceRay> rays = make_random_rays_in_box(
+        100000, vec3(kernel.traversed_bvh().nodes[0]), vec3(kernel.traversed_bvh().nodes[1]), 1);
     for (const std::uint32_t skipped :
-         {0u, bvh::kHiddenFromCamera, bvh::kHiddenFromCamera | bvh::kOneSided}) {
+         {0u, bvh::kHiddenFromCameraFlag, bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag}) {
         const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays, skipped),
                                      shadows = kernel.find_any_hits(rays, skipped);
         const std::size_t different = test::count_wrong_hits(kernel, rays, hits, skipped);
@@ -56,16 +58,16 @@ TEST(KernelMirror, HitsWithATreeOfShadowlessTrianglesEqualTheCppTraversal) {
     test::RandomNumbers numbers(6);
     std::vector<bvh::Triangle> triangles(2000);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const vec3 centre = numbers.point_in_cube();
-        triangles[i] = {centre + 0.1f * numbers.point_in_cube(),
-                        centre + 0.1f * numbers.point_in_cube(),
-                        centre + 0.1f * numbers.point_in_cube()};
-        if (i % 20 == 0) triangles[i].flags = bvh::kCastsNoShadow;
+        const vec3 centre = numbers.random_point_in_cube();
+        triangles[i] = {centre + 0.1f * numbers.random_point_in_cube(),
+                        centre + 0.1f * numbers.random_point_in_cube(),
+                        centre + 0.1f * numbers.random_point_in_cube()};
+        if (i % 20 == 0) triangles[i].flags = bvh::kCastsNoShadowFlag;
     }
     DeviceRayTracer kernel(triangles);
-    const std::vector<DeviceRay> rays = random_rays(20000, vec3(-1), vec3(1), 7);
+    const std::vector<DeviceRay> rays = make_random_rays_in_box(20000, vec3(-1), vec3(1), 7);
     std::size_t found[2] = {};
-    for (const std::uint32_t skipped : {0u, bvh::kCastsNoShadow}) {
+    for (const std::uint32_t skipped : {0u, bvh::kCastsNoShadowFlag}) {
         const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays, skipped),
                                      shadows = kernel.find_any_hits(rays, skipped);
         EXPECT_EQ(test::count_wrong_hits(kernel, rays, hits, skipped), 0u);
@@ -83,17 +85,18 @@ TEST(KernelMirror, N2b_ScalingByPowersOfTwoChangesNoBit) {
     test::RandomNumbers numbers(2);
     std::vector<bvh::Triangle> triangles(2000);
     for (bvh::Triangle& t : triangles) {
-        const vec3 centre = numbers.point_in_cube();
-        t = {centre + 0.1f * numbers.point_in_cube(), centre + 0.1f * numbers.point_in_cube(),
-             centre + 0.1f * numbers.point_in_cube()};
+        const vec3 centre = numbers.random_point_in_cube();
+        t = {centre + 0.1f * numbers.random_point_in_cube(),
+             centre + 0.1f * numbers.random_point_in_cube(),
+             centre + 0.1f * numbers.random_point_in_cube()};
     }
     std::vector<DeviceRay> rays(20000);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const bvh::Triangle& aim = triangles[numbers.integer_below(triangles.size())];
-        rays[i].origin = 2.0f * numbers.point_in_cube();
-        rays[i].direction = i % 2 == 0
-                                ? aim.a + numbers.unit_fraction() * (aim.b - aim.a) - rays[i].origin
-                                : numbers.unit_direction();
+        const bvh::Triangle& aim = triangles[numbers.random_integer_below(triangles.size())];
+        rays[i].origin = 2.0f * numbers.random_point_in_cube();
+        rays[i].direction = i % 2 == 0 ? aim.a + numbers.random_unit_fraction() * (aim.b - aim.a) -
+                                             rays[i].origin
+                                       : numbers.random_unit_direction();
     }
     const std::vector<DeviceHit> one = DeviceRayTracer(triangles).find_closest_hits(rays);
     std::size_t changed = 0, found = 0;

@@ -15,8 +15,8 @@ using test::InstanceSceneRay;
 using test::RandomInstanceScene;
 
 /// The rays of a crowd in the layout that the kernel reads.
-struct Batch {
-    explicit Batch(const std::vector<InstanceSceneRay>& from) {
+struct RayBatch {
+    explicit RayBatch(const std::vector<InstanceSceneRay>& from) {
         for (const InstanceSceneRay& ray : from) {
             rays.push_back({ray.ray.origin, ray.t_max, ray.ray.direction, ray.ray.leaves});
             lows.emplace_back(ray.low, 0.0f);
@@ -26,16 +26,16 @@ struct Batch {
     std::vector<vec4> lows;
 };
 
-std::size_t found(const std::vector<DeviceHit>& hits) {
+std::size_t count_found_hits(const std::vector<DeviceHit>& hits) {
     return static_cast<std::size_t>(std::ranges::count_if(hits, &DeviceHit::is_hit));
 }
 
 TEST(KernelOwnSpaces, HitsEqualTheCppTraversal) {
     RandomInstanceScene crowd(41);
-    const Batch batch(crowd.make_random_rays(40000));
+    const RayBatch batch(crowd.make_random_rays(40000));
     DeviceRayTracer kernel(crowd.build_scene_bvh());
     for (const std::uint32_t skipped :
-         {0u, bvh::kHiddenFromCamera, bvh::kHiddenFromCamera | bvh::kOneSided}) {
+         {0u, bvh::kHiddenFromCameraFlag, bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag}) {
         const std::vector<DeviceHit> hits = kernel.find_closest_hits(batch.rays, skipped,
                                                                      batch.lows),
                                      shadows = kernel.find_any_hits(batch.rays, skipped,
@@ -46,7 +46,7 @@ TEST(KernelOwnSpaces, HitsEqualTheCppTraversal) {
             inside += hits[i].is_hit() && hits[i].object > 0;
             other_shadows += hits[i].is_hit() != shadows[i].is_hit();
         }
-        std::cout << "[ MEASURED ] own spaces: " << found(hits) << " hits, " << inside
+        std::cout << "[ MEASURED ] own spaces: " << count_found_hits(hits) << " hits, " << inside
                   << " of them in one\n";
         EXPECT_EQ(other_shadows, 0u);
         EXPECT_GT(inside, hits.size() / 4);
@@ -57,7 +57,7 @@ TEST(KernelOwnSpaces, HitsEqualTheCppTraversal) {
 /// small objects, and some hits differ.
 TEST(KernelOwnSpaces, OriginsNeedTheSumOfTwoFloats) {
     RandomInstanceScene crowd(41);
-    const Batch batch(crowd.make_random_rays(40000));
+    const RayBatch batch(crowd.make_random_rays(40000));
     DeviceRayTracer kernel(crowd.build_scene_bvh());
     const std::vector<DeviceHit> with = kernel.find_closest_hits(batch.rays, 0, batch.lows),
                                  without = kernel.find_closest_hits(batch.rays);
@@ -72,7 +72,7 @@ TEST(KernelOwnSpaces, OriginsNeedTheSumOfTwoFloats) {
 TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
     RandomInstanceScene crowd(42);
     const std::vector<InstanceSceneRay> rays = crowd.make_random_rays(10000);
-    const Batch batch(rays);
+    const RayBatch batch(rays);
     const std::vector<DeviceHit> one =
         DeviceRayTracer(crowd.build_scene_bvh()).find_closest_hits(batch.rays, 0, batch.lows);
     std::size_t changed = 0, hit = 0;
@@ -82,12 +82,12 @@ TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
             std::vector<InstanceSceneRay> moved;
             for (std::size_t i = 0; i < rays.size(); ++i)
                 // Half of the directions keep their length, so their t scales.
-                moved.push_back(test::scale_ray(rays[i], in_scene, i % 8 < 4));
-            const Batch next(moved);
+                moved.push_back(test::scale_ray_of_scene(rays[i], in_scene, i % 8 < 4));
+            const RayBatch next(moved);
             const std::vector<DeviceHit> hits = DeviceRayTracer(
                                                     crowd.build_scene_bvh(in_scene, in_own))
                                                     .find_closest_hits(next.rays, 0, next.lows);
-            hit += found(hits);
+            hit += count_found_hits(hits);
             for (std::size_t i = 0; i < hits.size(); ++i) {
                 DeviceHit expected = one[i];
                 if (i % 8 >= 4) expected.t *= in_scene;
@@ -103,34 +103,34 @@ TEST(KernelOwnSpaces, N2b_ScalingByPowersOfTwoChangesNoBit) {
     EXPECT_GT(hit, 22 * rays.size() / 2);
 }
 
-/// Tests objects that have an exact sphere. Rays hit the spheres if kStandsForSphere is among the
-/// skipped flags, and the meshes otherwise.
+/// Tests objects that have an exact sphere. Rays hit the spheres if kStandsForSphereFlag is among
+/// the skipped flags, and the meshes otherwise.
 TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
     RandomInstanceScene crowd(43);
-    for (bvh::BvhInstance& thing : crowd.instances())
-        if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kStandsForSphere;
-    const Batch batch(crowd.make_random_rays(20000));
+    for (bvh::BvhInstance& thing : crowd.list_instances())
+        if (thing.object % 2 == 0) thing.radius = .5f, thing.flags = bvh::kStandsForSphereFlag;
+    const RayBatch batch(crowd.make_random_rays(20000));
     DeviceRayTracer kernel(crowd.build_scene_bvh());
     EXPECT_EQ(test::count_wrong_hits(kernel, batch.rays,
                                      kernel.find_closest_hits(batch.rays, 0, batch.lows), 0, 1,
                                      batch.lows),
               0u);
-    const std::vector<DeviceHit> hits = kernel.find_closest_hits(batch.rays, bvh::kStandsForSphere,
-                                                                 batch.lows);
+    const std::vector<DeviceHit> hits = kernel.find_closest_hits(
+        batch.rays, bvh::kStandsForSphereFlag, batch.lows);
     std::size_t different = 0, on_spheres = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const vec3 low(batch.lows[i]);
         const DeviceRay& ray = batch.rays[i];
-        DeviceHit wanted = test::find_hit_on_cpu(kernel.bvh_tree(), ray, bvh::kStandsForSphere,
-                                                 low);
+        DeviceHit wanted = test::find_hit_on_cpu(kernel.traversed_bvh(), ray,
+                                                 bvh::kStandsForSphereFlag, low);
         float nearest = wanted.is_hit() ? wanted.t : ray.t_max, t;
-        for (const bvh::BvhInstance& thing : crowd.instances())
+        for (const bvh::BvhInstance& thing : crowd.list_instances())
             if (thing.radius > 0 &&
-                f32::sphere_test(vec3(0), thing.radius,
-                                 f32::ray_in_object_space(test::placement_of_instance(thing),
-                                                          {ray.origin, ray.direction, ray.leaves},
-                                                          low),
-                                 nearest, t))
+                f32::intersect_sphere_robustly(vec3(0), thing.radius,
+                                               f32::transform_ray_to_object_space(
+                                                   test::make_placement_of_instance(thing),
+                                                   {ray.origin, ray.direction, ray.leaves}, low),
+                                               nearest, t))
                 nearest = t, wanted = {t, vec3(0), 0, thing.object, 1};
         on_spheres += wanted.is_hit() && wanted.object > 0 && wanted.object % 2 == 0;
         // The device's square root rounds differently from that of C++, so t may differ slightly.

@@ -14,7 +14,7 @@ using test::DeviceRayTracer;
 using test::LeavingRayOrigin;
 using test::SurfacePointQuery;
 
-struct SelfHits {
+struct SelfHitCounts {
     /// Counts of self-intersections: `named` with Ray::leaves, which names the triangle that the
     /// ray leaves, and `unnamed` without.
     std::size_t rays = 0, named = 0, unnamed = 0;
@@ -22,27 +22,27 @@ struct SelfHits {
 
 /// Traces 1000 rays from random points of the triangle into random directions, and counts their
 /// hits on the same triangle.
-void leave(const bvh::Triangle& triangle, test::RandomNumbers& numbers, SelfHits& count,
-           const gpu::ShaderConstants& rules = {}) {
-    constexpr std::size_t kRays = 1000;
+void count_self_hits_of_leaving_rays(const bvh::Triangle& triangle, test::RandomNumbers& numbers,
+                                     SelfHitCounts& count, const gpu::ShaderConstants& rules = {}) {
+    constexpr std::size_t kSpawnedRayCount = 1000;
     DeviceRayTracer kernel(std::span(&triangle, 1));
     kernel.rules = rules;
-    std::vector<SurfacePointQuery> starts(kRays);
+    std::vector<SurfacePointQuery> starts(kSpawnedRayCount);
     for (SurfacePointQuery& start : starts)
-        start = {numbers.barycentric_weights(), 0, numbers.unit_direction()};
+        start = {numbers.random_barycentric_weights(), 0, numbers.random_unit_direction()};
     const std::vector<LeavingRayOrigin> leavings = kernel.compute_ray_origins(starts);
     std::vector<DeviceRay> rays;
-    for (std::size_t i = 0; i < kRays; ++i)
+    for (std::size_t i = 0; i < kSpawnedRayCount; ++i)
         for (const std::uint32_t leaves : {0u, 1u})
             rays.push_back(
                 {.origin = leavings[i].origin, .direction = starts[i].direction, .leaves = leaves});
     const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (hits[i].is_hit()) ++(rays[i].leaves == 0 ? count.unnamed : count.named);
-    count.rays += kRays;
+    count.rays += kSpawnedRayCount;
 }
 
-void tell(const char* what, const SelfHits& hits) {
+void print_self_hits(const char* what, const SelfHitCounts& hits) {
     std::cout << "[ MEASURED ] N17 " << what << ": self hits " << hits.named << " of " << hits.rays
               << " rays that name their triangle, " << hits.unnamed << " ("
               << static_cast<double>(hits.unnamed) /
@@ -55,14 +55,14 @@ void tell(const char* what, const SelfHits& hits) {
 /// self-intersections even if the ray does not name its triangle.
 TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnyMagnitude) {
     test::RandomNumbers numbers(17);
-    SelfHits count;
+    SelfHitCounts count;
     for (int i = 0; i < 1000; ++i) {
         bvh::Triangle t;
         for (vec3* corner : {&t.a, &t.b, &t.c})
-            for (int k = 0; k < 3; ++k) (*corner)[k] = numbers.log_uniform_number(-8, 8);
-        leave(t, numbers, count);
+            for (int k = 0; k < 3; ++k) (*corner)[k] = numbers.random_log_uniform_number(-8, 8);
+        count_self_hits_of_leaving_rays(t, numbers, count);
     }
-    tell("coordinates of 1e-8 .. 1e8", count);
+    print_self_hits("coordinates of 1e-8 .. 1e8", count);
     EXPECT_EQ(count.named, 0u);
     EXPECT_EQ(count.unnamed, 0u);
 }
@@ -70,15 +70,17 @@ TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnyMagnitude) {
 /// Tests triangles of any size, at the origin or away from it by up to a thousand times their size.
 TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnySize) {
     test::RandomNumbers numbers(18);
-    SelfHits count;
+    SelfHitCounts count;
     for (int i = 0; i < 500; ++i) {
-        const float size = std::pow(10.0f, numbers.number_between(-8, 8));
-        const vec3 centre = size * numbers.log_uniform_number(-2, 3) * numbers.unit_direction();
+        const float size = std::pow(10.0f, numbers.random_number_between(-8, 8));
+        const vec3 centre = size * numbers.random_log_uniform_number(-2, 3) *
+                            numbers.random_unit_direction();
         bvh::Triangle t;
-        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + size * numbers.point_in_cube();
-        leave(t, numbers, count);
+        for (vec3* corner : {&t.a, &t.b, &t.c})
+            *corner = centre + size * numbers.random_point_in_cube();
+        count_self_hits_of_leaving_rays(t, numbers, count);
     }
-    tell("triangles of sizes 1e-8 .. 1e8", count);
+    print_self_hits("triangles of sizes 1e-8 .. 1e8", count);
     EXPECT_EQ(count.named, 0u);
     EXPECT_EQ(count.unnamed, 0u);
 }
@@ -88,14 +90,16 @@ TEST(KernelSpawn, N17_RaysLeaveTrianglesOfAnySize) {
 /// offset.
 TEST(KernelSpawn, N17_FixedOffsetLetsRaysHitTheirOwnTriangle) {
     test::RandomNumbers numbers(18);
-    SelfHits count;
+    SelfHitCounts count;
     const vec3 centre(3e5f, -2e5f, 1e5f);
     for (int i = 0; i < 20; ++i) {
         bvh::Triangle t;
-        for (vec3* corner : {&t.a, &t.b, &t.c}) *corner = centre + 1e3f * numbers.point_in_cube();
-        leave(t, numbers, count, {{"without", 3u}, {"fixed_offset", 1e-3f}});
+        for (vec3* corner : {&t.a, &t.b, &t.c})
+            *corner = centre + 1e3f * numbers.random_point_in_cube();
+        count_self_hits_of_leaving_rays(t, numbers, count,
+                                        {{"without", 3u}, {"fixed_offset", 1e-3f}});
     }
-    tell("with an offset of 1e-3", count);
+    print_self_hits("with an offset of 1e-3", count);
     EXPECT_GT(count.unnamed, 0u);
 }
 
@@ -116,12 +120,13 @@ TEST(KernelSpawn, N17_RayPassesThroughTheTriangleItNames) {
 
 /// Returns the difference between two numbers in units in the last place (ulp) of a float as large
 /// as `scale`.
-double ulps(double found, double exact, double scale) {
+double difference_in_ulps(double found, double exact, double scale) {
     return std::abs(found - exact) / (std::ldexp(1.0, std::ilogb(scale)) * 0x1p-23);
 }
-double ulps(const vec3& found, const dvec3& exact, double scale) {
-    return std::max({ulps(double{found.x}, exact.x, scale), ulps(double{found.y}, exact.y, scale),
-                     ulps(double{found.z}, exact.z, scale)});
+double difference_in_ulps(const vec3& found, const dvec3& exact, double scale) {
+    return std::max({difference_in_ulps(double{found.x}, exact.x, scale),
+                     difference_in_ulps(double{found.y}, exact.y, scale),
+                     difference_in_ulps(double{found.z}, exact.z, scale)});
 }
 
 /// Compares 256 rays on the device with the same computation in doubles. Errors are in ulp of 1 for
@@ -135,12 +140,12 @@ TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
     DeviceRayTracer kernel(std::span(&t, 1));
     std::vector<DeviceRay> rays(256);
     for (DeviceRay& ray : rays) {
-        const dvec3 w(numbers.barycentric_weights());
+        const dvec3 w(numbers.random_barycentric_weights());
         dvec3 from;
-        do from = dvec3(numbers.unit_direction());
+        do from = dvec3(numbers.random_unit_direction());
         while (std::abs(glm::dot(from, n)) < 0.5);
         const dvec3 target = w.x * a + w.y * b + w.z * c;
-        ray.origin = vec3(target + from * double{numbers.number_between(0.5f, 2)});
+        ray.origin = vec3(target + from * double{numbers.random_number_between(0.5f, 2)});
         ray.direction = vec3(target) - ray.origin;
     }
     const std::vector<test::DeviceHit> hits = kernel.find_closest_hits(rays);
@@ -148,24 +153,25 @@ TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
     for (const test::DeviceHit& hit : hits)
         starts.push_back({.weights = hit.barycentric, .place = 0, .direction = vec3(0, 0, 1)});
     const std::vector<LeavingRayOrigin> points = kernel.compute_ray_origins(starts);
-    struct Worst {
+    struct WorstSpawnError {
         double t = 0, weights = 0, point = 0, normal = 0;
     } worst;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         double exact_t;
         dvec3 weights, error;
-        const bool met = f64::triangle_test(a, b, c, dvec3(rays[i].origin),
-                                            f64::make_ray_shear(dvec3(rays[i].direction)), exact_t,
-                                            weights);
+        const bool met = f64::intersect_triangle_watertight(
+            a, b, c, dvec3(rays[i].origin), f64::make_ray_shear(dvec3(rays[i].direction)), exact_t,
+            weights);
         ASSERT_EQ(hits[i].is_hit(), met) << test::format_for_message(rays[i]);
         if (!met) continue; // a ray aimed at an edge passes beside it because of rounding
-        const dvec3 exact = f64::barycentric(weights);
-        worst.t = std::max(worst.t, ulps(double{hits[i].t}, exact_t, exact_t));
-        worst.weights = std::max(worst.weights, ulps(hits[i].barycentric, exact, 1));
+        const dvec3 exact = f64::normalise_barycentric(weights);
+        worst.t = std::max(worst.t, difference_in_ulps(double{hits[i].t}, exact_t, exact_t));
+        worst.weights = std::max(worst.weights, difference_in_ulps(hits[i].barycentric, exact, 1));
         worst.point = std::max(
-            worst.point, ulps(points[i].point, f64::triangle_point(a, b, c, exact, error), 0.94));
-        worst.normal = std::max(worst.normal,
-                                ulps(points[i].normal, f64::facet_normal(a, b, c), 1));
+            worst.point, difference_in_ulps(points[i].point,
+                                            f64::triangle_hit_point(a, b, c, exact, error), 0.94));
+        worst.normal = std::max(
+            worst.normal, difference_in_ulps(points[i].normal, f64::facet_normal(a, b, c), 1));
     }
     std::cout << "[ MEASURED ] N18 ulp from double: t " << worst.t << ", weights " << worst.weights
               << ", point " << worst.point << ", normal " << worst.normal << "\n";

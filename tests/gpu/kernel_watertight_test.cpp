@@ -13,9 +13,10 @@ using test::DeviceHit;
 using test::DeviceRay;
 using test::DeviceRayTracer;
 
-constexpr std::size_t kChunk = 1u << 18;
+constexpr std::size_t kRaysPerChunk = 1u << 18;
 
-std::size_t misses(const std::vector<DeviceRay>& rays, const std::vector<DeviceHit>& hits) {
+std::size_t count_missing_rays(const std::vector<DeviceRay>& rays,
+                               const std::vector<DeviceHit>& hits) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (hits[i].is_hit()) continue;
@@ -29,7 +30,7 @@ std::size_t misses(const std::vector<DeviceRay>& rays, const std::vector<DeviceH
 /// smaller meshes are deformed by rounding, and some of their triangles have no area, but all
 /// meshes stay closed.
 TEST(KernelWatertight, N14_RaysCannotLeaveMeshSpheresFarFromTheOrigin) {
-    constexpr std::size_t kRays = 1000000;
+    constexpr std::size_t kWatertightRayCount = 1000000;
     const dvec3 centre(148376, 1234, -223423);
     std::size_t rays_in_all = 0, missed = 0, different = 0;
     for (const double radius : {2.0, 10.0, 100.0, 1e4}) {
@@ -43,14 +44,14 @@ TEST(KernelWatertight, N14_RaysCannotLeaveMeshSpheresFarFromTheOrigin) {
         }
         DeviceRayTracer kernel(triangles);
         test::RandomNumbers numbers(14);
-        for (std::size_t done = 0; done < kRays; done += kChunk) {
-            std::vector<DeviceRay> rays(std::min(kChunk, kRays - done));
+        for (std::size_t done = 0; done < kWatertightRayCount; done += kRaysPerChunk) {
+            std::vector<DeviceRay> rays(std::min(kRaysPerChunk, kWatertightRayCount - done));
             for (DeviceRay& ray : rays) {
-                ray.origin = vec3(centre + 0.5 * radius * dvec3(numbers.point_in_cube()));
-                ray.direction = numbers.unit_direction();
+                ray.origin = vec3(centre + 0.5 * radius * dvec3(numbers.random_point_in_cube()));
+                ray.direction = numbers.random_unit_direction();
             }
             const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
-            missed += misses(rays, hits);
+            missed += count_missing_rays(rays, hits);
             different += test::count_wrong_hits(kernel, rays, hits, 0, 16);
             rays_in_all += rays.size();
         }
@@ -61,7 +62,7 @@ TEST(KernelWatertight, N14_RaysCannotLeaveMeshSpheresFarFromTheOrigin) {
     EXPECT_EQ(different, 0u);
 }
 
-struct Setting {
+struct WatertightTestSetting {
     std::string name;
     double scale;
     dvec3 offset;
@@ -70,16 +71,17 @@ struct Setting {
 };
 
 /// Returns rays from inside the mesh. Each ray aims at a corner or at a point on an edge.
-std::vector<DeviceRay> aimed(const Setting& setting, std::size_t count,
-                             test::RandomNumbers& numbers) {
+std::vector<DeviceRay> make_rays_aimed_at_edges(const WatertightTestSetting& setting,
+                                                std::size_t count, test::RandomNumbers& numbers) {
     std::vector<DeviceRay> rays(count);
     for (DeviceRay& ray : rays) {
-        const bvh::Triangle& t = setting.triangles[numbers.integer_below(setting.triangles.size())];
-        const std::size_t first = numbers.integer_below(3);
+        const bvh::Triangle& t =
+            setting.triangles[numbers.random_integer_below(setting.triangles.size())];
+        const std::size_t first = numbers.random_integer_below(3);
         const vec3 from = std::array{t.a, t.b, t.c}[first], to = std::array{t.b, t.c, t.a}[first];
         const vec3 target = numbers.random_word() % 4 == 0
                                 ? from
-                                : from + numbers.unit_fraction() * (to - from);
+                                : from + numbers.random_unit_fraction() * (to - from);
         ray.origin = test::random_point_inside(*setting.closed, setting.scale, setting.offset,
                                                numbers);
         ray.direction = target - ray.origin;
@@ -89,17 +91,18 @@ std::vector<DeviceRay> aimed(const Setting& setting, std::size_t count,
 }
 
 TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
-    constexpr std::size_t kRays = 10000000;
+    constexpr std::size_t kWatertightRayCount = 10000000;
     const std::array meshes{test::make_closed_ball(), test::make_closed_torus(),
                             test::make_closed_box("room", 1),
                             test::make_closed_box("corridor", 1e5)};
     const dvec3 away = glm::normalize(dvec3(0.62, -0.11, -0.78));
-    std::vector<Setting> settings;
+    std::vector<WatertightTestSetting> settings;
     std::size_t left_out = 0;
     for (const test::ClosedMesh& closed : meshes)
         for (const double scale : {1e-4, 1e-2, 1.0, 1e2, 1e4})
             for (const double offset : {0.0, 1.0, 1e3, 1e6}) {
-                const auto triangles = test::place_triangles(closed.mesh, scale, offset * away);
+                const auto triangles = test::make_placed_triangles(closed.mesh, scale,
+                                                                   offset * away);
                 if (!triangles || !test::is_float_precise_enough(scale, offset * away)) {
                     // Leave out settings in which a triangle lost its area by rounding, or in which
                     // no float lies strictly inside the mesh.
@@ -110,26 +113,26 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
                 name << closed.mesh.name << " x " << scale << " + " << offset;
                 settings.push_back({name.str(), scale, offset * away, &closed, *triangles});
             }
-    const std::size_t rays_each = (kRays + settings.size() - 1) / settings.size();
+    const std::size_t rays_each = (kWatertightRayCount + settings.size() - 1) / settings.size();
     std::size_t rays_in_all = 0, missed = 0, shadows_missed = 0, different = 0;
     test::RandomNumbers numbers(15);
-    for (const Setting& setting : settings) {
+    for (const WatertightTestSetting& setting : settings) {
         SCOPED_TRACE(setting.name);
         DeviceRayTracer kernel(setting.triangles);
-        for (std::size_t done = 0; done < rays_each; done += kChunk) {
-            const std::vector<DeviceRay> rays = aimed(setting, std::min(kChunk, rays_each - done),
-                                                      numbers);
+        for (std::size_t done = 0; done < rays_each; done += kRaysPerChunk) {
+            const std::vector<DeviceRay> rays = make_rays_aimed_at_edges(
+                setting, std::min(kRaysPerChunk, rays_each - done), numbers);
             const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
-            missed += misses(rays, hits);
+            missed += count_missing_rays(rays, hits);
             different += test::count_wrong_hits(kernel, rays, hits, 0, 16);
-            if (done == 0) shadows_missed += misses(rays, kernel.find_any_hits(rays));
+            if (done == 0) shadows_missed += count_missing_rays(rays, kernel.find_any_hits(rays));
             rays_in_all += rays.size();
         }
     }
     std::cout << "[ MEASURED ] N15 leaks " << missed << " of " << rays_in_all << " rays ("
               << shadows_missed << " of shadow rays), " << settings.size() << " meshes, "
               << left_out << " left out, other than the mirror " << different << "\n";
-    EXPECT_GE(rays_in_all, kRays);
+    EXPECT_GE(rays_in_all, kWatertightRayCount);
     EXPECT_GE(settings.size(), 60u);
     EXPECT_EQ(missed, 0u);
     EXPECT_EQ(shadows_missed, 0u);
@@ -141,10 +144,12 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
 TEST(KernelWatertight, N15_TheSameRaysLeakWithCommonIntersectionTests) {
     const test::ClosedMesh ball = test::make_closed_ball();
     const dvec3 away(0.62, -0.11, -0.78);
-    const Setting setting{"ball", 1, away, &ball, *test::place_triangles(ball.mesh, 1, away)};
+    const WatertightTestSetting setting{"ball", 1, away, &ball,
+                                        *test::make_placed_triangles(ball.mesh, 1, away)};
     DeviceRayTracer kernel(setting.triangles);
     test::RandomNumbers numbers(15);
-    const std::vector<DeviceRay> rays = aimed(setting, 4 * kChunk, numbers);
+    const std::vector<DeviceRay> rays = make_rays_aimed_at_edges(setting, 4 * kRaysPerChunk,
+                                                                 numbers);
     const auto leaks = [&](std::uint32_t without) {
         kernel.rules = {{"without", without}};
         return std::ranges::count_if(kernel.find_closest_hits(rays),

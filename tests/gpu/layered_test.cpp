@@ -21,9 +21,9 @@ TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
                                                    {96, 96});
     request.frames = 3;
     const app::TechniqueResult at_once = std::move(
-        app::run(test::test_engine(true), request).parts.front());
+        app::run(test::get_test_engine(true), request).parts.front());
     const app::TechniqueResult one_by_one = std::move(
-        app::run(test::test_engine(false), request).parts.front());
+        app::run(test::get_test_engine(false), request).parts.front());
     EXPECT_TRUE(test::have_equal_pixel_bytes(at_once.hdr, one_by_one.hdr));
     EXPECT_TRUE(test::have_equal_pixel_bytes(at_once.display, one_by_one.display));
     EXPECT_EQ(at_once.scene_passes, one_by_one.scene_passes);
@@ -31,20 +31,21 @@ TEST_P(Layered, OnePassForSixFacesEqualsSixPasses) {
 
 /// Draws captures as render::add_capture_passes does, but draws every object into every face.
 /// Returns the colours.
-std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32_t face) {
-    auto& [device, pipelines] = test::test_device();
+std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene,
+                                                       std::uint32_t face) {
+    auto& [device, pipelines] = test::get_test_device();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, 0);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const std::uint32_t mirrors = gpu_scene.mirror_count();
     const graph::ImageHandle colour = graph.add_image(
-        {"colour", Format::rgba16f, face, face, 6 * mirrors, true});
+        {"colour", TexelFormat::rgba16f, face, face, 6 * mirrors, true});
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
         const graph::ImageHandle depth = graph.add_image(
-            {"depth" + std::to_string(mirror), Format::d32f, face, face, 6, true});
+            {"depth" + std::to_string(mirror), TexelFormat::d32f, face, face, 6, true});
         graph.add_pass("capture" + std::to_string(mirror))
-            .writes(colour.layers(6 * mirror, 6), graph::ResourceUse::colour,
+            .writes(colour.select_layers(6 * mirror, 6), graph::ResourceUse::colour,
                     graph::ClearValue{0, 0, 0, 1})
             .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
             .set_layer_count(6)
@@ -53,12 +54,12 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
                 for (const bool mirrors_now : {false, true}) {
                     commands.bind_pipeline(gpu::RasterState{
                         "scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag", {}});
-                    for (std::size_t i = 0; i < gpu_scene.draw_ranges().size(); ++i) {
-                        const render::DrawRange& range = gpu_scene.draw_ranges()[i];
-                        if (range.mirror != mirrors_now || i == gpu_scene.mirror_object(mirror))
+                    for (std::size_t i = 0; i < gpu_scene.list_draw_ranges().size(); ++i) {
+                        const render::ObjectDrawRange& range = gpu_scene.list_draw_ranges()[i];
+                        if (range.mirror != mirrors_now || i == gpu_scene.object_of_mirror(mirror))
                             continue;
                         commands.push_constants(
-                            shared::DrawParameters{gpu_scene.capture_view(mirror), 0});
+                            shared::DrawParameters{gpu_scene.capture_view_index(mirror), 0});
                         gpu_scene.bind_vertices(commands, i);
                         commands.draw(range.first_index, range.index_count, 0, 6,
                                       static_cast<std::uint32_t>(i) << shared::kInstanceLayerBits);
@@ -74,8 +75,8 @@ std::vector<std::byte> capture_everything(const scene::Scene& scene, std::uint32
 TEST(Culling, CulledCapturesKeepTheirBytes) {
     for (const scene::Scene& scene :
          {scene::make_cornell_mirrors(), test::make_lit_room(3, 2), test::make_furnace_scene(2)}) {
-        const test::CapturedCubes captured = test::capture_mirrors(scene, 128, Format::r32f);
-        EXPECT_EQ(captured.colour_bytes, capture_everything(scene, 128)) << scene.name;
+        const test::CapturedCubes captured = test::capture_mirrors(scene, 128, TexelFormat::r32f);
+        EXPECT_EQ(captured.colour_bytes, draw_every_object_into_captures(scene, 128)) << scene.name;
     }
 }
 
@@ -114,7 +115,7 @@ TEST(Culling, BallWithAVisiblePointIsNeverCulled) {
     for (int round = 0; round < 2000; ++round) {
         const vec3 eye(coordinate(random), coordinate(random), coordinate(random));
         const vec3 centre(coordinate(random), coordinate(random), coordinate(random));
-        render::DrawRange ball;
+        render::ObjectDrawRange ball;
         ball.radius = size(random);
         ball.bounds = {centre - ball.radius, centre + ball.radius};
         for (const shared::View& view : render::make_cube_views(eye, .01f)) {

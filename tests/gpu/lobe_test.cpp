@@ -16,21 +16,21 @@ struct LobeAnswer {
 };
 static_assert(sizeof(LobeAnswer) == 32);
 
-std::vector<vec4> draw_lobe_questions(std::size_t count) {
+std::vector<vec4> make_random_lobe_inputs(std::size_t count) {
     test::RandomNumbers numbers(11);
     std::vector<vec4> asked;
     while (asked.size() < count) {
-        vec3 to_eye = numbers.unit_direction();
+        vec3 to_eye = numbers.random_unit_direction();
         to_eye.z = std::abs(to_eye.z);
-        const float roughness = asked.size() % 10 == 0 ? 0 : numbers.number_between(.02f, 1);
+        const float roughness = asked.size() % 10 == 0 ? 0 : numbers.random_number_between(.02f, 1);
         if (to_eye.z > 1e-3f) asked.emplace_back(to_eye, roughness);
     }
     return asked;
 }
 
-std::vector<LobeAnswer> lobe_answers_of_device(const std::vector<vec4>& asked) {
-    auto& [device, pipelines] = test::test_device();
-    gpu::Buffer input;
+std::vector<LobeAnswer> evaluate_lobes_on_device(const std::vector<vec4>& asked) {
+    auto& [device, pipelines] = test::get_test_device();
+    gpu::GpuBuffer input;
     upload_to_buffer(device, input, "asked", asked, gpu::BufferUsage::plain);
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
@@ -39,24 +39,24 @@ std::vector<LobeAnswer> lobe_answers_of_device(const std::vector<vec4>& asked) {
     graph.add_pass("lobe")
         .writes(out, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
-            commands.bind("Asked", input);
-            commands.bind("Answers", out);
+            commands.bind_resource("Asked", input);
+            commands.bind_resource("Answers", out);
             commands.bind_pipeline(gpu::ComputeState{"tests/lobe.comp", {}});
             commands.push_constants(static_cast<std::uint32_t>(asked.size()));
             commands.dispatch(static_cast<std::uint32_t>((asked.size() + 63) / 64), 1);
         });
     graph.mark_output(out);
     test::run_graph(runner, graph);
-    return test::read_values<LobeAnswer>(runner, out);
+    return test::read_resource_values<LobeAnswer>(runner, out);
 }
 
 TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
-    const std::vector<vec4> asked = draw_lobe_questions(4096);
-    const std::vector<LobeAnswer> found = lobe_answers_of_device(asked);
+    const std::vector<vec4> asked = make_random_lobe_inputs(4096);
+    const std::vector<LobeAnswer> found = evaluate_lobes_on_device(asked);
     for (std::uint32_t i = 0; i < asked.size(); ++i) {
         const vec3 to_eye(asked[i]), white(1), half(.5f);
         float u, v;
-        f32::sample_point(i % 97, i, i % 5, 7, u, v);
+        f32::sample_pattern_point(i % 97, i, i % 5, 7, u, v);
         // Random numbers are arithmetic of integers, so they are equal.
         ASSERT_EQ(found[i].u, u) << i;
         ASSERT_EQ(found[i].v, v) << i;

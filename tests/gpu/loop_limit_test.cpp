@@ -10,42 +10,43 @@ namespace {
 
 using namespace catoptric;
 
-std::uint32_t turns_of(std::uint32_t wanted) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
+std::uint32_t run_loop_shader(std::uint32_t wanted) {
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
     const graph::BufferHandle counts = graph.add_buffer({"counts", 16});
     graph.add_pass("spin")
         .writes(counts, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
-            commands.bind("Counts", counts);
+            commands.bind_resource("Counts", counts);
             commands.push_constants(wanted);
             commands.dispatch(4, 1);
         });
     graph.mark_output(counts);
     test::run_graph(runner, graph);
-    return test::read_values<std::uint32_t>(runner, counts).front();
+    return test::read_resource_values<std::uint32_t>(runner, counts).front();
 }
 
 TEST(LoopLimit, ShortLoopsRunToTheirEnd) {
-    for (const std::uint32_t turns : {0u, 1u, 1000u, 60000u}) EXPECT_EQ(turns_of(turns), turns);
+    for (const std::uint32_t turns : {0u, 1u, 1000u, 60000u})
+        EXPECT_EQ(run_loop_shader(turns), turns);
 }
 
 TEST(LoopLimit, LongLoopsRunOrStopAtTheKnownLimit) {
-    constexpr std::uint32_t kWanted = 70000, kLimit = 65535;
-    const std::uint32_t turns = turns_of(kWanted);
+    constexpr std::uint32_t kWantedLoopTurns = 70000, kLimit = 65535;
+    const std::uint32_t turns = run_loop_shader(kWantedLoopTurns);
     RecordProperty("turns", static_cast<int>(turns));
-    const gpu::DeviceProperties& info = test::test_device().device.info();
-    std::cout << "[ MEASURED ] " << turns << " of " << kWanted << " turns on " << info.name << ", "
-              << info.driver << "\n";
-    if (turns == kWanted) GTEST_SKIP() << "this device does not stop loops";
+    const gpu::DeviceProperties& info = test::get_test_device().device.device_properties();
+    std::cout << "[ MEASURED ] " << turns << " of " << kWantedLoopTurns << " turns on " << info.name
+              << ", " << info.driver << "\n";
+    if (turns == kWantedLoopTurns) GTEST_SKIP() << "this device does not stop loops";
     EXPECT_NEAR(turns, kLimit, 2)
         << "stops loops, but not where the ray tracer's bound of 60,000 steps assumes";
 }
 
 /// Returns a scene of two mirrors that face each other, with thin triangles between them. Every ray
 /// enters the bounding boxes of the thin triangles and hits none.
-scene::Scene hall_of_mirrors(int slivers) {
+scene::Scene make_hall_of_facing_mirrors(int slivers) {
     scene::Scene scene{.name = "hall"};
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     const std::size_t white = test::add_material(scene, {.name = "white", .albedo = vec3(.5f)});
@@ -72,7 +73,8 @@ scene::Scene hall_of_mirrors(int slivers) {
 TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
     test::expect_error(
         [] {
-            test::render_technique(hall_of_mirrors(3000), "raytrace:depth=64", {32, 32});
+            test::render_technique(make_hall_of_facing_mirrors(3000), "raytrace:depth=64",
+                                   {32, 32});
         },
         Failure::exhausted,
         {"'raytrace:depth=64'", "pixels met more triangles and boxes than one invocation may",
@@ -80,7 +82,7 @@ TEST(LoopLimit, RayThatReachesItsStepLimitFailsTheRun) {
 }
 
 TEST(LoopLimit, SameSceneRendersWithLessDepth) {
-    const app::TechniqueResult part = test::render_technique(hall_of_mirrors(3000),
+    const app::TechniqueResult part = test::render_technique(make_hall_of_facing_mirrors(3000),
                                                              "raytrace:depth=4", {32, 32});
     ASSERT_TRUE(part.rays);
     std::cout << "[ MEASURED ] longest walk at depth 4: " << part.rays->longest_walk << " steps\n";

@@ -5,67 +5,69 @@
 namespace {
 
 using namespace catoptric;
-using test::add_image, test::add_start, test::add_step, test::stepped;
-using test::kHeight, test::kWidth;
+using test::add_step_image, test::add_start_pass, test::add_step_pass, test::expected_step_texels;
+using test::kHeight, test::kStepImageWidth;
 
 TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
-    std::vector<float> expected(kWidth * kHeight, 0.0f);
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
+    std::vector<float> expected(kStepImageWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 4; ++frame) {
-        graph::Graph graph(runner.history());
-        const graph::ImageHandle image = add_image(graph, "kept");
+        graph::Graph graph(runner.make_history());
+        const graph::ImageHandle image = add_step_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
-        add_step(graph, "step", graph.previous_contents(image), image, static_cast<float>(frame));
+        add_step_pass(graph, "step", graph.previous_contents(image), image,
+                      static_cast<float>(frame));
         graph.mark_output(image);
         test::run_graph(runner, graph);
-        expected = stepped(expected, static_cast<float>(frame));
-        EXPECT_EQ(test::read_values<float>(runner, image), expected) << "frame " << frame;
+        expected = expected_step_texels(expected, static_cast<float>(frame));
+        EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
     }
 }
 
 TEST(Previous, HistoryBelongsToItsRunner) {
     for (int run = 0; run < 2; ++run) {
-        graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
-        EXPECT_TRUE(runner.history().previous.empty());
-        graph::Graph graph(runner.history());
-        const graph::ImageHandle image = add_image(graph, "kept");
-        add_step(graph, "step", graph.previous_contents(image), image, 5);
+        graph::GraphRunner runner(test::get_test_device().device,
+                                  test::get_test_device().pipelines);
+        EXPECT_TRUE(runner.make_history().previous.empty());
+        graph::Graph graph(runner.make_history());
+        const graph::ImageHandle image = add_step_image(graph, "kept");
+        add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
         graph.mark_output(image);
         test::run_graph(runner, graph);
-        EXPECT_EQ(test::read_values<float>(runner, image),
-                  stepped(std::vector<float>(kWidth * kHeight, 0.0f), 5));
+        EXPECT_EQ(test::read_resource_values<float>(runner, image),
+                  expected_step_texels(std::vector<float>(kStepImageWidth * kHeight, 0.0f), 5));
     }
 }
 
 TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
-    std::vector<float> expected(kWidth * kHeight, 0.0f);
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
+    std::vector<float> expected(kStepImageWidth * kHeight, 0.0f);
     for (int frame = 1; frame <= 3; ++frame) {
-        graph::Graph graph(runner.history());
+        graph::Graph graph(runner.make_history());
         if (frame == 2) { // one image more, declared first, so the number of every image changes
-            const graph::ImageHandle other = add_image(graph, "other");
-            add_start(graph, other, 1);
+            const graph::ImageHandle other = add_step_image(graph, "other");
+            add_start_pass(graph, other, 1);
             graph.mark_output(other);
         }
-        const graph::ImageHandle image = add_image(graph, "kept");
+        const graph::ImageHandle image = add_step_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
-        add_step(graph, "step", graph.previous_contents(image), image, 2);
+        add_step_pass(graph, "step", graph.previous_contents(image), image, 2);
         graph.mark_output(image);
         test::run_graph(runner, graph);
-        expected = stepped(expected, 2);
-        EXPECT_EQ(test::read_values<float>(runner, image), expected) << "frame " << frame;
+        expected = expected_step_texels(expected, 2);
+        EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
     }
 }
 
 /// Adds a chain of `length` steps. With `apart` all images are outputs, so none share memory.
 /// Otherwise only the last image is an output.
-graph::ImageHandle add_chain(graph::Graph& graph, int length, bool apart) {
-    graph::ImageHandle last = add_image(graph, "image0");
-    add_start(graph, last, 7);
+graph::ImageHandle add_chain_of_steps(graph::Graph& graph, int length, bool apart) {
+    graph::ImageHandle last = add_step_image(graph, "image0");
+    add_start_pass(graph, last, 7);
     if (apart) graph.mark_output(last);
     for (int i = 1; i <= length; ++i) {
-        const graph::ImageHandle next = add_image(graph, "image" + std::to_string(i));
-        add_step(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
+        const graph::ImageHandle next = add_step_image(graph, "image" + std::to_string(i));
+        add_step_pass(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
         if (apart) graph.mark_output(next);
         last = next;
     }
@@ -77,18 +79,19 @@ TEST(Aliasing, ImagesThatShareMemoryEqualImagesApart) {
     std::vector<float> found[2];
     std::uint64_t bytes[2];
     for (const bool apart : {false, true}) {
-        graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
+        graph::GraphRunner runner(test::get_test_device().device,
+                                  test::get_test_device().pipelines);
         for (int frame = 0; frame < 3; ++frame) { // later frames reuse memory
             graph::Graph graph;
-            const graph::ImageHandle last = add_chain(graph, 9, apart);
-            bytes[apart] = runner.compiled(graph).bytes;
+            const graph::ImageHandle last = add_chain_of_steps(graph, 9, apart);
+            bytes[apart] = runner.find_or_make_plan(graph).bytes;
             runner.run_and_wait(graph, frame == 1 ? graph::PassTiming::pipelined
                                                   : graph::PassTiming::isolated);
-            found[apart] = test::read_values<float>(runner, last);
+            found[apart] = test::read_resource_values<float>(runner, last);
         }
     }
-    std::vector<float> expected = test::started(7);
-    for (int i = 1; i <= 9; ++i) expected = stepped(expected, static_cast<float>(i));
+    std::vector<float> expected = test::expected_start_texels(7);
+    for (int i = 1; i <= 9; ++i) expected = expected_step_texels(expected, static_cast<float>(i));
     EXPECT_EQ(found[false], expected);
     EXPECT_EQ(found[true], expected);
     EXPECT_LT(2 * bytes[false], bytes[true]); // 3 images in memory instead of 10

@@ -16,17 +16,18 @@
 namespace {
 
 using namespace catoptric;
-using gpu::BindingKind;
 using gpu::ImageViewType;
+using gpu::ShaderBindingKind;
 
-gpu::ShaderReflection reflection(const char* name) {
+gpu::ShaderReflection reflect_shader(const char* name) {
     return gpu::reflect_spirv(name, gpu::find_shader(name).words);
 }
 
 /// Returns what the shader uses if its constants have these values, and all others their defaults.
-gpu::ShaderReflection specialised(const char* shader,
-                                  const std::map<std::string, std::uint32_t>& constants) {
-    const gpu::ShaderReflection all = reflection(shader);
+gpu::ShaderReflection
+reflect_specialised_shader(const char* shader,
+                           const std::map<std::string, std::uint32_t>& constants) {
+    const gpu::ShaderReflection all = reflect_shader(shader);
     std::map<std::uint32_t, std::uint32_t> values;
     for (const auto& [name, value] : constants) {
         const auto constant = std::ranges::find(all.constants, name,
@@ -38,12 +39,13 @@ gpu::ShaderReflection specialised(const char* shader,
         shader, gpu::specialise_shader(shader, gpu::find_shader(shader).words, values));
 }
 
-const gpu::ShaderBinding* find(const gpu::ShaderReflection& reflection, std::string_view name) {
+const gpu::ShaderBinding* find_binding(const gpu::ShaderReflection& reflection,
+                                       std::string_view name) {
     const auto found = std::ranges::find(reflection.bindings, name, &gpu::ShaderBinding::name);
     return found == reflection.bindings.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> constants(const gpu::ShaderReflection& reflection) {
+std::vector<std::string> list_constant_texts(const gpu::ShaderReflection& reflection) {
     std::vector<std::string> names;
     for (const gpu::SpecialisationConstant& constant : reflection.constants)
         names.push_back(constant.name);
@@ -52,81 +54,88 @@ std::vector<std::string> constants(const gpu::ShaderReflection& reflection) {
 }
 
 TEST(Reflection, BindingsOfTheRayTracerAreFound) {
-    const gpu::ShaderReflection found = reflection("raytrace.comp");
-    struct Expected {
+    const gpu::ShaderReflection found = reflect_shader("raytrace.comp");
+    struct ExpectedBinding {
         const char* name;
         std::uint32_t binding;
-        BindingKind kind;
+        ShaderBindingKind kind;
     };
     for (const auto& [name, binding, kind] :
-         {Expected{"frame", 0, BindingKind::uniform_buffer},
-          Expected{"Views", 1, BindingKind::storage_buffer},
-          Expected{"bvh_nodes", 9, BindingKind::texel_buffer},
-          Expected{"picture", 12, BindingKind::storage_image},
-          Expected{"counters", 14, BindingKind::storage_buffer}}) {
-        const gpu::ShaderBinding* one = find(found, name);
+         {ExpectedBinding{"frame", 0, ShaderBindingKind::uniform_buffer},
+          ExpectedBinding{"Views", 1, ShaderBindingKind::storage_buffer},
+          ExpectedBinding{"bvh_nodes", 9, ShaderBindingKind::texel_buffer},
+          ExpectedBinding{"picture", 12, ShaderBindingKind::storage_image},
+          ExpectedBinding{"counters", 14, ShaderBindingKind::storage_buffer}}) {
+        const gpu::ShaderBinding* one = find_binding(found, name);
         ASSERT_TRUE(one) << name;
         EXPECT_EQ(one->binding, binding) << name;
         EXPECT_EQ(one->kind, kind) << name;
     }
-    EXPECT_EQ(constants(found), (std::vector<std::string>{"bvh_in_storage",
-                                                          "count_work",
-                                                          "details",
-                                                          "environment_kind",
-                                                          "exact_spheres",
-                                                          "first_raster",
-                                                          "fixed_offset",
-                                                          "groups_in_order",
-                                                          "has_glass",
-                                                          "has_lobes",
-                                                          "has_normal_textures",
-                                                          "has_shadow_map",
-                                                          "light_kinds",
-                                                          "masks",
-                                                          "max_depth",
-                                                          "object_spaces",
-                                                          "one_light",
-                                                          "orthographic",
-                                                          "pixels_in_rows",
-                                                          "samples_lamps",
-                                                          "shadow",
-                                                          "texels_in_storage",
-                                                          "traces_lobes",
-                                                          "traces_paths",
-                                                          "without"}));
+    EXPECT_EQ(list_constant_texts(found), (std::vector<std::string>{"bvh_in_storage",
+                                                                    "count_work",
+                                                                    "details",
+                                                                    "environment_kind",
+                                                                    "exact_spheres",
+                                                                    "first_raster",
+                                                                    "fixed_offset",
+                                                                    "groups_in_order",
+                                                                    "has_glass",
+                                                                    "has_lobes",
+                                                                    "has_normal_textures",
+                                                                    "has_shadow_map",
+                                                                    "light_kinds",
+                                                                    "masks",
+                                                                    "max_depth",
+                                                                    "object_spaces",
+                                                                    "one_light",
+                                                                    "orthographic",
+                                                                    "pixels_in_rows",
+                                                                    "samples_lamps",
+                                                                    "shadow",
+                                                                    "texels_in_storage",
+                                                                    "traces_lobes",
+                                                                    "traces_paths",
+                                                                    "without"}));
 }
 
 TEST(Reflection, BindingsThatTheCodeDoesNotUseAreLeftOut) {
     const auto uses_shadow_map = [](const char* shader,
                                     const std::map<std::string, std::uint32_t>& constants) {
-        return find(specialised(shader, constants), "shadow_map") != nullptr;
+        return find_binding(reflect_specialised_shader(shader, constants), "shadow_map") != nullptr;
     };
     EXPECT_FALSE(uses_shadow_map("diffuse.frag", {}));
     EXPECT_TRUE(uses_shadow_map("diffuse.frag", {{"has_shadow_map", 1}}));
     EXPECT_FALSE(uses_shadow_map("raytrace.comp", {{"shadow", 2}}));
     EXPECT_TRUE(uses_shadow_map("raytrace.comp", {{"has_shadow_map", 1}, {"shadow", 1}}));
-    EXPECT_FALSE(find(specialised("reflect/naive.frag", {{"has_capture_table", 0}}), "Captures"));
-    EXPECT_TRUE(find(specialised("reflect/naive.frag", {{"has_capture_table", 1}}), "Captures"));
-    EXPECT_FALSE(find(specialised("reflect/parallax.frag", {{"peels", 0}}), "first_layer"));
-    EXPECT_TRUE(find(specialised("reflect/parallax.frag", {{"peels", 1}}), "first_layer"));
-    EXPECT_FALSE(find(specialised("reflect/naive.frag", {{"rough", 0}}), "distance_cubes"));
-    EXPECT_FALSE(find(specialised("reflect/naive.frag", {{"rough", 0}}), "rough_cubes"));
-    EXPECT_TRUE(find(specialised("reflect/naive.frag", {{"rough", 2}}), "rough_cubes"));
+    EXPECT_FALSE(find_binding(
+        reflect_specialised_shader("reflect/naive.frag", {{"has_capture_table", 0}}), "Captures"));
+    EXPECT_TRUE(find_binding(
+        reflect_specialised_shader("reflect/naive.frag", {{"has_capture_table", 1}}), "Captures"));
+    EXPECT_FALSE(find_binding(reflect_specialised_shader("reflect/parallax.frag", {{"peels", 0}}),
+                              "first_layer"));
+    EXPECT_TRUE(find_binding(reflect_specialised_shader("reflect/parallax.frag", {{"peels", 1}}),
+                             "first_layer"));
+    EXPECT_FALSE(find_binding(reflect_specialised_shader("reflect/naive.frag", {{"rough", 0}}),
+                              "distance_cubes"));
+    EXPECT_FALSE(find_binding(reflect_specialised_shader("reflect/naive.frag", {{"rough", 0}}),
+                              "rough_cubes"));
+    EXPECT_TRUE(find_binding(reflect_specialised_shader("reflect/naive.frag", {{"rough", 2}}),
+                             "rough_cubes"));
 }
 
 TEST(Reflection, ShapesOfImagesAreFound) {
-    const gpu::ShaderReflection parallax = reflection("reflect/parallax.frag");
-    ASSERT_TRUE(find(parallax, "colour_cubes") && find(parallax, "distance_cubes"));
-    EXPECT_EQ(find(parallax, "colour_cubes")->shape, ImageViewType::cube_array);
-    EXPECT_EQ(find(parallax, "colour_cubes")->kind, BindingKind::texture);
-    EXPECT_EQ(find(parallax, "colour_cubes")->count, shared::kMaxCubeArrays);
-    ASSERT_TRUE(find(reflection("reflect/planar.frag"), "mirrored"));
-    EXPECT_EQ(find(reflection("reflect/planar.frag"), "mirrored")->kind,
-              BindingKind::sampled_image);
-    const gpu::ShaderReflection diffuse = reflection("diffuse.frag");
-    ASSERT_TRUE(find(diffuse, "shadow_map"));
-    EXPECT_EQ(find(diffuse, "shadow_map")->shape, ImageViewType::flat_array);
-    EXPECT_EQ(reflection("compose.frag").push_bytes, 4u);
+    const gpu::ShaderReflection parallax = reflect_shader("reflect/parallax.frag");
+    ASSERT_TRUE(find_binding(parallax, "colour_cubes") && find_binding(parallax, "distance_cubes"));
+    EXPECT_EQ(find_binding(parallax, "colour_cubes")->shape, ImageViewType::cube_array);
+    EXPECT_EQ(find_binding(parallax, "colour_cubes")->kind, ShaderBindingKind::texture);
+    EXPECT_EQ(find_binding(parallax, "colour_cubes")->count, shared::kMaxCubeArrays);
+    ASSERT_TRUE(find_binding(reflect_shader("reflect/planar.frag"), "mirrored"));
+    EXPECT_EQ(find_binding(reflect_shader("reflect/planar.frag"), "mirrored")->kind,
+              ShaderBindingKind::sampled_image);
+    const gpu::ShaderReflection diffuse = reflect_shader("diffuse.frag");
+    ASSERT_TRUE(find_binding(diffuse, "shadow_map"));
+    EXPECT_EQ(find_binding(diffuse, "shadow_map")->shape, ImageViewType::flat_array);
+    EXPECT_EQ(reflect_shader("compose.frag").push_bytes, 4u);
 }
 
 TEST(Reflection, InvalidShadersAreRefused) {
@@ -144,7 +153,7 @@ TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
     const auto words = gpu::find_shader("raytrace.comp").words;
     // Values of the specialisation constants: all features off, and all on.
     std::map<std::uint32_t, std::uint32_t> plain, rich;
-    for (const gpu::SpecialisationConstant& constant : reflection("raytrace.comp").constants)
+    for (const gpu::SpecialisationConstant& constant : reflect_shader("raytrace.comp").constants)
         plain[constant.id] = 0, rich[constant.id] = 1;
     const auto without = gpu::specialise_shader("raytrace.comp", words, plain),
                with = gpu::specialise_shader("raytrace.comp", words, rich);
@@ -152,16 +161,17 @@ TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
     EXPECT_LT(3 * without.size(), 2 * words.size());
     const gpu::ShaderReflection left = gpu::reflect_spirv("specialised", without);
     EXPECT_THAT(left.constants, testing::IsEmpty()) << "the driver has nothing to put in";
-    EXPECT_TRUE(find(left, "bvh_nodes"));
+    EXPECT_TRUE(find_binding(left, "bvh_nodes"));
     test::expect_error(
         [] { gpu::specialise_shader("text", std::vector<std::uint32_t>(10, 0x20202020), {}); },
         Failure::internal, {"shader 'text' cannot be specialised: "});
 }
 
 /// A graph of one dispatch into a buffer of 16 words.
-void dispatch(const gpu::ComputeState& state,
-              const std::function<void(graph::PassCommands&, graph::BufferHandle)>& prepare) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
+void make_and_run_dispatch(
+    const gpu::ComputeState& state,
+    const std::function<void(graph::PassCommands&, graph::BufferHandle)>& prepare) {
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
     const graph::BufferHandle buffer = graph.add_buffer({"counts", 64});
     graph.add_pass("lonely")
@@ -178,24 +188,24 @@ void dispatch(const gpu::ComputeState& state,
 TEST(Binding, UnboundNameIsRefusedWithPassAndShader) {
     test::expect_error(
         [] {
-            dispatch({"tests/spin.comp", {}},
-                     [](graph::PassCommands& commands, graph::BufferHandle) {
-                         commands.push_constants(1u);
-                     });
+            make_and_run_dispatch({"tests/spin.comp", {}},
+                                  [](graph::PassCommands& commands, graph::BufferHandle) {
+                                      commands.push_constants(1u);
+                                  });
         },
         Failure::internal, {"pass 'lonely'", "nothing is bound to 'Counts'", "tests/spin.comp"});
 }
 
 TEST(Binding, ImageBoundAsABufferIsRefused) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
-    const graph::ImageHandle image = graph.add_image({"image", Format::r32f, 8, 8});
+    const graph::ImageHandle image = graph.add_image({"image", TexelFormat::r32f, 8, 8});
     graph.add_pass("mixed")
         .writes(image, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
             commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
             commands.push_constants(1u);
-            commands.bind("Counts", image);
+            commands.bind_resource("Counts", image);
             commands.dispatch(1, 1);
         });
     graph.mark_output(image);
@@ -204,13 +214,13 @@ TEST(Binding, ImageBoundAsABufferIsRefused) {
 }
 
 TEST(Binding, UndeclaredResourceIsRefused) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
     const graph::BufferHandle declared = graph.add_buffer({"declared", 64}),
                               other = graph.add_buffer({"other", 64});
     graph.add_pass("sly")
         .writes(declared, graph::ResourceUse::storage_write)
-        .record([=](graph::PassCommands& commands) { commands.bind("Counts", other); });
+        .record([=](graph::PassCommands& commands) { commands.bind_resource("Counts", other); });
     graph.mark_output(declared);
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
                        {"pass 'sly'", "'other'", "does not declare it"});
@@ -219,11 +229,11 @@ TEST(Binding, UndeclaredResourceIsRefused) {
 TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
     test::expect_error(
         [] {
-            dispatch({"tests/spin.comp", {}},
-                     [](graph::PassCommands& commands, graph::BufferHandle buffer) {
-                         commands.bind("Counts", buffer);
-                         commands.push_constants(uvec2(1, 2));
-                     });
+            make_and_run_dispatch({"tests/spin.comp", {}},
+                                  [](graph::PassCommands& commands, graph::BufferHandle buffer) {
+                                      commands.bind_resource("Counts", buffer);
+                                      commands.push_constants(uvec2(1, 2));
+                                  });
         },
         Failure::internal, {"pass 'lonely'", "wants 4 bytes of push constants, got 8"});
 }
@@ -231,8 +241,8 @@ TEST(Binding, PushConstantsOfAnotherSizeAreRefused) {
 TEST(Binding, UnknownConstantIsRefused) {
     test::expect_error(
         [] {
-            dispatch({"tests/spin.comp", {{"speed", 1u}}},
-                     [](graph::PassCommands&, graph::BufferHandle) {});
+            make_and_run_dispatch({"tests/spin.comp", {{"speed", 1u}}},
+                                  [](graph::PassCommands&, graph::BufferHandle) {});
         },
         Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
 }

@@ -15,64 +15,71 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSessionSize{48, 40};
+constexpr uvec2 kSessionPictureSize{48, 40};
 
-double milliseconds_since(std::chrono::steady_clock::time_point begin) {
+double milliseconds_since_begin(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
         .count();
 }
 
-app::FrameSpec spec_of(const scene::Scene& scene, const std::string& technique) {
-    return test::make_test_request(scene, {technique}, kSessionSize);
+app::FrameSpec make_frame_spec(const scene::Scene& scene, const std::string& technique) {
+    return test::make_test_request(scene, {technique}, kSessionPictureSize);
 }
 
 /// Makes random changes of everything that a session allows to change.
-class Changer {
+class RandomSceneChanger {
 public:
-    explicit Changer(std::uint64_t seed) : random_(seed) {}
+    explicit RandomSceneChanger(std::uint64_t seed) : random_(seed) {}
 
-    double number(double low, double high) {
+    double random_number(double low, double high) {
         return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
     }
-    std::size_t index(std::size_t count) { return random_() % count; }
-    vec3 colour() { return vec3(number(0, 1), number(0, 1), number(0, 1)); }
+    std::size_t random_index(std::size_t count) { return random_() % count; }
+    vec3 random_colour() {
+        return vec3(random_number(0, 1), random_number(0, 1), random_number(0, 1));
+    }
 
-    scene::Edit edit(const scene::Scene& scene) {
-        const std::size_t object = index(scene.objects.size());
-        const std::size_t material = index(scene.materials.size());
-        switch (index(4)) {
-        case 0: return scene::move(object, moved(scene.objects[object].world_from_object));
+    scene::Edit make_random_edit(const scene::Scene& scene) {
+        const std::size_t object = random_index(scene.objects.size());
+        const std::size_t material = random_index(scene.materials.size());
+        switch (random_index(4)) {
+        case 0:
+            return scene::move(object,
+                               move_placement_randomly(scene.objects[object].world_from_object));
         case 1: return scene::paint(object, material);
         case 2: {
             scene::Material value = scene.materials[material];
-            value.albedo = colour();
-            value.reflectance = colour();
+            value.albedo = random_colour();
+            value.reflectance = random_colour();
             return scene::set_material(material, value);
         }
         default: {
             scene::Material value = scene.materials[material];
-            if (value.emission != vec3(0)) value.emission *= static_cast<float>(number(.1, 3));
-            value.mirror = value.emission == vec3(0) && index(2) == 0;
+            if (value.emission != vec3(0))
+                value.emission *= static_cast<float>(random_number(.1, 3));
+            value.mirror = value.emission == vec3(0) && random_index(2) == 0;
             return scene::set_material(material, value);
         }
         }
     }
 
-    void look(scene::Camera& camera) {
-        camera.eye += dvec3(number(-.2, .2), number(-.2, .2), number(-.2, .2));
+    void change_camera_randomly(scene::Camera& camera) {
+        camera.eye += dvec3(random_number(-.2, .2), random_number(-.2, .2), random_number(-.2, .2));
     }
 
 private:
-    dmat4 moved(dmat4 place) {
-        place = glm::rotate(place, number(-1, 1), dvec3(number(-1, 1), 1, number(-1, 1)));
-        place[3] += dvec4(number(-.4, .4), number(-.4, .4), number(-.4, .4), 0);
+    dmat4 move_placement_randomly(dmat4 place) {
+        place = glm::rotate(place, random_number(-1, 1),
+                            dvec3(random_number(-1, 1), 1, random_number(-1, 1)));
+        place[3] += dvec4(random_number(-.4, .4), random_number(-.4, .4), random_number(-.4, .4),
+                          0);
         return place;
     }
     std::mt19937_64 random_;
 };
 
 TEST(Session, ChangedSceneEqualsAFreshSession) {
-    Changer draw(11);
+    RandomSceneChanger draw(11);
     // Test a scene with motion too, because a session copies such a scene and moves its objects for
     // each instant.
     for (const auto& [technique, moves] : {std::pair{std::string("pyramid:face=16"), false},
@@ -80,15 +87,15 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
                                            {"raytrace", true}}) {
         scene::Scene at_rest = test::make_lit_room(3, 2);
         if (moves) at_rest.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}};
-        app::Session session(test::test_engine(), at_rest);
-        app::FrameSpec spec = spec_of(at_rest, technique);
+        app::Session session(test::get_test_engine(), at_rest);
+        app::FrameSpec spec = make_frame_spec(at_rest, technique);
         measure::Picture before = session.frame(spec).hdr();
         int seen = 0;
         for (int change = 0; change < 20; ++change) {
-            session.change(draw.edit(session.scene()));
-            if (change % 4 == 3) draw.look(spec.camera);
+            session.change(draw.make_random_edit(session.scene()));
+            if (change % 4 == 3) draw.change_camera_randomly(spec.camera);
             session.forget();
-            app::Session fresh(test::test_engine(), session.scene());
+            app::Session fresh(test::get_test_engine(), session.scene());
             for (int k = 1; k <= 2; ++k) {
                 const measure::Picture found = session.frame(spec).hdr();
                 ASSERT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr()))
@@ -103,8 +110,8 @@ TEST(Session, ChangedSceneEqualsAFreshSession) {
 
 TEST(Session, RaysHitEachObjectWhereItWasMoved) {
     const scene::Scene at_rest = test::make_lit_room(3, 2);
-    const app::FrameSpec spec = spec_of(at_rest, "raytrace");
-    app::Session session(test::test_engine(), at_rest);
+    const app::FrameSpec spec = make_frame_spec(at_rest, "raytrace");
+    app::Session session(test::get_test_engine(), at_rest);
     measure::Picture before = session.frame(spec).hdr();
     for (const std::size_t back : {1, 2, 3, 2}) {
         const std::size_t object = at_rest.objects.size() - back;
@@ -113,7 +120,7 @@ TEST(Session, RaysHitEachObjectWhereItWasMoved) {
         session.change(scene::move(object, place));
         const measure::Picture found = session.frame(spec).hdr();
         EXPECT_FALSE(test::have_equal_pixel_bytes(found, before)) << "it is in sight";
-        app::Session fresh(test::test_engine(), session.scene());
+        app::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr())) << object;
         before = found;
     }
@@ -121,8 +128,8 @@ TEST(Session, RaysHitEachObjectWhereItWasMoved) {
 
 TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::test_engine(), scene);
+    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
     const measure::Picture first = session.frame(spec).hdr(), second = session.frame(spec).hdr();
     EXPECT_FALSE(test::have_equal_pixel_bytes(first, second))
         << "mirrors in mirrors are black at first";
@@ -137,12 +144,12 @@ TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
 /// Several sequences take turns in one session. Each must show what it shows alone.
 TEST(Session, ResumedSequenceContinues) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    app::Session session(test::test_engine(), scene), alone(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
     const std::string techniques[] = {"reuse:face=16", "reuse:face=auto", "raytrace"};
     std::vector<app::FrameSequence> aside;
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
-            const app::FrameSpec spec = spec_of(scene, techniques[i]);
+            const app::FrameSpec spec = make_frame_spec(scene, techniques[i]);
             if (k > 1) app::Access::resume_sequence(session, std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
@@ -155,7 +162,7 @@ TEST(Session, ResumedSequenceContinues) {
             EXPECT_TRUE(test::have_equal_pixel_bytes(found, wanted))
                 << techniques[i] << ", frame " << k;
         }
-    const app::FrameSpec spec = spec_of(scene, techniques[0]);
+    const app::FrameSpec spec = make_frame_spec(scene, techniques[0]);
     alone.forget();
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), alone.frame(spec).hdr()))
         << "without one that goes on, a frame begins without history";
@@ -164,24 +171,24 @@ TEST(Session, ResumedSequenceContinues) {
 /// A capture in other scene units cannot serve as history.
 TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::test_engine(), scene);
+    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
     session.frame(spec), session.frame(spec);
     app::FrameSequence sequence = app::Access::suspend_sequence(session);
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
     app::Access::resume_sequence(session, std::move(sequence));
-    app::Session fresh(test::test_engine(), session.scene());
+    app::Session fresh(test::get_test_engine(), session.scene());
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }
 
 TEST(Session, FrameOfAnotherTechniqueDropsHistoryUnlessMarkedToKeepIt) {
     const scene::Scene scene = test::make_lit_room(3, 1);
-    const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::FrameSpec aside = spec_of(scene, "raytrace");
+    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    app::FrameSpec aside = make_frame_spec(scene, "raytrace");
     aside.keeps_history = true;
-    app::Session session(test::test_engine(), scene), alone(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
     const measure::Picture first = alone.frame(spec).hdr(), second = alone.frame(spec).hdr();
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first));
     session.frame(aside);
@@ -194,8 +201,8 @@ TEST(Session, FrameOfAnotherTechniqueDropsHistoryUnlessMarkedToKeepIt) {
 
 TEST(Session, StillFramesWriteNothing) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::test_engine(), scene);
+    app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
     for (int k = 0; k < 5; ++k) session.frame(spec);
     EXPECT_EQ(app::Access::session_counters(session).frames, 5u);
     EXPECT_EQ(app::Access::session_counters(session).updates, 1u);
@@ -206,8 +213,8 @@ TEST(Session, StillFramesWriteNothing) {
 
 TEST(Session, FrameCanBeReadUntilTheNextFrame) {
     const scene::Scene scene = test::make_lit_room(1, 1);
-    const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
-    app::Session session(test::test_engine(), scene);
+    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
     const app::Frame old = session.frame(spec);
     old.hdr(), old.times();
     session.frame(spec);
@@ -217,8 +224,8 @@ TEST(Session, FrameCanBeReadUntilTheNextFrame) {
 
 TEST(Session, InvalidEditsAndFramesAreRefused) {
     const scene::Scene scene = test::make_lit_room(1, 1);
-    app::Session session(test::test_engine(), scene);
-    const app::FrameSpec spec = spec_of(scene, "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
+    const app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
     const std::string objects = std::to_string(scene.objects.size());
     test::expect_error([&] { session.change(scene::move(999, dmat4(1))); }, Failure::usage,
                        {"object 999", objects});
@@ -231,7 +238,7 @@ TEST(Session, InvalidEditsAndFramesAreRefused) {
     test::expect_error([&] { session.frame(none); }, Failure::usage, {"at least 1x1", "0x4"});
     none = spec, none.techniques = {};
     test::expect_error([&] { session.frame(none); }, Failure::usage, {"no technique"});
-    app::Session untouched(test::test_engine(), scene);
+    app::Session untouched(test::get_test_engine(), scene);
     EXPECT_TRUE(
         test::have_equal_pixel_bytes(session.frame(spec).hdr(), untouched.frame(spec).hdr()));
 }
@@ -240,11 +247,11 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     std::vector<std::vector<measure::Picture>> seen;
     for (const std::uint32_t in_flight : {1u, 2u, 3u}) {
-        app::Session session(test::test_engine(), scene, in_flight);
+        app::Session session(test::get_test_engine(), scene, in_flight);
         std::vector<app::Frame> frames;
         std::vector<measure::Picture>& pictures = seen.emplace_back();
         for (int k = 0; k < 9; ++k) {
-            app::FrameSpec spec = spec_of(scene, "parallax:face=16");
+            app::FrameSpec spec = make_frame_spec(scene, "parallax:face=16");
             spec.time = .1 * k;
             spec.camera.eye.x += .02 * (k / 2);
             frames.push_back(session.frame(spec));
@@ -258,17 +265,17 @@ TEST(Session, PicturesDoNotDependOnFramesInFlight) {
     for (std::size_t k = 0; k < 9; ++k)
         for (std::size_t i : {1, 2})
             EXPECT_TRUE(test::have_equal_pixel_bytes(seen[i][k], seen[0][k])) << k;
-    test::expect_error([&] { app::Session(test::test_engine(), scene, 4); }, Failure::usage,
+    test::expect_error([&] { app::Session(test::get_test_engine(), scene, 4); }, Failure::usage,
                        {"1 to 3", "4"});
 }
 
 TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     std::uint64_t uploads = 0;
     for (const std::string technique : {"reuse:face=16", "raytrace", "hybrid:face=16"}) {
         session.forget();
-        for (int k = 0; k < 3; ++k) session.frame(spec_of(scene, technique));
+        for (int k = 0; k < 3; ++k) session.frame(make_frame_spec(scene, technique));
         const app::SessionCounters counts = app::Access::session_counters(session);
         EXPECT_EQ(counts.hierarchies_built, technique == "reuse:face=16" ? 0u : 1u);
         EXPECT_EQ(counts.hierarchies_refitted, 0u);
@@ -282,9 +289,9 @@ TEST(Session, TechniquesShareTheSceneAndItsHierarchy) {
 TEST(Session, OnlyTracingTechniquesRefitTrees) {
     const scene::Scene scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     for (const std::string technique : {"parallax:face=16", "raytrace"}) {
-        app::Session session(test::test_engine(), scene);
+        app::Session session(test::get_test_engine(), scene);
         for (int k = 0; k < 5; ++k) {
-            app::FrameSpec spec = spec_of(scene, technique);
+            app::FrameSpec spec = make_frame_spec(scene, technique);
             spec.time = .1 * k;
             session.frame(spec);
         }
@@ -299,14 +306,14 @@ TEST(Session, OnlyTracingTechniquesRefitTrees) {
 /// of both may not exceed the whole frame's duration.
 TEST(Session, WaitingTimeIsNotHostWork) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::Session session(test::test_engine(), scene);
-    app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
+    app::Session session(test::get_test_engine(), scene);
+    app::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
     spec.size = {256, 256};
     for (int k = 0; k < 4; ++k) {
         spec.time = .1 * k;
         const auto begin = std::chrono::steady_clock::now();
         const app::FrameTimes times = session.frame(spec).times();
-        const double all = milliseconds_since(begin);
+        const double all = milliseconds_since_begin(begin);
         EXPECT_GT(times.host.sum(), 0);
         EXPECT_LE(times.host.sum() + times.wall_ms, all);
         EXPECT_LE(times.frame_ms(), all);
@@ -320,9 +327,9 @@ TEST(Session, WaitingTimeIsNotHostWork) {
 /// free waits for an older frame.
 TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::FrameSpec spec = spec_of(scene, "raytrace");
+    app::FrameSpec spec = make_frame_spec(scene, "raytrace");
     spec.size = {256, 256};
-    app::Session two(test::test_engine(), scene, 2), one(test::test_engine(), scene);
+    app::Session two(test::get_test_engine(), scene, 2), one(test::get_test_engine(), scene);
     int ended = 0, taken = 0;
     // Try several times, because other processes may use the processor at any time.
     for (int k = 0; k < 5; ++k) {
@@ -341,23 +348,23 @@ TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
 TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
     const scene::Scene scene = test::make_lit_room(2, 1);
     const auto begin = std::chrono::steady_clock::now();
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     EXPECT_EQ(app::Access::setup_times(session).upload_ms, 0)
         << "nothing is written before the first frame";
-    session.frame(spec_of(scene, "reuse:face=16"));
+    session.frame(make_frame_spec(scene, "reuse:face=16"));
     const app::SetupTimes raster = app::Access::setup_times(session);
     EXPECT_GT(raster.upload_ms, 0);
     EXPECT_EQ(raster.hierarchy_ms, 0) << "nobody has traced";
-    session.frame(spec_of(scene, "raytrace"));
+    session.frame(make_frame_spec(scene, "raytrace"));
     const app::SetupTimes traced = app::Access::setup_times(session);
     EXPECT_GT(traced.hierarchy_ms, 0);
     EXPECT_GT(traced.upload_ms, raster.upload_ms) << "the trees' way to the device";
-    EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since(begin));
+    EXPECT_LE(traced.upload_ms + traced.hierarchy_ms, milliseconds_since_begin(begin));
     const std::size_t ball = scene::mirrors(scene).front();
     dmat4 place = scene.objects[ball].world_from_object;
     place[3].x += .1;
     session.change(scene::move(ball, place));
-    app::FrameSpec spec = spec_of(scene, "raytrace");
+    app::FrameSpec spec = make_frame_spec(scene, "raytrace");
     spec.camera.eye.x += .1;
     session.frame(spec);
     EXPECT_EQ(app::Access::setup_times(session).upload_ms, traced.upload_ms) << "once";
@@ -367,27 +374,27 @@ TEST(Session, SetupReportsTheTimesOfOneTimeWork) {
 TEST(Session, EngineCompilesEachPipelineOnce) {
     const scene::Scene scene = test::make_lit_room(1, 1);
     const auto begin = std::chrono::steady_clock::now();
-    app::Engine engine({.device = test::wanted_device()});
+    app::Engine engine({.device = test::read_wanted_device_name()});
     EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, 0u);
     EXPECT_EQ(app::Access::cache_use(engine), app::PipelineCacheState::none);
-    const app::FrameSpec spec = spec_of(scene, "raytrace:depth=1");
+    const app::FrameSpec spec = make_frame_spec(scene, "raytrace:depth=1");
     app::Session(engine, scene).frame(spec).times();
     const app::CompiledPipelines once = app::Access::compiled_pipelines(engine);
     EXPECT_GT(once.pipelines, 0u);
     EXPECT_GT(once.ms, 0);
-    EXPECT_LE(once.ms, milliseconds_since(begin));
+    EXPECT_LE(once.ms, milliseconds_since_begin(begin));
     app::Session(engine, scene).frame(spec).times();
     EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, once.pipelines);
     EXPECT_EQ(app::Access::compiled_pipelines(engine).ms, once.ms);
-    app::Session(engine, scene).frame(spec_of(scene, "naive:bounces=0")).times();
+    app::Session(engine, scene).frame(make_frame_spec(scene, "naive:bounces=0")).times();
     EXPECT_GT(app::Access::compiled_pipelines(engine).pipelines, once.pipelines);
     EXPECT_GT(app::Access::compiled_pipelines(engine).ms, once.ms);
 }
 
 TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
     scene::Scene scene = test::make_lit_room(2, 1);
-    app::Session session(test::test_engine(), scene, 3);
-    app::FrameSpec spec = spec_of(scene, "raytrace:samples=4");
+    app::Session session(test::get_test_engine(), scene, 3);
+    app::FrameSpec spec = make_frame_spec(scene, "raytrace:samples=4");
     spec.size = {128, 128};
     for (int k = 0; k < 4; ++k) { // move the ball so far away that the scene units change
         dmat4 place = session.scene().objects.back().world_from_object;
@@ -395,15 +402,15 @@ TEST(Session, ChangeOfSceneUnitsWaitsForFramesInFlight) {
         const app::Frame before = session.frame(spec);
         session.change(scene::move(scene.objects.size() - 1, place));
         const measure::Picture found = session.frame(spec).hdr();
-        app::Session fresh(test::test_engine(), session.scene());
+        app::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, fresh.frame(spec).hdr())) << k;
     }
 }
 
 TEST(Session, GraphOfAShapeIsPlannedOnce) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    app::Session session(test::test_engine(), scene);
-    app::FrameSpec spec = spec_of(scene, "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
+    app::FrameSpec spec = make_frame_spec(scene, "reuse:face=16");
     for (int k = 0; k < 6; ++k) {
         spec.camera.eye.x += .01;
         session.frame(spec);

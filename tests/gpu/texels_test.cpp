@@ -11,7 +11,7 @@ using namespace catoptric;
 /// Returns a structure whose words are all different. Read as floats, the words are ordinary
 /// numbers near 1.
 template <typename T>
-T filled(std::uint32_t& next) {
+T make_struct_of_distinct_words(std::uint32_t& next) {
     std::array<std::uint32_t, sizeof(T) / 4> words{};
     for (std::uint32_t& word : words) word = 0x3f800000u + next++;
     T value;
@@ -20,44 +20,45 @@ T filled(std::uint32_t& next) {
 }
 
 template <typename T>
-void append(const T& value, std::vector<std::uint32_t>& words) {
+void append_words_of(const T& value, std::vector<std::uint32_t>& words) {
     const std::size_t before = words.size();
     words.resize(before + sizeof value / 4);
     std::memcpy(&words[before], &value, sizeof value);
 }
 
 TEST(Texels, EveryMemberOfAStructureIsRead) {
-    constexpr std::uint32_t kAsked = 2;
+    constexpr std::uint32_t kAskedStructCount = 2;
     std::uint32_t next = 0;
     std::vector<shared::Surface> surfaces;
     std::vector<shared::Probe> probes;
     std::vector<shared::MaterialParameters> details;
     std::vector<shared::VertexAttribute> attributes;
     std::vector<std::uint32_t> texels;
-    for (std::uint32_t i = 0; i < kAsked + 2; ++i) {
-        surfaces.push_back(filled<shared::Surface>(next));
+    for (std::uint32_t i = 0; i < kAskedStructCount + 2; ++i) {
+        surfaces.push_back(make_struct_of_distinct_words<shared::Surface>(next));
         surfaces.back().mirror = 1000 + i, surfaces.back().detail = 2000 + i;
-        probes.push_back(filled<shared::Probe>(next));
+        probes.push_back(make_struct_of_distinct_words<shared::Probe>(next));
         probes.back().kind = i % 3;
-        details.push_back(filled<shared::MaterialParameters>(next));
+        details.push_back(make_struct_of_distinct_words<shared::MaterialParameters>(next));
         // Read as a float, this word is a denormal number, which some devices flush to zero.
         details.back().flags = 1 + i;
-        attributes.push_back(filled<shared::VertexAttribute>(next));
+        attributes.push_back(make_struct_of_distinct_words<shared::VertexAttribute>(next));
         texels.push_back(0x7fc00001u + i); // read as a float, this is NaN
     }
     std::vector<std::uint32_t> expected;
-    append(surfaces[kAsked], expected), append(probes[kAsked], expected);
-    append(details[kAsked], expected);
+    append_words_of(surfaces[kAskedStructCount], expected),
+        append_words_of(probes[kAskedStructCount], expected);
+    append_words_of(details[kAskedStructCount], expected);
     expected.resize(expected.size() - 4 * shared::kQuadsPerMaterial + shared::kWordsPerMaterial);
-    append(attributes[kAsked], expected);
-    append(texels[kAsked], expected);
+    append_words_of(attributes[kAskedStructCount], expected);
+    append_words_of(texels[kAskedStructCount], expected);
 
-    auto& [device, pipelines] = test::test_device();
-    gpu::Buffer surface_list, probe_list, detail_list, attribute_list, texture_list;
+    auto& [device, pipelines] = test::get_test_device();
+    gpu::GpuBuffer surface_list, probe_list, detail_list, attribute_list, texture_list;
     using gpu::BufferUsage;
-    upload_to_buffer(device, surface_list, "surfaces", render::pack_into_texels(surfaces),
+    upload_to_buffer(device, surface_list, "surfaces", render::pack_structs_into_texels(surfaces),
                      BufferUsage::texels);
-    upload_to_buffer(device, probe_list, "probes", render::pack_into_texels(probes),
+    upload_to_buffer(device, probe_list, "probes", render::pack_structs_into_texels(probes),
                      BufferUsage::texels);
     upload_to_buffer(device, detail_list, "details", details, BufferUsage::quads);
     upload_to_buffer(device, attribute_list, "attributes", attributes, BufferUsage::texels);
@@ -68,19 +69,19 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
     graph.add_pass("texels")
         .writes(output, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
-            commands.bind("surface_texels", surface_list);
-            commands.bind("probe_texels", probe_list);
-            commands.bind("detail_quads", detail_list);
-            commands.bind("attribute_texels", attribute_list);
-            commands.bind("texture_words", texture_list);
-            commands.bind("Words", output);
+            commands.bind_resource("surface_texels", surface_list);
+            commands.bind_resource("probe_texels", probe_list);
+            commands.bind_resource("detail_quads", detail_list);
+            commands.bind_resource("attribute_texels", attribute_list);
+            commands.bind_resource("texture_words", texture_list);
+            commands.bind_resource("Words", output);
             commands.bind_pipeline(gpu::ComputeState{"tests/texels.comp", {}});
-            commands.push_constants(kAsked);
+            commands.push_constants(kAskedStructCount);
             commands.dispatch(1, 1);
         });
     graph.mark_output(output);
     test::run_graph(runner, graph);
-    EXPECT_EQ(test::read_values<std::uint32_t>(runner, output), expected);
+    EXPECT_EQ(test::read_resource_values<std::uint32_t>(runner, output), expected);
 }
 
 } // namespace

@@ -11,7 +11,7 @@ namespace {
 
 using namespace catoptric;
 
-measure::Picture threads_picture(app::Engine& engine, const scene::Scene& scene) {
+measure::Picture render_on_engine(app::Engine& engine, const scene::Scene& scene) {
     app::Session session(engine, scene);
     measure::Picture last;
     for (const char* technique : {"parallax:face=64", "secant:face=64", "parallax:face=64"})
@@ -26,11 +26,11 @@ measure::Picture threads_picture(app::Engine& engine, const scene::Scene& scene)
 TEST(Threads, TwoEnginesInTwoThreadsRenderTheSame) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     app::Engine one({}), other({});
-    const measure::Picture truth = threads_picture(one, scene);
+    const measure::Picture truth = render_on_engine(one, scene);
     for (int round = 0; round < 3; ++round) {
         measure::Picture here, there;
-        std::thread thread([&] { there = threads_picture(other, scene); });
-        here = threads_picture(one, scene);
+        std::thread thread([&] { there = render_on_engine(other, scene); });
+        here = render_on_engine(one, scene);
         thread.join();
         EXPECT_TRUE(here.pixels == truth.pixels);
         EXPECT_TRUE(there.pixels == truth.pixels);

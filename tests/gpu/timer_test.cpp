@@ -15,7 +15,7 @@ namespace {
 
 using namespace catoptric;
 
-void expect_in_order(const app::FrameTimes& frame) {
+void expect_passes_in_order(const app::FrameTimes& frame) {
     ASSERT_FALSE(frame.passes.empty());
     double last = 0;
     for (const app::PassTime& pass : frame.passes) {
@@ -37,11 +37,11 @@ TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
                                                    {384, 384});
     request.warmup = 2, request.frames = 7;
-    const app::RunResult result = app::run(test::test_engine(), request);
-    const bool cpu = test::test_engine().device().type == "cpu";
+    const app::RunResult result = app::run(test::get_test_engine(), request);
+    const bool cpu = test::get_test_engine().device().type == "cpu";
     std::vector<double> shares, walls;
     for (const app::FrameTimes& frame : result.frames) {
-        expect_in_order(frame);
+        expect_passes_in_order(frame);
         double sum = 0;
         for (const app::PassTime& pass : frame.passes) sum += pass.ms();
         shares.push_back(sum / (cpu ? frame.wall_ms : frame.gpu_ms));
@@ -60,7 +60,7 @@ TEST(Timing, PipelinedPassesLieWithinTheFrame) {
     app::Request request = test::make_test_request(test::make_lit_room(2, 1), {"reuse"}, {64, 64});
     request.timing = app::PassTimingMode::pipelined;
     request.frames = 3;
-    for (const app::FrameTimes& frame : app::run(test::test_engine(), request).frames)
+    for (const app::FrameTimes& frame : app::run(test::get_test_engine(), request).frames)
         for (const app::PassTime& pass : frame.passes) {
             EXPECT_GE(pass.begin_ms, 0) << pass.name;
             EXPECT_GE(pass.ms(), 0) << pass.name;
@@ -72,7 +72,7 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
     app::Request request = test::make_test_request(test::make_lit_room(2, 1),
                                                    {"reuse:face=8,shadow_map=8"}, {8, 8});
     request.warmup = 0, request.frames = static_cast<int>(app::kMaxDetailedFrames) + 2;
-    const std::vector<app::FrameTimes> frames = app::run(test::test_engine(), request).frames;
+    const std::vector<app::FrameTimes> frames = app::run(test::get_test_engine(), request).frames;
     ASSERT_EQ(frames.size(), app::kMaxDetailedFrames + 2);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         EXPECT_EQ(frames[i].passes.capacity() == 0, i < 2) << i;
@@ -93,22 +93,22 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
 }
 
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
-    graph::GraphRunner runner(test::test_device().device, test::test_device().pipelines);
-    constexpr std::uint32_t kGroups = 256;
+    graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
+    constexpr std::uint32_t kWorkGroupCount = 256;
     std::vector<double> one, four;
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
-        const graph::BufferHandle counts = graph.add_buffer({"counts", 4 * 4 * kGroups});
+        const graph::BufferHandle counts = graph.add_buffer({"counts", 4 * 4 * kWorkGroupCount});
         graph.add_pass("clear")
             .writes(counts, graph::ResourceUse::copy_to)
             .record([=](graph::PassCommands& commands) { commands.fill_buffer(counts, 0); });
         for (int i = 0; i < 4; ++i) {
-            const std::uint32_t groups = i % 2 ? 4 * kGroups : kGroups;
+            const std::uint32_t groups = i % 2 ? 4 * kWorkGroupCount : kWorkGroupCount;
             graph.add_pass((i % 2 ? "four/" : "one/") + std::to_string(i))
                 .writes(counts, graph::ResourceUse::storage)
                 .record([=](graph::PassCommands& commands) {
                     commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
-                    commands.bind("Counts", counts);
+                    commands.bind_resource("Counts", counts);
                     commands.push_constants(4000u);
                     commands.dispatch(groups, 1);
                 });
@@ -117,8 +117,8 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
         const graph::GraphFrameTimes times = test::run_graph(runner, graph);
         if (frame < 2) continue;
         for (const graph::GraphPassTime& pass : times.passes) {
-            if (pass.name.starts_with("one")) one.push_back(pass.ms());
-            if (pass.name.starts_with("four")) four.push_back(pass.ms());
+            if (pass.name.starts_with("one")) one.push_back(pass.elapsed_ms());
+            if (pass.name.starts_with("four")) four.push_back(pass.elapsed_ms());
         }
     }
     const double ratio = measure::summarise_samples(four).median /

@@ -15,10 +15,10 @@ using testing::Not;
 
 /// Returns the names of the bindings of the ray tracing shader when it is built with these
 /// constants.
-std::vector<std::string> bindings_with(const gpu::ShaderConstants& constants) {
+std::vector<std::string> list_bindings_with_constants(const gpu::ShaderConstants& constants) {
     std::vector<std::string> names;
     for (const gpu::ShaderBinding& binding :
-         test::test_device()
+         test::get_test_device()
              .pipelines.find_or_make_compute({"raytrace.comp", {}, constants})
              .bindings)
         names.push_back(binding.name);
@@ -36,9 +36,9 @@ TEST(Variants, EachVariantIsAConstantOfTheRayTracer) {
 }
 
 TEST(Variants, UnusedNodeBuffersAreNotBound) {
-    const std::vector<std::string> texels = bindings_with({}),
-                                   stored = bindings_with({{"bvh_in_storage", 1u}});
-    if (!test::test_device().device.reads_texels_from_storage()) {
+    const std::vector<std::string> texels = list_bindings_with_constants({}),
+                                   stored = list_bindings_with_constants({{"bvh_in_storage", 1u}});
+    if (!test::get_test_device().device.reads_texels_from_storage()) {
         EXPECT_THAT(texels, testing::IsSupersetOf({"bvh_nodes", "bvh_triangles"}));
         EXPECT_THAT(texels, Not(Contains("bvh_nodes_in_storage")));
     }
@@ -48,10 +48,12 @@ TEST(Variants, UnusedNodeBuffersAreNotBound) {
 }
 
 /// Returns the linear picture of a technique under some variants.
-std::vector<vec3> variants_picture(const char* technique, const app::VariantNames& variants) {
-    app::Engine engine({.device = test::wanted_device(), .validate = true, .variants = variants});
+std::vector<vec3> render_with_variants(const char* technique, const app::VariantNames& variants) {
+    app::Engine engine(
+        {.device = test::read_wanted_device_name(), .validate = true, .variants = variants});
     for (const auto& variant : variants) EXPECT_THAT(engine.device().variants, Contains(variant));
-    app::Session session(engine, test::with_coarse_balls(scene::make_cornell_mirrors()));
+    app::Session session(engine,
+                         test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors()));
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {technique},
                                                    {61, 53});
     // Render a brighter picture first. If a variant leaves out a pixel, the old value stays in
@@ -69,12 +71,12 @@ void expect_same_bytes(const std::vector<vec3>& a, const std::vector<vec3>& b) {
 }
 
 TEST(Variants, EachVariantRendersTheSameBytes) {
-    const std::vector<vec3> wanted = variants_picture("raytrace:depth=3", {});
+    const std::vector<vec3> wanted = render_with_variants("raytrace:depth=3", {});
     for (const gpu::ShaderVariant& variant : gpu::list_shader_variants()) {
         SCOPED_TRACE(variant.name);
         expect_same_bytes(
-            wanted, variants_picture("raytrace:depth=3", {{std::string(variant.name),
-                                                           std::string(variant.choices[1])}}));
+            wanted, render_with_variants("raytrace:depth=3", {{std::string(variant.name),
+                                                               std::string(variant.choices[1])}}));
     }
 }
 
@@ -83,8 +85,8 @@ TEST(Variants, AllVariantsTraceListedPixelsTheSame) {
     app::VariantNames all;
     for (const gpu::ShaderVariant& variant : gpu::list_shader_variants())
         all.emplace_back(variant.name, variant.choices[1]);
-    expect_same_bytes(variants_picture("hybrid:face=16", {}),
-                      variants_picture("hybrid:face=16", all));
+    expect_same_bytes(render_with_variants("hybrid:face=16", {}),
+                      render_with_variants("hybrid:face=16", all));
 }
 
 } // namespace

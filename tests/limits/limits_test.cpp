@@ -7,8 +7,8 @@ namespace {
 
 class SmallLimits : public Cli {
 protected:
-    test::ProcessResult on_small_device(const Words& words) const {
-        test::ProcessStart process = start(words);
+    test::ProcessResult run_on_small_device(const Words& words) const {
+        test::ProcessStartOptions process = make_process_start(words);
         process.environment["VK_ADD_LAYER_PATH"] = CATOPTRIC_LIMITS_LAYER;
         process.environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_CATOPTRIC_limits";
         return test::run_process(process);
@@ -16,14 +16,15 @@ protected:
     /// Renders on the small device and on the usual device. Expects equal bytes.
     void expect_same_picture(Words words) const {
         words.insert(words.end(), {"--validate", "-o", "small.exr"});
-        const test::ProcessResult small = on_small_device(quick(words));
+        const test::ProcessResult small = run_on_small_device(with_small_quick_frame(words));
         ASSERT_EQ(small.exit_code, 0) << small.err;
         words.back() = "usual.exr";
-        ASSERT_EQ(cli(quick(words)).exit_code, 0);
-        EXPECT_EQ(read("small.exr"), read("usual.exr")) << testing::PrintToString(words);
+        ASSERT_EQ(run_cli(with_small_quick_frame(words)).exit_code, 0);
+        EXPECT_EQ(read_output_file("small.exr"), read_output_file("usual.exr"))
+            << testing::PrintToString(words);
     }
-    double error_between() const {
-        const test::ProcessResult ended = cli({"diff", "small.exr", "usual.exr", "--json"});
+    double difference_of_pictures() const {
+        const test::ProcessResult ended = run_cli({"diff", "small.exr", "usual.exr", "--json"});
         return nlohmann::json::parse(ended.out)["rmse"].get<double>();
     }
 };
@@ -44,13 +45,14 @@ TEST_F(SmallLimits, HalfFloatDistancesGiveTheSamePicture) {
 /// differs from the driver's.
 TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
     for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
-        Words words = quick({"render", "--technique", technique + ":face=64", "--validate"});
+        Words words = with_small_quick_frame(
+            {"render", "--technique", technique + ":face=64", "--validate"});
         words.insert(words.end(), {"-o", "small.exr"});
-        const test::ProcessResult small = on_small_device(words);
+        const test::ProcessResult small = run_on_small_device(words);
         ASSERT_EQ(small.exit_code, 0) << technique << ": " << small.err;
         words.back() = "usual.exr";
-        ASSERT_EQ(cli(words).exit_code, 0);
-        EXPECT_LT(error_between(), 1e-3) << technique;
+        ASSERT_EQ(run_cli(words).exit_code, 0);
+        EXPECT_LT(difference_of_pictures(), 1e-3) << technique;
     }
 }
 
@@ -63,16 +65,17 @@ TEST_F(SmallLimits, SceneOfManyTrianglesIsDrawn) {
                 std::to_string(x + .01) + " " + std::to_string(y) + " 0\nv " + std::to_string(x) +
                 " " + std::to_string(y + .012) + " .01\nf -3 -2 -1\n";
     }
-    write("many.obj", text), write("m.mtl", "newmtl white\nKd .8 .7 .6\n");
+    write_input_file("many.obj", text), write_input_file("m.mtl", "newmtl white\nKd .8 .7 .6\n");
     expect_same_picture({"render", "many.obj", "--technique", "raytrace"});
 }
 
 TEST_F(SmallLimits, ColourOf32BitFloatsIsRefused) {
-    expect_ended(on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}),
-                 69, {"colour=float filters images of 32-bit floats", "take colour=half"});
+    expect_exit_code(
+        run_on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}), 69,
+        {"colour=float filters images of 32-bit floats", "take colour=half"});
     EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
-    const test::ProcessResult half = on_small_device(
-        quick({"render", "--technique", "parallax:colour=half", "-o", "x.png"}));
+    const test::ProcessResult half = run_on_small_device(
+        with_small_quick_frame({"render", "--technique", "parallax:colour=half", "-o", "x.png"}));
     EXPECT_EQ(half.exit_code, 0) << half.err;
 }
 

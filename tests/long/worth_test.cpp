@@ -4,14 +4,14 @@
 namespace {
 
 TEST(Worth, SearchesMeetTheirErrorBoundsFromEveryCamera) {
-    for (const test::SearchTestView& look : test::search_test_views()) {
+    for (const test::SearchTestView& look : test::list_search_test_views()) {
         SCOPED_TRACE(look.camera.name);
         for (const auto& [search, worth] : test::kSearchErrorLimits) {
             SCOPED_TRACE(search);
             test::expect_errors_within_limits(search, look);
         }
         test::expect_small_captures(look);
-        test::expect_hybrid(look);
+        test::expect_hybrid_beats_parallax(look);
     }
 }
 

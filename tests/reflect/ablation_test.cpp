@@ -11,12 +11,12 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::shared;
 
-constexpr uvec2 kAblationSize{48, 48};
+constexpr uvec2 kAblationPictureSize{48, 48};
 
-std::vector<measure::Picture> pictures_of(const app::Request& request,
-                                          const std::vector<std::uint32_t>& masks) {
+std::vector<measure::Picture> render_with_ablation_masks(const app::Request& request,
+                                                         const std::vector<std::uint32_t>& masks) {
     std::vector<measure::Picture> pictures;
-    app::Session session(test::test_engine(), request.scene);
+    app::Session session(test::get_test_engine(), request.scene);
     app::render_ablated_pictures(
         session, request, masks,
         [&](std::size_t, const measure::Picture& picture) { pictures.push_back(picture); });
@@ -25,17 +25,19 @@ std::vector<measure::Picture> pictures_of(const app::Request& request,
 
 /// Renders a row with each mask of removed causes and compares the pictures with ray tracing. The
 /// first entry of the result has no cause removed.
-std::vector<test::PixelComparison> ablated(const scene::Scene& scene, const std::string& technique,
-                                           std::vector<std::uint32_t> masks,
-                                           const std::string& shadow = "none", int frames = 1) {
+std::vector<test::PixelComparison> compare_with_causes_removed(const scene::Scene& scene,
+                                                               const std::string& technique,
+                                                               std::vector<std::uint32_t> masks,
+                                                               const std::string& shadow = "none",
+                                                               int frames = 1) {
     const app::TechniqueResult truth = test::render_technique(
-        scene, "raytrace:depth=16,shadow=" + shadow, kAblationSize);
-    app::Request request = test::make_test_request(scene, {technique}, kAblationSize);
+        scene, "raytrace:depth=16,shadow=" + shadow, kAblationPictureSize);
+    app::Request request = test::make_test_request(scene, {technique}, kAblationPictureSize);
     request.warmup = frames - 1;
     masks.insert(masks.begin(), 0);
     std::vector<test::PixelComparison> result;
-    for (const measure::Picture& picture : pictures_of(request, masks))
-        result.push_back(test::compare_mirror_pixels(picture, truth));
+    for (const measure::Picture& picture : render_with_ablation_masks(request, masks))
+        result.push_back(test::compare_pixels_of_mirrors(picture, truth));
     std::cout << "[ MEASURED ] " << scene.name << ", " << technique << ": of " << result[0].pixels
               << " off, by mask";
     for (std::size_t i = 0; i < masks.size(); ++i)
@@ -44,62 +46,67 @@ std::vector<test::PixelComparison> ablated(const scene::Scene& scene, const std:
     return result;
 }
 
-constexpr std::uint32_t kFirstOrder = kAblateDirection | kAblateHiddenPoints | kAblateTexelColour;
+constexpr std::uint32_t kFirstOrderCauseMask = kAblateDirection | kAblateHiddenPoints |
+                                               kAblateTexelColour;
 // Number of wrong pixels to allow, whose centre lies next to an outline or an edge.
-constexpr std::size_t kRim = 3;
+constexpr std::size_t kAllowedOutlinePixels = 3;
 
 // In an empty box each reflected ray meets one wall. With exact distances the search must find that
 // point.
 TEST(Mended, ExactDistancesMakeASearchExactInAnEmptyBox) {
-    const auto found = ablated(
+    const auto found = compare_with_causes_removed(
         test::make_coloured_box({}), "secant:steps=8,face=2,distance=unorm8,range=60,shadow=none",
         {kAblateTexelColour, kAblateDistance, kAblateDistance | kAblateTexelColour});
     EXPECT_GT(found[1].off, 8u) << "distances are wrong";
     EXPECT_GT(found[2].off, 100u) << "texels are coarse";
-    EXPECT_LE(found[3].off, kRim);
+    EXPECT_LE(found[3].off, kAllowedOutlinePixels);
 }
 
 // With these causes removed, neither distances nor colours come from the captures.
 TEST(Mended, PicturesDoNotDependOnTheCaptureEdge) {
     const app::TechniqueResult truth = test::render_technique(
-        test::make_coloured_box({}), "raytrace:shadow=none", kAblationSize);
+        test::make_coloured_box({}), "raytrace:shadow=none", kAblationPictureSize);
     std::vector<measure::Picture> pictures;
     for (const std::string face : {"2", "64"}) {
-        app::Request request = test::make_test_request(
-            test::make_coloured_box({}), {"parallax:shadow=none,face=" + face}, kAblationSize);
-        pictures.push_back(pictures_of(request, {kAblateDistance | kAblateTexelColour}).front());
+        app::Request request = test::make_test_request(test::make_coloured_box({}),
+                                                       {"parallax:shadow=none,face=" + face},
+                                                       kAblationPictureSize);
+        pictures.push_back(
+            render_with_ablation_masks(request, {kAblateDistance | kAblateTexelColour}).front());
         // Parallax takes one step to the surface, which is not exact.
-        EXPECT_LE(test::compare_mirror_pixels(pictures.back(), truth).share_off(), .02);
+        EXPECT_LE(
+            test::compare_pixels_of_mirrors(pictures.back(), truth).share_of_off_mirror_pixels(),
+            .02);
     }
     EXPECT_TRUE(test::have_equal_pixel_bytes(pictures[0], pictures[1]));
 }
 
 TEST(Mended, DirectionAndTexelsAreTheOnlyCausesInAnEmptyBox) {
-    const auto found = ablated(test::make_coloured_box({}), "reuse:face=8,shadow=none",
-                               {kAblateDirection, kAblateTexelColour,
-                                kAblateDirection | kAblateTexelColour, kAblateHiddenPoints,
-                                kAblateMirrorReflections | kAblateSelfReflection});
+    const auto found = compare_with_causes_removed(
+        test::make_coloured_box({}), "reuse:face=8,shadow=none",
+        {kAblateDirection, kAblateTexelColour, kAblateDirection | kAblateTexelColour,
+         kAblateHiddenPoints, kAblateMirrorReflections | kAblateSelfReflection});
     EXPECT_GT(found[1].off, 100u);
     EXPECT_GT(found[2].off, 60u);
-    EXPECT_LE(found[3].off, kRim);
+    EXPECT_LE(found[3].off, kAllowedOutlinePixels);
     EXPECT_EQ(found[4].off, found[0].off) << "nothing is hidden";
     EXPECT_EQ(found[5].off, found[0].off) << "and there is no second mirror";
-    const auto open = ablated(test::make_coloured_box({}, true), "reuse:face=8,shadow=none",
-                              {kFirstOrder});
-    EXPECT_LE(open[1].off, kRim) << "nothing is seen where it is open";
+    const auto open = compare_with_causes_removed(
+        test::make_coloured_box({}, true), "reuse:face=8,shadow=none", {kFirstOrderCauseMask});
+    EXPECT_LE(open[1].off, kAllowedOutlinePixels) << "nothing is seen where it is open";
 }
 
 // Three boards stand in front of the walls. No direction from the ball's centre shows the points
 // that the boards hide.
 TEST(Mended, ExactDirectionDoesNotShowHiddenPoints) {
     for (const std::string technique : {"reuse:", "secant:steps=8,"}) {
-        const auto found = ablated(
+        const auto found = compare_with_causes_removed(
             test::make_coloured_box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
             technique + "face=32,shadow=none",
-            {kAblateDirection | kAblateTexelColour, kAblateHiddenPoints, kFirstOrder});
+            {kAblateDirection | kAblateTexelColour, kAblateHiddenPoints, kFirstOrderCauseMask});
         EXPECT_GT(found[1].off, 20u);
         EXPECT_LE(found[2].off + 10, found[0].off);
-        EXPECT_LE(found[3].off, kRim);
+        EXPECT_LE(found[3].off, kAllowedOutlinePixels);
     }
     // These boards lie in front of the floor and the ceiling, a fifth of the way to the middle of
     // the box.
@@ -107,23 +114,25 @@ TEST(Mended, ExactDirectionDoesNotShowHiddenPoints) {
     for (const double y : {-2.4, 2.4})
         for (const double x : {-1.1, .7, 2.5})
             test::add_glowing_board(scene, {0, .1f, 0}, {x, y, -.6}, {.5, 0, 0}, {0, 0, 1.2});
-    const auto close = ablated(scene, "reuse:face=32,shadow=none",
-                               {kAblateDirection | kAblateTexelColour, kFirstOrder});
+    const auto close = compare_with_causes_removed(
+        scene, "reuse:face=32,shadow=none",
+        {kAblateDirection | kAblateTexelColour, kFirstOrderCauseMask});
     EXPECT_GT(close[1].off, 8u);
-    EXPECT_LE(close[2].off, kRim);
+    EXPECT_LE(close[2].off, kAllowedOutlinePixels);
     // Exact texels replace those of the layer that was looked up, which may be the second layer.
-    const auto layered = ablated(
+    const auto layered = compare_with_causes_removed(
         test::make_coloured_box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
         "layered:face=128,shadow=none", {kAblateTexelColour});
     EXPECT_LE(layered[1].off, layered[0].off);
 }
 
 TEST(Mended, MirrorsInMirrorsShowWhatTheEyeSees) {
-    const auto once = ablated(
+    const auto once = compare_with_causes_removed(
         test::make_three_ball_scene(), "secant:steps=8,continue=0,face=32,shadow=none",
-        {kFirstOrder, kFirstOrder | kAblateMirrorReflections, kAblateMirrorReflections});
+        {kFirstOrderCauseMask, kFirstOrderCauseMask | kAblateMirrorReflections,
+         kAblateMirrorReflections});
     EXPECT_GT(once[1].off, 100u) << "without history mirrors are black in captures";
-    EXPECT_LE(once[2].off, kRim);
+    EXPECT_LE(once[2].off, kAllowedOutlinePixels);
     EXPECT_LT(5 * once[3].off, once[0].off);
     // Points that the second mirror's centre does not see must still be darkened by both mirrors'
     // reflectances.
@@ -133,15 +142,16 @@ TEST(Mended, MirrorsInMirrorsShowWhatTheEyeSees) {
                                 dvec3(-1.25, 1.2, .3), dvec3(1.3, 1.5, .2), dvec3(-1.2, -.3, 2.3)})
         test::add_glowing_board(scene, {.1f, 0, 0}, centre, {.35, 0, 0},
                                 {0, centre.z > 1 ? .35 : 0, centre.z > 1 ? 0 : .35});
-    const auto followed = ablated(scene, "secant:steps=8,continue=8,face=32,shadow=none",
-                                  {kAblateDirection | kAblateTexelColour, kFirstOrder,
-                                   kFirstOrder | kAblateMirrorReflections});
-    EXPECT_LE(followed[2].off, 2 * kRim);
+    const auto followed = compare_with_causes_removed(
+        scene, "secant:steps=8,continue=8,face=32,shadow=none",
+        {kAblateDirection | kAblateTexelColour, kFirstOrderCauseMask,
+         kFirstOrderCauseMask | kAblateMirrorReflections});
+    EXPECT_LE(followed[2].off, 2 * kAllowedOutlinePixels);
     EXPECT_GT(followed[1].off, 20u);
-    EXPECT_LE(followed[3].off, kRim);
+    EXPECT_LE(followed[3].off, kAllowedOutlinePixels);
 }
 
-scene::Scene corner() {
+scene::Scene make_mirror_corner_scene() {
     scene::Scene scene{.name = "corner"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 5});
     test::add_mesh(scene, test::make_hollow_corner(), test::add_halving_mirror(scene, 0));
@@ -151,10 +161,11 @@ scene::Scene corner() {
 }
 
 TEST(Mended, OwnReflectionOfAMirrorIsRestored) {
-    const auto found = ablated(corner(), "secant:steps=8,continue=0,face=32,shadow=none",
-                               {kFirstOrder | kAblateMirrorReflections, kAblateSelfReflection});
+    const auto found = compare_with_causes_removed(
+        make_mirror_corner_scene(), "secant:steps=8,continue=0,face=32,shadow=none",
+        {kFirstOrderCauseMask | kAblateMirrorReflections, kAblateSelfReflection});
     EXPECT_GT(found[1].off, 200u);
-    EXPECT_LE(found[2].off, kRim);
+    EXPECT_LE(found[2].off, kAllowedOutlinePixels);
 }
 
 TEST(Mended, ShadowRaysReplaceTheShadowMap) {
@@ -162,11 +173,11 @@ TEST(Mended, ShadowRaysReplaceTheShadowMap) {
     scene.cameras.front() = {
         .eye = {-.3, -.7, -1.8}, .target = {-.9, -1.2, .3}, .vertical_fov_degrees = 42};
     for (const std::string map : {"shadow_map=8", "shadow=none"}) {
-        const auto found = ablated(scene, "secant:steps=8,face=64," + map,
-                                   {kFirstOrder, kFirstOrder | kAblateShadows, kAblateShadows},
-                                   "ray");
+        const auto found = compare_with_causes_removed(
+            scene, "secant:steps=8,face=64," + map,
+            {kFirstOrderCauseMask, kFirstOrderCauseMask | kAblateShadows, kAblateShadows}, "ray");
         EXPECT_GT(found[1].off, 30u);
-        EXPECT_LE(found[2].off, kRim);
+        EXPECT_LE(found[2].off, kAllowedOutlinePixels);
         EXPECT_LT(5 * found[3].off, found[0].off);
     }
 }

@@ -10,25 +10,26 @@ namespace {
 
 using namespace catoptric;
 
-struct Sides {
+struct AgreementSides {
     const char *name, *raster, *traced;
     double most; ///< largest rmse allowed
-    friend void PrintTo(const Sides& sides, std::ostream* out) { *out << sides.name; }
+    friend void PrintTo(const AgreementSides& sides, std::ostream* out) { *out << sides.name; }
 };
-class Agreement : public testing::TestWithParam<Sides> {};
-INSTANTIATE_TEST_SUITE_P(
-    Shadows, Agreement,
-    testing::Values(Sides{"map_and_ray", "naive:bounces=0", "raytrace:depth=16", .003},
-                    Sides{"none", "naive:bounces=0,shadow=none", "raytrace:depth=16,shadow=none",
-                          5e-4},
-                    Sides{"map_on_both", "naive:bounces=0", "raytrace:depth=16,shadow=map", 5e-4}),
-    [](const auto& instance) { return std::string(instance.param.name); });
+class Agreement : public testing::TestWithParam<AgreementSides> {};
+INSTANTIATE_TEST_SUITE_P(Shadows, Agreement,
+                         testing::Values(AgreementSides{"map_and_ray", "naive:bounces=0",
+                                                        "raytrace:depth=16", .003},
+                                         AgreementSides{"none", "naive:bounces=0,shadow=none",
+                                                        "raytrace:depth=16,shadow=none", 5e-4},
+                                         AgreementSides{"map_on_both", "naive:bounces=0",
+                                                        "raytrace:depth=16,shadow=map", 5e-4}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
     for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(2, 2)}) {
         const app::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
-        const double error = test::picture_rmse(
+        const double error = test::rmse_of_pictures(
             test::render_technique(scene, raster, {512, 512}).hdr, truth.hdr,
             measure::mask_non_mirror_pixels(truth.hits));
         std::cout << "[ MEASURED ] " << scene.name << ", shadows " << name << ": rmse " << error
@@ -39,15 +40,15 @@ TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
 
 /// Counts the pixels that show a lamp, in mirrors (first) and outside mirrors (second). Nothing
 /// else in the scene is as bright.
-std::pair<std::size_t, std::size_t> lamp_pixels(const scene::Scene& scene,
-                                                const std::string& technique) {
+std::pair<std::size_t, std::size_t> count_lamp_pixels(const scene::Scene& scene,
+                                                      const std::string& technique) {
     const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
                                                               {128, 128});
     const app::TechniqueResult part = test::render_technique(scene, technique, {128, 128}, 3);
     std::pair<std::size_t, std::size_t> found{0, 0};
     for (std::size_t i = 0; i < part.hdr.pixels.size(); ++i)
         if (part.hdr.pixels[i].x > 4)
-            ++(measure::first_mirror_of_hit(truth.hits[i]) ? found.first : found.second);
+            ++(measure::first_mirror_of_hit_word(truth.hits[i]) ? found.first : found.second);
     return found;
 }
 
@@ -61,14 +62,14 @@ TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
         const double side = faces_eye ? 1 : -1;
         test::add_quad(scene, "lamp", lamp, {.6 - .4 * side, .5, -.6}, {.6 - .4 * side, 1.3, -.6},
                        {.6 + .4 * side, 1.3, -.6}, {.6 + .4 * side, .5, -.6});
-        const auto [mirrored, direct] = lamp_pixels(scene, "raytrace:depth=16");
+        const auto [mirrored, direct] = count_lamp_pixels(scene, "raytrace:depth=16");
         std::cout << "[ MEASURED ] rays meet the lamp in " << mirrored << " pixels of mirrors and "
                   << direct << " beside them\n";
         EXPECT_EQ(mirrored > 0, !faces_eye);
         EXPECT_EQ(direct > 0, faces_eye);
         for (const app::TechniqueInfo& technique : app::techniques()) {
             SCOPED_TRACE(technique.name);
-            const auto found = lamp_pixels(scene, technique.name);
+            const auto found = count_lamp_pixels(scene, technique.name);
             EXPECT_NEAR(double(found.second), double(direct), .02 * double(direct));
             EXPECT_EQ(found.first > 0, mirrored > 0);
         }
@@ -77,23 +78,25 @@ TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
 
 /// Returns a random camera of the given kind: 0 is just above the floor, 1 behind everything, 2
 /// wide, 3 next to a ball. Other kinds are anywhere in the scene.
-scene::Camera drawn_camera(test::RandomNumbers& random, int kind) {
+scene::Camera draw_random_camera_of_kind(test::RandomNumbers& random, int kind) {
     const auto within = [&](vec3 lo, vec3 hi) {
-        const float x = random.number_between(lo.x, hi.x), y = random.number_between(lo.y, hi.y);
-        return dvec3(x, y, random.number_between(lo.z, hi.z));
+        const float x = random.random_number_between(lo.x, hi.x),
+                    y = random.random_number_between(lo.y, hi.y);
+        return dvec3(x, y, random.random_number_between(lo.z, hi.z));
     };
     scene::Camera camera{.eye = within({20, 20, 20}, {530, 520, 540}),
                          .target = within({100, 20, 150}, {450, 300, 550}),
-                         .vertical_fov_degrees = random.number_between(35, 80)};
+                         .vertical_fov_degrees = random.random_number_between(35, 80)};
     if (kind == 0) camera.eye = within({20, 1.5f, -300}, {530, 20, 200});
     if (kind == 1) camera.eye = within({20, 20, 500}, {530, 520, 555}), camera.target.z = 0;
     if (kind == 2) camera.vertical_fov_degrees = 130;
-    if (kind == 3) camera.eye = dvec3(90, 100, 110) + 80.0 * dvec3(random.unit_direction());
+    if (kind == 3) camera.eye = dvec3(90, 100, 110) + 80.0 * dvec3(random.random_unit_direction());
     return camera;
 }
 
 /// Returns the share of pixels outside mirrors in which the pictures differ by more than .02.
-double agreement_share_off(const app::TechniqueResult& raster, const app::TechniqueResult& traced) {
+double share_of_pixels_off_outside_mirrors(const app::TechniqueResult& raster,
+                                           const app::TechniqueResult& traced) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -109,10 +112,10 @@ double agreement_share_off(const app::TechniqueResult& raster, const app::Techni
 /// point. A rasteriser with a larger error than the map's bias would draw bands of false shadow on
 /// a floor seen from near the floor.
 TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
-    constexpr int kCameras = 30;
+    constexpr int kRandomCameraCount = 30;
     test::RandomNumbers random(20);
     double worst = 0, sum = 0;
-    for (int i = 0; i < kCameras; ++i) {
+    for (int i = 0; i < kRandomCameraCount; ++i) {
         app::Request request = test::make_test_request(
             scene::make_cornell_mirrors(), {"naive:bounces=0", "raytrace:depth=0,shadow=map"},
             {256, 256});
@@ -122,16 +125,16 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
                          : i == 1 ? scene::Camera{.eye = {100, 5, -100},
                                                   .target = {300, 40, 400},
                                                   .vertical_fov_degrees = 50}
-                                  : drawn_camera(random, i % 5);
+                                  : draw_random_camera_of_kind(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
-        const app::RunResult result = app::run(test::test_engine(), request);
-        const double off = agreement_share_off(result.parts[0], result.parts[1]);
+        const app::RunResult result = app::run(test::get_test_engine(), request);
+        const double off = share_of_pixels_off_outside_mirrors(result.parts[0], result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;
         worst = std::max(worst, off), sum += off;
     }
-    std::cout << "[ MEASURED ] " << kCameras << " cameras: share off worst " << worst << ", mean "
-              << sum / kCameras << "\n";
+    std::cout << "[ MEASURED ] " << kRandomCameraCount << " cameras: share off worst " << worst
+              << ", mean " << sum / kRandomCameraCount << "\n";
 }
 
 // Surfaces are offset from the shadow map so that they do not shadow themselves. The offset must
@@ -140,11 +143,11 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
 TEST(ShadowMap, OffsetIsNoLargerThanNeeded) {
     const app::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
                                                               "raytrace:depth=16", {256, 256});
-    const double error = test::picture_rmse(test::render_technique(scene::make_cornell_mirrors(),
-                                                                   "naive:bounces=0,shadow_map=64",
-                                                                   {256, 256})
-                                                .hdr,
-                                            truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
+    const double error = test::rmse_of_pictures(
+        test::render_technique(scene::make_cornell_mirrors(), "naive:bounces=0,shadow_map=64",
+                               {256, 256})
+            .hdr,
+        truth.hdr, measure::mask_non_mirror_pixels(truth.hits));
     std::cout << "[ MEASURED ] shadow_map=64: rmse " << error << " on non-mirror pixels\n";
     EXPECT_LE(error, .0052); // measured .0049; with twice the offset .0055
 }
@@ -170,7 +173,7 @@ TEST(Flattened, NodesScaledToZeroKeepTheirNormals) {
     for (const std::string technique : {"raytrace", "parallax:face=64"}) {
         const measure::Picture wanted = test::render_technique(flat, technique, {128, 128}, 3).hdr,
                                found = test::render_technique(scaled, technique, {128, 128}, 3).hdr;
-        EXPECT_EQ(test::nonfinite_pixel_count(wanted), 0u) << technique;
+        EXPECT_EQ(test::count_nonfinite_pixels(wanted), 0u) << technique;
         EXPECT_TRUE(test::have_equal_pixel_bytes(found, wanted)) << technique;
         EXPECT_GT(wanted.at(20, 64).x, .1f) << technique << ": the wall is lit";
     }

@@ -8,13 +8,13 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kAutoSize{64, 64};
+constexpr uvec2 kAutoPictureSize{64, 64};
 
 TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
     const scene::Scene hall = test::make_mirror_hall();
-    const app::TechniqueResult part = test::render_technique(hall, "auto", kAutoSize, 3),
-                               plan = test::render_technique(hall, "2,3=planar *=march", kAutoSize,
-                                                             3);
+    const app::TechniqueResult part = test::render_technique(hall, "auto", kAutoPictureSize, 3),
+                               plan = test::render_technique(hall, "2,3=planar *=march",
+                                                             kAutoPictureSize, 3);
     EXPECT_TRUE(test::have_equal_pixel_bytes(part.hdr, plan.hdr));
     ASSERT_EQ(part.plan.size(), 3u);
     const std::pair<const char*, const char*> wanted[] = {{"march", "march: a sphere, "},
@@ -30,26 +30,27 @@ TEST(Auto, EachMirrorIsDrawnByASuitableTechniqueWithAReason) {
 /// If one technique suits all mirrors, the picture must equal that of a request for this technique.
 TEST(Auto, OneTechniqueForAllMirrorsEqualsThatTechnique) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult part = test::render_technique(scene, "auto", kAutoSize, 2);
+    const app::TechniqueResult part = test::render_technique(scene, "auto", kAutoPictureSize, 2);
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        part.hdr, test::render_technique(scene, "hybrid", kAutoSize, 2).hdr));
+        part.hdr, test::render_technique(scene, "hybrid", kAutoPictureSize, 2).hdr));
     EXPECT_EQ(part.scene_passes, 6);
 }
 
 /// A plan belongs to a scene and a sequence. After an edit or a cut, `auto` must choose again.
 TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
     scene::Scene hall = test::make_mirror_hall();
-    app::Session session(test::test_engine(), hall);
-    app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
-    EXPECT_EQ(session.frame(spec).read().plan.size(), 3u);
+    app::Session session(test::get_test_engine(), hall);
+    app::FrameSpec frame_spec{
+        .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
+    EXPECT_EQ(session.frame(frame_spec).read().plan.size(), 3u);
     const std::size_t block = scene::mirrors(hall).at(1);
     // The block is no mirror any more, so the panel gets another number.
     session.change(scene::paint(block, 0));
-    const std::vector<PlanEntry> plan = session.frame(spec).read().plan;
+    const std::vector<PlanEntry> plan = session.frame(frame_spec).read().plan;
     ASSERT_EQ(plan.size(), 2u);
     EXPECT_EQ(plan[0].technique, "march");
     EXPECT_EQ(plan[1].technique, "planar");
-    app::FrameSpec away = spec; // this view shows a corner of the panel and no ball
+    app::FrameSpec away = frame_spec; // this view shows a corner of the panel and no ball
     away.camera.eye = {.9, .9, 1.2}, away.camera.target = {.9, 1, 1.9};
     away.camera.vertical_fov_degrees = 10;
     EXPECT_EQ(session.frame(away).read().plan[0].technique, "march")
@@ -62,19 +63,20 @@ TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
 /// must stay, so that `auto` does not choose again in each round.
 TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     const scene::Scene hall = test::make_mirror_hall();
-    app::Session session(test::test_engine(), hall);
-    app::FrameSpec spec{.techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoSize};
-    EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
+    app::Session session(test::get_test_engine(), hall);
+    app::FrameSpec frame_spec{
+        .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
+    EXPECT_EQ(session.frame(frame_spec).read().plan[0].technique, "march");
     app::FrameSequence sequence = app::Access::suspend_sequence(session);
-    app::FrameSpec other = spec;
+    app::FrameSpec other = frame_spec;
     other.techniques = {"reuse:face=16"};
     session.frame(other);
     app::Access::suspend_sequence(session);
     app::Access::resume_sequence(session, std::move(sequence));
     // This view does not show the ball.
-    spec.camera.eye = {.9, .9, 1.2}, spec.camera.target = {.9, 1, 1.9};
-    spec.camera.vertical_fov_degrees = 10;
-    EXPECT_EQ(session.frame(spec).read().plan[0].technique, "march");
+    frame_spec.camera.eye = {.9, .9, 1.2}, frame_spec.camera.target = {.9, 1, 1.9};
+    frame_spec.camera.vertical_fov_degrees = 10;
+    EXPECT_EQ(session.frame(frame_spec).read().plan[0].technique, "march");
 }
 
 } // namespace

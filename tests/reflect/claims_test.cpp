@@ -9,13 +9,13 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kClaimsSize{64, 64};
-constexpr vec3 kClaimsBoard{0, 0, .25f};
+constexpr uvec2 kClaimsPictureSize{64, 64};
+constexpr vec3 kClaimsBoardColour{0, 0, .25f};
 
 /// Returns a scene of two mirror balls of radius .7 in a bright box and a board. The camera looks
 /// at the ball with index `seen`. A board of half width `half` between the balls is further from
 /// either ball than its radius.
-scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool exact) {
+scene::Scene make_two_ball_scene(std::size_t seen, const dvec3& board, double half, bool exact) {
     scene::Scene scene{.name = "two balls"};
     test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
     const std::array<dvec3, 2> places{{{-1.6, 0, 0}, {1.6, .2, .1}}};
@@ -24,7 +24,7 @@ scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool e
                        places[static_cast<std::size_t>(i)], .7, 5);
     for (scene::Object& object : scene.objects)
         if (!exact) object.sphere.reset();
-    test::add_glowing_board(scene, kClaimsBoard, board, {0, 0, half}, {0, half, 0});
+    test::add_glowing_board(scene, kClaimsBoardColour, board, {0, 0, half}, {0, half, 0});
     const double side = seen == 0 ? 1 : -1;
     scene.cameras.push_back({.eye = places[seen] + dvec3(1.1 * side, .9, -1.3),
                              .target = places[seen] + dvec3(.3 * side, .1, -.2),
@@ -34,43 +34,47 @@ scene::Scene two_balls(std::size_t seen, const dvec3& board, double half, bool e
 
 /// Wrong pixels of a search, by what the traced ray meets after one reflection: the board (`board`)
 /// or the other ball (`ball`).
-struct Behind {
+struct WrongPixelsByTarget {
     test::PixelComparison board, ball;
 };
 
-Behind behind(const scene::Scene& scene, const app::TechniqueResult& truth,
-              const std::string& search) {
-    const measure::Picture picture =
-        test::render_technique(scene, search + ":face=128,shadow=none,continue=8", kClaimsSize).hdr;
-    const Behind found{
-        test::compare_mirror_pixels(picture, truth,
-                                    [](std::uint32_t hit, const vec3& colour) {
-                                        return !measure::second_mirror_of_hit(hit) &&
-                                               colour.x < .01f;
-                                    }),
-        test::compare_mirror_pixels(picture, truth, [](std::uint32_t hit, const vec3&) {
-            return bool(measure::second_mirror_of_hit(hit));
+WrongPixelsByTarget count_wrong_pixels_by_target(const scene::Scene& scene,
+                                                 const app::TechniqueResult& truth,
+                                                 const std::string& search) {
+    const measure::Picture picture = test::render_technique(
+                                         scene, search + ":face=128,shadow=none,continue=8",
+                                         kClaimsPictureSize)
+                                         .hdr;
+    const WrongPixelsByTarget found{
+        test::compare_pixels_of_mirrors(picture, truth,
+                                        [](std::uint32_t hit, const vec3& colour) {
+                                            return !measure::second_mirror_of_hit_word(hit) &&
+                                                   colour.x < .01f;
+                                        }),
+        test::compare_pixels_of_mirrors(picture, truth, [](std::uint32_t hit, const vec3&) {
+            return bool(measure::second_mirror_of_hit_word(hit));
         })};
     std::cout << "[ MEASURED ] " << search << ": board " << found.board << ", other ball "
               << found.ball << "\n";
     return found;
 }
 
-app::TechniqueResult claims_traced(const scene::Scene& scene, bool exact) {
+app::TechniqueResult trace_claims_scene(const scene::Scene& scene, bool exact) {
     return test::render_technique(
         scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
-        kClaimsSize);
+        kClaimsPictureSize);
 }
 
 TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
     for (const bool exact : {true, false})
         for (const std::size_t seen : {0u, 1u}) {
-            const scene::Scene scene = two_balls(seen, {.02, .1, .05}, .6, exact);
-            const app::TechniqueResult truth = claims_traced(scene, exact);
+            const scene::Scene scene = make_two_ball_scene(seen, {.02, .1, .05}, .6, exact);
+            const app::TechniqueResult truth = trace_claims_scene(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
-                const Behind found = behind(scene, truth, search);
+                const WrongPixelsByTarget found = count_wrong_pixels_by_target(scene, truth,
+                                                                               search);
                 EXPECT_GT(found.board.pixels, 100u);
-                EXPECT_LE(found.board.share_off(), .25) << search << exact << seen;
+                EXPECT_LE(found.board.share_of_off_mirror_pixels(), .25) << search << exact << seen;
             }
         }
 }
@@ -80,19 +84,21 @@ TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
         for (const dvec3& board : {dvec3(0, 1.1, 0), dvec3(-4, 0, 0), dvec3(4, 0, 0)}) {
             // Choose the ball that has the board behind the other ball.
             const std::size_t seen = board.x > 0 ? 0 : 1;
-            const scene::Scene scene = two_balls(seen, board, .35, exact);
-            const app::TechniqueResult truth = claims_traced(scene, exact);
+            const scene::Scene scene = make_two_ball_scene(seen, board, .35, exact);
+            const app::TechniqueResult truth = trace_claims_scene(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
-                const Behind found = behind(scene, truth, search);
+                const WrongPixelsByTarget found = count_wrong_pixels_by_target(scene, truth,
+                                                                               search);
                 EXPECT_GT(found.ball.pixels, 80u);
-                EXPECT_LE(found.ball.share_off(), .2) << search << exact << board.x;
+                EXPECT_LE(found.ball.share_of_off_mirror_pixels(), .2)
+                    << search << exact << board.x;
             }
         }
 }
 
 /// Returns three balls in a row, of which the camera sees the first. `near_first`: the nearer of
 /// the other two balls has the lower number.
-scene::Scene row_of_balls(bool near_first) {
+scene::Scene make_row_of_balls(bool near_first) {
     scene::Scene scene{.name = "row"};
     test::add_bright_box(scene, {-6, -3, -4}, {6, 3, 4});
     test::add_ball(scene, "seen", test::add_halving_mirror(scene, 0), {-1.6, 0, 0}, .9, 5);
@@ -107,19 +113,20 @@ scene::Scene row_of_balls(bool near_first) {
 
 TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
     for (const bool near_first : {true, false}) {
-        const scene::Scene scene = row_of_balls(near_first);
-        const app::TechniqueResult truth = claims_traced(scene, true);
+        const scene::Scene scene = make_row_of_balls(near_first);
+        const app::TechniqueResult truth = trace_claims_scene(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
-            const test::PixelComparison found = behind(scene, truth, search).ball;
+            const test::PixelComparison found =
+                count_wrong_pixels_by_target(scene, truth, search).ball;
             EXPECT_GT(found.pixels, 100u);
-            EXPECT_LE(found.share_off(), .15) << search << near_first;
+            EXPECT_LE(found.share_of_off_mirror_pixels(), .15) << search << near_first;
         }
     }
 }
 
 /// Returns a scene of a ball beside two flat mirrors. The second layer of the ball's capture holds
 /// the surfaces that the edges of the flat mirrors hide from the ball's centre.
-scene::Scene flat_mirrors_beside_a_ball() {
+scene::Scene make_flat_mirrors_beside_ball() {
     scene::Scene scene{.name = "beside"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
     test::add_ball(scene, "seen", test::add_halving_mirror(scene, 0), {0, 0, .5}, 1.2, 5);
@@ -134,24 +141,26 @@ scene::Scene flat_mirrors_beside_a_ball() {
 }
 
 TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
-    const scene::Scene scene = flat_mirrors_beside_a_ball();
-    const app::TechniqueResult truth = claims_traced(scene, true);
-    const measure::Picture picture =
-        test::render_technique(scene, "layered:face=128,shadow=none,continue=8", kClaimsSize).hdr;
-    const test::PixelComparison once = test::compare_mirror_pixels(
+    const scene::Scene scene = make_flat_mirrors_beside_ball();
+    const app::TechniqueResult truth = trace_claims_scene(scene, true);
+    const measure::Picture picture = test::render_technique(
+                                         scene, "layered:face=128,shadow=none,continue=8",
+                                         kClaimsPictureSize)
+                                         .hdr;
+    const test::PixelComparison once = test::compare_pixels_of_mirrors(
         picture, truth, [](std::uint32_t hit, const vec3&) {
-            return measure::first_mirror_of_hit(hit) == MirrorId(1) &&
-                   !measure::second_mirror_of_hit(hit);
+            return measure::first_mirror_of_hit_word(hit) == MirrorId(1) &&
+                   !measure::second_mirror_of_hit_word(hit);
         });
     std::cout << "[ MEASURED ] no second mirror: " << once << "\n";
     EXPECT_GT(once.pixels, 1000u);
-    EXPECT_LE(once.share_off(), .02);
+    EXPECT_LE(once.share_of_off_mirror_pixels(), .02);
 }
 
 /// Returns a scene of a flat mirror, a second mirror behind a board, and a ball aside. The first
 /// mirror's centre does not see the second mirror, but the ball sees both. `from_aside`: the camera
 /// sees the second mirror past the board.
-scene::Scene screened(bool exact, bool from_aside) {
+scene::Scene make_screened_mirror_scene(bool exact, bool from_aside) {
     scene::Scene scene{.name = "screened"};
     test::add_bright_box(scene, {-4, -3, -5}, {4, 3, 4});
     std::array<std::size_t, 3> mirror{};
@@ -159,7 +168,7 @@ scene::Scene screened(bool exact, bool from_aside) {
         mirror[static_cast<std::size_t>(i)] = test::add_halving_mirror(scene, i);
     test::add_quad(scene, "panel", mirror[0], {-2, -1.5, 2}, {2, -1.5, 2}, {2, 1.5, 2},
                    {-2, 1.5, 2});
-    test::add_glowing_board(scene, kClaimsBoard, {0, 0, 1}, {.5, 0, 0}, {0, .8, 0});
+    test::add_glowing_board(scene, kClaimsBoardColour, {0, 0, 1}, {.5, 0, 0}, {0, .8, 0});
     test::add_ball(scene, "hidden", mirror[1], {0, 0, -.3}, .6, 5);
     if (!exact) scene.objects.back().sphere.reset();
     test::add_ball(scene, "aside", mirror[2], {2.5, .8, -.6}, .6, 5);
@@ -173,29 +182,30 @@ scene::Scene screened(bool exact, bool from_aside) {
 /// mirror does. `off` are wrong ones, `mirrors` those whose ray meets a second mirror, and
 /// `mirrors_off` wrong ones of these. `black` are pixels that became black because the answer shows
 /// a mirror without history.
-struct Answers {
+struct CaptureAnswerCounts {
     std::size_t all = 0, off = 0, mirrors = 0, mirrors_off = 0, black = 0;
 };
 
-Answers answers(const scene::Scene& scene, const std::string& search, const std::string& hops) {
+CaptureAnswerCounts count_capture_answers(const scene::Scene& scene, const std::string& search,
+                                          const std::string& hops) {
     const app::TechniqueResult truth = test::render_technique(
         scene, "raytrace:shadow=none,sphere=exact,depth=" + std::string(hops == "0" ? "1" : "9"),
-        kClaimsSize);
+        kClaimsPictureSize);
     const std::string technique = search + ":face=128,shadow=none,continue=" + hops + ",captures=";
     app::Request request = test::make_test_request(scene, {technique + "own", technique + "all"},
-                                                   kClaimsSize);
+                                                   kClaimsPictureSize);
     request.with_lookup = true;
-    const app::RunResult result = app::run(test::test_engine(), request);
+    const app::RunResult result = app::run(test::get_test_engine(), request);
     const auto is_unknown = [&](std::size_t part, std::size_t i) {
         return ((static_cast<int>(result.parts[part].lookup[i].w) - 1) & 3) == 1;
     };
-    Answers found;
+    CaptureAnswerCounts found;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         if (!is_unknown(0, i) || is_unknown(1, i)) continue;
         const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
         const bool is_off = test::is_pixel_off(all, truth.hdr.pixels[i]),
-                   meets = bool(measure::second_mirror_of_hit(truth.hits[i]));
+                   meets = bool(measure::second_mirror_of_hit_word(truth.hits[i]));
         ++found.all, found.off += is_off;
         found.mirrors += meets, found.mirrors_off += meets && is_off;
         found.black += all == vec3(0) && own != vec3(0);
@@ -211,7 +221,8 @@ TEST(Claims, OtherCapturesAnswerRightAndNeverWithAMirror) {
          {std::pair(true, false), std::pair(false, false), std::pair(false, true)})
         for (const std::string hops : {"0", "8"})
             for (const std::string search : {"secant", "march", "pyramid", "layered"}) {
-                const Answers found = answers(screened(exact, from_aside), search, hops);
+                const CaptureAnswerCounts found = count_capture_answers(
+                    make_screened_mirror_scene(exact, from_aside), search, hops);
                 EXPECT_GT(found.all, from_aside ? 100u : 200u) << search;
                 EXPECT_LE(found.off, found.all / 10) << search;
                 EXPECT_LE(found.mirrors_off, 2u) << search;

@@ -10,8 +10,8 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kContinueSize{192, 144};
-constexpr int kContinueFrames = 4;
+constexpr uvec2 kContinuePictureSize{192, 144};
+constexpr int kContinueWarmupFrames = 4;
 
 /// Linear rmse against ray tracing: over all mirror pixels, first-order pixels, and pixels whose
 /// reflected ray meets a second mirror.
@@ -19,18 +19,20 @@ struct ColourError {
     double all = 0, first_order = 0, mirror_in_mirror = 0;
 };
 
-ColourError continue_error_of(const scene::Scene& scene, const std::string& technique) {
+ColourError measure_continued_search_error(const scene::Scene& scene,
+                                           const std::string& technique) {
     static std::map<std::string, app::TechniqueResult> truths; // cached by the scene's name
     if (!truths.contains(scene.name))
-        truths.emplace(scene.name, test::render_technique(scene, app::kReference, kContinueSize));
+        truths.emplace(scene.name,
+                       test::render_technique(scene, app::kReference, kContinuePictureSize));
     const app::TechniqueResult& truth = truths.at(scene.name);
-    const measure::Picture picture = test::render_last_frame(
-                                         test::make_test_request(scene, {technique}, kContinueSize),
-                                         kContinueFrames)
-                                         .front()
-                                         .hdr;
+    const measure::Picture picture =
+        test::render_last_frame(test::make_test_request(scene, {technique}, kContinuePictureSize),
+                                kContinueWarmupFrames)
+            .front()
+            .hdr;
     const auto of = [&](const measure::Mask& mask) {
-        return test::picture_rmse(picture, truth.hdr, mask);
+        return test::rmse_of_pictures(picture, truth.hdr, mask);
     };
     const ColourError error{of(measure::mask_mirror_pixels(truth.hits)),
                             of(measure::mask_first_order_pixels(truth.hits)),
@@ -45,17 +47,18 @@ ColourError continue_error_of(const scene::Scene& scene, const std::string& tech
 // not exact spheres, are continued with the surfaces in their captures.
 TEST(Continue, MirrorsInMirrorsOfAnyShapeAreFollowed) {
     for (const std::string search : {"secant", "march", "pyramid", "layered", "hybrid"}) {
-        const ColourError without = continue_error_of(test::make_mirror_hall(),
-                                                      search + ":continue=0"),
-                          with = continue_error_of(test::make_mirror_hall(), search);
+        const ColourError without = measure_continued_search_error(test::make_mirror_hall(),
+                                                                   search + ":continue=0"),
+                          with = measure_continued_search_error(test::make_mirror_hall(), search);
         EXPECT_LE(with.mirror_in_mirror, .25 * without.mirror_in_mirror) << search;
         // One pixel at the lamp's edge holds nearly all of the first-order error, so this
         // comparison uses a lookup that mixes texels.
         EXPECT_LE(
-            continue_error_of(test::make_mirror_hall(), search + ":lookup=bilinear").first_order,
-            1.05 *
-                continue_error_of(test::make_mirror_hall(), search + ":continue=0,lookup=bilinear")
-                    .first_order)
+            measure_continued_search_error(test::make_mirror_hall(), search + ":lookup=bilinear")
+                .first_order,
+            1.05 * measure_continued_search_error(test::make_mirror_hall(),
+                                                  search + ":continue=0,lookup=bilinear")
+                       .first_order)
             << search;
         // `march` may step over the edge of a mirror and continue in the wrong mirror, in about
         // twenty pixels.
@@ -75,12 +78,12 @@ TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
     for (const std::string search : {"march", "pyramid", "layered"}) {
         const measure::Picture picture = test::render_technique(furnace,
                                                                 search + ":face=64,continue=8",
-                                                                kContinueSize)
+                                                                kContinuePictureSize)
                                              .hdr; // one frame, so no history contributes
         std::array<std::size_t, 4> met{};
         for (const vec3& pixel : picture.pixels)
             for (std::size_t k = 0; k < met.size(); ++k)
-                met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnaceRadiance.x) <
+                met[k] += std::abs(pixel.x - std::exp2(-float(k)) * test::kFurnaceWallRadiance.x) <
                           1e-3f;
         EXPECT_GT(met[1], 200u) << search;
         EXPECT_GT(met[2], 20u) << search << ": both mirrors";
@@ -90,7 +93,7 @@ TEST(Continue, EachMirrorOnTheWayHalvesTheLight) {
 TEST(Captures, OtherMirrorsCapturesAnswerUnknownPixels) {
     for (const std::string search : {"pyramid:face=128", "march:face=128", "secant:face=128"}) {
         const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
-                                                        test::search_test_views().front(),
+                                                        test::list_search_test_views().front(),
                                                         {search, search + ",captures=all"});
         const measure::LookupErrorSummary &own = judged[0].lookup, &all = judged[1].lookup;
         EXPECT_LE(all.unknown, .75 * own.unknown) << search;
@@ -118,13 +121,13 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
     test::add_ball(scene, "ball", mirror, shut, .05);
     for (const double half : {.6, .8})
         for (int face = 0; face < 6; ++face)
-            test::add_mesh(scene, test::wall(face, shut - half, shut + half), grey);
+            test::add_mesh(scene, test::make_box_wall(face, shut - half, shut + half), grey);
     for (const std::string search : {"pyramid", "layered", "march", "secant"}) {
         app::Request request = test::make_test_request(
             scene, {search + ":face=64,captures=own", search + ":face=64,captures=all"},
-            kContinueSize);
+            kContinuePictureSize);
         request.with_lookup = true;
-        const app::RunResult result = app::run(test::test_engine(), request);
+        const app::RunResult result = app::run(test::get_test_engine(), request);
         const app::TechniqueResult &own = result.parts[0], &all = result.parts[1];
         std::size_t unknown = 0, changed = 0;
         for (std::size_t i = 0; i < own.lookup.size(); ++i) {
@@ -145,26 +148,29 @@ TEST(Captures, CapturesWithoutAnAnswerChangeNoPixel) {
 // If rays are followed through all other mirrors, captures may leave out mirrors.
 TEST(Mirrors, CapturesMayLeaveOutMirrorsWhereRaysAreFollowed) {
     for (const std::string search : {"secant", "pyramid", "layered"}) {
-        const ColourError with = continue_error_of(scene::make_cornell_mirrors(),
-                                                   search + ":continue=4"),
-                          without = continue_error_of(scene::make_cornell_mirrors(),
-                                                      search + ":continue=4,mirrors=left_out");
+        const ColourError with = measure_continued_search_error(scene::make_cornell_mirrors(),
+                                                                search + ":continue=4"),
+                          without = measure_continued_search_error(
+                              scene::make_cornell_mirrors(),
+                              search + ":continue=4,mirrors=left_out");
         EXPECT_LE(without.all, 1.05 * with.all) << search;
     }
     // Captures without mirrors do not depend on the frame before, so the first picture equals the
     // last.
     const std::string settled = "pyramid:face=64,continue=8,mirrors=left_out";
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        test::render_technique(scene::make_cornell_mirrors(), settled, kContinueSize, 1).hdr,
-        test::render_technique(scene::make_cornell_mirrors(), settled, kContinueSize, 5).hdr));
+        test::render_technique(scene::make_cornell_mirrors(), settled, kContinuePictureSize, 1).hdr,
+        test::render_technique(scene::make_cornell_mirrors(), settled, kContinuePictureSize, 5)
+            .hdr));
 }
 
 TEST(Show, SearchStateAndResidualArePainted) {
-    app::Request request = test::make_test_request(
-        scene::make_cornell_mirrors(), {"pyramid:face=64,captures=own,show=state"}, kContinueSize);
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                   {"pyramid:face=64,captures=own,show=state"},
+                                                   kContinuePictureSize);
     request.with_lookup = true;
     const app::TechniqueResult part = std::move(
-        app::run(test::test_engine(), request).parts.front());
+        app::run(test::get_test_engine(), request).parts.front());
     const std::array<vec3, 3> paint{
         {{.1f, .6f, .2f}, {.9f, .3f, .1f}, {.1f, .2f, .8f}}}; // colours of hit, unknown and miss
     std::array<std::size_t, 3> count{};
@@ -177,7 +183,7 @@ TEST(Show, SearchStateAndResidualArePainted) {
     for (const std::size_t pixels : count) EXPECT_GT(pixels, 10u);
     request.techniques = {"pyramid:face=64,show=residual"};
     const app::TechniqueResult residual = std::move(
-        app::run(test::test_engine(), request).parts.front());
+        app::run(test::get_test_engine(), request).parts.front());
     for (std::size_t i = 0; i < residual.lookup.size(); ++i) {
         const float code = residual.lookup[i].w;
         if (!(code > 0)) continue;

@@ -15,7 +15,7 @@ using namespace catoptric;
 
 /// Returns an environment map whose texels hold `radiance` of the direction of their centres.
 template <typename Radiance>
-std::shared_ptr<scene::Environment> map_of(uvec2 size, Radiance&& radiance) {
+std::shared_ptr<scene::Environment> make_environment_map(uvec2 size, Radiance&& radiance) {
     auto map = std::make_shared<scene::Environment>();
     map->size = size;
     for (std::uint32_t row = 0; row < size.y; ++row)
@@ -30,7 +30,7 @@ std::shared_ptr<scene::Environment> map_of(uvec2 size, Radiance&& radiance) {
 }
 
 /// Returns a small environment map whose texels are all different.
-std::shared_ptr<scene::Environment> patches() {
+std::shared_ptr<scene::Environment> make_patchwork_environment() {
     auto map = std::make_shared<scene::Environment>();
     map->size = {8, 4};
     for (int i = 0; i < 32; ++i)
@@ -41,8 +41,9 @@ std::shared_ptr<scene::Environment> patches() {
 
 /// Returns a scene that is empty except for a tiny quad below, which no camera of these tests sees.
 /// The camera is at the origin and looks along `direction`.
-scene::Scene void_scene(std::shared_ptr<const scene::Environment> environment,
-                        const dvec3& direction) {
+scene::Scene
+make_empty_scene_with_environment(std::shared_ptr<const scene::Environment> environment,
+                                  const dvec3& direction) {
     scene::Scene scene{.name = "void"};
     const std::size_t black = test::add_material(scene, {.name = "black"});
     test::add_quad(scene, "speck", black, {-.1, -3, .1}, {.1, -3, .1}, {.1, -3, -.1},
@@ -56,7 +57,7 @@ scene::Scene void_scene(std::shared_ptr<const scene::Environment> environment,
 }
 
 TEST(Environment, RadianceFollowsTheMapAndItsRotation) {
-    scene::Environment map = *patches();
+    scene::Environment map = *make_patchwork_environment();
     const auto texel = [&](int column, int row) {
         return dvec3(map.texels[static_cast<std::size_t>(8 * row + column)]);
     };
@@ -83,27 +84,29 @@ TEST(Environment, RadianceFollowsTheMapAndItsRotation) {
 }
 
 TEST(Environment, BackgroundEqualsTheEnvironmentInRasterAndRays) {
-    constexpr int kEdge = 24;
+    constexpr int kEnvironmentPictureEdge = 24;
     for (const bool studio : {false, true})
         for (const double rotation : {0.0, 70.0}) {
-            const auto environment = patches();
+            const auto environment = make_patchwork_environment();
             environment->studio = studio;
             environment->scale = 1.5, environment->rotation_degrees = rotation;
             for (const dvec3& ahead :
                  {dvec3(0, 0, -1), dvec3(1, .2, 0), dvec3(0, 1, 0), dvec3(-.5, .9, .8)}) {
-                const scene::Scene scene = void_scene(environment, ahead);
+                const scene::Scene scene = make_empty_scene_with_environment(environment, ahead);
                 for (const std::string technique : {"raytrace", "naive"}) {
                     const measure::Picture picture =
-                        test::render_technique(scene, technique, {kEdge, kEdge}).hdr;
+                        test::render_technique(scene, technique,
+                                               {kEnvironmentPictureEdge, kEnvironmentPictureEdge})
+                            .hdr;
                     double worst = 0;
-                    for (int y = 0; y < kEdge; ++y)
-                        for (int x = 0; x < kEdge; ++x)
-                            worst = std::max(
-                                worst,
-                                glm::length(dvec3(picture.at(x, y)) -
-                                            scene::environment_radiance(
-                                                *environment, test::pixel_direction(
-                                                                  scene.cameras[0], x, y, kEdge))));
+                    for (int y = 0; y < kEnvironmentPictureEdge; ++y)
+                        for (int x = 0; x < kEnvironmentPictureEdge; ++x)
+                            worst = std::max(worst, glm::length(dvec3(picture.at(x, y)) -
+                                                                scene::environment_radiance(
+                                                                    *environment,
+                                                                    test::camera_direction_of_pixel(
+                                                                        scene.cameras[0], x, y,
+                                                                        kEnvironmentPictureEdge))));
                     EXPECT_LE(worst, 1e-3)
                         << technique << (studio ? ", studio, " : ", map, ") << rotation
                         << " degrees, ahead " << ahead.x << ' ' << ahead.y << ' ' << ahead.z;
@@ -153,28 +156,33 @@ TEST(Studio, RadianceEqualsItsDescription) {
 }
 
 /// Returns the irradiance of a surface with normal `n`.
-dvec3 falls_on(const scene::Environment& environment, const dvec3& n) {
+dvec3 irradiance_by_quadrature(const scene::Environment& environment, const dvec3& n) {
     std::array<dvec3, 9> of = scene::compute_irradiance_coefficients(environment);
-    return f64::irradiance(of.data(), n);
+    return f64::irradiance_from_harmonics(of.data(), n);
 }
 
 TEST(Irradiance, CoefficientsGiveTheIrradianceOfKnownEnvironments) {
     const dvec3 b = glm::normalize(dvec3(.3, .5, -.8));
     const uvec2 size{256, 128};
-    const auto uniform = map_of(size, [](const dvec3&) { return dvec3(.5, 1, 2); });
-    const auto linear = map_of(size, [&](const dvec3& d) { return dvec3(1 + dot(d, b)); });
-    const auto square = map_of(size, [&](const dvec3& d) { return dvec3(dot(d, b) * dot(d, b)); });
-    const auto lobe = map_of(size, [&](const dvec3& d) { return dvec3(std::max(0., dot(d, b))); });
+    const auto uniform = make_environment_map(size, [](const dvec3&) { return dvec3(.5, 1, 2); });
+    const auto linear = make_environment_map(size,
+                                             [&](const dvec3& d) { return dvec3(1 + dot(d, b)); });
+    const auto square = make_environment_map(
+        size, [&](const dvec3& d) { return dvec3(dot(d, b) * dot(d, b)); });
+    const auto lobe = make_environment_map(
+        size, [&](const dvec3& d) { return dvec3(std::max(0., dot(d, b))); });
     for (const dvec3& n :
          {dvec3(0, 1, 0), dvec3(1, 0, 0), dvec3(0, 0, 1), dvec3(0, -.6, -.8), b, -b}) {
         const double c = dot(n, b), p2 = (3 * c * c - 1) / 2;
-        EXPECT_NEAR(falls_on(*uniform, n).x, test::kPi * .5, 5e-4);
-        EXPECT_NEAR(falls_on(*uniform, n).z, test::kPi * 2, 1e-3);
-        EXPECT_NEAR(falls_on(*linear, n).x, test::kPi + 2 * test::kPi / 3 * c, 1e-3);
-        EXPECT_NEAR(falls_on(*square, n).x, test::kPi / 3 + test::kPi / 6 * p2, 1e-3);
+        EXPECT_NEAR(irradiance_by_quadrature(*uniform, n).x, test::kPi * .5, 5e-4);
+        EXPECT_NEAR(irradiance_by_quadrature(*uniform, n).z, test::kPi * 2, 1e-3);
+        EXPECT_NEAR(irradiance_by_quadrature(*linear, n).x, test::kPi + 2 * test::kPi / 3 * c,
+                    1e-3);
+        EXPECT_NEAR(irradiance_by_quadrature(*square, n).x, test::kPi / 3 + test::kPi / 6 * p2,
+                    1e-3);
         // Nine coefficients keep the first three bands of a cosine lobe, with the factors 1/4, 1/2
         // and 5/16.
-        EXPECT_NEAR(falls_on(*lobe, n).x,
+        EXPECT_NEAR(irradiance_by_quadrature(*lobe, n).x,
                     std::max(0., test::kPi / 4 + test::kPi / 3 * c + 5 * test::kPi / 64 * p2),
                     1e-3);
     }
@@ -182,11 +190,12 @@ TEST(Irradiance, CoefficientsGiveTheIrradianceOfKnownEnvironments) {
     turned.rotation_degrees = 90, turned.scale = 3;
     const dvec3 moved(-b.z, b.y, b.x); // the lobe's direction, rotated so that -z becomes +x
     const dvec3 n = glm::normalize(dvec3(.2, .4, .6));
-    EXPECT_NEAR(falls_on(turned, n).x, 3 * (test::kPi + 2 * test::kPi / 3 * dot(n, moved)), 3e-3);
+    EXPECT_NEAR(irradiance_by_quadrature(turned, n).x,
+                3 * (test::kPi + 2 * test::kPi / 3 * dot(n, moved)), 3e-3);
 }
 
 TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
-    const auto environment = map_of({64, 32}, [](const dvec3& d) {
+    const auto environment = make_environment_map({64, 32}, [](const dvec3& d) {
         return dvec3(1 + .8 * d.x, .7 + .5 * d.y * d.z, std::max(0., d.z));
     });
     environment->rotation_degrees = 35, environment->scale = .7;
@@ -200,7 +209,8 @@ TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
         scene.environment = environment;
         scene.cameras.push_back(
             {.eye = 2.0 * n, .target = {0, 0, 0}, .up = up, .vertical_fov_degrees = 40});
-        const dvec3 wanted = dvec3(.6, .5, .4) / test::kPi * falls_on(*environment, n);
+        const dvec3 wanted = dvec3(.6, .5, .4) / test::kPi *
+                             irradiance_by_quadrature(*environment, n);
         for (const std::string technique : {"raytrace", "naive"}) {
             const measure::Picture picture =
                 test::render_without_ambient(scene, technique, {8, 8}).hdr;
@@ -213,13 +223,15 @@ TEST(Irradiance, DiffuseSurfacesAreLitAlikeInRasterAndRays) {
 
 /// Returns the share of the mirrors' pixels in which a technique differs from the ray-traced
 /// picture by more than .02.
-double off_in_mirrors(const scene::Scene& scene, const std::string& technique) {
-    constexpr uvec2 kSize{96, 96};
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize),
-                               part = test::render_technique(scene, technique, kSize, 3);
+double share_of_mirror_pixels_off(const scene::Scene& scene, const std::string& technique) {
+    constexpr uvec2 kEnvironmentPictureSize{96, 96};
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace",
+                                                              kEnvironmentPictureSize),
+                               part = test::render_technique(scene, technique,
+                                                             kEnvironmentPictureSize, 3);
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         ++all;
         off += test::max_channel_difference(part.hdr.pixels[i], truth.hdr.pixels[i]) >
                float(measure::kVisibleDifference);
@@ -228,8 +240,8 @@ double off_in_mirrors(const scene::Scene& scene, const std::string& technique) {
     return double(off) / double(all);
 }
 
-std::shared_ptr<scene::Environment> dusk() {
-    return map_of({64, 32}, [](const dvec3& d) {
+std::shared_ptr<scene::Environment> make_dusk_environment() {
+    return make_environment_map({64, 32}, [](const dvec3& d) {
         return dvec3(.4 + .3 * d.x, .5 + .4 * d.y, .5 - .3 * d.z * d.x);
     });
 }
@@ -240,28 +252,29 @@ TEST(Environment, MirrorsShowTheEnvironmentInEveryTechnique) {
     scene::Scene scene{.name = "alone"};
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    {0, 0, 0}, 1);
-    scene.environment = dusk();
+    scene.environment = make_dusk_environment();
     scene.cameras.push_back({.eye = {0, .5, 3}, .target = {0, 0, 0}, .vertical_fov_degrees = 45});
     for (const app::TechniqueInfo& technique : app::techniques())
-        EXPECT_LE(off_in_mirrors(scene, technique.name), .002) << technique.name;
+        EXPECT_LE(share_of_mirror_pixels_off(scene, technique.name), .002) << technique.name;
 }
 
 /// Returns the test scene `make_yard_scene` with an evening environment, a point light and a
 /// directional light.
-scene::Scene yard_at_dusk() {
+scene::Scene make_yard_at_dusk() {
     scene::Scene scene = test::make_yard_scene();
-    scene.environment = dusk();
+    scene.environment = make_dusk_environment();
     scene.punctual.push_back(
-        {.intensity = vec3(4), .world_from_light = test::light_transform({1, 2, 2}, {0, 0, -1})});
+        {.intensity = vec3(4),
+         .world_from_light = test::make_light_transform({1, 2, 2}, {0, 0, -1})});
     scene.punctual.push_back(
         {.kind = scene::PunctualLight::Kind::directional,
          .intensity = vec3(1),
-         .world_from_light = test::light_transform({0, 0, 0}, {-.5, -1, -.4})});
+         .world_from_light = test::make_light_transform({0, 0, 0}, {-.5, -1, -.4})});
     return scene;
 }
 
 TEST(Environment, RasterisationEqualsRayTracing) {
-    const double off = test::share_off_in_raster_picture(yard_at_dusk(), {128, 128});
+    const double off = test::share_off_in_raster_picture(make_yard_at_dusk(), {128, 128});
     std::cout << "[ MEASURED ] share off " << off << "\n";
     EXPECT_LE(off, .005);
 }
@@ -269,7 +282,7 @@ TEST(Environment, RasterisationEqualsRayTracing) {
 /// A search whose ray leaves the captured surfaces looks up the environment. Techniques without a
 /// search read the environment from the capture's texels and are less exact.
 TEST(Environment, MirrorsShowObjectsBeforeTheEnvironment) {
-    scene::Scene scene = yard_at_dusk();
+    scene::Scene scene = make_yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
     for (const auto& [technique, most] : {std::pair{"hybrid", .01},
                                           {"layered", .01},
@@ -279,7 +292,7 @@ TEST(Environment, MirrorsShowObjectsBeforeTheEnvironment) {
                                           {"parallax", .2},
                                           {"reuse", .4},
                                           {"proxy", .05}}) {
-        const double off = off_in_mirrors(scene, technique);
+        const double off = share_of_mirror_pixels_off(scene, technique);
         std::cout << "[ MEASURED ] " << technique << ": off " << off << "\n";
         EXPECT_LE(off, most) << technique;
     }
@@ -288,11 +301,11 @@ TEST(Environment, MirrorsShowObjectsBeforeTheEnvironment) {
 /// With every cause of error removed, a mirror must show what ray tracing shows, including the
 /// environment.
 TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
-    scene::Scene scene = yard_at_dusk();
+    scene::Scene scene = make_yard_at_dusk();
     scene.objects[2].material = test::add_material(scene, {.name = "mirror", .mirror = true});
     app::Request asked = test::make_test_request(scene, {"parallax"}, {64, 64});
     const app::TechniqueResult truth = test::render_technique(scene, "raytrace", {64, 64});
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     app::FrameSpec spec = asked;
     session.frame(spec);
     const std::uint32_t causes = shared::kAblateDistance | shared::kAblateDirection |
@@ -303,7 +316,7 @@ TEST(Environment, RemovedCausesOfErrorLeaveTheEnvironmentRight) {
         app::Access::render_frame(session, spec, {.ablated = causes}).read().hdr;
     std::size_t off = 0, all = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         ++all, off += test::max_channel_difference(ablated.pixels[i], truth.hdr.pixels[i]) >
                       float(measure::kVisibleDifference);
     }

@@ -16,13 +16,14 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kEveryTechniqueSize{48, 48};
+constexpr uvec2 kEveryTechniquePictureSize{48, 48};
 
 class EveryTechnique : public testing::TestWithParam<app::TechniqueInfo> {
 protected:
     /// Returns the technique with small captures and small shadow maps, if it has these knobs, and
     /// with `settings`.
-    std::string small(std::vector<std::pair<std::string, std::string>> settings = {}) const {
+    std::string technique_with_small_captures(
+        std::vector<std::pair<std::string, std::string>> settings = {}) const {
         for (const auto& cheap :
              std::vector<std::pair<std::string, std::string>>{{"face", "32"}, {"shadow_map", "64"}})
             if (std::ranges::find(settings, cheap.first,
@@ -37,27 +38,32 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::technique
 /// Relative error allowed in pictures of a furnace, a box that emits the same light everywhere. Its
 /// colours are exact in binary16, and the weights of a texture filter add up to 1 within one
 /// rounding.
-constexpr float kSlack = 0x1p-10f;
+constexpr float kFurnaceTolerance = 0x1p-10f;
 
 TEST_P(EveryTechnique, MirrorInAFurnaceShowsTheFurnace) {
-    const measure::Picture picture =
-        test::render_technique(test::make_furnace_scene(1), small(), kEveryTechniqueSize, 3).hdr;
+    const measure::Picture picture = test::render_technique(test::make_furnace_scene(1),
+                                                            technique_with_small_captures(),
+                                                            kEveryTechniquePictureSize, 3)
+                                         .hdr;
     for (const vec3& pixel : picture.pixels)
         for (int c = 0; c < 3; ++c)
-            ASSERT_NEAR(pixel[c], test::kFurnaceRadiance[c], kSlack * test::kFurnaceRadiance[c]);
+            ASSERT_NEAR(pixel[c], test::kFurnaceWallRadiance[c],
+                        kFurnaceTolerance * test::kFurnaceWallRadiance[c]);
 }
 
 /// Returns the share of pixels that are darker than the furnace. Fails if a pixel is brighter than
 /// 1.002 times the furnace.
-double dark_share(const scene::Scene& furnace, const std::string& technique, int frames) {
-    app::Request request = test::make_test_request(furnace, {technique}, kEveryTechniqueSize);
+double dark_pixel_share(const scene::Scene& furnace, const std::string& technique, int frames) {
+    app::Request request = test::make_test_request(furnace, {technique},
+                                                   kEveryTechniquePictureSize);
     request.warmup = frames - 1;
     request.ambient = 0;
-    const measure::Picture picture = app::run(test::test_engine(), request).parts.front().hdr;
+    const measure::Picture picture = app::run(test::get_test_engine(), request).parts.front().hdr;
     std::size_t dark = 0, bright = 0;
     for (const vec3& pixel : picture.pixels) {
-        dark += !glm::all(glm::greaterThanEqual(pixel, test::kFurnaceRadiance * (1 - kSlack)));
-        bright += !glm::all(glm::lessThanEqual(pixel, test::kFurnaceRadiance * 1.002f));
+        dark += !glm::all(
+            glm::greaterThanEqual(pixel, test::kFurnaceWallRadiance * (1 - kFurnaceTolerance)));
+        bright += !glm::all(glm::lessThanEqual(pixel, test::kFurnaceWallRadiance * 1.002f));
     }
     EXPECT_EQ(bright, 0u) << technique << ", frame " << frames;
     return static_cast<double>(dark) / static_cast<double>(picture.pixels.size());
@@ -65,8 +71,8 @@ double dark_share(const scene::Scene& furnace, const std::string& technique, int
 
 TEST_P(EveryTechnique, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
     const scene::Scene furnace = test::make_furnace_scene(2);
-    const auto expect_falling = [&](const std::string& what,
-                                    const std::function<double(int)>& share_at) {
+    const auto expect_falling_share = [&](const std::string& what,
+                                          const std::function<double(int)>& share_at) {
         double last = 1;
         for (int i = 0; i <= 4; ++i) {
             const double share = share_at(i);
@@ -75,12 +81,15 @@ TEST_P(EveryTechnique, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
         }
         EXPECT_LT(last, .1) << GetParam().name << ": most of the picture is box";
     };
-    expect_falling("frame", [&](int i) { return dark_share(furnace, small(), i + 1); });
+    expect_falling_share("frame", [&](int i) {
+        return dark_pixel_share(furnace, technique_with_small_captures(), i + 1);
+    });
     for (const std::string knob : {"bounces", "depth"})
         if (std::ranges::find(GetParam().knobs, knob, &app::KnobInfo::name) !=
             GetParam().knobs.end())
-            expect_falling(knob, [&](int i) {
-                return dark_share(furnace, small({{knob, std::to_string(i)}}), 1);
+            expect_falling_share(knob, [&](int i) {
+                return dark_pixel_share(
+                    furnace, technique_with_small_captures({{knob, std::to_string(i)}}), 1);
             });
 }
 
@@ -98,22 +107,22 @@ TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                 if (knob.name == "samples" || (knob.name == "face" && value == knob.value))
                     continue;
                 if (value == "float" && !test::has_float_colour()) continue;
-                const std::string text = small(
+                const std::string text = technique_with_small_captures(
                     {{knob.name, knob.name == "shadow_map" ? "64" : value}});
                 // Determine the technique that draws balls, because some techniques leave them to
                 // another technique.
                 const std::size_t balls = static_cast<std::size_t>(mirrors);
                 const reflect::TechniqueChoice choice =
                     reflect::replace_unfit_techniques(
-                        reflect::assign_mirrors(reflect::parse_plan(text),
-                                                std::vector<std::string>(balls, "ball")),
+                        reflect::assign_techniques_to_mirrors(
+                            reflect::parse_plan(text), std::vector<std::string>(balls, "ball")),
                         std::vector<scene::FlatFaces>(balls), 0)
                         .choices.front();
                 const app::Request asked = test::make_test_request(
                     test::make_lit_room(mirrors, lights), {text}, {16, 16});
-                app::Session session(test::test_engine(), asked.scene);
+                app::Session session(test::get_test_engine(), asked.scene);
                 const auto plan = nlohmann::json::parse(
-                    app::Access::format_frame_plan(session, asked, app::PlanFormat::json));
+                    app::Access::format_frame_plan(session, asked, app::GraphPlanFormat::json));
                 EXPECT_EQ(plan.at("scene_passes"),
                           choice.technique->scene_passes(mirrors, lights, choice.settings))
                     << text << " with " << mirrors << " mirrors and " << lights << " lights";
@@ -123,7 +132,7 @@ TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
 
 /// Returns the lowest and highest value of a knob, or smaller ones if these would take too much
 /// memory or time.
-std::vector<std::string> extremes(const app::KnobInfo& knob) {
+std::vector<std::string> list_extreme_knob_values(const app::KnobInfo& knob) {
     if (!knob.choices.empty()) return knob.choices;
     double high = knob.high;
     // A face or shadow map of 16384 texels an edge would take gigabytes of memory.
@@ -141,15 +150,15 @@ std::vector<std::string> extremes(const app::KnobInfo& knob) {
 TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
     const scene::Scene room = test::make_lit_room(2, 1);
     for (const app::KnobInfo& knob : GetParam().knobs)
-        for (const std::string& value : extremes(knob)) {
+        for (const std::string& value : list_extreme_knob_values(knob)) {
             if (value == "float" && !test::has_float_colour()) continue;
             std::vector<std::pair<std::string, std::string>> settings{{knob.name, value}};
             if (knob.name == "range")
                 // `range` has an effect only on unorm8 distances.
                 settings.push_back({"distance", "unorm8"});
-            const std::string text = small(settings);
+            const std::string text = technique_with_small_captures(settings);
             const app::TechniqueResult part = test::render_technique(room, text, {32, 24}, 3);
-            EXPECT_EQ(test::nonfinite_pixel_count(part.hdr), 0u) << text;
+            EXPECT_EQ(test::count_nonfinite_pixels(part.hdr), 0u) << text;
             EXPECT_EQ(
                 std::ranges::count_if(part.hdr.pixels,
                                       [](const vec3& c) { return c.x < 0 || c.y < 0 || c.z < 0; }),
@@ -159,15 +168,16 @@ TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
 }
 
 TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
-    app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {small()},
-                                                   kEveryTechniqueSize);
+    app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
+                                                   {technique_with_small_captures()},
+                                                   kEveryTechniquePictureSize);
     for (const bool animate : {false, true}) {
         request.animate = animate;
         request.frames = 3;
         const app::TechniqueResult first = std::move(
-            app::run(test::test_engine(), request).parts.front());
+            app::run(test::get_test_engine(), request).parts.front());
         const app::TechniqueResult second = std::move(
-            app::run(test::test_engine(), request).parts.front());
+            app::run(test::get_test_engine(), request).parts.front());
         EXPECT_TRUE(test::have_equal_pixel_bytes(first.hdr, second.hdr));
         EXPECT_TRUE(test::have_equal_pixel_bytes(first.display, second.display));
         EXPECT_EQ(first.hits, second.hits);
@@ -177,23 +187,23 @@ TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
 /// A technique without history must render its best picture in the first frame. With history,
 /// mirrors seen in mirrors start black.
 TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
-    const std::string text = small({{"continue", "0"}});
+    const std::string text = technique_with_small_captures({{"continue", "0"}});
     const app::TechniqueResult first = test::render_technique(test::make_lit_room(3, 1), text,
-                                                              kEveryTechniqueSize),
+                                                              kEveryTechniquePictureSize),
                                second = test::render_technique(test::make_lit_room(3, 1), text,
-                                                               kEveryTechniqueSize, 2);
+                                                               kEveryTechniquePictureSize, 2);
     EXPECT_EQ(first.remembers, second.remembers);
     EXPECT_EQ(test::have_equal_pixel_bytes(first.hdr, second.hdr), !first.remembers);
 }
 
 TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
-    app::Request request = test::make_test_request(test::make_lit_room(2, 2), {small()},
-                                                   kEveryTechniqueSize);
+    app::Request request = test::make_test_request(
+        test::make_lit_room(2, 2), {technique_with_small_captures()}, kEveryTechniquePictureSize);
     request.frames = 3;
-    app::Session session(test::test_engine(), request.scene);
+    app::Session session(test::get_test_engine(), request.scene);
     const auto plan = nlohmann::json::parse(
-        app::Access::format_frame_plan(session, request, app::PlanFormat::json));
-    for (const app::FrameTimes& frame : app::run(test::test_engine(), request).frames) {
+        app::Access::format_frame_plan(session, request, app::GraphPlanFormat::json));
+    for (const app::FrameTimes& frame : app::run(test::get_test_engine(), request).frames) {
         ASSERT_EQ(frame.passes.size(), plan["passes"].size());
         double time = 0;
         for (std::size_t i = 0; i < frame.passes.size(); ++i) {
@@ -210,8 +220,8 @@ TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
 TEST_P(EveryTechnique, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
         const app::TechniqueResult part = test::render_technique(
-            test::make_lit_room(mirrors, lights), small(), {24, 24}, 2);
-        EXPECT_EQ(test::nonfinite_pixel_count(part.hdr), 0u);
+            test::make_lit_room(mirrors, lights), technique_with_small_captures(), {24, 24}, 2);
+        EXPECT_EQ(test::count_nonfinite_pixels(part.hdr), 0u);
         EXPECT_GT(measure::mean_of(part.hdr, measure::ValueRange::unclamped).all, 0.0)
             << "ambient light is left";
     }

@@ -11,18 +11,19 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kExactSpheresSize{64, 48};
+constexpr uvec2 kExactSpheresPictureSize{64, 48};
 const std::string kExact = "raytrace:sphere=exact,depth=3", kMesh = "raytrace:depth=3";
 
-measure::Picture picture(const scene::Scene& scene, const std::string& technique) {
-    return test::render_technique(scene, technique, kExactSpheresSize).hdr;
+measure::Picture render_exact_sphere_picture(const scene::Scene& scene,
+                                             const std::string& technique) {
+    return test::render_technique(scene, technique, kExactSpheresPictureSize).hdr;
 }
 
 /// A session that shows meshes and spheres in turns must show moved objects at the same places as a
 /// new session.
 TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
     scene::Scene scene = test::make_lit_room(3, 1);
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     const auto ball = [&](int number) { return scene.objects.size() - std::size_t(number); };
     for (int step = 0; step < 4; ++step) {
         if (step > 0) { // move a ball, then a wall, then two balls
@@ -36,9 +37,9 @@ TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
         const std::string first = step % 2 ? kExact : kMesh, second = step % 2 ? kMesh : kExact;
         for (const std::string& technique : {first, second, kExact})
             EXPECT_TRUE(test::have_equal_pixel_bytes(
-                session.frame(test::make_test_request(scene, {technique}, kExactSpheresSize))
+                session.frame(test::make_test_request(scene, {technique}, kExactSpheresPictureSize))
                     .hdr(0),
-                picture(scene, technique)))
+                render_exact_sphere_picture(scene, technique)))
                 << technique << ", step " << step;
     }
 }
@@ -48,10 +49,13 @@ TEST(ExactSpheres, SpheresHiddenFromTheCameraStillCastShadows) {
     scene::Scene scene = test::make_lit_room(2, 1), without = scene;
     without.objects.erase(without.objects.end() - 1);
     scene.objects.back().seen_by_camera = false;
-    const measure::Picture hidden = picture(scene, "raytrace:sphere=exact,depth=0"),
-                           gone = picture(without, "raytrace:sphere=exact,depth=0");
-    const auto hits =
-        test::render_technique(scene, "raytrace:sphere=exact,depth=0", kExactSpheresSize).hits;
+    const measure::Picture hidden = render_exact_sphere_picture(scene,
+                                                                "raytrace:sphere=exact,depth=0"),
+                           gone = render_exact_sphere_picture(without,
+                                                              "raytrace:sphere=exact,depth=0");
+    const auto hits = test::render_technique(scene, "raytrace:sphere=exact,depth=0",
+                                             kExactSpheresPictureSize)
+                          .hits;
     EXPECT_THAT(hits, testing::Each(testing::Ne(2u)));
     int darker = 0, brighter = 0;
     for (std::size_t i = 0; i < hidden.pixels.size(); ++i) {
@@ -66,8 +70,9 @@ TEST(ExactSpheres, SpheresHiddenFromTheCameraStillCastShadows) {
 /// outlines.
 TEST(ExactSpheres, SpheresEqualTheirMeshesExceptAtOutlines) {
     const scene::Scene scene = test::make_lit_room(3, 2);
-    const measure::Picture exact = picture(scene, "raytrace:sphere=exact,depth=1"),
-                           mesh = picture(scene, "raytrace:depth=1");
+    const measure::Picture exact = render_exact_sphere_picture(scene,
+                                                               "raytrace:sphere=exact,depth=1"),
+                           mesh = render_exact_sphere_picture(scene, "raytrace:depth=1");
     int off = 0;
     for (std::size_t i = 0; i < exact.pixels.size(); ++i)
         off += !(test::max_channel_difference(exact.pixels[i], mesh.pixels[i]) <=

@@ -16,7 +16,7 @@ using namespace catoptric;
 TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     const app::TechniqueResult chosen = test::render_technique(scene, "secant:face=auto",
-                                                               test::kSearchTestSize, 2);
+                                                               test::kSearchTestPictureSize, 2);
     ASSERT_TRUE(chosen.auto_face.has_value());
     ASSERT_EQ(chosen.auto_face->needs.size(), 4u);
     // Expected edge: (pi/2) / (p cos^2 (1 + 2 z / r)), for a pixel of size p at the ball's nearest
@@ -37,7 +37,7 @@ TEST(AutoFace, ChosenEdgeEqualsTheNamedEdgeAndEachNeedIsReported) {
     }
     EXPECT_EQ(chosen.auto_face->edge, 64u);
     const app::TechniqueResult named = test::render_technique(scene, "secant:face=64",
-                                                              test::kSearchTestSize, 2);
+                                                              test::kSearchTestPictureSize, 2);
     EXPECT_FALSE(named.auto_face.has_value());
     EXPECT_TRUE(test::have_equal_pixel_bytes(chosen.hdr, named.hdr));
 }
@@ -93,21 +93,21 @@ TEST(AutoFace, EdgeStaysTheSameWhileTheSceneMoves) {
     asked.animate = true;
     asked.frames = 3;
     const app::TechniqueResult moving = std::move(
-        app::run(test::test_engine(), asked).parts.front());
+        app::run(test::get_test_engine(), asked).parts.front());
     asked.techniques = {"secant:face=" + std::to_string(moving.auto_face->edge)};
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        moving.hdr, app::run(test::test_engine(), asked).parts.front().hdr));
+        moving.hdr, app::run(test::get_test_engine(), asked).parts.front().hdr));
 }
 
-std::uint32_t auto_edge(const test::SearchTestView& look) {
-    app::Request asked = test::make_test_request(scene::make_cornell_mirrors(),
-                                                 {"secant:face=auto"}, test::kSearchTestSize);
+std::uint32_t find_automatic_face_edge(const test::SearchTestView& look) {
+    app::Request asked = test::make_test_request(
+        scene::make_cornell_mirrors(), {"secant:face=auto"}, test::kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
-    return app::run(test::test_engine(), asked).parts.front().auto_face->edge;
+    return app::run(test::get_test_engine(), asked).parts.front().auto_face->edge;
 }
 
-std::vector<std::string> with_faces(const std::vector<std::uint32_t>& faces) {
+std::vector<std::string> list_rows_with_faces(const std::vector<std::uint32_t>& faces) {
     std::vector<std::string> techniques;
     for (const std::uint32_t face : faces)
         techniques.push_back("secant:lookup=bilinear,face=" + std::to_string(face));
@@ -117,12 +117,12 @@ std::vector<std::string> with_faces(const std::vector<std::uint32_t>& faces) {
 /// With half the edge the mean direction error grows by at least half a pixel. With twice the edge
 /// it falls by less than a third of a pixel.
 TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
-    for (const test::SearchTestView& look : test::search_test_views()) {
+    for (const test::SearchTestView& look : test::list_search_test_views()) {
         SCOPED_TRACE(look.camera.name);
-        const std::uint32_t edge = auto_edge(look);
-        const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(), look,
-                                                        with_faces({edge / 2, edge, 2 * edge}));
-        const double pixel = look.camera.vertical_fov_degrees / test::kSearchTestSize.y;
+        const std::uint32_t edge = find_automatic_face_edge(look);
+        const auto judged = test::measure_search_errors(
+            scene::make_cornell_mirrors(), look, list_rows_with_faces({edge / 2, edge, 2 * edge}));
+        const double pixel = look.camera.vertical_fov_degrees / test::kSearchTestPictureSize.y;
         const double half = judged[0].lookup.mean_degrees, at = judged[1].lookup.mean_degrees,
                      twice = judged[2].lookup.mean_degrees;
         EXPECT_GE(half - at, .5 * pixel);
@@ -134,12 +134,12 @@ TEST(AutoFace, DoublingTheEdgeHardlyImprovesDirections) {
 /// because they flicker more. The test uses a bilinear lookup. A lookup that does not mix objects
 /// flickers at any edge.
 TEST(AutoFace, LargerEdgeDoesNotImprovePixelColours) {
-    for (const test::SearchTestView& look : test::search_test_views()) {
+    for (const test::SearchTestView& look : test::list_search_test_views()) {
         SCOPED_TRACE(look.camera.name);
-        const std::uint32_t edge = auto_edge(look);
-        const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(), look,
-                                                        with_faces({edge / 2, edge, 4 * edge}),
-                                                        "raytrace:depth=16,samples=16");
+        const std::uint32_t edge = find_automatic_face_edge(look);
+        const auto judged = test::measure_search_errors(
+            scene::make_cornell_mirrors(), look, list_rows_with_faces({edge / 2, edge, 4 * edge}),
+            "raytrace:depth=16,samples=16");
         EXPECT_GE(judged[0].first_order, 1.2 * judged[1].first_order);
         EXPECT_GE(judged[2].first_order, judged[1].first_order);
     }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace catoptric;
 
-std::filesystem::path shipped(const std::string& ending) {
+std::filesystem::path path_of_shipped_file(const std::string& ending) {
     return test::source_folder() / "samples/scenes" / ("cornell-mirrors." + ending);
 }
 
@@ -25,16 +25,16 @@ INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"),
 
 TEST_P(Shipped, FileRendersAsTheBuiltInScene) {
     const scene::Scene built_in = scene::make_cornell_mirrors();
-    const scene::Scene loaded = scene::load(shipped(GetParam()));
+    const scene::Scene loaded = scene::load(path_of_shipped_file(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
         for (const double time : {0.0, 0.7}) {
             app::Request request = test::make_test_request(built_in, {technique}, {256, 256});
             request.time = time, request.frames = 3;
             const measure::Picture wanted =
-                app::run(test::test_engine(), request).parts.front().hdr;
+                app::run(test::get_test_engine(), request).parts.front().hdr;
             request.scene = loaded, request.camera = loaded.cameras.at(0);
-            const double error = test::picture_rmse(
-                app::run(test::test_engine(), request).parts.front().hdr, wanted);
+            const double error = test::rmse_of_pictures(
+                app::run(test::get_test_engine(), request).parts.front().hdr, wanted);
             std::cout << "[ MEASURED ] ." << GetParam() << ", " << technique << " at " << time
                       << " s: rmse " << error << "\n";
             EXPECT_LE(error, 1e-3);
@@ -43,7 +43,7 @@ TEST_P(Shipped, FileRendersAsTheBuiltInScene) {
 
 /// Returns the .glb file with all its root nodes, the camera included, below a chain of `depth` new
 /// nodes. Each new node rotates, moves and scales its children.
-std::string below_nodes(const std::string& glb, int depth) {
+std::string put_roots_below_node_chain(const std::string& glb, int depth) {
     const auto number = [](const std::string& bytes, std::size_t at) {
         std::uint32_t value = 0;
         std::memcpy(&value, bytes.data() + at, 4);
@@ -81,11 +81,11 @@ using Nested = test::InFolder;
 /// Stress case N4: below a thousand nested nodes the scene is about 7 times as large and far away.
 /// The picture must stay the same.
 TEST_F(Nested, SceneBelowAThousandNodesRendersTheSame) {
-    std::ifstream file(shipped("glb"), std::ios::binary);
+    std::ifstream file(path_of_shipped_file("glb"), std::ios::binary);
     const std::string glb((std::istreambuf_iterator<char>(file)), {});
     const std::filesystem::path path = folder / "nested.glb";
-    std::ofstream(path, std::ios::binary) << below_nodes(glb, 1000);
-    const scene::Scene flat = scene::load(shipped("glb")), nested = scene::load(path);
+    std::ofstream(path, std::ios::binary) << put_roots_below_node_chain(glb, 1000);
+    const scene::Scene flat = scene::load(path_of_shipped_file("glb")), nested = scene::load(path);
     const dmat4 there = nested.objects.front().world_from_object,
                 here = flat.objects.front().world_from_object;
     EXPECT_NEAR(length(dvec3(there[0])) / length(dvec3(here[0])), std::pow(1.002, 1000), 1e-6);
@@ -95,7 +95,7 @@ TEST_F(Nested, SceneBelowAThousandNodesRendersTheSame) {
             const auto display = [&](const scene::Scene& scene) {
                 app::Request request = test::make_test_request(scene, {technique}, {256, 256});
                 request.time = time, request.frames = 3;
-                return app::run(test::test_engine(), request).parts.front().display;
+                return app::run(test::get_test_engine(), request).parts.front().display;
             };
             const double flip = measure::flip_mean(measure::flip(display(nested), display(flat)));
             std::cout << "[ MEASURED ] 1000 nodes, " << technique << " at " << time << " s: FLIP "

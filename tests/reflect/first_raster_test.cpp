@@ -12,51 +12,53 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kFirstSize{128, 128};
-constexpr std::size_t kFirstPixels = std::size_t{kFirstSize.x} * kFirstSize.y;
+constexpr uvec2 kFirstRasterPictureSize{128, 128};
+constexpr std::size_t kFirstRasterPixelCount = std::size_t{kFirstRasterPictureSize.x} *
+                                               kFirstRasterPictureSize.y;
 
 /// Returns how many pixels differ by more than .02, with values clamped to [0, 1].
-std::size_t count_off(const measure::Picture& a, const measure::Picture& b) {
+std::size_t count_pixels_off(const measure::Picture& a, const measure::Picture& b) {
     const auto shown = [](const vec3& pixel) { return glm::clamp(pixel, vec3(0), vec3(1)); };
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
-        count += f32::largest(abs(shown(a.pixels[i]) - shown(b.pixels[i]))) > .02f;
+        count += f32::largest_vector_component(abs(shown(a.pixels[i]) - shown(b.pixels[i]))) > .02f;
     return count;
 }
 
 /// Expects the traced picture, with a camera ray in at most 2 % of the pixels.
-void expect_traced(const scene::Scene& scene, const std::string& what, std::size_t most_off) {
+void expect_same_as_traced(const scene::Scene& scene, const std::string& what,
+                           std::size_t most_off) {
     const app::TechniqueResult wanted = test::render_technique(scene, "raytrace:depth=4",
-                                                               kFirstSize),
+                                                               kFirstRasterPictureSize),
                                found = test::render_technique(
-                                   scene, "raytrace:depth=4,first=raster", kFirstSize);
+                                   scene, "raytrace:depth=4,first=raster", kFirstRasterPictureSize);
     ASSERT_TRUE(found.rays && wanted.rays) << what;
-    const std::size_t off = count_off(found.hdr, wanted.hdr);
+    const std::size_t off = count_pixels_off(found.hdr, wanted.hdr);
     std::cout << "[ MEASURED ] " << what << ": " << off << " pixels off, rays "
               << found.rays->primary << " " << found.rays->mirror << " " << found.rays->shadow
               << " instead of " << wanted.rays->primary << " " << wanted.rays->mirror << " "
               << wanted.rays->shadow << '\n';
-    EXPECT_EQ(test::nonfinite_pixel_count(found.hdr), 0u) << what;
+    EXPECT_EQ(test::count_nonfinite_pixels(found.hdr), 0u) << what;
     EXPECT_LE(off, most_off) << what;
-    EXPECT_EQ(wanted.rays->primary, kFirstPixels) << what;
-    EXPECT_LE(found.rays->primary, kFirstPixels / 50) << what;
+    EXPECT_EQ(wanted.rays->primary, kFirstRasterPixelCount) << what;
+    EXPECT_LE(found.rays->primary, kFirstRasterPixelCount / 50) << what;
     EXPECT_LE(found.rays->shadow, wanted.rays->shadow / 10 + 50) << what;
     EXPECT_NEAR(double(found.rays->mirror), double(wanted.rays->mirror), 20) << what;
 }
 
 TEST(FirstRaster, PictureOfBuiltInScenesIsTheTracedOne) {
     for (const char* name : {"cornell-mirrors", "flat", "gallery", "courtyard", "room"})
-        expect_traced(scene::load(name), name, 8);
+        expect_same_as_traced(scene::load(name), name, 8);
 }
 
 TEST(FirstRaster, PictureOfDrawnHallsIsTheTracedOne) {
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u})
-        expect_traced(test::make_random_hall(seed, 5), "hall " + std::to_string(seed), 8);
+        expect_same_as_traced(test::make_random_hall(seed, 5), "hall " + std::to_string(seed), 8);
 }
 
 /// Returns a room with masked, two-sided and smooth surfaces, none of which is a mirror, a sun and
 /// sixty copies of a mesh in object spaces.
-scene::Scene without_mirrors() {
+scene::Scene make_room_without_mirrors() {
     scene::Scene scene = test::make_lit_room(0, 1);
     scene::Material masked{.name = "net", .albedo = vec3(.8f), .two_sided = true};
     auto image = std::make_shared<scene::Image>(
@@ -85,23 +87,26 @@ scene::Scene without_mirrors() {
 }
 
 TEST(FirstRaster, SurfacesThatReflectWithoutBeingMirrorsAreTraced) {
-    const scene::Scene scene = without_mirrors();
-    expect_traced(scene, "without mirrors", 8);
-    EXPECT_GT(test::render_technique(scene, "raytrace:first=raster", kFirstSize).rays->mirror, 500u)
+    const scene::Scene scene = make_room_without_mirrors();
+    expect_same_as_traced(scene, "without mirrors", 8);
+    EXPECT_GT(test::render_technique(scene, "raytrace:first=raster", kFirstRasterPictureSize)
+                  .rays->mirror,
+              500u)
         << "the varnish shows no reflection";
 }
 
 TEST(FirstRaster, OrthographicPictureIsTheTracedOne) {
     scene::Scene scene = test::make_mirror_hall();
     scene.cameras = {{.eye = {.2, .3, -2.8}, .target = {0, -.2, 0}, .orthographic_height = 3}};
-    expect_traced(scene, "orthographic", 8);
+    expect_same_as_traced(scene, "orthographic", 8);
 }
 
 /// Triangles have other places in the hierarchy after an object has moved.
 TEST(FirstRaster, PictureFollowsMovedObjects) {
-    for (scene::Scene scene : {test::make_mirror_hall(), without_mirrors()}) {
-        app::Session session(test::test_engine(), scene);
-        app::FrameSpec spec = test::make_test_request(scene, {"raytrace:first=raster"}, kFirstSize);
+    for (scene::Scene scene : {test::make_mirror_hall(), make_room_without_mirrors()}) {
+        app::Session session(test::get_test_engine(), scene);
+        app::FrameSpec spec = test::make_test_request(scene, {"raytrace:first=raster"},
+                                                      kFirstRasterPictureSize);
         (void)session.frame(spec).read_all();
         for (const std::size_t object : {scene.objects.size() - 1, scene.objects.size() - 2}) {
             dmat4 place = scene.objects[object].world_from_object;
@@ -110,25 +115,30 @@ TEST(FirstRaster, PictureFollowsMovedObjects) {
             scene::apply_edit(scene, scene::move(object, place));
         }
         const std::vector<app::TechniqueResult> moved = session.frame(spec).read_all();
-        EXPECT_LE(
-            count_off(moved.front().hdr, test::render_technique(scene, "raytrace", kFirstSize).hdr),
-            8u);
-        EXPECT_LE(moved.front().rays->primary, kFirstPixels / 50);
+        EXPECT_LE(count_pixels_off(
+                      moved.front().hdr,
+                      test::render_technique(scene, "raytrace", kFirstRasterPictureSize).hdr),
+                  8u);
+        EXPECT_LE(moved.front().rays->primary, kFirstRasterPixelCount / 50);
     }
 }
 
 TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
     const scene::Scene scene = test::make_mirror_hall();
     const app::TechniqueResult part = test::render_technique(
-        scene, "raytrace:first=raster,shadow=map", kFirstSize);
+        scene, "raytrace:first=raster,shadow=map", kFirstRasterPictureSize);
     EXPECT_LE(
-        count_off(part.hdr, test::render_technique(scene, "raytrace:shadow=map", kFirstSize).hdr),
+        count_pixels_off(
+            part.hdr,
+            test::render_technique(scene, "raytrace:shadow=map", kFirstRasterPictureSize).hdr),
         8u);
     EXPECT_EQ(part.rays->shadow, 0u);
     const app::TechniqueResult lit = test::render_technique(
-        scene, "raytrace:first=raster,shadow=none", kFirstSize);
+        scene, "raytrace:first=raster,shadow=none", kFirstRasterPictureSize);
     EXPECT_LE(
-        count_off(lit.hdr, test::render_technique(scene, "raytrace:shadow=none", kFirstSize).hdr),
+        count_pixels_off(
+            lit.hdr,
+            test::render_technique(scene, "raytrace:shadow=none", kFirstRasterPictureSize).hdr),
         8u);
     EXPECT_EQ(lit.rays->shadow, 0u);
 }
@@ -137,12 +147,13 @@ TEST(FirstRaster, ShadowsOfTheMapAreThoseOfTheTracerWithTheMap) {
 TEST(FirstRaster, TracedPixelsOfOtherTechniquesStartAtTheirTriangle) {
     const scene::Scene scene = test::make_mirror_hall();
     const measure::Picture wanted =
-        test::render_technique(scene, "raytrace:depth=16", kFirstSize).hdr;
+        test::render_technique(scene, "raytrace:depth=16", kFirstRasterPictureSize).hdr;
     const app::TechniqueResult all = test::render_technique(scene, "hybrid:force=unknown",
-                                                            kFirstSize);
+                                                            kFirstRasterPictureSize);
     EXPECT_GT(all.rays->mirror, 1000u);
-    EXPECT_LE(all.rays->primary, kFirstPixels / 100);
-    EXPECT_LE(count_off(all.hdr, wanted), kFirstPixels / 100) << "edges of shadow maps";
+    EXPECT_LE(all.rays->primary, kFirstRasterPixelCount / 100);
+    EXPECT_LE(count_pixels_off(all.hdr, wanted), kFirstRasterPixelCount / 100)
+        << "edges of shadow maps";
 }
 
 TEST(FirstRaster, SettingsThatNeedOtherCameraRaysAreRefused) {

@@ -73,8 +73,8 @@ TEST(GlassBall, EqualsATracerInDoublePrecision) {
         double largest = 0;
         for (int y = 0; y < kGlassEdge; ++y)
             for (int x = 0; x < kGlassEdge; ++x) {
-                const dvec3 direction = test::pixel_direction(scene.cameras.front(), x, y,
-                                                              kGlassEdge);
+                const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                                        kGlassEdge);
                 const dvec3 wanted = trace_ball(scene, scene.cameras.front().eye, direction, false,
                                                 1, 16);
                 const dvec3 difference = glm::abs(dvec3(found.at(x, y)) - wanted);

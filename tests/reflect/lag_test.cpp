@@ -18,24 +18,25 @@ using testing::ElementsAre;
 
 using measure::Difference;
 
-constexpr uvec2 kLagSize{64, 64};
-constexpr auto kFlip = &Difference::flip, kRmse = &Difference::rmse;
+constexpr uvec2 kLagPictureSize{64, 64};
+constexpr auto kFlipMetric = &Difference::flip, kRmse = &Difference::rmse;
 
-app::LagRequest lag_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
-                            const std::vector<double>& speeds, int most_instants = 30) {
-    return {.base = test::make_test_request(scene, techniques, kLagSize),
+app::LagRequest make_lag_request(const scene::Scene& scene,
+                                 const std::vector<std::string>& techniques,
+                                 const std::vector<double>& speeds, int most_instants = 30) {
+    return {.base = test::make_test_request(scene, techniques, kLagPictureSize),
             .speeds = speeds,
             .most_instants = most_instants};
 }
 
-void measure_lag_of(const app::LagRequest& request, report::LagResults& lag) {
-    app::Session session(test::test_engine(), request.base.scene);
+void measure_lag_of_request(const app::LagRequest& request, report::LagResults& lag) {
+    app::Session session(test::get_test_engine(), request.base.scene);
     app::measure_lag(session, request, lag);
 }
 
-report::LagResults measure(const app::LagRequest& request) {
+report::LagResults measure_lag_results(const app::LagRequest& request) {
     report::LagResults lag;
-    measure_lag_of(request, lag);
+    measure_lag_of_request(request, lag);
     return lag;
 }
 
@@ -45,7 +46,7 @@ void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t 
         EXPECT_EQ(row.restless_stills, 0) << row.label;
         ASSERT_EQ(row.speeds.size(), speeds) << row.label;
         for (const report::LagAtSpeed& at : row.speeds) {
-            for (const auto figure : {kFlip, &Difference::off, &Difference::mae, kRmse}) {
+            for (const auto figure : {kFlipMetric, &Difference::off, &Difference::mae, kRmse}) {
                 const std::vector<double> errors = measure::list_metric_values(at.errors, figure);
                 EXPECT_THAT(errors, testing::Each(0.0)) << row.label << " at " << at.speed;
                 EXPECT_EQ(errors.size(), lag.seconds.size());
@@ -53,14 +54,14 @@ void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t 
                           measure::list_metric_values(row.still_reference_errors, figure))
                     << row.label << " at " << at.speed;
             }
-            EXPECT_EQ(measure::metric_percentile(at.errors, kFlip, 1), 0);
+            EXPECT_EQ(measure::percentile_over_instants(at.errors, kFlipMetric, 1), 0);
         }
     }
 }
 
 TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
-    const report::LagResults lag = measure(
-        lag_request(test::make_lit_room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
+    const report::LagResults lag = measure_lag_results(make_lag_request(
+        test::make_lit_room(3, 1), {"reuse:face=32", "secant:face=32"}, {0.25, 1, 8}));
     EXPECT_THAT(lag.seconds, ElementsAre(0.0))
         << "where nothing moves, one instant is all there is";
     expect_no_lag(lag, 2, 3);
@@ -77,8 +78,8 @@ TEST(Lag, StillSceneHasNoLagAtAnySpeed) {
 TEST(Lag, SingleMovingMirrorHasNoLag) {
     scene::Scene scene = test::make_lit_room(1, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.2, .4, 0}, .period = 1.6};
-    const report::LagResults lag = measure(
-        lag_request(scene, {"reuse:face=32", "parallax:face=32"}, {1, 4}, 6));
+    const report::LagResults lag = measure_lag_results(
+        make_lag_request(scene, {"reuse:face=32", "parallax:face=32"}, {1, 4}, 6));
     ASSERT_EQ(lag.seconds.size(), 6u);
     expect_no_lag(lag, 2, 2);
     for (const report::LagRow& row : lag.rows) {
@@ -98,18 +99,20 @@ TEST(Lag, LagGrowsWithSpeed) {
     scene::Scene scene = test::make_lit_room(2, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, .3, 0}, .period = 4};
     for (scene::Material& material : scene.materials) material.emission /= 9.0f;
-    app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {2, 4, 8}, 10);
+    app::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {2, 4, 8}, 10);
     request.base.ambient = .5;
-    const report::LagResults lag = measure(request);
+    const report::LagResults lag = measure_lag_results(request);
     ASSERT_EQ(lag.seconds.size(), 10u);
     EXPECT_DOUBLE_EQ(lag.path, 4);
     EXPECT_DOUBLE_EQ(lag.jump_from, 2);
     ASSERT_EQ(lag.rows.size(), 1u);
     const std::vector<report::LagAtSpeed>& speeds = lag.rows[0].speeds;
     ASSERT_EQ(speeds.size(), 3u);
-    for (const auto figure : {kRmse, kFlip}) {
-        const auto mean = [&](std::size_t i) { return measure::mean_of(speeds[i].errors, figure); };
-        std::cout << "[ MEASURED ] lag of reuse, " << (figure == kFlip ? "FLIP" : "rmse")
+    for (const auto figure : {kRmse, kFlipMetric}) {
+        const auto mean = [&](std::size_t i) {
+            return measure::mean_over_instants(speeds[i].errors, figure);
+        };
+        std::cout << "[ MEASURED ] lag of reuse, " << (figure == kFlipMetric ? "FLIP" : "rmse")
                   << " at 2x " << mean(0) << ", 4x " << mean(1) << ", 8x " << mean(2) << "\n";
         EXPECT_GT(mean(0), 0);
         EXPECT_GT(mean(1), 1.4 * mean(0));
@@ -122,22 +125,23 @@ TEST(Lag, LagGrowsWithSpeed) {
 TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
     scene::Scene scene = scene::make_cornell_mirrors();
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {0, 50, 0}, .period = .5};
-    app::LagRequest request = lag_request(scene, {"reuse:face=32"}, {1}, 4);
+    app::LagRequest request = make_lag_request(scene, {"reuse:face=32"}, {1}, 4);
     request.base.time = .25;
-    const report::LagResults lag = measure(request);
+    const report::LagResults lag = measure_lag_results(request);
     ASSERT_EQ(lag.seconds.size(), 4u);
     const double instant = .25 + 8 / 60.0; // 30 frames give four instants, 8 frames apart
     ASSERT_DOUBLE_EQ(lag.seconds[1], instant);
 
-    app::Request moving = test::make_test_request(scene, {"reuse:face=32"}, kLagSize);
+    app::Request moving = test::make_test_request(scene, {"reuse:face=32"}, kLagPictureSize);
     moving.animate = true, moving.warmup = 20, moving.time = instant - 20 / 60.0;
-    app::Request still = test::make_test_request(scene, {"naive:face=32,bounces=8"}, kLagSize),
-                 traced = test::make_test_request(scene, {"raytrace"}, kLagSize);
+    app::Request still = test::make_test_request(scene, {"naive:face=32,bounces=8"},
+                                                 kLagPictureSize),
+                 traced = test::make_test_request(scene, {"raytrace"}, kLagPictureSize);
     still.time = traced.time = instant;
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        app::run(test::test_engine(), traced).parts.front().hits);
-    const app::TechniqueResult at_speed = app::run(test::test_engine(), moving).parts.front(),
-                               at_rest = app::run(test::test_engine(), still).parts.front();
+        app::run(test::get_test_engine(), traced).parts.front().hits);
+    const app::TechniqueResult at_speed = app::run(test::get_test_engine(), moving).parts.front(),
+                               at_rest = app::run(test::get_test_engine(), still).parts.front();
     const Difference wanted = measure::difference(
         at_speed.hdr, at_rest.hdr, mirrors,
         measure::flip(measure::to_unrounded_display(at_speed.hdr),
@@ -154,9 +158,9 @@ TEST(Lag, LagEqualsTheErrorOfAnAnimation) {
 /// a black start the picture therefore settles after as many frames as bounces are needed.
 TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    app::LagRequest request = lag_request(scene, {"reuse:face=64"}, {8}, 1);
+    app::LagRequest request = make_lag_request(scene, {"reuse:face=64"}, {8}, 1);
     request.base.size = {128, 128};
-    const report::LagResults lag = measure(request);
+    const report::LagResults lag = measure_lag_results(request);
     ASSERT_EQ(lag.rows.size(), 1u);
     const report::SettlingAfterCut& cut = lag.rows[0].after_black;
 
@@ -186,7 +190,7 @@ TEST(Lag, FramesAfterABlackStartEqualTheBouncesOfNaive) {
 }
 
 TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
-    const report::LagResults lag = measure(lag_request(
+    const report::LagResults lag = measure_lag_results(make_lag_request(
         test::make_lit_room(2, 1), {"naive:face=32", "raytrace", "reuse:face=32"}, {1}));
     EXPECT_THAT(lag.without_history, ElementsAre("naive:face=32", "raytrace"));
     ASSERT_EQ(lag.rows.size(), 1u);
@@ -196,23 +200,23 @@ TEST(Lag, RowsWithoutHistoryAreNotMeasured) {
 
 TEST(Lag, InvalidRequestsAreRefused) {
     const auto refused = [](const app::LagRequest& request, const std::vector<std::string>& words) {
-        test::expect_error([&] { measure(request); }, Failure::usage, words);
+        test::expect_error([&] { measure_lag_results(request); }, Failure::usage, words);
     };
     const scene::Scene scene = test::make_lit_room(1, 1);
-    refused(lag_request(scene, {"reuse"}, {3, 8}),
+    refused(make_lag_request(scene, {"reuse"}, {3, 8}),
             {"whole number of times into the fastest, 8", "found 3"});
-    refused(lag_request(scene, {"reuse"}, {0, 1}), {"positive speeds", "found 0"});
-    refused(lag_request(scene, {"reuse"}, {-1, 1}), {"positive speeds", "found -1"});
-    refused(lag_request(scene, {"reuse"}, {}), {"at least one speed"});
-    refused(lag_request(scene, {"reuse"}, {1}, 0), {"at least one instant, found 0"});
-    refused(lag_request(scene, {}, {1}), {"no technique"});
-    refused(lag_request(scene, {"reuse", "parallx"}, {1}),
+    refused(make_lag_request(scene, {"reuse"}, {0, 1}), {"positive speeds", "found 0"});
+    refused(make_lag_request(scene, {"reuse"}, {-1, 1}), {"positive speeds", "found -1"});
+    refused(make_lag_request(scene, {"reuse"}, {}), {"at least one speed"});
+    refused(make_lag_request(scene, {"reuse"}, {1}, 0), {"at least one instant, found 0"});
+    refused(make_lag_request(scene, {}, {1}), {"no technique"});
+    refused(make_lag_request(scene, {"reuse", "parallx"}, {1}),
             {"'parallx'", "did you mean 'parallax'"});
 }
 
 TEST(Lag, FinishedRowsAreKeptWhenStopped) {
-    app::LagRequest request = lag_request(test::make_lit_room(2, 1),
-                                          {"reuse:face=32", "parallax:face=32"}, {1, 2});
+    app::LagRequest request = make_lag_request(test::make_lit_room(2, 1),
+                                               {"reuse:face=32", "parallax:face=32"}, {1, 2});
     std::atomic<int> signal{0};
     request.watcher.stop = &signal;
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t count) {
@@ -222,7 +226,8 @@ TEST(Lag, FinishedRowsAreKeptWhenStopped) {
     int finished = 0;
     request.on_finished_row = [&] { ++finished; };
     report::LagResults lag;
-    test::expect_error([&] { measure_lag_of(request, lag); }, Failure::interrupted, {"signal 2"});
+    test::expect_error([&] { measure_lag_of_request(request, lag); }, Failure::interrupted,
+                       {"signal 2"});
     EXPECT_EQ(finished, 1);
     EXPECT_FALSE(lag.complete);
     ASSERT_EQ(lag.rows.size(), 1u);

@@ -16,7 +16,7 @@ const std::string kLampWorlds[] = {"raytrace", "naive:bounces=0"};
 
 /// Returns a scene of a floor at y = 0. The camera shows its middle in one pixel, from beside the
 /// lamp that tests add above.
-scene::Scene floor_below(double albedo) {
+scene::Scene make_floor_below_lamp(double albedo) {
     scene::Scene scene{.name = "floor"};
     const std::size_t grey = test::add_material(scene,
                                                 {.name = "grey", .albedo = vec3(float(albedo))});
@@ -28,12 +28,12 @@ scene::Scene floor_below(double albedo) {
     return scene;
 }
 
-double floor_pixel(const scene::Scene& scene, const std::string& technique) {
+double render_floor_pixel(const scene::Scene& scene, const std::string& technique) {
     return test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0).x;
 }
 
 TEST(Lamp, SphereLampEqualsItsClosedForm) {
-    scene::Scene scene = floor_below(.5);
+    scene::Scene scene = make_floor_below_lamp(.5);
     const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(30)});
     scene::Mesh ball = scene::ball("lamp", 5);
     for (dvec3& position : ball.positions) position = .1 * position + dvec3(0, 2, 0);
@@ -41,13 +41,14 @@ TEST(Lamp, SphereLampEqualsItsClosedForm) {
     for (const bool two_sided : {false, true}) {
         scene.materials[lamp].two_sided = two_sided;
         for (const std::string& technique : kLampWorlds)
-            EXPECT_NEAR(floor_pixel(scene, technique), .0375, .0002) << technique << two_sided;
+            EXPECT_NEAR(render_floor_pixel(scene, technique), .0375, .0002)
+                << technique << two_sided;
     }
 }
 
 TEST(Lamp, TwoSidedBoardShinesByTheCosineOnBothSides) {
     for (const double turn : {0.0, .5, 1.2, 2.6, test::kPi}) {
-        scene::Scene scene = floor_below(.5);
+        scene::Scene scene = make_floor_below_lamp(.5);
         const std::size_t lamp = test::add_material(
             scene, {.name = "lamp", .emission = vec3(30), .two_sided = true});
         const dvec3 along = .1 * dvec3(std::cos(turn), std::sin(turn), 0), across(0, 0, .1);
@@ -56,7 +57,8 @@ TEST(Lamp, TwoSidedBoardShinesByTheCosineOnBothSides) {
                        at + along + across, at - along + across);
         const double wanted = .5 / test::kPi * 30 * .04 * std::abs(std::cos(turn)) / 4;
         for (const std::string& technique : kLampWorlds)
-            EXPECT_NEAR(floor_pixel(scene, technique), wanted, 1e-5) << technique << " " << turn;
+            EXPECT_NEAR(render_floor_pixel(scene, technique), wanted, 1e-5)
+                << technique << " " << turn;
     }
 }
 
@@ -71,17 +73,19 @@ double rectangle_form_factor(double x, double z, double height) {
 /// A board with a straight edge hides a part of a square lamp. What a point of the floor sees of
 /// the lamp is a rectangle.
 TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
-    constexpr int kEdge = 32;
-    constexpr double kLampHeight = 2, kBoardHeight = 1, kHalf = .5, kEmission = 8;
+    constexpr int kLampPictureEdge = 32;
+    constexpr double kLampHeight = 2, kBoardHeight = 1, kHalfBoardWidth = .5, kLampEmission = 8;
     scene::Scene scene{.name = "penumbra"};
     const std::size_t white = test::add_material(scene, {.name = "white", .albedo = vec3(1)}),
                       lamp = test::add_material(scene,
-                                                {.name = "lamp", .emission = vec3(kEmission)});
+                                                {.name = "lamp", .emission = vec3(kLampEmission)});
     test::add_quad(scene, "floor", white, {-4, 0, 4}, {4, 0, 4}, {4, 0, -4}, {-4, 0, -4});
     test::add_quad(scene, "board", white, {0, kBoardHeight, -9}, {9, kBoardHeight, -9},
                    {9, kBoardHeight, 9}, {0, kBoardHeight, 9});
-    test::add_quad(scene, "lamp", lamp, {-kHalf, kLampHeight, -kHalf}, {kHalf, kLampHeight, -kHalf},
-                   {kHalf, kLampHeight, kHalf}, {-kHalf, kLampHeight, kHalf});
+    test::add_quad(scene, "lamp", lamp, {-kHalfBoardWidth, kLampHeight, -kHalfBoardWidth},
+                   {kHalfBoardWidth, kLampHeight, -kHalfBoardWidth},
+                   {kHalfBoardWidth, kLampHeight, kHalfBoardWidth},
+                   {-kHalfBoardWidth, kLampHeight, kHalfBoardWidth});
     scene.cameras.push_back({.name = "below the board",
                              .eye = {0, .9, 0},
                              .target = {0, 0, 0},
@@ -89,31 +93,36 @@ TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
                              .vertical_fov_degrees = 60});
     const auto rmse = [&](const std::string& technique, int samples) {
         scene.light_samples = samples;
-        const measure::Picture found =
-            test::render_without_ambient(scene, technique, {kEdge, kEdge}).hdr;
+        const measure::Picture found = test::render_without_ambient(
+                                           scene, technique, {kLampPictureEdge, kLampPictureEdge})
+                                           .hdr;
         double squares = 0;
-        for (int y = 0; y < kEdge; ++y)
-            for (int x = 0; x < kEdge; ++x) {
-                const dvec3 along = test::pixel_direction(scene.cameras.front(), x, y, kEdge);
+        for (int y = 0; y < kLampPictureEdge; ++y)
+            for (int x = 0; x < kLampPictureEdge; ++x) {
+                const dvec3 along = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                                    kLampPictureEdge);
                 const dvec3 at = scene.cameras.front().eye + along * (.9 / -along.y);
                 // The edge of the board is half-way between the floor and the lamp.
-                const double right = std::clamp(-at.x, -kHalf, kHalf);
+                const double right = std::clamp(-at.x, -kHalfBoardWidth, kHalfBoardWidth);
                 double visible = 0;
-                for (const double z : {-kHalf, kHalf})
+                for (const double z : {-kHalfBoardWidth, kHalfBoardWidth})
                     visible += (z > 0 ? 1 : -1) *
                                (rectangle_form_factor(right - at.x, z - at.z, kLampHeight) -
-                                rectangle_form_factor(-kHalf - at.x, z - at.z, kLampHeight));
-                const double error = found.at(x, y).x - kEmission * visible;
+                                rectangle_form_factor(-kHalfBoardWidth - at.x, z - at.z,
+                                                      kLampHeight));
+                const double error = found.at(x, y).x - kLampEmission * visible;
                 squares += error * error;
             }
-        return std::sqrt(squares / (kEdge * kEdge));
+        return std::sqrt(squares / (kLampPictureEdge * kLampPictureEdge));
     };
     for (const std::string& technique : kLampWorlds) {
         const double one = rmse(technique, 1), few = rmse(technique, 16),
                      many = rmse(technique, 64);
         std::cout << "[ MEASURED ] " << technique << ": rmse " << one << " with 1 point, " << few
                   << " with 16, " << many << " with 64; brightest about "
-                  << kEmission * 4 * rectangle_form_factor(kHalf, kHalf, kLampHeight) << '\n';
+                  << kLampEmission * 4 *
+                         rectangle_form_factor(kHalfBoardWidth, kHalfBoardWidth, kLampHeight)
+                  << '\n';
         EXPECT_GT(one, .1) << technique;
         EXPECT_LT(few, one / 4) << technique;
         EXPECT_LT(many, .012) << technique;
@@ -126,14 +135,14 @@ TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
 
 /// Returns the relative brightness of a board that faces up. Its vertex normals lean by `lean`
 /// radians towards +x. A point light is in that direction, `sine` above the board's plane.
-double leaning_pixel(double lean, double sine, const std::string& technique) {
-    scene::Scene scene = floor_below(.5);
+double brightness_with_leaning_normals(double lean, double sine, const std::string& technique) {
+    scene::Scene scene = make_floor_below_lamp(.5);
     for (vec3& normal : scene.meshes[0].normals) normal = vec3(std::sin(lean), std::cos(lean), 0);
     scene::PunctualLight light{.intensity = vec3(9)};
     light.world_from_light[3] = dvec4(3 * std::sqrt(1 - sine * sine), 3 * sine, 0, 1);
     scene.punctual.push_back(light);
     // Divide by the brightness under a light straight above.
-    return floor_pixel(scene, technique) / (.5 / test::kPi * 9 / 9);
+    return render_floor_pixel(scene, technique) / (.5 / test::kPi * 9 / 9);
 }
 
 TEST(Facets, LightBelowTheFacetGivesNothing) {
@@ -141,7 +150,8 @@ TEST(Facets, LightBelowTheFacetGivesNothing) {
          {"raytrace", "raytrace:shadow=none", "naive:bounces=0", "naive:bounces=0,shadow=none"})
         for (const double lean : {.2, .5, 1.2})
             for (const double below : {.001, .02, .1, .4})
-                EXPECT_EQ(leaning_pixel(lean, -below, technique), 0) << technique << " " << lean;
+                EXPECT_EQ(brightness_with_leaning_normals(lean, -below, technique), 0)
+                    << technique << " " << lean;
 }
 
 TEST(Facets, LightFadesTowardsThePlaneOfTheFacet) {
@@ -151,7 +161,8 @@ TEST(Facets, LightFadesTowardsThePlaneOfTheFacet) {
             const double sine = part * fade, cosine = std::sqrt(1 - sine * sine);
             const double whole = std::sin(.5) * cosine + std::cos(.5) * sine;
             const double t = std::min(part, 1.0);
-            EXPECT_NEAR(leaning_pixel(.5, sine, technique), whole * t * t * (3 - 2 * t), 2e-4)
+            EXPECT_NEAR(brightness_with_leaning_normals(.5, sine, technique),
+                        whole * t * t * (3 - 2 * t), 2e-4)
                 << technique << " " << part;
         }
 }
@@ -160,13 +171,13 @@ TEST(Facets, FacetsDoNotMatterForNormalsWithinSixDegrees) {
     const double lean = glm::radians(5.0);
     for (const std::string technique : {"raytrace:shadow=none", "naive:bounces=0,shadow=none"})
         for (const double sine : {-.05, -.01, .01, .3})
-            EXPECT_NEAR(leaning_pixel(lean, sine, technique),
+            EXPECT_NEAR(brightness_with_leaning_normals(lean, sine, technique),
                         std::sin(lean) * std::sqrt(1 - sine * sine) + std::cos(lean) * sine, 2e-4)
                 << technique << " " << sine;
 }
 
 /// Returns a scene of a white ball of 4^(levels + 1) triangles, lit from the side.
-scene::Scene lit_ball(int levels) {
+scene::Scene make_lit_ball_scene(int levels) {
     scene::Scene scene{.name = "ball"};
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "white", .albedo = vec3(1)}),
                    {0, 0, 0}, 1, levels);
@@ -178,11 +189,11 @@ scene::Scene lit_ball(int levels) {
     return scene;
 }
 
-constexpr uvec2 kBallSize{300, 300};
+constexpr uvec2 kLitBallPictureSize{300, 300};
 
 /// Returns the largest difference of two pictures, except at the ball's outline, where a mesh
 /// differs from the sphere.
-double lamp_farthest(const measure::Picture& a, const measure::Picture& b) {
+double largest_difference_inside_ball(const measure::Picture& a, const measure::Picture& b) {
     double most = 0;
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
@@ -194,12 +205,12 @@ double lamp_farthest(const measure::Picture& a, const measure::Picture& b) {
 }
 
 TEST(Facets, FacetsAreInvisibleOnABallOf4096Triangles) {
-    const scene::Scene scene = lit_ball(5);
+    const scene::Scene scene = make_lit_ball_scene(5);
     const measure::Picture exact =
-        test::render_without_ambient(scene, "raytrace:sphere=exact", kBallSize).hdr;
+        test::render_without_ambient(scene, "raytrace:sphere=exact", kLitBallPictureSize).hdr;
     for (const std::string& technique : kLampWorlds) {
-        const double most = lamp_farthest(
-            test::render_without_ambient(scene, technique, kBallSize).hdr, exact);
+        const double most = largest_difference_inside_ball(
+            test::render_without_ambient(scene, technique, kLitBallPictureSize).hdr, exact);
         std::cout << "[ MEASURED ] " << technique << ": off by at most " << most << " of 1.44\n";
         EXPECT_LE(most, .02) << technique;
     }
@@ -209,10 +220,11 @@ TEST(Facets, FacetsAreInvisibleOnABallOf4096Triangles) {
 /// fades at the facets of a coarse mesh, but not on its exact sphere.
 TEST(Facets, FacetsDoNotAffectAnExactSphere) {
     const auto picture = [](int levels) {
-        return test::render_without_ambient(lit_ball(levels), "raytrace:sphere=exact", kBallSize)
+        return test::render_without_ambient(make_lit_ball_scene(levels), "raytrace:sphere=exact",
+                                            kLitBallPictureSize)
             .hdr;
     };
-    EXPECT_LE(lamp_farthest(picture(3), picture(5)), 1e-5);
+    EXPECT_LE(largest_difference_inside_ball(picture(3), picture(5)), 1e-5);
 }
 
 } // namespace

@@ -13,37 +13,39 @@ namespace {
 
 using namespace catoptric;
 
-constexpr dvec3 kLayeredLow{-4, -3, -5}, kLayeredHigh{4, 3, 5};
-constexpr dvec3 kCentre{.5, -.25, 1}, kOccluder{1.7, -.25, .1};
-constexpr double kLayeredRadius = .5; // radius of the occluding ball
-constexpr vec3 kWalls[6]{{.5f, 0, 0},   {0, .5f, 0},   {0, 0, .5f},
-                         {.5f, .5f, 0}, {0, .5f, .5f}, {.25f, 0, .5f}};
-constexpr vec3 kBall{1, .5f, .25f}; // exact in binary16, as are the wall colours
+constexpr dvec3 kLayeredBoxLowCorner{-4, -3, -5}, kLayeredHigh{4, 3, 5};
+constexpr dvec3 kCaptureCentre{.5, -.25, 1}, kOccluder{1.7, -.25, .1};
+constexpr double kOccludingBallRadius = .5; // radius of the occluding ball
+constexpr vec3 kWallColours[6]{{.5f, 0, 0},   {0, .5f, 0},   {0, 0, .5f},
+                               {.5f, .5f, 0}, {0, .5f, .5f}, {.25f, 0, .5f}};
+constexpr vec3 kBallColour{1, .5f, .25f}; // exact in binary16, as are the wall colours
 
 /// Returns a box whose walls each emit a different colour, with a mirror ball and a glowing ball
 /// beside it.
-scene::Scene hidden_wall() {
+scene::Scene make_hidden_wall_scene() {
     scene::Scene scene{.name = "hidden wall"};
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, kLayeredLow, kLayeredHigh),
-                       test::add_material(scene, {.name = "wall", .emission = kWalls[face]}));
+        test::add_mesh(scene, test::make_box_wall(face, kLayeredBoxLowCorner, kLayeredHigh),
+                       test::add_material(scene, {.name = "wall", .emission = kWallColours[face]}));
     test::add_ball(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}),
-                   kCentre, .75, 4);
+                   kCaptureCentre, .75, 4);
     test::add_ball(scene, "occluder",
-                   test::add_material(scene, {.name = "ball", .emission = kBall}), kOccluder,
-                   kLayeredRadius, 4);
-    scene.cameras.push_back(
-        {.name = "inside", .eye = {-2.5, 1, -3}, .target = kCentre, .vertical_fov_degrees = 20});
+                   test::add_material(scene, {.name = "ball", .emission = kBallColour}), kOccluder,
+                   kOccludingBallRadius, 4);
+    scene.cameras.push_back({.name = "inside",
+                             .eye = {-2.5, 1, -3},
+                             .target = kCaptureCentre,
+                             .vertical_fov_degrees = 20});
     return scene;
 }
 
 /// Returns the distance from `centre` to the box along a unit direction. `wall` receives the number
 /// of the wall.
-double wall_distance(const dvec3& centre, const dvec3& direction, int& wall) {
+double distance_to_box_wall(const dvec3& centre, const dvec3& direction, int& wall) {
     double nearest = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         const bool low = direction[axis] < 0;
-        const double t = ((low ? kLayeredLow : kLayeredHigh)[axis] - centre[axis]) /
+        const double t = ((low ? kLayeredBoxLowCorner : kLayeredHigh)[axis] - centre[axis]) /
                          direction[axis];
         if (t < nearest) nearest = t, wall = 2 * axis + low;
     }
@@ -51,21 +53,23 @@ double wall_distance(const dvec3& centre, const dvec3& direction, int& wall) {
 }
 
 TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
-    constexpr std::uint32_t kFace = 128;
-    const scene::Scene scene = hidden_wall();
-    const auto [first, second] = test::capture_layers(scene, kFace, Format::r32f);
+    constexpr std::uint32_t kCaptureFaceTexels = 128;
+    const scene::Scene scene = make_hidden_wall_scene();
+    const auto [first, second] = test::capture_both_depth_layers(scene, kCaptureFaceTexels,
+                                                                 TexelFormat::r32f);
     const dvec3 centre =
         scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
     std::size_t hidden = 0, wrong = 0;
     double solid_angle = 0;
     for (int face = 0; face < 6; ++face)
-        for (std::uint32_t y = 0; y < kFace; ++y)
-            for (std::uint32_t x = 0; x < kFace; ++x) {
+        for (std::uint32_t y = 0; y < kCaptureFaceTexels; ++y)
+            for (std::uint32_t x = 0; x < kCaptureFaceTexels; ++x) {
                 const dvec3 at = f64::cube_direction(
-                    face, dvec3((2 * x + 1.0) / kFace - 1, (2 * y + 1.0) / kFace - 1, 1));
-                const float one = first.distance(0, face, x, y, Format::r32f),
-                            two = second.distance(0, face, x, y, Format::r32f);
-                if (first.colour(0, face, x, y) != kBall) {
+                    face, dvec3((2 * x + 1.0) / kCaptureFaceTexels - 1,
+                                (2 * y + 1.0) / kCaptureFaceTexels - 1, 1));
+                const float one = first.distance(0, face, x, y, TexelFormat::r32f),
+                            two = second.distance(0, face, x, y, TexelFormat::r32f);
+                if (first.colour(0, face, x, y) != kBallColour) {
                     // Nothing lies behind a wall. The far side of the ball faces away from the
                     // centre, so no layer holds it.
                     EXPECT_TRUE(std::isinf(two));
@@ -73,19 +77,20 @@ TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
                     continue;
                 }
                 ++hidden;
-                solid_angle += 4 / (kFace * kFace * std::pow(length(at), 3));
+                solid_angle += 4 /
+                               (kCaptureFaceTexels * kCaptureFaceTexels * std::pow(length(at), 3));
                 int wall = 0;
-                const float expected = first.space.to_scene_length(
-                    wall_distance(centre, normalize(at), wall));
+                const float expected = first.space.world_to_scene_length(
+                    distance_to_box_wall(centre, normalize(at), wall));
                 EXPECT_GT(two, one * (1 + 0x1p-10f));
                 // Interpolated positions are exact to a few roundings of the scene's size, which is
                 // about 1.
                 wrong += !(std::abs(two - expected) <= 0x1p-18f) ||
-                         second.colour(0, face, x, y) != kWalls[wall];
+                         second.colour(0, face, x, y) != kWallColours[wall];
             }
     // At the outline of the ball some facets already face away while their smooth normals do not.
     EXPECT_LE(wrong, hidden / 100);
-    const double sine = kLayeredRadius / length(kOccluder - centre),
+    const double sine = kOccludingBallRadius / length(kOccluder - centre),
                  expected = 2 * f64::kPi * (1 - std::sqrt(1 - sine * sine));
     EXPECT_NEAR(solid_angle, expected, .02 * expected) << hidden << " texels of ball";
 }
@@ -98,7 +103,7 @@ TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
                       mirror = test::add_material(
                           scene, {.name = "mirror", .mirror = true, .reflectance = vec3(.8f)});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+        test::add_mesh(scene, test::make_box_wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     test::add_quad(scene, "left", mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
     test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras.push_back(
@@ -115,37 +120,38 @@ TEST(Layered, ParallelMirrorsAreAsBrightAsInRayTracing) {
         EXPECT_LE(found, (technique == "layered" ? 1.01 : 1.03) * wanted);
         EXPECT_GE(found, wanted);
         for (const vec3& pixel : part.hdr.pixels) EXPECT_LE(pixel.x, 1.001f);
-        return test::picture_rmse(part.hdr, truth.hdr, seen);
+        return test::rmse_of_pictures(part.hdr, truth.hdr, seen);
     };
     EXPECT_LE(judged("layered"), judged("pyramid"));
 }
 
 TEST(Layered, SecondLayerLiesBehindTheFirstInEveryFormat) {
-    constexpr std::uint32_t kFace = 32;
-    for (const Format format : {Format::r32f, Format::r16f, Format::r8_unorm}) {
-        const auto [first, second] = test::capture_layers(test::make_lit_room(3, 1), kFace, format);
+    constexpr std::uint32_t kCaptureFaceTexels = 32;
+    for (const TexelFormat format : {TexelFormat::r32f, TexelFormat::r16f, TexelFormat::r8_unorm}) {
+        const auto [first, second] = test::capture_both_depth_layers(test::make_lit_room(3, 1),
+                                                                     kCaptureFaceTexels, format);
         std::size_t behind = 0;
         for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
             for (int face = 0; face < 6; ++face)
-                for (std::uint32_t y = 0; y < kFace; ++y)
-                    for (std::uint32_t x = 0; x < kFace; ++x) {
+                for (std::uint32_t y = 0; y < kCaptureFaceTexels; ++y)
+                    for (std::uint32_t x = 0; x < kCaptureFaceTexels; ++x) {
                         const float one = first.distance(mirror, face, x, y, format),
                                     two = second.distance(mirror, face, x, y, format);
                         EXPECT_GE(two, one);
-                        behind += format == Format::r8_unorm ? two < 1 : std::isfinite(two);
+                        behind += format == TexelFormat::r8_unorm ? two < 1 : std::isfinite(two);
                     }
         EXPECT_GT(behind, 100u);
     }
 }
 
 TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
-    constexpr uvec2 kSize{256, 256};
-    const scene::Scene scene = hidden_wall();
+    constexpr uvec2 kLayeredPictureSize{256, 256};
+    const scene::Scene scene = make_hidden_wall_scene();
     const auto render = [&](const std::string& technique) {
-        app::Request request = test::make_test_request(scene, {technique}, kSize);
+        app::Request request = test::make_test_request(scene, {technique}, kLayeredPictureSize);
         request.warmup = 1;
         request.ambient = 0;
-        return std::move(app::run(test::test_engine(), request).parts.front());
+        return std::move(app::run(test::get_test_engine(), request).parts.front());
     };
     const app::TechniqueResult truth = render("raytrace:depth=4");
     const measure::Picture parallax = render("parallax").hdr, secant = render("secant").hdr,
@@ -155,14 +161,14 @@ TEST(Layered, LayeredSearchFindsTheWallWhereOneLayerShowsTheBall) {
     const auto seen = [](const vec3& colour) {
         std::size_t nearest = 6;
         for (std::size_t i = 0; i < 6; ++i)
-            if (distance(colour, kWalls[i]) <
-                distance(colour, nearest == 6 ? kBall : kWalls[nearest]))
+            if (distance(colour, kWallColours[i]) <
+                distance(colour, nearest == 6 ? kBallColour : kWallColours[nearest]))
                 nearest = i;
         return nearest;
     };
     std::size_t mirror = 0, hidden = 0, found = 0, wrong_secant = 0, wrong_layered = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         const std::size_t wanted = seen(truth.hdr.pixels[i]);
         ++mirror;
         wrong_secant += seen(secant.pixels[i]) != wanted;
@@ -185,7 +191,7 @@ TEST(Layered, RangeOfEightBitDistancesDoesNotChangeThePeel) {
     const app::TechniqueResult truth = test::render_technique(scene::make_cornell_mirrors(),
                                                               "raytrace:depth=16", {256, 256});
     const auto error = [&](const std::string& range) {
-        return test::picture_rmse(
+        return test::rmse_of_pictures(
             test::render_technique(scene::make_cornell_mirrors(),
                                    "layered:face=128,distance=unorm8,range=" + range, {256, 256}, 4)
                 .hdr,

@@ -15,23 +15,23 @@ namespace {
 
 using namespace catoptric;
 
-constexpr int kIntegralEdge = 16;
+constexpr int kIntegralPictureEdge = 16;
 constexpr double kWallZ = -4, kWallTop = 5; ///< the wall covers |x| <= kWallTop, 0 <= y <= kWallTop
 
-enum class Wall { none, glowing, mirror };
+enum class WallPresence { none, glowing, mirror };
 
 /// A floor at y = 0 below an environment, with a wall behind it or without.
 struct IntegralScene {
     const char* name;
     dvec3 colour;
     double metallic, roughness;
-    Wall wall;
-    dvec3 f0() const { return glm::mix(dvec3(.04), colour, metallic); }
+    WallPresence wall;
+    dvec3 compute_scene_f0() const { return glm::mix(dvec3(.04), colour, metallic); }
 };
-constexpr dvec3 kWallGlow{2, 1, .5};
+constexpr dvec3 kWallGlowColour{2, 1, .5};
 constexpr double kWallReflectance = .8;
 
-scene::Scene make_scene(const IntegralScene& wanted) {
+scene::Scene make_integral_scene(const IntegralScene& wanted) {
     scene::Scene scene{.name = wanted.name};
     scene.mirror_max_roughness = 1;
     const std::size_t floor = test::add_material(scene,
@@ -42,10 +42,10 @@ scene::Scene make_scene(const IntegralScene& wanted) {
                                                   .dielectric_f0 = vec3(.04f),
                                                   .dielectric_f90 = vec3(1)});
     test::add_quad(scene, "floor", floor, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
-    if (wanted.wall != Wall::none) {
+    if (wanted.wall != WallPresence::none) {
         scene::Material material{.name = "wall", .two_sided = true};
-        if (wanted.wall == Wall::glowing) // seen, but no light for the diffuse part
-            material.emission = vec3(kWallGlow), material.light = vec3(0);
+        if (wanted.wall == WallPresence::glowing) // seen, but no light for the diffuse part
+            material.emission = vec3(kWallGlowColour), material.light = vec3(0);
         else
             material.mirror = true, material.reflectance = vec3(float(kWallReflectance));
         test::add_quad(scene, "wall", test::add_material(scene, material), {-kWallTop, 0, kWallZ},
@@ -59,13 +59,13 @@ scene::Scene make_scene(const IntegralScene& wanted) {
 }
 
 /// Returns the radiance that arrives at a point of the floor from a direction.
-dvec3 arriving(const scene::Scene& scene, const IntegralScene& wanted, const dvec3& from,
-               dvec3 along) {
+dvec3 radiance_arriving_at_floor(const scene::Scene& scene, const IntegralScene& wanted,
+                                 const dvec3& from, dvec3 along) {
     double weight = 1;
-    if (wanted.wall != Wall::none && along.z < 0) {
+    if (wanted.wall != WallPresence::none && along.z < 0) {
         const dvec3 met = from + (kWallZ - from.z) / along.z * along;
         if (std::abs(met.x) <= kWallTop && met.y <= kWallTop) {
-            if (wanted.wall == Wall::glowing) return kWallGlow;
+            if (wanted.wall == WallPresence::glowing) return kWallGlowColour;
             along.z = -along.z, weight = kWallReflectance;
         }
     }
@@ -73,11 +73,12 @@ dvec3 arriving(const scene::Scene& scene, const IntegralScene& wanted, const dve
 }
 
 /// Returns the radiance of the floor's pixel, or nothing where the camera ray meets the wall.
-std::optional<dvec3> integrate_pixel(const scene::Scene& scene, const IntegralScene& wanted, int x,
-                                     int y, const dvec3& irradiance) {
+std::optional<dvec3> integrate_floor_pixel(const scene::Scene& scene, const IntegralScene& wanted,
+                                           int x, int y, const dvec3& irradiance) {
     constexpr int kPolarSteps = 400, kAzimuthSteps = 300;
     const dvec3 eye = scene.cameras.front().eye,
-                ray = test::pixel_direction(scene.cameras.front(), x, y, kIntegralEdge);
+                ray = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                      kIntegralPictureEdge);
     const dvec3 met = eye - eye.y / ray.y * ray;
     if (ray.y >= 0 || met.z < kWallZ + .1) return {};
     const dvec3 o(-ray.x, ray.z, -ray.y); // in tangent space: x, -z, y
@@ -98,12 +99,14 @@ std::optional<dvec3> integrate_pixel(const scene::Scene& scene, const IntegralSc
             // light.
             const double slope = 1 + tan2 / (alpha * alpha);
             const double density = 1 / (test::kPi * alpha * alpha * z * z * z * slope * slope);
-            const double weight = test::textbook_lobe(wanted.roughness, o, i) * 4 * cosine /
-                                  (density * kPolarSteps * kAzimuthSteps);
+            const double weight = test::textbook_lobe_reflectance(wanted.roughness, o, i) * 4 *
+                                  cosine / (density * kPolarSteps * kAzimuthSteps);
             const double away = std::pow(1 - cosine, 5);
-            const dvec3 fresnel = wanted.f0() + (1.0 - wanted.f0()) * away;
+            const dvec3 fresnel = wanted.compute_scene_f0() +
+                                  (1.0 - wanted.compute_scene_f0()) * away;
             albedo += weight * fresnel;
-            lobe += weight * fresnel * arriving(scene, wanted, met, {i.x, i.z, -i.y});
+            lobe += weight * fresnel *
+                    radiance_arriving_at_floor(scene, wanted, met, {i.x, i.z, -i.y});
         }
     }
     const dvec3 diffuse = wanted.colour * (1 - wanted.metallic) * (1.0 - albedo) * irradiance /
@@ -114,42 +117,45 @@ std::optional<dvec3> integrate_pixel(const scene::Scene& scene, const IntegralSc
 /// The share of values more than 3 standard errors apart is that of chance. The errors come from 12
 /// seeds, so the statistic has Student's distribution with 11 degrees of freedom: 1.2 %.
 TEST(LobeIntegral, TwoHundredPixelsAgreeWithAnotherIntegrator) {
-    constexpr int kSeeds = 12, kPixelsPerScene = 50;
+    constexpr int kSeedCount = 12, kPixelsPerScene = 50;
     int apart = 0, compared = 0;
     double largest = 0;
     for (const IntegralScene& wanted :
-         {IntegralScene{"metal below the sky", {.9, .6, .3}, 1, .25, Wall::none},
-          IntegralScene{"plastic below the sky", {.6, .5, .2}, 0, .4, Wall::none},
-          IntegralScene{"metal before a glowing wall", {.9, .8, .7}, 1, .5, Wall::glowing},
-          IntegralScene{"half metal before a mirror", {.7, .6, .9}, .5, .15, Wall::mirror}}) {
-        const scene::Scene scene = make_scene(wanted);
+         {IntegralScene{"metal below the sky", {.9, .6, .3}, 1, .25, WallPresence::none},
+          IntegralScene{"plastic below the sky", {.6, .5, .2}, 0, .4, WallPresence::none},
+          IntegralScene{"metal before a glowing wall", {.9, .8, .7}, 1, .5, WallPresence::glowing},
+          IntegralScene{
+              "half metal before a mirror", {.7, .6, .9}, .5, .15, WallPresence::mirror}}) {
+        const scene::Scene scene = make_integral_scene(wanted);
         const auto c = scene::compute_irradiance_coefficients(*scene.environment);
         const dvec3 irradiance = c[0] + c[1] - c[6] - c[8]; // of the upward normal
         std::vector<measure::Picture> pictures;
-        for (int seed = 1; seed <= kSeeds; ++seed) {
+        for (int seed = 1; seed <= kSeedCount; ++seed) {
             app::Request asked = test::make_test_request(
                 scene, {"raytrace:rays=1024,depth=4,seed=" + std::to_string(seed)},
-                {kIntegralEdge, kIntegralEdge});
+                {kIntegralPictureEdge, kIntegralPictureEdge});
             asked.ambient = 0;
-            pictures.push_back(app::run(test::test_engine(), asked).parts.front().hdr);
+            pictures.push_back(app::run(test::get_test_engine(), asked).parts.front().hdr);
         }
         test::RandomNumbers numbers(17);
         std::set<std::pair<int, int>> drawn;
         for (int tries = 0; int(drawn.size()) < kPixelsPerScene && tries < 4000; ++tries) {
-            const std::pair pixel(int(numbers.integer_below(kIntegralEdge)),
-                                  int(numbers.integer_below(kIntegralEdge)));
+            const std::pair pixel(int(numbers.random_integer_below(kIntegralPictureEdge)),
+                                  int(numbers.random_integer_below(kIntegralPictureEdge)));
             if (drawn.contains(pixel)) continue;
             const auto& [x, y] = pixel;
-            const std::optional<dvec3> radiance = integrate_pixel(scene, wanted, x, y, irradiance);
+            const std::optional<dvec3> radiance = integrate_floor_pixel(scene, wanted, x, y,
+                                                                        irradiance);
             if (!radiance) continue;
             drawn.insert(pixel);
             for (int channel = 0; channel < 3; ++channel) {
                 double mean = 0, squares = 0;
                 for (const measure::Picture& picture : pictures) {
                     const double value = picture.at(x, y)[channel];
-                    mean += value / kSeeds, squares += value * value / kSeeds;
+                    mean += value / kSeedCount, squares += value * value / kSeedCount;
                 }
-                const double error = std::sqrt(std::max(squares - mean * mean, 0.) / (kSeeds - 1));
+                const double error = std::sqrt(std::max(squares - mean * mean, 0.) /
+                                               (kSeedCount - 1));
                 const double off = std::abs(mean - (*radiance)[channel]);
                 ++compared;
                 apart += off > 3 * error + 5e-4; // the quadrature's own error

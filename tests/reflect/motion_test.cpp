@@ -18,13 +18,13 @@ TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
         app::Request still = test::make_test_request(scene::make_cornell_mirrors(), {technique},
                                                      {64, 64});
         still.time = .5 + 6 / 60.0;
-        const measure::Picture last = app::run(test::test_engine(), moving).parts.front().hdr;
+        const measure::Picture last = app::run(test::get_test_engine(), moving).parts.front().hdr;
         EXPECT_TRUE(test::have_equal_pixel_bytes(
-            last, app::run(test::test_engine(), still).parts.front().hdr))
+            last, app::run(test::get_test_engine(), still).parts.front().hdr))
             << technique;
         still.time = .5;
         EXPECT_FALSE(test::have_equal_pixel_bytes(
-            last, app::run(test::test_engine(), still).parts.front().hdr))
+            last, app::run(test::get_test_engine(), still).parts.front().hdr))
             << technique;
     }
 }
@@ -32,16 +32,16 @@ TEST(Motion, LastFrameOfAnAnimationEqualsAStillOfItsInstant) {
 TEST(Motion, FramesWithoutAnimationAreEqual) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
                                                    {"naive:bounces=1,face=64"}, {64, 64});
-    const measure::Picture one = app::run(test::test_engine(), request).parts.front().hdr;
+    const measure::Picture one = app::run(test::get_test_engine(), request).parts.front().hdr;
     request.frames = 5;
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        one, app::run(test::test_engine(), request).parts.front().hdr));
+        one, app::run(test::get_test_engine(), request).parts.front().hdr));
 }
 
 TEST(Motion, SessionShowsInstantsInAnyOrder) {
     const app::Request still = test::make_test_request(scene::make_cornell_mirrors(),
                                                        {"naive:bounces=1,face=64"}, {64, 64});
-    app::Session session(test::test_engine(), still.scene);
+    app::Session session(test::get_test_engine(), still.scene);
     std::vector<measure::Picture> seen;
     for (const double time : {1.5, .5, 1.5}) {
         app::FrameSpec spec = still;
@@ -51,7 +51,7 @@ TEST(Motion, SessionShowsInstantsInAnyOrder) {
     app::Request half = still;
     half.time = .5;
     EXPECT_TRUE(test::have_equal_pixel_bytes(
-        seen[1], app::run(test::test_engine(), half).parts.front().hdr));
+        seen[1], app::run(test::get_test_engine(), half).parts.front().hdr));
     EXPECT_FALSE(test::have_equal_pixel_bytes(seen[1], seen[2]));
     EXPECT_TRUE(test::have_equal_pixel_bytes(seen[0], seen[2]));
 }
@@ -60,7 +60,7 @@ TEST(Motion, FramesAreNumberedFromOne) {
     app::Request request = test::make_test_request(test::make_lit_room(2, 1), {"reuse:face=32"},
                                                    {32, 32});
     request.warmup = 1, request.frames = 3;
-    app::Session session(test::test_engine(), request.scene);
+    app::Session session(test::get_test_engine(), request.scene);
     app::FrameLoop frames(session, request);
     for (int k = 1; k <= 4; ++k) {
         ASSERT_TRUE(frames.render_next());
@@ -86,12 +86,12 @@ TEST(Motion, CopyThatLeavesItsPlaceIsSeen) {
     dmat4 there(1);
     there[3] = {.8, .4, 0, 1};
     for (const std::size_t leaves : {0U, 7U, 39U}) {
-        app::Session session(test::test_engine(), scene);
+        app::Session session(test::get_test_engine(), scene);
         const measure::Picture before = session.frame(still).hdr();
         session.change(scene::move(leaves, there));
         const measure::Picture after = session.frame(still).hdr();
         EXPECT_FALSE(test::have_equal_pixel_bytes(before, after)) << leaves;
-        app::Session fresh(test::test_engine(), session.scene());
+        app::Session fresh(test::get_test_engine(), session.scene());
         EXPECT_TRUE(test::have_equal_pixel_bytes(after, fresh.frame(still).hdr())) << leaves;
     }
 }
@@ -100,10 +100,10 @@ TEST(Samples, OnlyIrregularSampleCountsDependOnTheSeed) {
     for (const auto& [samples, depends] : {std::pair{"4", false}, {"5", true}}) {
         app::Request request = test::make_test_request(
             test::make_lit_room(1, 1), {std::string("raytrace:samples=") + samples}, {48, 48});
-        const measure::Picture first = app::run(test::test_engine(), request).parts.front().hdr;
+        const measure::Picture first = app::run(test::get_test_engine(), request).parts.front().hdr;
         request.seed = 2;
         EXPECT_EQ(test::have_equal_pixel_bytes(
-                      first, app::run(test::test_engine(), request).parts.front().hdr),
+                      first, app::run(test::get_test_engine(), request).parts.front().hdr),
                   !depends)
             << samples;
     }

@@ -49,22 +49,23 @@ scene::Scene make_patched_floor(float roughness) {
 class SeededTracer {
 public:
     SeededTracer(const scene::Scene& scene, uvec2 size)
-        : session_(test::test_engine(), scene), spec_(test::make_test_request(scene, {}, size)) {}
-    measure::Picture trace(int rays, int seed) {
+        : traced_session_(test::get_test_engine(), scene),
+          spec_(test::make_test_request(scene, {}, size)) {}
+    measure::Picture trace_picture(int rays, int seed) {
         spec_.techniques = {"raytrace:depth=2,rays=" + std::to_string(rays) +
                             ",seed=" + std::to_string(seed)};
-        return session_.frame(spec_).hdr();
+        return traced_session_.frame(spec_).hdr();
     }
 
 private:
-    app::Session session_;
+    app::Session traced_session_;
     app::FrameSpec spec_;
 };
 
 TEST(NoisyReference, SeedsGiveIndependentPicturesOfTheSameMean) {
     SeededTracer tracer(make_patched_floor(.4f), {32, 32});
-    const measure::Picture one = tracer.trace(4, 1), again = tracer.trace(4, 1),
-                           two = tracer.trace(4, 2), none = tracer.trace(4, 0);
+    const measure::Picture one = tracer.trace_picture(4, 1), again = tracer.trace_picture(4, 1),
+                           two = tracer.trace_picture(4, 2), none = tracer.trace_picture(4, 0);
     EXPECT_TRUE(test::have_equal_pixel_bytes(one, again));
     EXPECT_FALSE(test::have_equal_pixel_bytes(one, two));
     EXPECT_FALSE(test::have_equal_pixel_bytes(one, none));
@@ -78,10 +79,10 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
     std::vector<double> rmse, predicted;
     int seed = 0;
     for (int frames = 1; frames <= 16; ++frames) {
-        a.add(tracer.trace(64, ++seed));
-        b.add(tracer.trace(64, ++seed));
+        a.add_picture(tracer.trace_picture(64, ++seed));
+        b.add_picture(tracer.trace_picture(64, ++seed));
         if (frames != 1 && frames != 4 && frames != 16) continue;
-        rmse.push_back(test::picture_rmse(a.mean(), b.mean()));
+        rmse.push_back(test::rmse_of_pictures(a.mean(), b.mean()));
         double sum = 0;
         for (std::size_t i = 0; i < a.mean().pixels.size(); ++i) {
             const vec3 both = a.variance().pixels[i] + b.variance().pixels[i];
@@ -100,19 +101,21 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
 
 /// The true error is that against 16 times the rays, with other seeds.
 TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
-    constexpr int kRays = 16;
+    constexpr int kRaysPerPixel = 16;
     SeededTracer tracer(make_patched_floor(.4f), {64, 64});
-    const measure::Picture row = tracer.trace(1, 1000);
+    const measure::Picture row = tracer.trace_picture(1, 1000);
     const auto estimate = [&](int rays, int seed) {
-        return measure::estimate_by_halves(
-            row, measure::make_halves(tracer.trace(rays, seed), tracer.trace(rays, seed + 1), 0),
+        return measure::estimate_error_by_halves(
+            row,
+            measure::make_reference_halves(tracer.trace_picture(rays, seed),
+                                           tracer.trace_picture(rays, seed + 1), 0),
             {}, std::vector<float>(row.pixels.size(), 0.f));
     };
-    const double truth = estimate(16 * kRays, 2000).squared_error;
+    const double truth = estimate(16 * kRaysPerPixel, 2000).squared_error;
     int held = 0, held_by_deviation = 0;
     double width = 0, deviation = 0;
     for (int k = 0; k < 20; ++k) {
-        const measure::HalvesEstimate found = estimate(kRays, 1 + 2 * k);
+        const measure::HalvesEstimate found = estimate(kRaysPerPixel, 1 + 2 * k);
         held += found.ci95.low <= truth && truth <= found.ci95.high;
         width += (found.ci95.high - found.ci95.low) / 20;
         held_by_deviation += std::abs(found.squared_error - truth) <= 1.96 * found.deviation;
@@ -126,7 +129,7 @@ TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     EXPECT_LT(width, truth) << "an interval that wide says nothing";
 }
 
-app::CompareRequest ask_for_rough_floor(const std::vector<std::string>& rows, double seconds) {
+app::CompareRequest make_rough_floor_request(const std::vector<std::string>& rows, double seconds) {
     app::CompareRequest request;
     request.base = test::make_test_request(make_patched_floor(.3f), rows, {64, 64});
     request.reference_seconds = seconds;
@@ -136,10 +139,10 @@ app::CompareRequest ask_for_rough_floor(const std::vector<std::string>& rows, do
 /// The row would be the first half itself if the reference took the same seed. Its error would then
 /// be 0.
 TEST(NoisyReference, SharesNoSeedWithARow) {
-    app::CompareRequest request = ask_for_rough_floor(
+    app::CompareRequest request = make_rough_floor_request(
         {"raytrace:depth=2,rays=4,seed=1", "raytrace:depth=2,rays=4,seed=2"}, 0);
     request.reference = "raytrace:depth=2,rays=4";
-    const report::Comparison found = app::compare(test::test_engine(), request);
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_TRUE(found.noise);
     EXPECT_EQ(found.noise->frames, 1);
     for (const report::Row& row : found.rows) {
@@ -150,47 +153,47 @@ TEST(NoisyReference, SharesNoSeedWithARow) {
 }
 
 TEST(NoisyReference, GrowsUntilItIsAFifthOfTheLeastErrorOrTimeIsOver) {
-    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 60);
+    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 60);
     request.reference = "raytrace:depth=2,rays=1";
     std::vector<std::string> told;
     request.watcher.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
         EXPECT_LE(index, count);
         told.push_back(label);
     };
-    const report::Comparison found = app::compare(test::test_engine(), request);
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_TRUE(found.noise);
     ASSERT_FALSE(found.stopped);
     EXPECT_GT(found.noise->frames, 1);
     EXPECT_LT(found.noise->seconds, 60);
-    EXPECT_TRUE(found.noise->is_reached());
+    EXPECT_TRUE(found.noise->is_noise_target_reached());
     EXPECT_DOUBLE_EQ(found.noise->wanted_floor, .2 * found.rows[0].error.flip);
     EXPECT_EQ(found.rows[0].error.flip_floor, found.noise->flip_floor);
     EXPECT_NEAR(found.noise->predicted_rmse / found.noise->halves_rmse, 1, .2);
     EXPECT_THAT(told, testing::Contains(testing::HasSubstr("frames a half")));
-    EXPECT_GT(measure::studied_value(found.rows[0], measure::kNoise).index(), 0u);
+    EXPECT_GT(measure::find_study_metric(found.rows[0], measure::kNoiseMetricName).index(), 0u);
 
     request.reference_seconds = 0;
-    const report::Comparison brief = app::compare(test::test_engine(), request);
+    const report::Comparison brief = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(brief.noise->frames, 1);
-    EXPECT_FALSE(brief.noise->is_reached());
+    EXPECT_FALSE(brief.noise->is_noise_target_reached());
     EXPECT_GT(brief.noise->flip_floor, found.noise->flip_floor);
 }
 
 TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
-    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
+    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
-    const report::Comparison rough = app::compare(test::test_engine(), request);
+    const report::Comparison rough = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(rough.reference_label, app::kRoughReference);
     EXPECT_TRUE(rough.noise);
     request.reference = "raytrace:depth=16";
-    EXPECT_FALSE(app::compare(test::test_engine(), request).noise);
+    EXPECT_FALSE(app::compare(test::get_test_engine(), request).noise);
     request.base.scene = make_patched_floor(.04f);
     request.reference = "";
-    const report::Comparison sharp = app::compare(test::test_engine(), request);
+    const report::Comparison sharp = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(sharp.reference_label, app::kReference);
     // A perfect mirror has no noise, even if rays are drawn from lobes.
     request.reference = "raytrace:depth=16,rays=2";
-    const report::Comparison drawn = app::compare(test::test_engine(), request);
+    const report::Comparison drawn = app::compare(test::get_test_engine(), request);
     for (const report::Comparison* without : {&sharp, &drawn}) {
         EXPECT_FALSE(without->noise);
         EXPECT_THAT(report::to_json(*without), testing::Not(testing::HasSubstr("noise")));
@@ -202,39 +205,39 @@ TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
 using NoisyReferenceInFolder = test::InFolder;
 
 TEST_F(NoisyReferenceInFolder, FileContinuesTheHalves) {
-    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
+    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
     request.reference = "raytrace:depth=2,rays=2";
     request.reference_file = (folder / "halves.exr").string();
-    const report::Comparison first = app::compare(test::test_engine(), request),
-                             again = app::compare(test::test_engine(), request);
+    const report::Comparison first = app::compare(test::get_test_engine(), request),
+                             again = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(again.noise->frames, 1);
     EXPECT_EQ(again.rows[0].error.rmse, first.rows[0].error.rmse);
     request.reference_seconds = .2; // one frame a half more, at least
-    const report::Comparison longer = app::compare(test::test_engine(), request);
+    const report::Comparison longer = app::compare(test::get_test_engine(), request);
     EXPECT_GT(longer.noise->frames, 1);
     EXPECT_LT(longer.noise->halves_rmse, first.noise->halves_rmse);
     request.base.size = {16, 32};
-    EXPECT_THAT(
-        test::error_text_of(Failure::bad_data, [&] { app::compare(test::test_engine(), request); }),
-        testing::HasSubstr("the size 16x32"));
+    EXPECT_THAT(test::catch_error_text(Failure::bad_data,
+                                       [&] { app::compare(test::get_test_engine(), request); }),
+                testing::HasSubstr("the size 16x32"));
     request.base.size = {32, 32};
     request.base.techniques = {"raytrace:depth=2,rays=2,seed=1"};
-    EXPECT_THAT(
-        test::error_text_of(Failure::usage, [&] { app::compare(test::test_engine(), request); }),
-        testing::HasSubstr("the seed 1"));
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [&] { app::compare(test::get_test_engine(), request); }),
+                testing::HasSubstr("the seed 1"));
     request.reference = "raytrace:depth=2";
-    EXPECT_THAT(
-        test::error_text_of(Failure::usage, [&] { app::compare(test::test_engine(), request); }),
-        testing::HasSubstr("wanted a reference with noise"));
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [&] { app::compare(test::get_test_engine(), request); }),
+                testing::HasSubstr("wanted a reference with noise"));
 }
 
 TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {
-    app::CompareRequest request = ask_for_rough_floor({"reuse:face=16"}, 0);
+    app::CompareRequest request = make_rough_floor_request({"reuse:face=16"}, 0);
     request.base.size = {32, 32};
     request.reference = "raytrace:depth=2,rays=2";
     request.studies = {{"views", 6}};
-    const report::Comparison found = app::compare(test::test_engine(), request);
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_EQ(found.rows[0].views.size(), 6u);
     for (const measure::Errors& view : found.rows[0].views) EXPECT_GT(view.error.flip_floor, 0);
 }

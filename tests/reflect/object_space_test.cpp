@@ -12,12 +12,12 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kObjectSpaceRadius = 1e-3;
-constexpr uvec2 kObjectSpaceSize{96, 96};
+constexpr double kSmallBallRadius = 1e-3;
+constexpr uvec2 kObjectSpacePictureSize{96, 96};
 
 /// Returns a room of edge 1000 with a lamp and one or two small balls. The camera is next to ball
 /// 1.
-scene::Scene far_balls(int count, bool mirrors) {
+scene::Scene make_room_with_far_balls(int count, bool mirrors) {
     scene::Scene scene{.name = "far balls"};
     const std::size_t white = test::add_material(scene, {.albedo = {.7f, .7f, .7f}}),
                       red = test::add_material(scene, {.albedo = {.6f, .1f, .1f}}),
@@ -25,16 +25,16 @@ scene::Scene far_balls(int count, bool mirrors) {
                       lamp = test::add_material(scene, {.emission = {9, 8, 6}}),
                       mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, dvec3(-500), dvec3(500)),
+        test::add_mesh(scene, test::make_box_wall(face, dvec3(-500), dvec3(500)),
                        face == 0   ? red
                        : face == 1 ? green
                                    : white);
     test::add_quad(scene, "lamp", lamp, {-80, 499, -90}, {80, 499, -90}, {80, 499, 60},
                    {-80, 499, 60});
     const dvec3 place(203.7, -101.3, -151.9);
-    test::add_ball(scene, "ball1", mirrors ? mirror : red, place, kObjectSpaceRadius, 5);
+    test::add_ball(scene, "ball1", mirrors ? mirror : red, place, kSmallBallRadius, 5);
     if (count > 1)
-        test::add_ball(scene, "ball2", mirror, {-222.2, 181.4, 204.4}, kObjectSpaceRadius, 5);
+        test::add_ball(scene, "ball2", mirror, {-222.2, 181.4, 204.4}, kSmallBallRadius, 5);
     scene.cameras.push_back({.name = "near",
                              .eye = place + dvec3(.0017, .0011, -.0053),
                              .target = place + dvec3(.0002, 0, 0),
@@ -42,21 +42,22 @@ scene::Scene far_balls(int count, bool mirrors) {
     return scene;
 }
 
-double flip(const app::TechniqueResult& a, const app::TechniqueResult& b) {
+double mean_flip_of_results(const app::TechniqueResult& a, const app::TechniqueResult& b) {
     return measure::flip_mean(measure::flip(a.display, b.display));
 }
 
 TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
-    const scene::Scene alone = far_balls(1, true), both = far_balls(2, true);
+    const scene::Scene alone = make_room_with_far_balls(1, true),
+                       both = make_room_with_far_balls(2, true);
     for (const std::string technique :
          {"raytrace", "raytrace:sphere=exact", "raytrace:hit=f64", "raytrace:shadow=map",
           "parallax", "pyramid", "hybrid", "layered"}) {
         const app::TechniqueResult wanted = test::render_technique(alone, technique,
-                                                                   kObjectSpaceSize),
+                                                                   kObjectSpacePictureSize),
                                    found = test::render_technique(both, technique,
-                                                                  kObjectSpaceSize);
-        EXPECT_EQ(test::nonfinite_pixel_count(found.hdr), 0u) << technique;
-        EXPECT_LE(flip(found, wanted), .001) << technique;
+                                                                  kObjectSpacePictureSize);
+        EXPECT_EQ(test::count_nonfinite_pixels(found.hdr), 0u) << technique;
+        EXPECT_LE(mean_flip_of_results(found, wanted), .001) << technique;
     }
 }
 
@@ -64,25 +65,25 @@ TEST(ObjectSpace, BallLooksAsItDoesAloneAtTheOrigin) {
 /// space is used even without a second ball, because only mirrors determine the scene's origin.
 TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
     for (const bool mirrors : {true, false}) {
-        const scene::Scene scene = far_balls(2, mirrors);
+        const scene::Scene scene = make_room_with_far_balls(2, mirrors);
         const app::Request request = test::make_test_request(scene, {"raytrace:sphere=exact"},
-                                                             kObjectSpaceSize);
+                                                             kObjectSpacePictureSize);
         const app::TechniqueResult part = test::render_technique(scene, "raytrace:sphere=exact",
-                                                                 kObjectSpaceSize);
-        const stress::DoubleTracer tracer(scene, request.ambient);
-        measure::Picture truth(static_cast<int>(kObjectSpaceSize.x),
-                               static_cast<int>(kObjectSpaceSize.y));
+                                                                 kObjectSpacePictureSize);
+        const stress::DoublePrecisionTracer tracer(scene, request.ambient);
+        measure::Picture truth(static_cast<int>(kObjectSpacePictureSize.x),
+                               static_cast<int>(kObjectSpacePictureSize.y));
         std::size_t off = 0;
-        for (std::uint32_t y = 0; y < kObjectSpaceSize.y; ++y)
-            for (std::uint32_t x = 0; x < kObjectSpaceSize.x; ++x) {
-                const dvec3 wanted = tracer.trace_pixel(scene.cameras.front(), kObjectSpaceSize, x,
-                                                        y, 8),
-                            found(part.hdr.pixels[x + kObjectSpaceSize.x * y]);
+        for (std::uint32_t y = 0; y < kObjectSpacePictureSize.y; ++y)
+            for (std::uint32_t x = 0; x < kObjectSpacePictureSize.x; ++x) {
+                const dvec3 wanted = tracer.trace_pixel(scene.cameras.front(),
+                                                        kObjectSpacePictureSize, x, y, 8),
+                            found(part.hdr.pixels[x + kObjectSpacePictureSize.x * y]);
                 const dvec3 apart = glm::abs(wanted - found);
                 off += !(std::max({apart.x, apart.y, apart.z}) <= .01);
-                truth.pixels[x + kObjectSpaceSize.x * y] = vec3(wanted);
+                truth.pixels[x + kObjectSpacePictureSize.x * y] = vec3(wanted);
             }
-        EXPECT_LE(off, 20u) << "pixels of " << kObjectSpaceSize.x * kObjectSpaceSize.y
+        EXPECT_LE(off, 20u) << "pixels of " << kObjectSpacePictureSize.x * kObjectSpacePictureSize.y
                             << ", mirrors " << mirrors;
         const double seen = measure::flip_mean(
             measure::flip(measure::to_display(part.hdr), measure::to_display(truth)));
@@ -92,7 +93,7 @@ TEST(ObjectSpace, RayTracingEqualsDoublePrecision) {
 
 /// Returns eighty rotated and stretched balls. `shared`: all balls are copies of one mesh, too many
 /// to be stored in scene units. Otherwise each has its own mesh.
-scene::Scene many(bool shared) {
+scene::Scene make_scene_of_many_balls(bool shared) {
     scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     for (int i = 0; i < 80; ++i) {
@@ -110,8 +111,10 @@ scene::Scene many(bool shared) {
 TEST(ObjectSpace, CopiesOfOneMeshEqualSingleMeshes) {
     for (const std::string technique :
          {"raytrace", "raytrace:hit=f64", "raytrace:shadow=map", "pyramid", "hybrid"})
-        EXPECT_LE(flip(test::render_technique(many(true), technique, kObjectSpaceSize),
-                       test::render_technique(many(false), technique, kObjectSpaceSize)),
+        EXPECT_LE(mean_flip_of_results(test::render_technique(make_scene_of_many_balls(true),
+                                                              technique, kObjectSpacePictureSize),
+                                       test::render_technique(make_scene_of_many_balls(false),
+                                                              technique, kObjectSpacePictureSize)),
                   .001)
             << technique;
 }

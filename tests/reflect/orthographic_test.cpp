@@ -8,7 +8,7 @@ namespace {
 
 using namespace catoptric;
 
-scene::Camera along(const dvec3& eye, const dvec3& target, double height) {
+scene::Camera make_orthographic_camera(const dvec3& eye, const dvec3& target, double height) {
     return {.eye = eye, .target = target, .orthographic_height = height};
 }
 
@@ -27,7 +27,7 @@ TEST(Orthographic, PositionDoesNotDependOnDepth) {
     // The camera shows 4 x 2 units in 64 x 32 pixels, which is 16 pixels a unit.
     for (const double z : {4.0, 5.0})
         for (const std::string technique : {"raytrace", "naive"}) {
-            scene.cameras = {along({0, 0, z}, {0, 0, 0}, 2)};
+            scene.cameras = {make_orthographic_camera({0, 0, z}, {0, 0, 0}, 2)};
             const measure::Picture picture = test::render_technique(scene, technique, {64, 32}).hdr;
             const auto is_in = [](int x, int y, int left, int top, int right, int bottom) {
                 return x >= left && x < right && y >= top && y < bottom;
@@ -50,9 +50,9 @@ TEST(Orthographic, RasterisationEqualsRayTracing) {
     scene.punctual.push_back(
         {.kind = scene::PunctualLight::Kind::directional,
          .intensity = vec3(2),
-         .world_from_light = test::light_transform({0, 0, 0}, {-.4, -1, -.6})});
+         .world_from_light = test::make_light_transform({0, 0, 0}, {-.4, -1, -.6})});
     for (const double far : {1.0, 200.0}) {
-        scene.cameras = {along(far * dvec3(1.2, 2, 3), {0, .3, 0}, 4)};
+        scene.cameras = {make_orthographic_camera(far * dvec3(1.2, 2, 3), {0, .3, 0}, 4)};
         const double off = test::share_off_in_raster_picture(scene, {128, 96});
         std::cout << "[ MEASURED ] " << far << ": share off " << off << "\n";
         EXPECT_LE(off, .005) << far;
@@ -63,13 +63,15 @@ TEST(Orthographic, RasterisationEqualsRayTracing) {
 /// resolution for them.
 TEST(Orthographic, MirrorsReflectParallelViewRays) {
     scene::Scene scene = test::make_lit_room(2, 1);
-    scene.cameras = {along({.1, .2, -2.9}, {0, -.2, 0}, 3)};
-    constexpr uvec2 kSize{96, 96};
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize);
+    scene.cameras = {make_orthographic_camera({.1, .2, -2.9}, {0, -.2, 0}, 3)};
+    constexpr uvec2 kOrthographicPictureSize{96, 96};
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace",
+                                                              kOrthographicPictureSize);
     const measure::Mask mirrors = measure::mask_mirror_pixels(truth.hits);
     for (const auto& [technique, most] :
          {std::pair{"hybrid", .02}, {"secant:face=auto", .1}, {"layered", .05}}) {
-        const app::TechniqueResult part = test::render_technique(scene, technique, kSize, 4);
+        const app::TechniqueResult part = test::render_technique(scene, technique,
+                                                                 kOrthographicPictureSize, 4);
         std::size_t off = 0, all = 0;
         for (std::size_t i = 0; i < mirrors.size(); ++i) {
             if (mirrors[i] == 0) continue;

@@ -10,21 +10,22 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kParallaxSize{512, 512};
-constexpr int kParallaxFrames = 4; // enough frames for deeper bounces to arrive in the captures
+constexpr uvec2 kParallaxPictureSize{512, 512};
+constexpr int kParallaxWarmupFrames =
+    4; // enough frames for deeper bounces to arrive in the captures
 
 TEST(Parallax, HalvesTheErrorOfUncorrectedDirections) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
-                                                              kParallaxSize);
+                                                              kParallaxPictureSize);
     const measure::Picture reuse =
-        test::render_technique(scene, "reuse", kParallaxSize, kParallaxFrames).hdr;
+        test::render_technique(scene, "reuse", kParallaxPictureSize, kParallaxWarmupFrames).hdr;
     const measure::Picture parallax =
-        test::render_technique(scene, "parallax", kParallaxSize, kParallaxFrames).hdr;
+        test::render_technique(scene, "parallax", kParallaxPictureSize, kParallaxWarmupFrames).hdr;
     const auto expect_share = [&](const std::string& where, const measure::Mask& mask,
                                   double most) {
-        const double with = test::picture_rmse(parallax, truth.hdr, mask),
-                     without = test::picture_rmse(reuse, truth.hdr, mask);
+        const double with = test::rmse_of_pictures(parallax, truth.hdr, mask),
+                     without = test::rmse_of_pictures(reuse, truth.hdr, mask);
         std::cout << "[ MEASURED ] " << where << ": rmse " << with << " (parallax), " << without
                   << " (reuse), share " << with / without << "\n";
         EXPECT_LE(with, most * without) << where;
@@ -49,7 +50,7 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
         app::Request request = test::make_test_request(scene, {technique}, {192, 192});
         request.with_lookup = true;
         double mirror = 0, miss = 0;
-        const app::RunResult result = app::run(test::test_engine(), request);
+        const app::RunResult result = app::run(test::get_test_engine(), request);
         for (const vec4& pixel : result.parts.front().lookup) {
             if (!(pixel.w > 0)) continue;
             ++mirror;
@@ -67,12 +68,13 @@ TEST(Parallax, EmptyAreaIsNoLargerInCoarseCaptures) {
 TEST(Parallax, DistancesClampedAt200AreWorseThanNoCorrection) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     const app::TechniqueResult truth = test::render_technique(scene, "raytrace:depth=16",
-                                                              kParallaxSize);
+                                                              kParallaxPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto error = [&](const std::string& technique) {
-        const double value = test::picture_rmse(
-            test::render_technique(scene, technique, kParallaxSize, kParallaxFrames).hdr, truth.hdr,
-            mask);
+        const double value = test::rmse_of_pictures(
+            test::render_technique(scene, technique, kParallaxPictureSize, kParallaxWarmupFrames)
+                .hdr,
+            truth.hdr, mask);
         std::cout << "[ MEASURED ] " << technique << ": rmse " << value << " on mirror pixels\n";
         return value;
     };

@@ -52,7 +52,7 @@ scene::Scene make_half_white_furnace(float emission) {
     const std::size_t wall = test::add_material(
         scene, {.name = "wall", .albedo = vec3(.5f), .emission = vec3(emission)});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}), wall);
+        test::add_mesh(scene, test::make_box_wall(face, {-4, -3, -5}, {4, 3, 5}), wall);
     scene.cameras.push_back(
         {.eye = {.2, .1, -4.5}, .target = {0, 0, 1}, .vertical_fov_degrees = 70});
     return scene;

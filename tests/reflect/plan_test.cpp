@@ -13,11 +13,11 @@ using namespace catoptric;
 
 /// Counts of the pixels of one mirror that show no other mirror: compared pixels, pixels with other
 /// bytes, and pixels that are off.
-struct Alike {
+struct SamePixelCounts {
     std::size_t compared = 0, other = 0, off = 0; ///< off: a channel differs by more than 1/255
 };
 
-bool is_off(const vec3& a, const vec3& b) {
+bool is_channel_off(const vec3& a, const vec3& b) {
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(std::clamp(a[i], 0.f, 1.f) - std::clamp(b[i], 0.f, 1.f)) <= 1.f / 255))
             return true;
@@ -26,8 +26,8 @@ bool is_off(const vec3& a, const vec3& b) {
 
 /// Returns whether the direction from the capture's centre may show a ball other than `mirror`,
 /// with a margin of 1.5 texels. Ignores objects that hide the ball. Mirrors are numbered from 0.
-bool capture_may_show(const scene::Scene& scene, std::size_t mirror, const dvec3& direction,
-                      int face) {
+bool may_capture_show_ball(const scene::Scene& scene, std::size_t mirror, const dvec3& direction,
+                           int face) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[mirror]]).centre();
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
@@ -42,38 +42,39 @@ bool capture_may_show(const scene::Scene& scene, std::size_t mirror, const dvec3
 
 /// Compares the pixels of one mirror in a plan (`mixed`) with those of one technique (`uniform`).
 /// Leaves out the pixels that may show another mirror.
-Alike alike(const scene::Scene& scene, const app::TechniqueResult& mixed,
-            const app::TechniqueResult& uniform, const app::TechniqueResult& truth, MirrorId mirror,
-            int face) {
-    Alike result;
+SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene, const app::TechniqueResult& mixed,
+                                       const app::TechniqueResult& uniform,
+                                       const app::TechniqueResult& truth, MirrorId mirror,
+                                       int face) {
+    SamePixelCounts result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror_of_hit(truth.hits[i]) != mirror) continue;
-        if (measure::second_mirror_of_hit(truth.hits[i]) != MirrorId{}) continue;
+        if (measure::first_mirror_of_hit_word(truth.hits[i]) != mirror) continue;
+        if (measure::second_mirror_of_hit_word(truth.hits[i]) != MirrorId{}) continue;
         if (!uniform.lookup.empty()) {
             const vec4& lookup = uniform.lookup[i];
             const int looked_into = static_cast<int>(lookup.w) / 8;
-            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.index())) continue;
-            if (capture_may_show(scene, mirror.index(), dvec3(lookup), face)) continue;
+            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.list_index())) continue;
+            if (may_capture_show_ball(scene, mirror.list_index(), dvec3(lookup), face)) continue;
         }
         ++result.compared;
         const vec3 &a = mixed.hdr.pixels[i], &b = uniform.hdr.pixels[i];
         if (std::memcmp(&a, &b, sizeof a) != 0) ++result.other;
-        if (is_off(a, b)) ++result.off;
+        if (is_channel_off(a, b)) ++result.off;
     }
     return result;
 }
 
 TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
-    constexpr uvec2 kSize{192, 192};
+    constexpr uvec2 kPlanPictureSize{192, 192};
     // Two frames are enough, because pixels with deeper bounces are left out.
-    constexpr int kFrames = 2;
+    constexpr int kFramesUntilFirstOrder = 2;
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize);
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kPlanPictureSize);
     app::Request asked = test::make_test_request(
-        scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kSize);
-    asked.warmup = kFrames - 1;
+        scene, {"1=reuse:face=64 2=hybrid 3=secant *=raytrace:shadow=map"}, kPlanPictureSize);
+    asked.warmup = kFramesUntilFirstOrder - 1;
     const app::TechniqueResult mixed = std::move(
-        app::run(test::test_engine(), asked).parts.front());
+        app::run(test::get_test_engine(), asked).parts.front());
     // Mirror 4 is traced, but has a capture, because the captures of other mirrors show it.
     EXPECT_EQ(mixed.scene_passes, 4 + 2);
     const std::vector<std::string> uniform{"reuse:face=64", "hybrid", "secant",
@@ -83,8 +84,9 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
         asked.techniques = {uniform[i]};
         asked.with_lookup = !is_traced;
         const app::TechniqueResult part = std::move(
-            app::run(test::test_engine(), asked).parts.front());
-        const Alike found = alike(scene, mixed, part, truth, MirrorId::at(i), i == 0 ? 64 : 256);
+            app::run(test::get_test_engine(), asked).parts.front());
+        const SamePixelCounts found = compare_mirror_of_plan(
+            scene, mixed, part, truth, MirrorId::of_list_index(i), i == 0 ? 64 : 256);
         std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
                   << found.other << " differ, " << found.off << " by more than 1/255\n";
         EXPECT_GT(found.compared, 100u) << uniform[i];
@@ -97,7 +99,7 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
 
 /// Returns three balls in a row with boards between them. Each board hides the balls from each
 /// other by more than a ball's radius, the tolerance of the searches (shaders/lib/mirror.glsl).
-scene::Scene walled_off() {
+scene::Scene make_balls_between_boards() {
     scene::Scene scene = test::make_lit_room(0, 2);
     scene.name = "walled off";
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
@@ -113,15 +115,15 @@ scene::Scene walled_off() {
 }
 
 TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
-    constexpr uvec2 kSize{256, 96};
-    const scene::Scene scene = walled_off();
-    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kSize);
-    app::Request asked = test::make_test_request(scene, {}, kSize);
+    constexpr uvec2 kPlanPictureSize{256, 96};
+    const scene::Scene scene = make_balls_between_boards();
+    const app::TechniqueResult truth = test::render_technique(scene, "raytrace", kPlanPictureSize);
+    app::Request asked = test::make_test_request(scene, {}, kPlanPictureSize);
     asked.warmup = 1;
     asked.with_lookup = true;
     const auto rendered = [&](const std::string& technique) {
         asked.techniques = {technique};
-        return std::move(app::run(test::test_engine(), asked).parts.front());
+        return std::move(app::run(test::get_test_engine(), asked).parts.front());
     };
     for (const std::vector<std::string>& rows :
          {std::vector<std::string>{"reuse:face=32", "secant:face=64", "pyramid:face=48"},
@@ -138,7 +140,8 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
                 // Compare only pixels in which both ray tracing and rasterisation show the mirror.
-                if (measure::first_mirror_of_hit(truth.hits[p]) != MirrorId::at(i)) continue;
+                if (measure::first_mirror_of_hit_word(truth.hits[p]) != MirrorId::of_list_index(i))
+                    continue;
                 if (uniform.lookup[p].w == 0) continue;
                 ++pixels;
                 other += mixed.hdr.pixels[p] != uniform.hdr.pixels[p];
@@ -164,7 +167,7 @@ TEST(Plan, CapturesOfTwoEdgesWorkUnderASky) {
         const std::size_t mirror = std::min(traced.hits[i] & 0xffff, 2u);
         ++(mixed.hdr.pixels[i] == alike.hdr.pixels[i] ? same : other)[mirror];
     }
-    EXPECT_EQ(test::nonfinite_pixel_count(mixed.hdr), 0u);
+    EXPECT_EQ(test::count_nonfinite_pixels(mixed.hdr), 0u);
     EXPECT_LE(other[0], same[0] / 20) << "outlines, of which rays and triangles may differ";
     EXPECT_GT(same[1], 4 * other[1]) << "all but what it shows of other mirrors";
     EXPECT_GT(other[2], same[2]) << "their captures are coarser";
@@ -193,11 +196,11 @@ TEST(Plan, MirrorWithoutACaptureIsBlackInOtherMirrors) {
     EXPECT_EQ(shown.scene_passes, black.scene_passes + 2) << "two captures less";
     std::size_t dark = 0, lit = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (measure::first_mirror_of_hit(truth.hits[i]) != MirrorId(1)) {
+        if (measure::first_mirror_of_hit_word(truth.hits[i]) != MirrorId(1)) {
             EXPECT_EQ(shown.hdr.pixels[i], black.hdr.pixels[i]);
             continue;
         }
-        if (measure::second_mirror_of_hit(truth.hits[i]) == MirrorId{}) continue;
+        if (measure::second_mirror_of_hit_word(truth.hits[i]) == MirrorId{}) continue;
         dark += black.hdr.pixels[i] == vec3(0);
         lit += shown.hdr.pixels[i] != vec3(0);
     }
@@ -221,9 +224,9 @@ TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
         const app::TechniqueResult alone = test::render_technique(scene, technique, size);
         std::size_t pixels = 0, off = 0;
         for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-            if (measure::first_mirror_of_hit(truth.hits[i]) != MirrorId(mirror)) continue;
+            if (measure::first_mirror_of_hit_word(truth.hits[i]) != MirrorId(mirror)) continue;
             ++pixels;
-            off += is_off(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
+            off += is_channel_off(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
         }
         EXPECT_GT(pixels, 100u);
         EXPECT_LE(off, 3u) << technique << " of " << pixels;
@@ -234,7 +237,7 @@ TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
 
 /// Returns a room with `count` small exact balls. With 350 balls, one image array cannot hold all
 /// captures.
-scene::Scene many_balls(int count) {
+scene::Scene make_room_of_many_balls(int count) {
     scene::Scene scene = test::make_lit_room(0, 1);
     scene.name = "many balls";
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
@@ -246,7 +249,7 @@ scene::Scene many_balls(int count) {
 }
 
 TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
-    const scene::Scene scene = many_balls(350);
+    const scene::Scene scene = make_room_of_many_balls(350);
     const uvec2 size{64, 64};
     const std::vector<std::string> techniques{"parallax:face=4"};
     const app::TechniqueResult part = test::render_technique(scene, techniques.front(), size, 1);
@@ -262,17 +265,18 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
     const app::TechniqueResult alone = test::render_technique(fewer, techniques.front(), size, 1);
     std::size_t pixels = 0, other = 0;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        const MirrorId mirror = measure::first_mirror_of_hit(truth.hits[i]);
-        if (mirror.number() <= 100) continue; // compare only mirrors far from the removed ones
+        const MirrorId mirror = measure::first_mirror_of_hit_word(truth.hits[i]);
+        if (mirror.mirror_number() <= 100)
+            continue; // compare only mirrors far from the removed ones
         ++pixels;
-        other += is_off(part.hdr.pixels[i], alone.hdr.pixels[i]);
+        other += is_channel_off(part.hdr.pixels[i], alone.hdr.pixels[i]);
     }
     EXPECT_GT(pixels, 100u);
     EXPECT_LT(static_cast<double>(other), .02 * static_cast<double>(pixels)) << other;
 }
 
 TEST(Plan, TooManyCaptureEdgesAreEnlargedWithANote) {
-    const scene::Scene scene = many_balls(10);
+    const scene::Scene scene = make_room_of_many_balls(10);
     std::string plan;
     for (int i = 1; i <= 10; ++i)
         plan += std::to_string(i) + "=reuse:face=" + std::to_string(8 + i) + " ";

@@ -16,23 +16,23 @@ namespace {
 using namespace catoptric;
 
 /// Adds a material of a mirror with this reflectance in all channels.
-std::size_t add_mirror(scene::Scene& scene, float reflectance = 1) {
+std::size_t add_mirror_material(scene::Scene& scene, float reflectance = 1) {
     return test::add_material(scene,
                               {.name = "mirror", .mirror = true, .reflectance = vec3(reflectance)});
 }
 
 /// Returns the built-in scene with one flat mirror at z = 2.98, plus the objects that `more` names.
-scene::Scene flat(const std::string& more = "") {
+scene::Scene make_scene_with_flat_mirror(const std::string& more = "") {
     scene::Scene scene = scene::load("flat");
     scene.name += more;
     if (more == " parallel")
-        test::add_quad(scene, "behind", add_mirror(scene), {-1.3, .5, -2.98}, {1.3, .5, -2.98},
-                       {1.3, 2.1, -2.98}, {-1.3, 2.1, -2.98});
+        test::add_quad(scene, "behind", add_mirror_material(scene), {-1.3, .5, -2.98},
+                       {1.3, .5, -2.98}, {1.3, 2.1, -2.98}, {-1.3, 2.1, -2.98});
     if (more == " orthogonal") {
-        test::add_quad(scene, "beside", add_mirror(scene), {1.999, .5, 2.9}, {1.999, .5, .5},
-                       {1.999, 2.1, .5}, {1.999, 2.1, 2.9});
-        test::add_quad(scene, "below", add_mirror(scene), {-1.3, .001, 1.9}, {1.3, .001, 1.9},
-                       {1.3, .001, 2.9}, {-1.3, .001, 2.9});
+        test::add_quad(scene, "beside", add_mirror_material(scene), {1.999, .5, 2.9},
+                       {1.999, .5, .5}, {1.999, 2.1, .5}, {1.999, 2.1, 2.9});
+        test::add_quad(scene, "below", add_mirror_material(scene), {-1.3, .001, 1.9},
+                       {1.3, .001, 1.9}, {1.3, .001, 2.9}, {-1.3, .001, 2.9});
     }
     if (more == " touched") {
         const std::size_t red = test::add_material(scene,
@@ -46,8 +46,8 @@ scene::Scene flat(const std::string& more = "") {
 /// Returns a mask of the pixels beside an outline of a mirror, of a lamp, or of an object seen in a
 /// mirror. Finds outlines by ray tracing the scene with each object painted in its own colour, all
 /// walls in the same.
-measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_t>& hits,
-                              uvec2 size) {
+measure::Mask mask_pixels_beside_outlines(scene::Scene scene,
+                                          const std::vector<std::uint32_t>& hits, uvec2 size) {
     float next = 1;
     for (scene::Object& object : scene.objects) {
         if (scene::is_mirror(scene, object)) continue;
@@ -61,7 +61,8 @@ measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_
     const int width = painted.width;
     const auto differ = [&](int a, int b) {
         return painted.pixels[a] != painted.pixels[b] ||
-               measure::first_mirror_of_hit(hits[a]) != measure::first_mirror_of_hit(hits[b]);
+               measure::first_mirror_of_hit_word(hits[a]) !=
+                   measure::first_mirror_of_hit_word(hits[b]);
     };
     measure::Mask beside(painted.pixels.size(), 0);
     for (int i = 0; i < int(beside.size()); ++i) {
@@ -75,8 +76,8 @@ measure::Mask beside_outlines(scene::Scene scene, const std::vector<std::uint32_
 }
 
 /// Returns the share of the mask's pixels that are off.
-double planar_share_off(const measure::Picture& a, const measure::Picture& b,
-                        const measure::Mask& mask) {
+double share_of_masked_pixels_off(const measure::Picture& a, const measure::Picture& b,
+                                  const measure::Mask& mask) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < mask.size(); ++i)
         off += mask[i] && !(test::max_channel_difference(a.pixels[i], b.pixels[i]) <=
@@ -84,13 +85,14 @@ double planar_share_off(const measure::Picture& a, const measure::Picture& b,
     return double(off) / double(measure::count_mask_pixels(mask));
 }
 
-struct Found {
+struct PlanarComparison {
     double share_off, mae, rmse, left_out;
 };
 
 /// Compares the first-order pixels with ray tracing, except those in the mask `left_out`.
-Found off_of(const app::TechniqueResult& planar, const app::TechniqueResult& truth,
-             const measure::Mask& left_out) {
+PlanarComparison compare_first_order_pixels(const app::TechniqueResult& planar,
+                                            const app::TechniqueResult& truth,
+                                            const measure::Mask& left_out) {
     measure::Mask mask = measure::mask_first_order_pixels(truth.hits);
     const double whole = double(measure::count_mask_pixels(mask));
     EXPECT_GT(whole, 2000);
@@ -98,11 +100,11 @@ Found off_of(const app::TechniqueResult& planar, const app::TechniqueResult& tru
         if (left_out[i]) mask[i] = 0;
     const std::vector<float> no_flip(truth.hdr.pixels.size(), 0.0f);
     const measure::Difference found = measure::difference(planar.hdr, truth.hdr, mask, no_flip);
-    return {planar_share_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
+    return {share_of_masked_pixels_off(planar.hdr, truth.hdr, mask), found.mae, found.rmse,
             1 - double(measure::count_mask_pixels(mask)) / whole};
 }
 
-void print(const std::string& what, const Found& found) {
+void print_planar_comparison(const std::string& what, const PlanarComparison& found) {
     std::cout << "[ MEASURED ] " << what << ": share off " << found.share_off << ", MAE "
               << found.mae << ", rmse " << found.rmse << ", left out " << found.left_out << "\n";
 }
@@ -110,22 +112,24 @@ void print(const std::string& what, const Found& found) {
 /// Differences at shadow edges come from the shadow map, so they do not count against `planar`.
 TEST(Planar, FlatMirrorsEqualRayTracing) {
     constexpr uvec2 size(512);
-    scene::Scene low = flat(" from below");
+    scene::Scene low = make_scene_with_flat_mirror(" from below");
     low.cameras.front() = low.cameras.at(1);
     for (const scene::Scene& scene :
-         {flat(), low, flat(" parallel"), flat(" orthogonal"), flat(" touched")}) {
+         {make_scene_with_flat_mirror(), low, make_scene_with_flat_mirror(" parallel"),
+          make_scene_with_flat_mirror(" orthogonal"), make_scene_with_flat_mirror(" touched")}) {
         const app::TechniqueResult truth = test::render_technique(scene, app::kReference, size),
                                    planar = test::render_technique(scene, "planar", size),
                                    lit = test::render_technique(
                                        scene, "raytrace:depth=16,shadow=none", size);
-        const Found whole = off_of(planar, truth, measure::Mask(truth.hits.size(), 0));
-        print(scene.name + ", nothing left out", whole);
+        const PlanarComparison whole = compare_first_order_pixels(
+            planar, truth, measure::Mask(truth.hits.size(), 0));
+        print_planar_comparison(scene.name + ", nothing left out", whole);
         EXPECT_LE(whole.share_off, .003) << scene.name;
         EXPECT_LE(whole.mae, .0003) << scene.name;
         EXPECT_LE(whole.rmse, .0025) << scene.name;
-        measure::Mask left_out = beside_outlines(scene, truth.hits, size);
-        const Found found = off_of(planar, truth, left_out);
-        print(scene.name, found);
+        measure::Mask left_out = mask_pixels_beside_outlines(scene, truth.hits, size);
+        const PlanarComparison found = compare_first_order_pixels(planar, truth, left_out);
+        print_planar_comparison(scene.name, found);
         EXPECT_LE(found.share_off, .001) << scene.name;
         EXPECT_LE(found.mae, .00005) << scene.name;
         EXPECT_LE(found.rmse, .0016) << scene.name;
@@ -133,21 +137,21 @@ TEST(Planar, FlatMirrorsEqualRayTracing) {
         const measure::Mask shadows = test::mask_shadow_edges(lit.hdr, truth.hdr);
         for (std::size_t i = 0; i < left_out.size(); ++i)
             if (shadows[i]) left_out[i] = 255;
-        const Found away = off_of(planar, truth, left_out);
-        print(scene.name + ", away from shadow edges", away);
+        const PlanarComparison away = compare_first_order_pixels(planar, truth, left_out);
+        print_planar_comparison(scene.name + ", away from shadow edges", away);
         EXPECT_EQ(away.share_off, 0) << scene.name;
         EXPECT_LE(away.rmse, 1e-6) << scene.name;
         EXPECT_LE(away.left_out, .15) << scene.name;
     }
 }
 
-constexpr uvec2 kPlanarSmall{96, 96};
+constexpr uvec2 kSmallPlanarPictureSize{96, 96};
 
 /// A wall mirror modelled as a thin closed box must look like a quad at the place of its front. The
 /// edges of the box are drawn as well where they are visible.
 TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
     constexpr uvec2 size(192);
-    scene::Scene quad = flat();
+    scene::Scene quad = make_scene_with_flat_mirror();
     const std::size_t index = scene::mirrors(quad).front();
     const Bounds<double> bounds = scene::bounds(quad, quad.objects[index]);
     const auto rmse_of = [&](const scene::Scene& scene) {
@@ -155,7 +159,7 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
                                    planar = test::render_technique(scene, "planar", size);
         EXPECT_EQ(planar.plan.front().technique, "planar");
         EXPECT_THAT(planar.notes, testing::IsEmpty());
-        return off_of(planar, truth, measure::Mask(truth.hits.size(), 0)).rmse;
+        return compare_first_order_pixels(planar, truth, measure::Mask(truth.hits.size(), 0)).rmse;
     };
     for (const scene::Camera& camera : {quad.cameras.at(0), quad.cameras.at(1)}) {
         quad.cameras.front() = camera;
@@ -174,7 +178,8 @@ TEST(Planar, ThinBoxEqualsTheQuadOfItsFront) {
 /// A note must name each mirror that `planar` cannot draw and the technique that draws it instead.
 TEST(Planar, NoteNamesMirrorsDrawnByAnotherTechnique) {
     const scene::Scene hall = test::make_mirror_hall();
-    const app::TechniqueResult part = test::render_technique(hall, "planar", kPlanarSmall, 2);
+    const app::TechniqueResult part = test::render_technique(hall, "planar",
+                                                             kSmallPlanarPictureSize, 2);
     ASSERT_EQ(part.notes.size(), 1u);
     EXPECT_THAT(part.notes[0], testing::MatchesRegex("mirror 1 '.*': not flat, drawn by reuse"));
 }
@@ -185,19 +190,22 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
     scene::Scene scene{.name = "corridor"};
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
-    const std::size_t mirror = add_mirror(scene, .8f);
+        test::add_mesh(scene, test::make_box_wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    const std::size_t mirror = add_mirror_material(scene, .8f);
     test::add_quad(scene, "left", mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});
     test::add_quad(scene, "right", mirror, {2, -2, -2}, {2, 2, -2}, {2, 2, 4}, {2, -2, 4});
     scene.cameras = {{.eye = {0, 0, -1.9}, .target = {1.9, .1, -1.2}, .vertical_fov_degrees = 60}};
     for (const int bounces : {0, 1, 2, 5}) {
         const std::string number = std::to_string(bounces);
         const app::TechniqueResult planar = test::render_technique(
-                                       scene, "planar:shadow=none,bounces=" + number, kPlanarSmall),
+                                       scene, "planar:shadow=none,bounces=" + number,
+                                       kSmallPlanarPictureSize),
                                    truth = test::render_technique(
-                                       scene, "raytrace:shadow=none,depth=" + number, kPlanarSmall);
-        EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, measure::mask_all_pixels(truth.hits)),
-                  .01)
+                                       scene, "raytrace:shadow=none,depth=" + number,
+                                       kSmallPlanarPictureSize);
+        EXPECT_LE(
+            share_of_masked_pixels_off(planar.hdr, truth.hdr, measure::mask_all_pixels(truth.hits)),
+            .01)
             << bounces;
         int deepest = -1;
         for (const vec3& pixel : planar.hdr.pixels) {
@@ -214,17 +222,25 @@ TEST(Planar, MirrorsInMirrorsHaveTheRequestedDepth) {
 /// Counts the scene passes R: two, plus one for each mirrored view. A mirror out of sight needs no
 /// view, and neither does a mirror that cannot be seen in another mirror.
 TEST(Planar, OnlyVisibleMirrorsGetViews) {
-    EXPECT_EQ(test::render_technique(flat(), "planar", kPlanarSmall).scene_passes, 3);
     EXPECT_EQ(
-        test::render_technique(flat(" parallel"), "planar:bounces=1", kPlanarSmall).scene_passes,
+        test::render_technique(make_scene_with_flat_mirror(), "planar", kSmallPlanarPictureSize)
+            .scene_passes,
         3);
-    EXPECT_EQ(test::render_technique(flat(" parallel"), "planar", kPlanarSmall).scene_passes, 4);
-    EXPECT_EQ(
-        test::render_technique(flat(" parallel"), "planar:bounces=4", kPlanarSmall).scene_passes,
-        6);
-    scene::Scene away = flat();
+    EXPECT_EQ(test::render_technique(make_scene_with_flat_mirror(" parallel"), "planar:bounces=1",
+                                     kSmallPlanarPictureSize)
+                  .scene_passes,
+              3);
+    EXPECT_EQ(test::render_technique(make_scene_with_flat_mirror(" parallel"), "planar",
+                                     kSmallPlanarPictureSize)
+                  .scene_passes,
+              4);
+    EXPECT_EQ(test::render_technique(make_scene_with_flat_mirror(" parallel"), "planar:bounces=4",
+                                     kSmallPlanarPictureSize)
+                  .scene_passes,
+              6);
+    scene::Scene away = make_scene_with_flat_mirror();
     std::swap(away.cameras.front().eye, away.cameras.front().target);
-    EXPECT_EQ(test::render_technique(away, "planar", kPlanarSmall).scene_passes, 2);
+    EXPECT_EQ(test::render_technique(away, "planar", kSmallPlanarPictureSize).scene_passes, 2);
 }
 
 /// Tests a mirror seen from the front, from behind and by an orthographic camera. Objects behind
@@ -234,9 +250,9 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
     scene.punctual.push_back(
         {.kind = scene::PunctualLight::Kind::directional,
          .intensity = vec3(2),
-         .world_from_light = test::light_transform({0, 0, 0}, {-.4, -1, -.6})});
-    test::add_quad(scene, "screen", add_mirror(scene), {-1.5, 0, -.4}, {1.8, 0, .6}, {1.8, 1.4, .6},
-                   {-1.5, 1.4, -.4});
+         .world_from_light = test::make_light_transform({0, 0, 0}, {-.4, -1, -.6})});
+    test::add_quad(scene, "screen", add_mirror_material(scene), {-1.5, 0, -.4}, {1.8, 0, .6},
+                   {1.8, 1.4, .6}, {-1.5, 1.4, -.4});
     const scene::Camera before{
         .eye = {.4, 1.2, 4}, .target = {0, .5, 0}, .vertical_fov_degrees = 45},
         behind{.eye = {.2, 1.3, -4}, .target = {0, .5, 0}, .vertical_fov_degrees = 45};
@@ -251,11 +267,11 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
                                    planar = test::render_without_ambient(scene, "planar", size);
         measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
         const measure::Mask shadows = test::mask_shadow_edges(lit.hdr, truth.hdr),
-                            outlines = beside_outlines(scene, truth.hits, size);
+                            outlines = mask_pixels_beside_outlines(scene, truth.hits, size);
         for (std::size_t i = 0; i < mask.size(); ++i)
             if (shadows[i] || outlines[i]) mask[i] = 0;
         EXPECT_GT(measure::count_mask_pixels(mask), 1500u);
-        EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, mask), .003)
+        EXPECT_LE(share_of_masked_pixels_off(planar.hdr, truth.hdr, mask), .003)
             << "eye at z " << camera.eye.z;
     }
 }
@@ -265,9 +281,9 @@ TEST(Planar, BothSidesReflectAndHideWhatIsBehindThePlane) {
 TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     const scene::Scene hall = test::make_mirror_hall();
     const app::TechniqueResult planar = test::render_technique(hall, "planar:rest=secant",
-                                                               kPlanarSmall, 3),
+                                                               kSmallPlanarPictureSize, 3),
                                plan = test::render_technique(hall, "1=secant *=planar",
-                                                             kPlanarSmall, 3);
+                                                             kSmallPlanarPictureSize, 3);
     EXPECT_TRUE(test::have_equal_pixel_bytes(planar.hdr, plan.hdr));
     ASSERT_EQ(planar.plan.size(), 3u);
     EXPECT_EQ(planar.plan[0].technique, "secant");
@@ -278,10 +294,10 @@ TEST(Planar, CurvedMirrorsAreDrawnByTheTechniqueOfRest) {
     EXPECT_EQ(planar.plan[2].technique, "planar");
     EXPECT_EQ(planar.plan[2].why, "one technique was asked for");
     const app::TechniqueResult dark = test::render_technique(hall, "planar:shadow=none",
-                                                             kPlanarSmall, 3),
+                                                             kSmallPlanarPictureSize, 3),
                                all_dark = test::render_technique(
-                                   hall, "1=reuse:shadow=none *=planar:shadow=none", kPlanarSmall,
-                                   3);
+                                   hall, "1=reuse:shadow=none *=planar:shadow=none",
+                                   kSmallPlanarPictureSize, 3);
     EXPECT_TRUE(test::have_equal_pixel_bytes(dark.hdr, all_dark.hdr)) << "shadows are the row's";
 }
 
@@ -296,13 +312,13 @@ TEST(Planar, CurvedMirrorInAFlatMirrorIsDrawnByItsTechnique) {
     for (std::size_t i = 0; i < ball.size(); ++i)
         if (!panel[i]) ball[i] = 0;
     EXPECT_GT(measure::count_mask_pixels(ball), 300u);
-    const double black = test::picture_rmse(
+    const double black = test::rmse_of_pictures(
         test::render_technique(hall, "planar:bounces=0", size).hdr, truth.hdr, ball);
     for (const std::string rest : {"secant", "hybrid", "raytrace"}) {
         app::Request asked = test::make_test_request(hall, {"planar:bounces=4,rest=" + rest}, size);
         asked.with_lookup = false;
-        const double off = test::picture_rmse(test::render_last_frame(asked, 5).front().hdr,
-                                              truth.hdr, ball);
+        const double off = test::rmse_of_pictures(test::render_last_frame(asked, 5).front().hdr,
+                                                  truth.hdr, ball);
         std::cout << "[ MEASURED ] a ball in a flat mirror by " << rest << ": rmse " << off
                   << ", black " << black << "\n";
         EXPECT_LT(off, .2 * black) << rest;
@@ -315,29 +331,30 @@ TEST(Planar, TinyObjectAboveALargeMirrorIsPrecise) {
     const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(.25f)}),
                       red = test::add_material(scene, {.name = "red", .emission = {.9f, .1f, .1f}});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
-    test::add_quad(scene, "mirror", add_mirror(scene), {-2, -2, 0}, {2, -2, 0}, {2, 2, 0},
+        test::add_mesh(scene, test::make_box_wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    test::add_quad(scene, "mirror", add_mirror_material(scene), {-2, -2, 0}, {2, -2, 0}, {2, 2, 0},
                    {-2, 2, 0});
     test::add_mesh(scene, scene::box("grain", dvec3(-1e-4), dvec3(1e-4)), red);
     scene.objects.back().world_from_object[3] = dvec4(1.5, .3, 3e-4, 1);
     scene.cameras = {
         {.eye = {1.5, .9, .8}, .target = {1.5, .3, 1e-4}, .vertical_fov_degrees = .08}};
     const app::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
-                                                              kPlanarSmall),
+                                                              kSmallPlanarPictureSize),
                                planar = test::render_technique(scene, "planar:shadow=none",
-                                                               kPlanarSmall);
+                                                               kSmallPlanarPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(truth.hits);
     const auto is_red = [](const vec3& pixel) { return pixel.x > .5f; };
     EXPECT_GT(std::ranges::count_if(truth.hdr.pixels, is_red), 400) << "the grain and its image";
     EXPECT_GT(measure::count_mask_pixels(mask), 2000u);
-    EXPECT_LE(planar_share_off(planar.hdr, truth.hdr, mask), .002);
+    EXPECT_LE(share_of_masked_pixels_off(planar.hdr, truth.hdr, mask), .002);
 }
 
 /// Without a list of techniques, a comparison includes `planar` if some mirror is flat.
 TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
     const auto rows_of = [](const char* name) {
         const scene::Scene scene = scene::load(name);
-        return app::list_default_techniques(test::make_test_request(scene, {}, kPlanarSmall));
+        return app::list_default_techniques(
+            test::make_test_request(scene, {}, kSmallPlanarPictureSize));
     };
     for (const char* name : {"flat", "room", "gallery"})
         EXPECT_THAT(rows_of(name), testing::Contains("planar")) << name;
@@ -347,22 +364,22 @@ TEST(Planar, ComparisonIncludesPlanarIfAMirrorIsFlat) {
 
 /// Mirrored views change between frames in flight while the scene stays the same.
 TEST(Planar, FrameUsesTheViewsItWasSubmittedWith) {
-    const scene::Scene scene = flat(" orthogonal");
-    app::Session session(test::test_engine(), scene, 3);
-    app::FrameSpec spec{.techniques = {"planar:bounces=4"},
-                        .camera = scene.cameras.front(),
-                        .size = kPlanarSmall,
-                        .timing = app::PassTimingMode::pipelined};
-    const measure::Picture wanted = session.frame(spec).hdr();
+    const scene::Scene scene = make_scene_with_flat_mirror(" orthogonal");
+    app::Session session(test::get_test_engine(), scene, 3);
+    app::FrameSpec frame_spec{.techniques = {"planar:bounces=4"},
+                              .camera = scene.cameras.front(),
+                              .size = kSmallPlanarPictureSize,
+                              .timing = app::PassTimingMode::pipelined};
+    const measure::Picture wanted = session.frame(frame_spec).hdr();
     for (int i = 0; i < 3; ++i) {
-        app::FrameSpec other = spec; // a frame with other mirrored views
+        app::FrameSpec other = frame_spec; // a frame with other mirrored views
         other.techniques = {"mirror=reuse:face=16 *=planar:bounces=1"};
         session.frame(other);
-        EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), wanted)) << i;
-        app::FrameSpec beside = spec;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(frame_spec).hdr(), wanted)) << i;
+        app::FrameSpec beside = frame_spec;
         beside.camera = scene.cameras.at(1);
         session.frame(beside);
-        EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), wanted)) << i;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(frame_spec).hdr(), wanted)) << i;
     }
 }
 

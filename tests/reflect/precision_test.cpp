@@ -13,10 +13,10 @@ using namespace catoptric;
 /// Returns the mean error of a technique against the double-precision tracer: the largest channel
 /// difference, averaged over the pixels that meet at least `mirrors` mirrors. Leaves out pixels
 /// whose centre lies on an edge.
-double off_double(const scene::Scene& scene, const std::string& technique, uvec2 size,
-                  int mirrors = 1) {
+double error_against_double_tracer(const scene::Scene& scene, const std::string& technique,
+                                   uvec2 size, int mirrors = 1) {
     const app::TechniqueResult part = test::render_technique(scene, technique, size);
-    const stress::DoubleTracer tracer(scene, .05);
+    const stress::DoublePrecisionTracer tracer(scene, .05);
     double sum = 0;
     std::size_t count = 0;
     for (std::uint32_t y = 0; y < size.y; ++y)
@@ -38,9 +38,10 @@ double off_double(const scene::Scene& scene, const std::string& technique, uvec2
 TEST(Precision, DoubleHitPointsReduceTheError) {
     const scene::Scene room = test::make_lit_room(3, 1);
     for (const int mirrors : {1, 2}) {
-        const double f32 = off_double(room, "raytrace:sphere=exact,depth=8", {96, 96}, mirrors);
-        const double f64 = off_double(room, "raytrace:sphere=exact,depth=8,hit=f64", {96, 96},
-                                      mirrors);
+        const double f32 = error_against_double_tracer(room, "raytrace:sphere=exact,depth=8",
+                                                       {96, 96}, mirrors);
+        const double f64 = error_against_double_tracer(
+            room, "raytrace:sphere=exact,depth=8,hit=f64", {96, 96}, mirrors);
         EXPECT_GT(f64, 0) << "the shading is still in floats";
         EXPECT_LT(f64, f32);
     }
@@ -65,10 +66,10 @@ TEST(Precision, DoubleHitPointsChangeOnlyRoundings) {
 /// The lamp is brighter than the largest half float. Its image in a mirror must be cut off there,
 /// unless captures hold floats.
 TEST(Precision, HalfFloatCapturesSaturateAt65504) {
-    constexpr float kEmission = 1e5f;
+    constexpr float kLampEmission = 1e5f;
     scene::Scene room = test::make_lit_room(1, 1);
     for (scene::Material& material : room.materials)
-        if (material.emission != vec3(0)) material.emission = vec3(kEmission);
+        if (material.emission != vec3(0)) material.emission = vec3(kLampEmission);
     const app::TechniqueResult truth = test::render_technique(room, "raytrace", {256, 256});
     for (const std::string technique : {"reuse", "parallax", "pyramid"}) {
         const auto brightest = [&](const std::string& colour) {
@@ -81,7 +82,7 @@ TEST(Precision, HalfFloatCapturesSaturateAt65504) {
         };
         EXPECT_EQ(brightest("half"), 65504) << technique;
         if (test::has_float_colour()) {
-            EXPECT_EQ(brightest("float"), kEmission) << technique;
+            EXPECT_EQ(brightest("float"), kLampEmission) << technique;
         }
     }
 }
@@ -91,7 +92,7 @@ TEST(Precision, SaturatedTexelsAreCounted) {
     const auto counted = [&](const std::string& technique) {
         app::Request asked = test::make_test_request(room, {technique}, {32, 32});
         asked.with_lookup = true;
-        return app::run(test::test_engine(), asked).parts.front().saturated;
+        return app::run(test::get_test_engine(), asked).parts.front().saturated;
     };
     for (const std::string technique : {"naive:bounces=1,", "reuse:", "layered:", "hybrid:"})
         EXPECT_EQ(counted(technique + "face=64"), 0u) << technique;
@@ -124,13 +125,14 @@ TEST(Precision, TextbookSphereTestFailsFarAway) {
     const dvec3 back = camera.eye - camera.target;
     camera.eye = camera.target + back * 1000.0;
     camera.vertical_fov_degrees = .06;
-    const double stable = off_double(room, "raytrace:sphere=exact,depth=8", {64, 64});
+    const double stable = error_against_double_tracer(room, "raytrace:sphere=exact,depth=8",
+                                                      {64, 64});
     const app::TechniqueResult with = test::render_technique(room, "raytrace:sphere=exact",
                                                              {64, 64}),
                                without = test::render_technique(
                                    room, "raytrace:sphere=exact,without=stable_sphere", {64, 64});
-    const double changed = test::picture_rmse(with.hdr, without.hdr,
-                                              measure::mask_mirror_pixels(with.hits));
+    const double changed = test::rmse_of_pictures(with.hdr, without.hdr,
+                                                  measure::mask_mirror_pixels(with.hits));
     std::cout << "[ MEASURED ] rmse without the stable sphere: " << changed << "\n";
     EXPECT_LT(stable, 1e-4);
     EXPECT_GT(changed, 100 * stable);

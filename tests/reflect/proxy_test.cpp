@@ -9,18 +9,18 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kProxySize{128, 128};
-constexpr int kHit = 0, kMiss = 2; // states of a search, as in shaders/lib/probe.glsl
+constexpr uvec2 kProxyPictureSize{128, 128};
+constexpr int kSearchHitState = 0, kMiss = 2; // states of a search, as in shaders/lib/probe.glsl
 
 // The rasteriser snaps vertices to 1/256 of a pixel, so rays are reflected at slightly different
 // points than in the reference. This shows only at the outline of the ball, where normals change
 // fast.
 // Largest errors allowed, in degrees: for the worst pixel, and for 99 % of the pixels.
-constexpr double kSnapped = .1, kMostSnapped = .01;
+constexpr double kSnappedRayDifference = .1, kMostSnapped = .01;
 
-measure::LookupErrorSummary proxy_error_of(const std::string& what,
-                                           const std::vector<measure::LookupDirectionError>& pixels,
-                                           double& worst) {
+measure::LookupErrorSummary
+summarise_proxy_errors(const std::string& what,
+                       const std::vector<measure::LookupDirectionError>& pixels, double& worst) {
     worst = 0;
     for (const measure::LookupDirectionError& pixel : pixels)
         worst = std::max(worst, pixel.angle_degrees);
@@ -32,14 +32,16 @@ measure::LookupErrorSummary proxy_error_of(const std::string& what,
 
 TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
     for (const std::string face : {"16", "37", "64", "256"}) {
-        const auto pixels = test::measure_lookup_directions(stress::GlyphRoom().make_scene(),
-                                                            "proxy:face=" + face, kProxySize);
+        const auto pixels = test::measure_lookup_directions(
+            stress::LetterRoom().make_letter_room_scene(), "proxy:face=" + face, kProxyPictureSize);
         ASSERT_GT(pixels.size(), 1000u);
         double worst;
-        EXPECT_LT(proxy_error_of("box, face " + face, pixels, worst).p99_degrees, kMostSnapped);
-        EXPECT_LT(worst, kSnapped);
-        EXPECT_EQ(std::ranges::count(pixels, kHit, &measure::LookupDirectionError::state),
-                  std::ssize(pixels));
+        EXPECT_LT(summarise_proxy_errors("box, face " + face, pixels, worst).p99_degrees,
+                  kMostSnapped);
+        EXPECT_LT(worst, kSnappedRayDifference);
+        EXPECT_EQ(
+            std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
+            std::ssize(pixels));
     }
 }
 
@@ -53,12 +55,12 @@ TEST(Proxy, SphereOfARoundRoomIsExact) {
                    {.5, .5, .5}, 2, 5);
     scene.cameras.push_back({.eye = {.5, .5, -6}, .target = {.5, .5, .5}});
     const auto pixels = test::measure_lookup_directions(scene, "proxy:shape=sphere,face=64",
-                                                        kProxySize);
+                                                        kProxyPictureSize);
     ASSERT_GT(pixels.size(), 1000u);
     double worst;
-    EXPECT_LT(proxy_error_of("sphere", pixels, worst).p99_degrees,
-              kSnapped); // the round room consists of 4^7 flat triangles
-    EXPECT_EQ(std::ranges::count(pixels, kHit, &measure::LookupDirectionError::state),
+    EXPECT_LT(summarise_proxy_errors("sphere", pixels, worst).p99_degrees,
+              kSnappedRayDifference); // the round room consists of 4^7 flat triangles
+    EXPECT_EQ(std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
               std::ssize(pixels));
 }
 
@@ -69,13 +71,13 @@ TEST(Proxy, RaysBesideAFloorHitTheFloorOrMiss) {
     test::add_ball(scene, "ball", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    {0, 2, 0}, 1);
     scene.cameras.push_back({.eye = {0, 2.5, -5}, .target = {0, 2, 0}});
-    const auto pixels = test::measure_lookup_directions(scene, "proxy:face=64", kProxySize);
+    const auto pixels = test::measure_lookup_directions(scene, "proxy:face=64", kProxyPictureSize);
     double worst;
-    const measure::LookupErrorSummary error = proxy_error_of("floor", pixels, worst);
+    const measure::LookupErrorSummary error = summarise_proxy_errors("floor", pixels, worst);
     EXPECT_LT(error.mean_degrees, .1);
     EXPECT_LT(error.wrong_object, .02);
     const double hits = static_cast<double>(std::ranges::count(
-                            pixels, kHit, &measure::LookupDirectionError::state)) /
+                            pixels, kSearchHitState, &measure::LookupDirectionError::state)) /
                         static_cast<double>(pixels.size());
     EXPECT_GT(hits, .25);
     EXPECT_LT(hits, .75);
@@ -89,10 +91,11 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
     for (const std::string shape : {"box", "sphere"})
         for (const std::string distance : {"r32f", "unorm8"}) {
             const auto pixels = test::measure_lookup_directions(
-                scene, "proxy:face=16,shape=" + shape + ",distance=" + distance, kProxySize);
+                scene, "proxy:face=16,shape=" + shape + ",distance=" + distance, kProxyPictureSize);
             EXPECT_EQ(
-                test::nonfinite_pixel_count(
-                    test::render_technique(scene, "proxy:face=16,shape=" + shape, kProxySize).hdr),
+                test::count_nonfinite_pixels(
+                    test::render_technique(scene, "proxy:face=16,shape=" + shape, kProxyPictureSize)
+                        .hdr),
                 0u);
             ASSERT_GT(pixels.size(), 1000u);
             // unorm8 cannot store infinity, so the number of misses is not checked for that format.
@@ -100,10 +103,10 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
                                                    &measure::LookupDirectionError::state);
             EXPECT_EQ(misses, distance == "r32f" ? std::ssize(pixels) : misses) << shape;
             double worst;
-            EXPECT_LT(
-                proxy_error_of("nothing, " + shape + ", " + distance, pixels, worst).p99_degrees,
-                kMostSnapped);
-            EXPECT_LT(worst, kSnapped);
+            EXPECT_LT(summarise_proxy_errors("nothing, " + shape + ", " + distance, pixels, worst)
+                          .p99_degrees,
+                      kMostSnapped);
+            EXPECT_LT(worst, kSnappedRayDifference);
         }
 }
 
@@ -111,7 +114,7 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
 /// room as an error.
 TEST(Proxy, BoxReducesTheErrorInTheBuiltInScene) {
     const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
-                                                    test::search_test_views().front(),
+                                                    test::list_search_test_views().front(),
                                                     {"parallax", "proxy", "proxy:continue=4"});
     EXPECT_LE(judged[2].all, .80 * judged[0].all);
     EXPECT_LE(judged[1].lookup.mean_degrees, .05 * judged[0].lookup.mean_degrees);

@@ -11,10 +11,10 @@ namespace {
 using namespace catoptric;
 using Kind = scene::PunctualLight::Kind;
 
-constexpr uvec2 kPunctualSize{32, 32};
+constexpr uvec2 kPunctualPictureSize{32, 32};
 
 /// Returns the cosine of an angle in degrees.
-double degrees(double angle) { return std::cos(glm::radians(angle)); }
+double cosine_of_degrees(double angle) { return std::cos(glm::radians(angle)); }
 
 /// A light over a floor that the camera sees from straight above.
 struct PunctualCase {
@@ -27,7 +27,7 @@ struct PunctualCase {
 };
 
 /// Returns the light that falls on the floor at a place, as KHR_lights_punctual specifies.
-double illuminance(const PunctualCase& lit, const dvec3& place) {
+double floor_illuminance(const PunctualCase& lit, const dvec3& place) {
     if (lit.light.kind == Kind::directional) return -glm::normalize(lit.axis).y;
     const dvec3 to_light = lit.from - place;
     const double distance = glm::length(to_light), part = distance / lit.light.range;
@@ -41,13 +41,13 @@ double illuminance(const PunctualCase& lit, const dvec3& place) {
 
 /// Returns the floor and the light, moved away from the origin and `scale` times as large.
 /// Intensities in candela grow with the square of the scale.
-scene::Scene under(const PunctualCase& lit, double scale) {
+scene::Scene make_floor_under_light(const PunctualCase& lit, double scale) {
     const dvec3 origin(300, -20, 70);
     scene::Scene scene = test::make_floor_scene();
     scene.objects.front().world_from_object = dmat4(scale);
     scene.objects.front().world_from_object[3] = dvec4(origin, 1);
     scene::PunctualLight light = lit.light;
-    light.world_from_light = test::light_transform(origin + scale * lit.from, lit.axis);
+    light.world_from_light = test::make_light_transform(origin + scale * lit.from, lit.axis);
     light.range *= scale;
     if (light.kind != Kind::directional) light.intensity *= float(scale * scale);
     scene.punctual.push_back(light);
@@ -71,15 +71,15 @@ INSTANTIATE_TEST_SUITE_P(
                                  {.kind = Kind::spot,
                                   .intensity = kIntensity,
                                   .range = 9,
-                                  .cos_inner = degrees(12),
-                                  .cos_outer = degrees(30)},
+                                  .cos_inner = cosine_of_degrees(12),
+                                  .cos_outer = cosine_of_degrees(30)},
                                  {.4, 2.5, -.3},
                                  {-.3, -1, .2}},
                     PunctualCase{"spot_without_penumbra",
                                  {.kind = Kind::spot,
                                   .intensity = kIntensity,
-                                  .cos_inner = degrees(25),
-                                  .cos_outer = degrees(25)},
+                                  .cos_inner = cosine_of_degrees(25),
+                                  .cos_outer = cosine_of_degrees(25)},
                                  {.4, 2.5, -.3},
                                  {0, -1, 0}},
                     PunctualCase{"directional",
@@ -91,15 +91,15 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(Punctual, FloorIsLitAsSpecified) {
     const PunctualCase& lit = GetParam();
     for (const double scale : {1.0, 37.0}) {
-        const scene::Scene scene = under(lit, scale);
+        const scene::Scene scene = make_floor_under_light(lit, scale);
         for (const std::string technique : {"raytrace", "naive:bounces=0", "raytrace:shadow=map"}) {
             const measure::Picture picture =
-                test::render_without_ambient(scene, technique, kPunctualSize).hdr;
+                test::render_without_ambient(scene, technique, kPunctualPictureSize).hdr;
             double worst = 0, brightest = 0, darkest = 1e9;
             for (int y = 0; y < picture.height; ++y)
                 for (int x = 0; x < picture.width; ++x) {
                     const dvec3 place(1.96 * ((x + .5) / 16 - 1), 0, 1.96 * ((y + .5) / 16 - 1));
-                    const double arrives = illuminance(lit, place);
+                    const double arrives = floor_illuminance(lit, place);
                     const dvec3 wanted = dvec3(.6, .5, .4) / test::kPi *
                                          dvec3(lit.light.intensity) * arrives;
                     worst = std::max(worst, glm::length(dvec3(picture.at(x, y)) - wanted));
@@ -117,7 +117,7 @@ TEST_P(Punctual, ShadowsAreTheSameInRasterAndRays) {
     scene::Scene scene = test::make_yard_scene();
     const PunctualCase& lit = GetParam();
     scene::PunctualLight light = lit.light;
-    light.world_from_light = test::light_transform(lit.from + dvec3(0, .5, 0), lit.axis);
+    light.world_from_light = test::make_light_transform(lit.from + dvec3(0, .5, 0), lit.axis);
     scene.punctual.push_back(light);
     const double off = test::share_off_in_raster_picture(scene, {128, 128});
     std::cout << "[ MEASURED ] share off " << off << "\n";
@@ -130,11 +130,12 @@ TEST_P(Punctual, ShadowsAreTheSameInRasterAndRays) {
 }
 
 /// Renders the floor lit by all of these lights.
-measure::Picture under_these(const std::vector<PunctualCase>& all, const std::string& technique) {
-    scene::Scene scene = under(all.front(), 1);
+measure::Picture render_floor_under_lights(const std::vector<PunctualCase>& all,
+                                           const std::string& technique) {
+    scene::Scene scene = make_floor_under_light(all.front(), 1);
     for (std::size_t i = 1; i < all.size(); ++i)
-        scene.punctual.push_back(under(all[i], 1).punctual.front());
-    return test::render_without_ambient(scene, technique, kPunctualSize).hdr;
+        scene.punctual.push_back(make_floor_under_light(all[i], 1).punctual.front());
+    return test::render_without_ambient(scene, technique, kPunctualPictureSize).hdr;
 }
 
 // One light and several lights are drawn by different shader variants.
@@ -145,8 +146,9 @@ TEST(Lights, SeveralLightsAddUp) {
         {"far", {.intensity = 2.f * kIntensity}, {-1, 3, -.5}, {0, 0, -1}}};
     for (const std::string technique : {"raytrace", "naive:bounces=0"}) {
         std::vector<measure::Picture> alone;
-        for (const PunctualCase& light : all) alone.push_back(under_these({light}, technique));
-        const measure::Picture together = under_these(all, technique);
+        for (const PunctualCase& light : all)
+            alone.push_back(render_floor_under_lights({light}, technique));
+        const measure::Picture together = render_floor_under_lights(all, technique);
         for (int y = 0; y < together.height; ++y)
             for (int x = 0; x < together.width; ++x) {
                 dvec3 sum(0);
@@ -167,9 +169,10 @@ TEST(Directional, LightReachesObjectsFarFromTheSceneCore) {
         test::add_quad(scene, "roof", grey, {x - 1, 1, 1}, {x + 1, 1, 1}, {x + 1, 1, -1},
                        {x - 1, 1, -1});
     }
-    scene.punctual.push_back({.kind = Kind::directional,
-                              .intensity = vec3(1.5f),
-                              .world_from_light = test::light_transform({0, 0, 0}, {.4, -1, -.3})});
+    scene.punctual.push_back(
+        {.kind = Kind::directional,
+         .intensity = vec3(1.5f),
+         .world_from_light = test::make_light_transform({0, 0, 0}, {.4, -1, -.3})});
     for (const double x : {-60.0, 0.0, 50.0}) {
         scene.cameras.front() = {
             .eye = {x + 1, 2.5, 4}, .target = {x, .3, 0}, .vertical_fov_degrees = 50};

@@ -15,43 +15,44 @@ namespace {
 
 using namespace catoptric;
 
-graph::ImageHandle image_called(const graph::Graph& graph, const std::string& name) {
-    const auto& images = graph.images();
+graph::ImageHandle find_image_by_name(const graph::Graph& graph, const std::string& name) {
+    const auto& images = graph.list_images();
     const auto found = std::ranges::find(images, name, &graph::ImageDesc::name);
     if (found == images.end()) throw std::runtime_error("no image " + name);
     return {static_cast<std::uint32_t>(found - images.begin()), 0, found->layers};
 }
 
 /// The pyramid over a technique's captures, and the results of lookups in a list of directions.
-struct Read {
+struct PyramidReadBack {
     std::uint32_t face = 0;
     std::vector<std::uint32_t> cells;
     std::vector<vec4> linear, nearest; ///< colour, and distance in w
 
     /// Returns the number of levels. This test computes sizes and places itself, from the
     /// description in shaders/reflect/pyramid.glsl.
-    std::uint32_t levels() const {
+    std::uint32_t count_levels() const {
         std::uint32_t level = 1;
         while ((1u << level) < face) ++level;
         return level;
     }
     /// Returns the smallest and largest distance of a cell.
-    vec2 bounds(std::uint32_t level, std::uint32_t layer, std::uint32_t x, std::uint32_t y) const {
-        const std::uint32_t width = 1u << levels(), height = (face + 1) / 2;
+    vec2 distance_bounds_of_cell(std::uint32_t level, std::uint32_t layer, std::uint32_t x,
+                                 std::uint32_t y) const {
+        const std::uint32_t width = 1u << count_levels(), height = (face + 1) / 2;
         std::uint32_t column = 0;
         for (std::uint32_t k = 1; k < level; ++k) column += width >> k;
         const std::uint32_t both = cells[(std::size_t{layer} * height + y) * width + column + x];
         return {half_to_float(static_cast<std::uint16_t>(both)),
                 half_to_float(static_cast<std::uint16_t>(both >> 16))};
     }
-    std::uint32_t cells_across(std::uint32_t level) const {
+    std::uint32_t count_cells_across_level(std::uint32_t level) const {
         return (face + (1u << level) - 1) >> level;
     }
 };
 
-Read read_pyramid(const scene::Scene& scene, const std::string& technique,
-                  const std::vector<vec4>& directions) {
-    auto& [device, pipelines] = test::test_device();
+PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::string& technique,
+                                       const std::vector<vec4>& directions) {
+    auto& [device, pipelines] = test::get_test_device();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {16, 16}, .05);
     graph::GraphRunner runner(device, pipelines);
@@ -59,12 +60,12 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
     const reflect::TechniqueChoice choice = reflect::parse_technique_choice(technique);
     test::add_technique(graph, inputs, technique);
-    const graph::ImageHandle pyramid = image_called(graph, "pyramid"),
-                             colour = image_called(graph, "capture/cubes.colour");
-    const graph::ImageHandle distance = image_called(graph, "capture/cubes.distance");
-    gpu::Buffer asked(device, "directions", directions.size() * sizeof(vec4),
-                      gpu::BufferUsage::plain);
-    asked.write(std::span<const vec4>(directions));
+    const graph::ImageHandle pyramid = find_image_by_name(graph, "pyramid"),
+                             colour = find_image_by_name(graph, "capture/cubes.colour");
+    const graph::ImageHandle distance = find_image_by_name(graph, "capture/cubes.distance");
+    gpu::GpuBuffer asked(device, "directions", directions.size() * sizeof(vec4),
+                         gpu::BufferUsage::plain);
+    asked.write_contents(std::span<const vec4>(directions));
     std::array<graph::BufferHandle, 2> found;
     for (int i = 0; i < 2; ++i) {
         found[i] = graph.add_buffer(
@@ -75,25 +76,26 @@ Read read_pyramid(const scene::Scene& scene, const std::string& technique,
             .writes(found[i], graph::ResourceUse::storage_write)
             .record([=, &asked, count = directions.size()](graph::PassCommands& commands) {
                 commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
-                commands.bind("colour_cubes", colour, graph::TextureFilter::linear);
-                commands.bind("distance_cubes", distance,
-                              i == 0 ? graph::TextureFilter::linear
-                                     : graph::TextureFilter::nearest);
-                commands.bind("Directions", asked);
-                commands.bind("Found", found[i]);
+                commands.bind_resource("colour_cubes", colour, graph::TextureFilter::linear);
+                commands.bind_resource("distance_cubes", distance,
+                                       i == 0 ? graph::TextureFilter::linear
+                                              : graph::TextureFilter::nearest);
+                commands.bind_resource("Directions", asked);
+                commands.bind_resource("Found", found[i]);
                 commands.dispatch(static_cast<std::uint32_t>((count + 63) / 64), 1);
             });
         graph.mark_output(found[i]);
     }
     graph.mark_output(pyramid);
     test::run_graph(runner, graph);
-    return {*choice.shared.face, test::read_values<std::uint32_t>(runner, pyramid),
-            test::read_values<vec4>(runner, found[0]), test::read_values<vec4>(runner, found[1])};
+    return {*choice.shared.face, test::read_resource_values<std::uint32_t>(runner, pyramid),
+            test::read_resource_values<vec4>(runner, found[0]),
+            test::read_resource_values<vec4>(runner, found[1])};
 }
 
 /// Returns random directions, many of them along edges and at corners of cube faces. The component
 /// w holds the number of the mirror.
-std::vector<vec4> directions(std::uint32_t mirrors) {
+std::vector<vec4> make_random_directions(std::uint32_t mirrors) {
     std::mt19937 random(1);
     std::normal_distribution<float> normal;
     std::uniform_real_distribution<float> uniform(-1, 1);
@@ -125,8 +127,9 @@ INSTANTIATE_TEST_SUITE_P(Pyramid, Bounds,
                          });
 
 TEST_P(Bounds, BoundsContainEveryLookup) {
-    const std::vector<vec4> asked = directions(4);
-    const Read read = read_pyramid(scene::make_cornell_mirrors(), "pyramid:" + GetParam(), asked);
+    const std::vector<vec4> asked = make_random_directions(4);
+    const PyramidReadBack read = build_and_read_pyramid(scene::make_cornell_mirrors(),
+                                                        "pyramid:" + GetParam(), asked);
     std::size_t outside = 0, judged = 0, nothing = 0;
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const vec3 direction(asked[i]);
@@ -137,12 +140,12 @@ TEST_P(Bounds, BoundsContainEveryLookup) {
         const vec2 at = glm::clamp((vec2(place) / place.z * .5f + .5f) *
                                        static_cast<float>(read.face),
                                    vec2(0), vec2(static_cast<float>(read.face) - .5f));
-        for (std::uint32_t level = 1; level <= read.levels(); ++level) {
-            const vec2 bounds = read.bounds(level,
-                                            6 * static_cast<std::uint32_t>(asked[i].w) +
-                                                static_cast<std::uint32_t>(face),
-                                            static_cast<std::uint32_t>(at.x) >> level,
-                                            static_cast<std::uint32_t>(at.y) >> level);
+        for (std::uint32_t level = 1; level <= read.count_levels(); ++level) {
+            const vec2 bounds = read.distance_bounds_of_cell(
+                level,
+                6 * static_cast<std::uint32_t>(asked[i].w) + static_cast<std::uint32_t>(face),
+                static_cast<std::uint32_t>(at.x) >> level,
+                static_cast<std::uint32_t>(at.y) >> level);
             ++judged;
             nothing += std::isinf(found);
             const float roundings = std::isinf(found) ? 0 : 4 * found * 0x1p-24f;
@@ -156,21 +159,21 @@ TEST_P(Bounds, BoundsContainEveryLookup) {
 }
 
 TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
-    const Read read = read_pyramid(scene::make_cornell_mirrors(), "pyramid:" + GetParam(),
-                                   directions(4));
+    const PyramidReadBack read = build_and_read_pyramid(
+        scene::make_cornell_mirrors(), "pyramid:" + GetParam(), make_random_directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
-        for (std::uint32_t level = 2; level <= read.levels(); ++level)
-            for (std::uint32_t y = 0; y < read.cells_across(level); ++y)
-                for (std::uint32_t x = 0; x < read.cells_across(level); ++x) {
+        for (std::uint32_t level = 2; level <= read.count_levels(); ++level)
+            for (std::uint32_t y = 0; y < read.count_cells_across_level(level); ++y)
+                for (std::uint32_t x = 0; x < read.count_cells_across_level(level); ++x) {
                     vec2 wanted(std::numeric_limits<float>::infinity(), 0);
                     for (std::uint32_t child = 0; child < 4; ++child) {
                         const std::uint32_t cx = 2 * x + child % 2, cy = 2 * y + child / 2;
-                        if (std::max(cx, cy) >= read.cells_across(level - 1)) continue;
-                        const vec2 bounds = read.bounds(level - 1, layer, cx, cy);
+                        if (std::max(cx, cy) >= read.count_cells_across_level(level - 1)) continue;
+                        const vec2 bounds = read.distance_bounds_of_cell(level - 1, layer, cx, cy);
                         wanted = {std::min(wanted.x, bounds.x), std::max(wanted.y, bounds.y)};
                     }
-                    wrong += read.bounds(level, layer, x, y) != wanted;
+                    wrong += read.distance_bounds_of_cell(level, layer, x, y) != wanted;
                 }
     EXPECT_EQ(wrong, 0u);
 }
@@ -178,22 +181,24 @@ TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
 /// Inside a face, the bounds of a cell must be those of its 2x2 texels and the ring around them.
 /// The bounds are rounded outwards to half floats.
 TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
-    constexpr std::uint32_t kFace = 64;
+    constexpr std::uint32_t kCaptureFaceTexels = 64;
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const test::CapturedCubes captured = test::capture_mirrors(scene, kFace, Format::r32f);
-    const Read read = read_pyramid(scene, "pyramid:face=64", directions(4));
+    const test::CapturedCubes captured = test::capture_mirrors(scene, kCaptureFaceTexels,
+                                                               TexelFormat::r32f);
+    const PyramidReadBack read = build_and_read_pyramid(scene, "pyramid:face=64",
+                                                        make_random_directions(4));
     std::size_t wrong = 0;
     for (std::uint32_t layer = 0; layer < 24; ++layer)
-        for (std::uint32_t y = 1; y + 1 < kFace / 2; ++y)
-            for (std::uint32_t x = 1; x + 1 < kFace / 2; ++x) {
+        for (std::uint32_t y = 1; y + 1 < kCaptureFaceTexels / 2; ++y)
+            for (std::uint32_t x = 1; x + 1 < kCaptureFaceTexels / 2; ++x) {
                 vec2 wanted(std::numeric_limits<float>::infinity(), 0);
                 for (std::uint32_t k = 0; k < 16; ++k) {
                     const float d = captured.distance(layer / 6, static_cast<int>(layer % 6),
                                                       2 * x - 1 + k % 4, 2 * y - 1 + k / 4,
-                                                      Format::r32f);
+                                                      TexelFormat::r32f);
                     wanted = {std::min(wanted.x, d), std::max(wanted.y, d)};
                 }
-                const vec2 bounds = read.bounds(1, layer, x, y);
+                const vec2 bounds = read.distance_bounds_of_cell(1, layer, x, y);
                 for (int i = 0; i < 2; ++i)
                     wrong += std::isinf(wanted[i])
                                  ? bounds[i] != wanted[i]
@@ -206,7 +211,8 @@ TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
 TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
         const auto pixels = test::measure_lookup_directions(
-            stress::GlyphRoom().make_scene(), "pyramid:face=" + std::to_string(face), {128, 128});
+            stress::LetterRoom().make_letter_room_scene(), "pyramid:face=" + std::to_string(face),
+            {128, 128});
         ASSERT_GT(pixels.size(), 1000u);
         EXPECT_EQ(std::ranges::count(pixels, 0, &measure::LookupDirectionError::state),
                   std::ssize(pixels))
@@ -227,7 +233,7 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
 
 TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
     const auto pixels = test::measure_lookup_directions(
-        scene::make_cornell_mirrors(), "pyramid:face=256,continue=0", test::kSearchTestSize);
+        scene::make_cornell_mirrors(), "pyramid:face=256,continue=0", test::kSearchTestPictureSize);
     std::array<std::size_t, 3> count{}, wrong{};
     double hit_angle = 0, miss_angle = 0;
     for (const measure::LookupDirectionError& pixel : pixels) {

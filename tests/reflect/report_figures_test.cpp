@@ -19,36 +19,36 @@ namespace {
 using namespace catoptric;
 using nlohmann::json;
 
-constexpr uvec2 kReportFiguresSize{40, 30};
-constexpr int kReportFiguresFrames = 8, kWarmup = 3;
+constexpr uvec2 kReportPictureSize{40, 30};
+constexpr int kReportFrameCount = 8, kWarmup = 3;
 const std::vector<std::size_t> kFramesOfRounds{2, 2, 1, 1, 1, 1}; ///< measured frames in each round
-constexpr double kStops = -1;
+constexpr double kExposureStops = -1;
 
 /// Returns the test scene `make_mirror_hall` with a camera that sees the lamp.
-scene::Scene report_figures_bright_hall() {
+scene::Scene make_hall_with_visible_lamp() {
     scene::Scene scene = test::make_mirror_hall();
     scene.cameras.front().target = {0, .5, 0};
     return scene;
 }
 
-app::CompareRequest report_figures_asked(const std::vector<std::string>& rows) {
+app::CompareRequest make_report_request(const std::vector<std::string>& rows) {
     app::CompareRequest request;
-    request.base = test::make_test_request(report_figures_bright_hall(), rows, kReportFiguresSize);
-    request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
-    request.base.exposure = kStops;
+    request.base = test::make_test_request(make_hall_with_visible_lamp(), rows, kReportPictureSize);
+    request.base.frames = kReportFrameCount, request.base.warmup = kWarmup;
+    request.base.exposure = kExposureStops;
     return request;
 }
 
-json compared(const app::CompareRequest& request) {
-    return json::parse(report::to_json(app::compare(test::test_engine(), request)));
+json compare_and_read_report(const app::CompareRequest& request) {
+    return json::parse(report::to_json(app::compare(test::get_test_engine(), request)));
 }
 
-app::TechniqueResult rendered(const std::string& technique) {
-    app::Request request = test::make_test_request(report_figures_bright_hall(), {technique},
-                                                   kReportFiguresSize);
-    request.frames = kReportFiguresFrames, request.warmup = kWarmup;
-    request.exposure = kStops;
-    return std::move(app::run(test::test_engine(), request).parts.front());
+app::TechniqueResult render_report_row(const std::string& technique) {
+    app::Request request = test::make_test_request(make_hall_with_visible_lamp(), {technique},
+                                                   kReportPictureSize);
+    request.frames = kReportFrameCount, request.warmup = kWarmup;
+    request.exposure = kExposureStops;
+    return std::move(app::run(test::get_test_engine(), request).parts.front());
 }
 
 /// Returns whether a figure includes a pixel, given the first and second mirror that its ray meets;
@@ -56,19 +56,19 @@ app::TechniqueResult rendered(const std::string& technique) {
 using Chosen = std::function<bool(unsigned, unsigned)>;
 
 /// Returns the FLIP map of two pictures as they are displayed, without rounding to eight bits.
-std::vector<float> flip_of(const app::TechniqueResult& a, const app::TechniqueResult& b,
-                           double stops) {
+std::vector<float> flip_map_of_results(const app::TechniqueResult& a, const app::TechniqueResult& b,
+                                       double stops) {
     return measure::flip(measure::to_unrounded_display(a.hdr, stops),
                          measure::to_unrounded_display(b.hdr, stops));
 }
 
 /// Checks the error figures against their definitions: linear colours times the exposure, clamped
 /// to [0,1], over the chosen pixels and all channels.
-void expect_errors(const json& found, const app::TechniqueResult& part,
-                   const app::TechniqueResult& truth, const std::vector<std::uint32_t>& hits,
-                   const Chosen& chosen) {
-    const std::vector<float> map = flip_of(part, truth, kStops);
-    const double gain = std::exp2(kStops);
+void expect_error_figures(const json& found, const app::TechniqueResult& part,
+                          const app::TechniqueResult& truth, const std::vector<std::uint32_t>& hits,
+                          const Chosen& chosen) {
+    const std::vector<float> map = flip_map_of_results(part, truth, kExposureStops);
+    const double gain = std::exp2(kExposureStops);
     double squares = 0, sum = 0, flip = 0;
     std::vector<std::pair<double, std::size_t>> largest;
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -106,10 +106,10 @@ void expect_errors(const json& found, const app::TechniqueResult& part,
     const auto first = std::ranges::find(largest, largest.back().first,
                                          &std::pair<double, std::size_t>::first);
     EXPECT_EQ(found["max_at"],
-              json({first->second % kReportFiguresSize.x, first->second / kReportFiguresSize.x}));
+              json({first->second % kReportPictureSize.x, first->second / kReportPictureSize.x}));
 }
 
-void expect_mean(const json& found, const measure::Picture& picture, double most) {
+void expect_mean_figure(const json& found, const measure::Picture& picture, double most) {
     for (int c = 0; c < 3; ++c) {
         double sum = 0;
         for (const vec3& pixel : picture.pixels) sum += std::clamp<double>(pixel[c], 0, most);
@@ -120,9 +120,9 @@ void expect_mean(const json& found, const measure::Picture& picture, double most
 TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     const std::vector<std::string> rows{"parallax:face=32", "raytrace:depth=1",
                                         "raytrace:depth=1,samples=4"};
-    const json document = compared(report_figures_asked(rows));
-    const app::TechniqueResult truth = rendered(app::kReference);
-    const app::TechniqueResult finer = rendered("raytrace:depth=16,samples=4");
+    const json document = compare_and_read_report(make_report_request(rows));
+    const app::TechniqueResult truth = render_report_row(app::kReference);
+    const app::TechniqueResult finer = render_report_row("raytrace:depth=16,samples=4");
     // The first of four rays in a pixel hits nearly always the same mirror as the ray through its
     // centre.
     std::size_t others = 0;
@@ -147,22 +147,22 @@ TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         SCOPED_TRACE(rows[i]);
         const json& row = document["rows"][i];
-        const app::TechniqueResult part = rendered(rows[i]);
+        const app::TechniqueResult part = render_report_row(rows[i]);
         // The reference uses the row's own number of samples.
         const app::TechniqueResult& wanted = i == 2 ? finer : truth;
         for (const auto& [name, chosen] : masks) {
             SCOPED_TRACE(name);
-            expect_errors(row[name], part, wanted, truth.hits, chosen);
+            expect_error_figures(row[name], part, wanted, truth.hits, chosen);
         }
         ASSERT_EQ(row["error_per_mirror"].size(), 3U);
         for (unsigned mirror = 1; mirror <= 3; ++mirror) {
             SCOPED_TRACE(mirror);
             EXPECT_EQ(row["error_per_mirror"][mirror - 1]["mirror"], mirror);
-            expect_errors(row["error_per_mirror"][mirror - 1], part, wanted, truth.hits,
-                          [&](unsigned first, unsigned) { return first == mirror; });
+            expect_error_figures(row["error_per_mirror"][mirror - 1], part, wanted, truth.hits,
+                                 [&](unsigned first, unsigned) { return first == mirror; });
         }
-        expect_mean(row["mean"], part.hdr, 1e9);
-        expect_mean(row["mean_clamped"], part.hdr, 1);
+        expect_mean_figure(row["mean"], part.hdr, 1e9);
+        expect_mean_figure(row["mean_clamped"], part.hdr, 1);
         EXPECT_NE(row["mean"], row["mean_clamped"]) << "the lamp is in view";
         EXPECT_EQ(row["scene_passes"], part.scene_passes);
         EXPECT_EQ(row["scene_draws"], part.scene_draws);
@@ -175,19 +175,19 @@ TEST(ReportFigures, ErrorsEqualThoseOfSeparatePictures) {
 TEST(ReportFigures, RowIsComparedAtItsOwnSampleCount) {
     const std::vector<std::string> rows{"raytrace:depth=16,samples=4", "raytrace:depth=16",
                                         "raytrace:depth=16,samples=9", "reuse:face=32"};
-    const json document = compared(report_figures_asked(rows));
+    const json document = compare_and_read_report(make_report_request(rows));
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(document["rows"][i]["error_all"]["max"], 0) << rows[i];
         EXPECT_EQ(document["rows"][i]["is_reference"], true) << rows[i];
     }
-    const app::TechniqueResult truth = rendered(app::kReference);
-    expect_errors(document["rows"][3]["error"], rendered(rows[3]), truth, truth.hits,
-                  [](unsigned first, unsigned) { return first != 0; });
+    const app::TechniqueResult truth = render_report_row(app::kReference);
+    expect_error_figures(document["rows"][3]["error"], render_report_row(rows[3]), truth,
+                         truth.hits, [](unsigned first, unsigned) { return first != 0; });
 }
 
 /// Returns the percentile of samples, interpolated linearly between the two nearest of the sorted
 /// samples.
-double percentile(std::vector<double> samples, double fraction) {
+double percentile_of_samples(std::vector<double> samples, double fraction) {
     std::ranges::sort(samples);
     const double position = fraction * static_cast<double>(samples.size() - 1);
     const auto below = static_cast<std::size_t>(position);
@@ -197,54 +197,55 @@ double percentile(std::vector<double> samples, double fraction) {
 
 /// Checks a summary of times. `frames`: number of frames in each round; empty: the row was measured
 /// without rounds.
-void expect_summary(const json& found, const std::vector<std::size_t>& frames) {
+void expect_time_summary(const json& found, const std::vector<std::size_t>& frames) {
     const auto samples = found["samples"].get<std::vector<double>>();
-    ASSERT_EQ(samples.size(), std::size_t{kReportFiguresFrames});
+    ASSERT_EQ(samples.size(), std::size_t{kReportFrameCount});
     EXPECT_EQ(found["n"], samples.size());
-    const double median = percentile(samples, .5);
+    const double median = percentile_of_samples(samples, .5);
     std::vector<double> rounds;
     for (auto from = samples.begin(); const std::size_t count : frames) {
         const auto end = from + static_cast<std::ptrdiff_t>(count);
-        rounds.push_back(percentile({from, end}, .5));
+        rounds.push_back(percentile_of_samples({from, end}, .5));
         from = end;
     }
     EXPECT_EQ(found["rounds"].get<std::vector<double>>(), rounds);
     EXPECT_DOUBLE_EQ(found["median"].get<double>(),
-                     rounds.empty() ? median : percentile(rounds, .5));
+                     rounds.empty() ? median : percentile_of_samples(rounds, .5));
     if (rounds.size() == 6) {
         EXPECT_EQ(found["ci95"][0], *std::ranges::min_element(rounds));
         EXPECT_EQ(found["ci95"][1], *std::ranges::max_element(rounds));
     } else {
         EXPECT_TRUE(found["ci95"].is_null());
     }
-    EXPECT_DOUBLE_EQ(found["p05"].get<double>(), percentile(samples, .05));
-    EXPECT_DOUBLE_EQ(found["p95"].get<double>(), percentile(samples, .95));
+    EXPECT_DOUBLE_EQ(found["p05"].get<double>(), percentile_of_samples(samples, .05));
+    EXPECT_DOUBLE_EQ(found["p95"].get<double>(), percentile_of_samples(samples, .95));
     std::vector<double> off;
     for (const double sample : samples) off.push_back(std::abs(sample - median));
-    EXPECT_NEAR(found["mad"].get<double>(), percentile(off, .5), 1e-12);
+    EXPECT_NEAR(found["mad"].get<double>(), percentile_of_samples(off, .5), 1e-12);
 }
 
 /// Returns the GPU time of all passes of a row in measured frame `k`, in ms.
-double of_passes(const json& row, int k) {
+double sum_of_pass_times(const json& row, int k) {
     double sum = 0;
     for (const json& pass : row["passes"]) sum += pass["gpu_ms"]["samples"][k].get<double>();
     return sum;
 }
 
 TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
-    const json document = compared(report_figures_asked({"parallax:face=32", "raytrace"}));
+    const json document = compare_and_read_report(
+        make_report_request({"parallax:face=32", "raytrace"}));
     for (const json& row : document["rows"]) {
         SCOPED_TRACE(row["label"]);
         for (const char* name :
              {"gpu_ms", "cpu_record_ms", "wall_ms", "closure", "host_ms", "frame_ms", "wait_ms"})
-            expect_summary(row[name], kFramesOfRounds);
-        if (test::test_engine().device().type == "cpu") {
-            expect_summary(row["cpu_ms"], kFramesOfRounds);
+            expect_time_summary(row[name], kFramesOfRounds);
+        if (test::get_test_engine().device().type == "cpu") {
+            expect_time_summary(row["cpu_ms"], kFramesOfRounds);
             EXPECT_GE(row["cpu_ms"]["median"].get<double>(), row["host_parts"]["record"]);
         }
-        for (const json& pass : row["passes"]) expect_summary(pass["gpu_ms"], kFramesOfRounds);
-        for (int k = 0; k < kReportFiguresFrames; ++k) {
-            const double passes = of_passes(row, k);
+        for (const json& pass : row["passes"]) expect_time_summary(pass["gpu_ms"], kFramesOfRounds);
+        for (int k = 0; k < kReportFrameCount; ++k) {
+            const double passes = sum_of_pass_times(row, k);
             const double gpu = row["gpu_ms"]["samples"][k], wall = row["wall_ms"]["samples"][k];
             EXPECT_NEAR(row["closure"]["samples"][k].get<double>(), passes / wall, 1e-9);
             EXPECT_LE(passes, gpu * (1 + 1e-9)) << "passes lie between the first and last stamp";
@@ -263,22 +264,22 @@ TEST(ReportFigures, TimesEqualThoseOfFramesAndPasses) {
     EXPECT_GE(setup["compile_ms"], 0);
     EXPECT_GE(setup["pipelines"], 0) << "those of other tests are there";
     EXPECT_EQ(setup["pipeline_cache"], "none");
-    expect_summary(document["reference"]["gpu_ms"], {});
+    expect_time_summary(document["reference"]["gpu_ms"], {});
 }
 
 /// The report states how far a picture of pixel centres is from the mean over the pixels.
 TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
-    app::CompareRequest request = report_figures_asked({"parallax:face=32"});
-    const json document = compared(request);
+    app::CompareRequest request = make_report_request({"parallax:face=32"});
+    const json document = compare_and_read_report(request);
     const measure::Picture centre =
-        test::render_technique(request.base.scene, "raytrace:depth=16", kReportFiguresSize).hdr;
+        test::render_technique(request.base.scene, "raytrace:depth=16", kReportPictureSize).hdr;
     const app::TechniqueResult area = test::render_technique(
-        request.base.scene, "raytrace:depth=16,samples=16", kReportFiguresSize);
+        request.base.scene, "raytrace:depth=16,samples=16", kReportPictureSize);
     const std::vector<float> map = measure::flip(
         measure::to_unrounded_display(centre, request.base.exposure),
         measure::to_unrounded_display(area.hdr, request.base.exposure));
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        test::render_technique(request.base.scene, "raytrace:depth=1", kReportFiguresSize).hits);
+        test::render_technique(request.base.scene, "raytrace:depth=1", kReportPictureSize).hits);
     EXPECT_GT(measure::flip_mean(map, mirrors), .001);
     EXPECT_NEAR(document["reference"]["area_flip"], measure::flip_mean(map, mirrors), 1e-7);
     // The last two cannot trace 16 samples a pixel.
@@ -286,7 +287,7 @@ TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
                               "raytrace:depth=4,rays=8192"}) {
         request.reference = other;
         if (request.reference.find("rays=8192") != std::string::npos) request.base.size = {8, 6};
-        const json found = compared(request);
+        const json found = compare_and_read_report(request);
         EXPECT_TRUE(found["complete"]) << other;
         EXPECT_TRUE(found["reference"]["area_flip"].is_null()) << other;
     }
@@ -295,12 +296,12 @@ TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
 /// The host's work for a moving scene must be reported in the parts of the frame to which the work
 /// belongs.
 TEST(ReportFigures, MovingSceneNeedsHostWork) {
-    app::CompareRequest request = report_figures_asked({"parallax:face=32", "raytrace"});
-    const json still = compared(request);
+    app::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
+    const json still = compare_and_read_report(request);
     request.base.scene = scene::make_cornell_mirrors(); // a scene with a moving ball
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
-    const json moving = compared(request);
+    const json moving = compare_and_read_report(request);
     for (const json& row : still["rows"]) {
         EXPECT_FALSE(row.contains("moves"));
         EXPECT_EQ(row["host_parts"]["update"], 0) << "nothing is written for a still frame";
@@ -318,15 +319,15 @@ TEST(ReportFigures, MovingSceneNeedsHostWork) {
 
 /// With fewer frames than rounds, each frame is a round. Five rounds give no confidence interval.
 TEST(ReportFigures, FewFramesAreOneRoundEach) {
-    app::CompareRequest request = report_figures_asked({"reuse:face=32"});
+    app::CompareRequest request = make_report_request({"reuse:face=32"});
     request.base.frames = 5;
-    const json document = compared(request);
+    const json document = compare_and_read_report(request);
     EXPECT_EQ(document["rounds"], 5);
     const json& times = document["rows"][0]["gpu_ms"];
     EXPECT_EQ(times["rounds"], times["samples"]);
     EXPECT_TRUE(times["ci95"].is_null());
     request.rounds = 5;
-    EXPECT_EQ(test::error_text_of(Failure::usage, [&] { compared(request); }),
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { compare_and_read_report(request); }),
               "rounds: wanted at least 6, fewer bound no median, found 5");
 }
 
@@ -336,42 +337,42 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     const std::vector<std::string> rows{"reuse:face=32", "pyramid:face=auto", "raytrace",
                                         "naive:face=16", "reuse:face=16"};
     app::CompareRequest request;
-    request.base = test::make_test_request(scene::make_cornell_mirrors(), rows, kReportFiguresSize);
+    request.base = test::make_test_request(scene::make_cornell_mirrors(), rows, kReportPictureSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
-    request.base.frames = kReportFiguresFrames, request.base.warmup = kWarmup;
+    request.base.frames = kReportFrameCount, request.base.warmup = kWarmup;
     std::vector<int> pictured;
     request.on_finished_row = [&](const report::Comparison& so_far) {
         pictured.push_back(so_far.rows.back().pictured);
     };
-    const report::Comparison compared = app::compare(test::test_engine(), request);
+    const report::Comparison compared = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(pictured, (std::vector<int>{5, 5, 5, 5, 5, 5, 5, 5, 5, 11}))
         << "told after each row of the first round, then after each round";
     for (std::size_t i = 0; i < rows.size(); ++i) {
         app::Request alone = request.base;
         alone.techniques = {rows[i]};
         const app::TechniqueResult part = std::move(
-            app::run(test::test_engine(), alone).parts.front());
+            app::run(test::get_test_engine(), alone).parts.front());
         EXPECT_TRUE(test::have_equal_pixel_bytes(compared.rows[i].hdr, part.hdr)) << rows[i];
         alone.techniques = {"raytrace:depth=16"};
         alone.time = alone.instant(alone.total()), alone.animate = false;
         alone.frames = 1, alone.warmup = 0;
         const app::TechniqueResult truth = std::move(
-            app::run(test::test_engine(), alone).parts.front());
-        const std::vector<float> map = flip_of(part, truth, request.base.exposure);
+            app::run(test::get_test_engine(), alone).parts.front());
+        const std::vector<float> map = flip_map_of_results(part, truth, request.base.exposure);
         EXPECT_EQ(compared.rows[i].flip_map, map) << rows[i];
     }
 }
 
 TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
-    app::CompareRequest request = report_figures_asked({"parallax:face=32", "raytrace"});
+    app::CompareRequest request = make_report_request({"parallax:face=32", "raytrace"});
     request.together = true;
-    const json document = compared(request);
-    for (int k = 0; k < kReportFiguresFrames; ++k) {
+    const json document = compare_and_read_report(request);
+    for (int k = 0; k < kReportFrameCount; ++k) {
         double all = 0;
         for (const json& row : document["rows"]) {
-            EXPECT_NEAR(row["gpu_ms"]["samples"][k].get<double>(), of_passes(row, k), 1e-9);
-            all += of_passes(row, k);
+            EXPECT_NEAR(row["gpu_ms"]["samples"][k].get<double>(), sum_of_pass_times(row, k), 1e-9);
+            all += sum_of_pass_times(row, k);
         }
         // Closure: time of all passes over that of the whole frame.
         for (const json& row : document["rows"])
@@ -382,14 +383,14 @@ TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
 
 /// Rows run in reverse order in every second round, so that no row always follows the same row.
 TEST(Rounds, OrderOfRowsAlternates) {
-    app::CompareRequest request = report_figures_asked(
+    app::CompareRequest request = make_report_request(
         {"reuse:face=16,shadow_map=16", "raytrace:depth=1"});
     std::vector<std::string> measured;
     request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t) {
         if (label.find(", round ") != std::string::npos)
             measured.push_back(label.substr(0, label.find(':')));
     };
-    const report::Comparison found = app::compare(test::test_engine(), request);
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_EQ(measured.size(), 2 * kFramesOfRounds.size());
     for (std::size_t i = 0; i < measured.size(); ++i)
         EXPECT_EQ(measured[i], i % 4 == 0 || i % 4 == 3 ? "reuse" : "raytrace") << i;

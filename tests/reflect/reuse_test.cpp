@@ -11,16 +11,16 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kReuseSize{512, 512};
+constexpr uvec2 kReusePictureSize{512, 512};
 
 TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     app::Request request = test::make_test_request(scene, {"reuse:face=128"}, {256, 256});
     request.frames = 8;
     std::vector<app::TechniqueResult> reused;
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     for (app::FrameLoop frames(session, request); frames.render_next();)
-        reused.push_back(frames.frame().read());
+        reused.push_back(frames.current_frame().read());
     ASSERT_EQ(reused.size(), 8u);
     for (std::size_t k = 1; k <= reused.size(); ++k) {
         const app::TechniqueResult& reuse = reused[k - 1];
@@ -38,17 +38,18 @@ TEST(Reuse, FrameKEqualsNaiveWithKBounces) {
 }
 
 /// Sum of the squared differences of two pictures, clamped to [0,1], over a mask.
-struct Change {
+struct SquaredChangeSum {
     double sum = 0, largest_pixel = 0;
     std::size_t pixels = 0;
-    double rmse(bool without_largest) const {
+    double root_mean_square(bool without_largest) const {
         return std::sqrt((sum - (without_largest ? largest_pixel : 0)) /
                          (3.0 * static_cast<double>(pixels)));
     }
 };
 
-Change change(const measure::Picture& a, const measure::Picture& b, const measure::Mask& mask) {
-    Change result;
+SquaredChangeSum sum_squared_change(const measure::Picture& a, const measure::Picture& b,
+                                    const measure::Mask& mask) {
+    SquaredChangeSum result;
     for (std::size_t i = 0; i < mask.size(); ++i) {
         if (!mask[i]) continue;
         const vec3 d = glm::clamp(a.pixels[i], vec3(0), vec3(1)) -
@@ -66,25 +67,29 @@ Change change(const measure::Picture& a, const measure::Picture& b, const measur
 TEST(Naive, EachBounceChangesThePictureLess) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     const measure::Mask mirrors = measure::mask_mirror_pixels(
-        test::render_technique(scene, "raytrace", kReuseSize).hits);
-    measure::Picture last = test::render_technique(scene, "naive:bounces=0", kReuseSize).hdr;
-    std::vector<Change> steps;
+        test::render_technique(scene, "raytrace", kReusePictureSize).hits);
+    measure::Picture last = test::render_technique(scene, "naive:bounces=0", kReusePictureSize).hdr;
+    std::vector<SquaredChangeSum> steps;
     for (int k = 0; k <= 4; ++k) {
-        const measure::Picture next =
-            test::render_technique(scene, "naive:bounces=" + std::to_string(k + 1), kReuseSize).hdr;
-        steps.push_back(change(last, next, mirrors));
+        const measure::Picture next = test::render_technique(
+                                          scene, "naive:bounces=" + std::to_string(k + 1),
+                                          kReusePictureSize)
+                                          .hdr;
+        steps.push_back(sum_squared_change(last, next, mirrors));
         std::cout << "[ MEASURED ] naive:" << k << " to naive:" << k + 1 << ": rmse "
-                  << steps.back().rmse(false) << ", " << steps.back().rmse(true)
+                  << steps.back().root_mean_square(false) << ", "
+                  << steps.back().root_mean_square(true)
                   << " without the pixel that changes most\n";
-        EXPECT_GT(steps.back().rmse(false), 0);
+        EXPECT_GT(steps.back().root_mean_square(false), 0);
         if (k > 0) {
-            EXPECT_GE(steps[static_cast<std::size_t>(k) - 1].rmse(true),
-                      2.5 * steps.back().rmse(true))
+            EXPECT_GE(steps[static_cast<std::size_t>(k) - 1].root_mean_square(true),
+                      2.5 * steps.back().root_mean_square(true))
                 << k;
         }
         last = next;
     }
-    EXPECT_GE(steps.front().rmse(false), std::pow(2.5, 4) * steps.back().rmse(false));
+    EXPECT_GE(steps.front().root_mean_square(false),
+              std::pow(2.5, 4) * steps.back().root_mean_square(false));
 }
 
 TEST(Naive, ScenePassesEqualThoseOfTheSeedReport) {

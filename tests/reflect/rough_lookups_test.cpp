@@ -14,8 +14,8 @@ namespace {
 
 using namespace catoptric;
 
-constexpr int kBallEdge = 48;
-constexpr uvec2 kBallSize{kBallEdge, kBallEdge};
+constexpr int kBallPictureEdge = 48;
+constexpr uvec2 kBallPictureSize{kBallPictureEdge, kBallPictureEdge};
 
 /// Returns a metal ball below a sky with a bright spot that reaches over edges of cube faces.
 scene::Scene make_ball_below_sky(float roughness, bool is_white = false) {
@@ -52,10 +52,11 @@ struct BallPixel {
 };
 std::vector<BallPixel> list_ball_pixels(const scene::Scene& scene, double least_cosine) {
     std::vector<BallPixel> pixels;
-    for (int y = 0; y < kBallEdge; ++y)
-        for (int x = 0; x < kBallEdge; ++x) {
+    for (int y = 0; y < kBallPictureEdge; ++y)
+        for (int x = 0; x < kBallPictureEdge; ++x) {
             const dvec3 eye = scene.cameras.front().eye,
-                        along = test::pixel_direction(scene.cameras.front(), x, y, kBallEdge);
+                        along = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                                kBallPictureEdge);
             const double b = glm::dot(eye, along), discriminant = b * b - glm::dot(eye, eye) + 1;
             if (discriminant < 0) continue;
             const dvec3 normal = eye + along * (-b - std::sqrt(discriminant));
@@ -66,8 +67,8 @@ std::vector<BallPixel> list_ball_pixels(const scene::Scene& scene, double least_
 
 /// Returns the light that a captured level is to show: the environment, filtered by the lobe that
 /// is seen along its normal, in the mirror's direction.
-dvec3 filtered_environment(const scene::Environment& environment, double roughness,
-                           const dvec3& normal) {
+dvec3 filter_environment_by_lobe(const scene::Environment& environment, double roughness,
+                                 const dvec3& normal) {
     dvec3 tangent, bitangent;
     f64::tangent_frame(normal, tangent, bitangent);
     dvec3 sum(0);
@@ -91,11 +92,12 @@ dvec3 filtered_environment(const scene::Environment& environment, double roughne
     return sum / weights;
 }
 
-double albedo_of_white_lobe(double roughness, const dvec3& normal, const dvec3& to_eye) {
+double white_lobe_albedo_by_quadrature(double roughness, const dvec3& normal, const dvec3& to_eye) {
     const double cosine = glm::dot(normal, to_eye);
     const dvec3 o(std::sqrt(1 - cosine * cosine), 0, cosine);
-    return test::integrate_over_half_vectors(
-        roughness, o, [&](const dvec3& i) { return test::textbook_lobe(roughness, o, i); });
+    return test::integrate_over_half_vectors(roughness, o, [&](const dvec3& i) {
+        return test::textbook_lobe_reflectance(roughness, o, i);
+    });
 }
 
 TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
@@ -106,13 +108,14 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
               "secant:face=32,rough=prefilter,law=cone", "secant:face=32,rough=fast",
               "pyramid:face=32,rough=rays,rays=64"}) {
             const measure::Picture picture =
-                test::render_technique(scene, technique, kBallSize, 3).hdr;
+                test::render_technique(scene, technique, kBallPictureSize, 3).hdr;
             test::RandomNumbers numbers(2);
             const std::vector<BallPixel> pixels = list_ball_pixels(scene, .1);
             for (int k = 0; k < 6; ++k) {
-                const BallPixel& pixel = pixels[numbers.integer_below(pixels.size())];
+                const BallPixel& pixel = pixels[numbers.random_integer_below(pixels.size())];
                 EXPECT_NEAR(picture.at(pixel.x, pixel.y).x,
-                            albedo_of_white_lobe(roughness, pixel.normal, pixel.to_eye), .01)
+                            white_lobe_albedo_by_quadrature(roughness, pixel.normal, pixel.to_eye),
+                            .01)
                     << technique << ", roughness " << roughness << " at " << pixel.x << ", "
                     << pixel.y;
             }
@@ -122,23 +125,25 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
 
 /// Kills a wrong level, roughness where alpha is meant, and faces that do not meet.
 TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
-    constexpr double kFace = 128;
+    constexpr double kCaptureFaceTexels = 128;
     // Faces of 4 texels are too coarse to interpolate between.
     for (const auto& [level, tolerance] :
          {std::pair(1, .06), std::pair(2, .06), std::pair(3, .07), std::pair(4, .12)}) {
-        const double alpha = f64::alpha_of_capture_level(double(level), kFace),
+        const double alpha = f64::alpha_of_capture_level(double(level), kCaptureFaceTexels),
                      roughness = std::sqrt(alpha);
         const scene::Scene scene = make_ball_below_sky(float(roughness));
         const measure::Picture picture =
-            test::render_technique(scene, "reuse:face=128,taps=256", kBallSize, 3).hdr;
+            test::render_technique(scene, "reuse:face=128,taps=256", kBallPictureSize, 3).hdr;
         double largest = 0;
         test::RandomNumbers numbers(7);
         const std::vector<BallPixel> pixels = list_ball_pixels(scene, .3);
         for (int k = 0; k < 40; ++k) {
-            const BallPixel& pixel = pixels[numbers.integer_below(pixels.size())];
+            const BallPixel& pixel = pixels[numbers.random_integer_below(pixels.size())];
             const dvec3 mirrored = glm::reflect(-pixel.to_eye, pixel.normal);
-            const dvec3 wanted = filtered_environment(*scene.environment, roughness, mirrored) *
-                                 albedo_of_white_lobe(roughness, pixel.normal, pixel.to_eye);
+            const dvec3 wanted = filter_environment_by_lobe(*scene.environment, roughness,
+                                                            mirrored) *
+                                 white_lobe_albedo_by_quadrature(roughness, pixel.normal,
+                                                                 pixel.to_eye);
             const vec3 found(picture.at(pixel.x, pixel.y));
             for (int channel = 0; channel < 3; ++channel)
                 largest = std::max(largest, std::abs(found[channel] - wanted[channel]) /
@@ -153,27 +158,30 @@ TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
 /// Searches in many directions of the lobe find what rays find, where the capture shows all.
 TEST(RoughLookups, SearchesAlongTheLobeFindWhatRaysFind) {
     const scene::Scene scene = make_ball_below_sky(.35f);
-    const measure::Picture searched =
-        test::render_technique(scene, "reuse:face=256,rough=rays,rays=512", kBallSize, 3).hdr;
+    const measure::Picture searched = test::render_technique(scene,
+                                                             "reuse:face=256,rough=rays,rays=512",
+                                                             kBallPictureSize, 3)
+                                          .hdr;
     const measure::Picture traced =
-        test::render_technique(scene, "raytrace:rays=512", kBallSize).hdr;
+        test::render_technique(scene, "raytrace:rays=512", kBallPictureSize).hdr;
     double largest = 0;
     for (const BallPixel& pixel : list_ball_pixels(scene, .2))
         largest = std::max(largest, double(std::abs(searched.at(pixel.x, pixel.y).x -
                                                     traced.at(pixel.x, pixel.y).x)));
     std::cout << "[ MEASURED ] searches beside rays: largest difference " << largest << '\n';
     EXPECT_LT(largest, .08);
-    EXPECT_LT(test::picture_rmse(searched, traced), .01);
+    EXPECT_LT(test::rmse_of_pictures(searched, traced), .01);
 }
 
 /// The filtered look-up is nearer to the rays than a sharp one, the more the rougher.
 TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
     const scene::Scene scene = scene::load("cornell-rough");
     const measure::Picture traced =
-        test::render_technique(scene, "raytrace:rays=512,depth=4", kBallSize).hdr;
+        test::render_technique(scene, "raytrace:rays=512,depth=4", kBallPictureSize).hdr;
     const auto error = [&](const std::string& knobs) {
-        return test::picture_rmse(
-            test::render_technique(scene, "pyramid:face=128" + knobs, kBallSize, 8).hdr, traced);
+        return test::rmse_of_pictures(
+            test::render_technique(scene, "pyramid:face=128" + knobs, kBallPictureSize, 8).hdr,
+            traced);
     };
     const double sharp = error(",rough=none"), boxes = error(",rough=mips"),
                  filtered = error(",rough=prefilter"), fast = error(",rough=fast"),
@@ -189,12 +197,14 @@ TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
 TEST(RoughLookups, PerfectMirrorsAreTheSameInEveryMode) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     for (const std::string technique : {"parallax:face=32", "hybrid:face=32"}) {
-        const auto pixels =
-            test::render_technique(scene, technique + ",rough=none", kBallSize, 3).hdr.pixels;
+        const auto pixels = test::render_technique(scene, technique + ",rough=none",
+                                                   kBallPictureSize, 3)
+                                .hdr.pixels;
         for (const char* rough : {"mips", "prefilter", "fast", "rays"})
-            EXPECT_EQ(test::render_technique(scene, technique + ",rough=" + rough, kBallSize, 3)
-                          .hdr.pixels,
-                      pixels)
+            EXPECT_EQ(
+                test::render_technique(scene, technique + ",rough=" + rough, kBallPictureSize, 3)
+                    .hdr.pixels,
+                pixels)
                 << technique << ", " << rough;
     }
 }

@@ -19,8 +19,8 @@ namespace {
 
 using namespace catoptric;
 
-constexpr int kRoughEdge = 16;
-constexpr uvec2 kRoughSize{kRoughEdge, kRoughEdge};
+constexpr int kRoughPictureEdge = 16;
+constexpr uvec2 kRoughPictureSize{kRoughPictureEdge, kRoughPictureEdge};
 
 /// Returns a metal floor of this roughness below an environment, seen at a slant.
 scene::Scene make_rough_floor(float roughness, std::shared_ptr<const scene::Environment> sky) {
@@ -37,8 +37,9 @@ scene::Scene make_rough_floor(float roughness, std::shared_ptr<const scene::Envi
 }
 
 /// Returns the radiance of a pixel of the floor by quadrature. The floor's frame has z upwards.
-dvec3 wanted_radiance(const scene::Scene& scene, double roughness, int x, int y) {
-    const dvec3 direction = test::pixel_direction(scene.cameras.front(), x, y, kRoughEdge);
+dvec3 expected_floor_radiance(const scene::Scene& scene, double roughness, int x, int y) {
+    const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                            kRoughPictureEdge);
     const dvec3 to_eye(-direction.x, direction.z, -direction.y), f0(.9, .6, .3);
     dvec3 sum(0);
     for (int channel = 0; channel < 3; ++channel)
@@ -47,41 +48,42 @@ dvec3 wanted_radiance(const scene::Scene& scene, double roughness, int x, int y)
             const double away = 1 - glm::dot(to_eye, glm::normalize(to_eye + i));
             const double fresnel = f0[channel] + (1 - f0[channel]) * std::pow(away, 5);
             const dvec3 light = scene::environment_radiance(*scene.environment, {i.x, i.z, -i.y});
-            return fresnel * light[channel] * test::textbook_lobe(roughness, to_eye, i);
+            return fresnel * light[channel] * test::textbook_lobe_reflectance(roughness, to_eye, i);
         });
     return sum;
 }
 
-measure::Picture trace_with_seed(const scene::Scene& scene, const std::string& technique,
-                                 std::uint64_t seed) {
-    app::Request asked = test::make_test_request(scene, {technique}, kRoughSize);
+measure::Picture trace_rough_rays_with_seed(const scene::Scene& scene, const std::string& technique,
+                                            std::uint64_t seed) {
+    app::Request asked = test::make_test_request(scene, {technique}, kRoughPictureSize);
     asked.seed = seed;
-    return app::run(test::test_engine(), asked).parts.front().hdr;
+    return app::run(test::get_test_engine(), asked).parts.front().hdr;
 }
 
 /// Pixels lie within their own error bars of the integral as often as chance allows.
 TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
-    constexpr int kSeeds = 8;
+    constexpr int kSeedCount = 8;
     for (const float roughness : {.1f, .3f, .6f}) {
         const scene::Scene scene = make_rough_floor(roughness, test::make_smooth_environment());
         std::vector<measure::Picture> pictures;
-        for (int seed = 1; seed <= kSeeds; ++seed)
-            pictures.push_back(trace_with_seed(scene, "raytrace:rays=128,depth=2",
-                                               static_cast<std::uint64_t>(seed)));
+        for (int seed = 1; seed <= kSeedCount; ++seed)
+            pictures.push_back(trace_rough_rays_with_seed(scene, "raytrace:rays=128,depth=2",
+                                                          static_cast<std::uint64_t>(seed)));
         int compared = 0, apart = 0;
         double largest = 0;
         test::RandomNumbers numbers(5);
         for (int k = 0; k < 12; ++k) {
-            const int x = int(numbers.integer_below(kRoughEdge)),
-                      y = 6 + int(numbers.integer_below(10));
-            const dvec3 wanted = wanted_radiance(scene, roughness, x, y);
+            const int x = int(numbers.random_integer_below(kRoughPictureEdge)),
+                      y = 6 + int(numbers.random_integer_below(10));
+            const dvec3 wanted = expected_floor_radiance(scene, roughness, x, y);
             for (int channel = 0; channel < 3; ++channel) {
                 double mean = 0, squares = 0;
                 for (const measure::Picture& picture : pictures) {
                     const double value = picture.at(x, y)[channel];
-                    mean += value / kSeeds, squares += value * value / kSeeds;
+                    mean += value / kSeedCount, squares += value * value / kSeedCount;
                 }
-                const double error = std::sqrt(std::max(squares - mean * mean, 0.) / (kSeeds - 1));
+                const double error = std::sqrt(std::max(squares - mean * mean, 0.) /
+                                               (kSeedCount - 1));
                 ++compared;
                 apart += std::abs(mean - wanted[channel]) > 4 * error + 1e-3;
                 largest = std::max(largest, std::abs(mean - wanted[channel]));
@@ -97,8 +99,9 @@ TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
 TEST(RoughRays, ErrorFallsWithTheNumberOfRays) {
     const scene::Scene scene = make_rough_floor(.4f, test::make_smooth_environment());
     const auto error = [&](const std::string& rays) {
-        return test::picture_rmse(trace_with_seed(scene, "raytrace:rays=" + rays, 1),
-                                  trace_with_seed(scene, "raytrace:rays=" + rays, 2));
+        return test::rmse_of_pictures(
+            trace_rough_rays_with_seed(scene, "raytrace:rays=" + rays, 1),
+            trace_rough_rays_with_seed(scene, "raytrace:rays=" + rays, 2));
     };
     const double few = error("4"), many = error("64");
     std::cout << "[ MEASURED ] difference of two seeds: " << few << " with 4 rays, " << many
@@ -117,18 +120,18 @@ TEST(RoughRays, SmoothSurfacesAreAsWithoutRays) {
     // Up to the sharp limit, a surface is a perfect mirror.
     const scene::Scene polished = make_rough_floor(.04f, test::make_smooth_environment()),
                        rough = make_rough_floor(.06f, test::make_smooth_environment());
-    EXPECT_EQ(trace_with_seed(polished, "raytrace:rays=1", 1).pixels,
-              trace_with_seed(polished, "raytrace", 1).pixels);
-    EXPECT_NE(trace_with_seed(rough, "raytrace:rays=1", 1).pixels,
-              trace_with_seed(rough, "raytrace", 1).pixels);
+    EXPECT_EQ(trace_rough_rays_with_seed(polished, "raytrace:rays=1", 1).pixels,
+              trace_rough_rays_with_seed(polished, "raytrace", 1).pixels);
+    EXPECT_NE(trace_rough_rays_with_seed(rough, "raytrace:rays=1", 1).pixels,
+              trace_rough_rays_with_seed(rough, "raytrace", 1).pixels);
 }
 
 TEST(RoughRays, PictureIsAFunctionOfItsSeed) {
     const scene::Scene scene = make_rough_floor(.5f, test::make_smooth_environment());
-    EXPECT_EQ(trace_with_seed(scene, "raytrace:rays=3", 7).pixels,
-              trace_with_seed(scene, "raytrace:rays=3", 7).pixels);
-    EXPECT_NE(trace_with_seed(scene, "raytrace:rays=3", 7).pixels,
-              trace_with_seed(scene, "raytrace:rays=3", 8).pixels);
+    EXPECT_EQ(trace_rough_rays_with_seed(scene, "raytrace:rays=3", 7).pixels,
+              trace_rough_rays_with_seed(scene, "raytrace:rays=3", 7).pixels);
+    EXPECT_NE(trace_rough_rays_with_seed(scene, "raytrace:rays=3", 7).pixels,
+              trace_rough_rays_with_seed(scene, "raytrace:rays=3", 8).pixels);
 }
 
 /// A closed white furnace: the light that rough balls reflect between each other stays below that
@@ -153,8 +156,9 @@ TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
     std::cout << "[ MEASURED ] furnace: brightest " << most << ", mean "
               << rough_sum / double(rough.pixels.size()) << " instead of "
               << sharp_sum / double(sharp.pixels.size()) << '\n';
-    EXPECT_NEAR(sharp_sum / double(sharp.pixels.size()), test::kFurnaceRadiance.x, 1e-6);
-    EXPECT_LE(most, test::kFurnaceRadiance.x * 1.001); // a lobe that gained light would be brighter
+    EXPECT_NEAR(sharp_sum / double(sharp.pixels.size()), test::kFurnaceWallRadiance.x, 1e-6);
+    EXPECT_LE(most,
+              test::kFurnaceWallRadiance.x * 1.001); // a lobe that gained light would be brighter
     EXPECT_LT(rough_sum, sharp_sum);
     EXPECT_GT(rough_sum, .8 * sharp_sum);
 }
@@ -189,20 +193,21 @@ scene::Scene make_hall_with_small_lamps() {
 /// Rays that aim at lamps change the noise of a picture but not its mean, in each block of pixels.
 TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
     const scene::Scene scene = make_hall_with_small_lamps();
-    constexpr int kSeeds = 12, kBlock = 4, kBlocks = kRoughEdge / kBlock;
+    constexpr int kSeedCount = 12, kBlock = 4, kBlocks = kRoughPictureEdge / kBlock;
     /// Sums over the seeds of a block's red, and of its square.
-    struct BlockSums {
+    struct PixelBlockSums {
         double values = 0, squares = 0;
-        double mean() const { return values / kSeeds; }
-        double variance() const {
-            return std::max(squares / kSeeds - mean() * mean(), 0.) / (kSeeds - 1);
+        double mean_of_block() const { return values / kSeedCount; }
+        double variance_of_block() const {
+            return std::max(squares / kSeedCount - mean_of_block() * mean_of_block(), 0.) /
+                   (kSeedCount - 1);
         }
     };
     const auto trace = [&](const std::string& technique) {
-        std::array<BlockSums, kBlocks * kBlocks> blocks;
-        for (int seed = 1; seed <= kSeeds; ++seed) {
-            const measure::Picture picture = trace_with_seed(scene, technique,
-                                                             static_cast<std::uint64_t>(seed));
+        std::array<PixelBlockSums, kBlocks * kBlocks> blocks;
+        for (int seed = 1; seed <= kSeedCount; ++seed) {
+            const measure::Picture picture = trace_rough_rays_with_seed(
+                scene, technique, static_cast<std::uint64_t>(seed));
             for (int block = 0; block < kBlocks * kBlocks; ++block) {
                 double red = 0;
                 for (int i = 0; i < kBlock * kBlock; ++i)
@@ -220,10 +225,12 @@ TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
                met = trace("raytrace:rays=512,depth=3,lamps=met");
     double most = 0, sampled_variance = 0, met_variance = 0;
     for (std::size_t i = 0; i < sampled.size(); ++i) {
-        const double apart = std::abs(sampled[i].mean() - met[i].mean());
-        most = std::max(most, apart / std::sqrt(sampled[i].variance() + met[i].variance() + 1e-12));
-        sampled_variance += sampled[i].variance(), met_variance += met[i].variance();
-        EXPECT_GT(met[i].mean(), 0) << i;
+        const double apart = std::abs(sampled[i].mean_of_block() - met[i].mean_of_block());
+        most = std::max(most, apart / std::sqrt(sampled[i].variance_of_block() +
+                                                met[i].variance_of_block() + 1e-12));
+        sampled_variance += sampled[i].variance_of_block(),
+            met_variance += met[i].variance_of_block();
+        EXPECT_GT(met[i].mean_of_block(), 0) << i;
     }
     std::cout << "[ MEASURED ] blocks at most " << most << " standard errors apart; variance "
               << sampled_variance << " with 64 sampled rays, " << met_variance
@@ -233,12 +240,12 @@ TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
 }
 
 TEST(RoughRays, TooManyRaysAreRefused) {
-    EXPECT_THAT(test::error_text_of(Failure::usage,
-                                    [] {
-                                        test::render_technique(scene::load("flat"),
-                                                               "raytrace:rays=1000,samples=100",
-                                                               kRoughSize);
-                                    }),
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [] {
+                                           test::render_technique(scene::load("flat"),
+                                                                  "raytrace:rays=1000,samples=100",
+                                                                  kRoughPictureSize);
+                                       }),
                 testing::HasSubstr("rays=1000 for each of samples=100: wanted at most 65536 in "
                                    "all"));
 }

@@ -18,15 +18,15 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kSlicesSize{64, 64};
+constexpr uvec2 kSlicesPictureSize{64, 64};
 
 /// Returns the number of frames within which each mirror has its turn.
-std::uint32_t round_of(std::uint32_t mirrors, std::uint32_t most) {
+std::uint32_t count_frames_per_turn(std::uint32_t mirrors, std::uint32_t most) {
     return (mirrors + most - 1) / most;
 }
 
 /// Returns the numbers of the mirrors whose captures the frame's passes drew.
-std::set<int> drawn(const app::FrameTimes& times) {
+std::set<int> list_drawn_mirrors(const app::FrameTimes& times) {
     std::set<int> mirrors;
     for (const app::PassTime& pass : times.passes)
         if (pass.name.starts_with("capture/") && !pass.name.ends_with(".clear"))
@@ -34,40 +34,43 @@ std::set<int> drawn(const app::FrameTimes& times) {
     return mirrors;
 }
 
-scene::Scene coarse_room() { return test::with_coarse_balls(test::make_lit_room(3, 1)); }
+scene::Scene make_coarse_room() {
+    return test::replace_balls_by_coarse_balls(test::make_lit_room(3, 1));
+}
 
-app::FrameSpec limited(const scene::Scene& scene, std::uint32_t most,
-                       const std::string& technique = "parallax:face=32,shadow_map=64") {
-    app::FrameSpec spec = test::make_test_request(scene, {technique}, kSlicesSize);
+app::FrameSpec
+make_spec_with_capture_budget(const scene::Scene& scene, std::uint32_t most,
+                              const std::string& technique = "parallax:face=32,shadow_map=64") {
+    app::FrameSpec spec = test::make_test_request(scene, {technique}, kSlicesPictureSize);
     spec.model = app::RenderedWork::required;
     spec.most_captures = most;
     return spec;
 }
 
 /// Expects that the budget a frame reports agrees with its passes.
-void expect_told(const app::Frame& frame, std::uint32_t most) {
+void expect_reported_budget(const app::Frame& frame, std::uint32_t most) {
     ASSERT_TRUE(frame.slices());
     const app::CaptureBudget& slices = *frame.slices();
-    EXPECT_EQ(drawn(frame.times()).size(), slices.drawn);
+    EXPECT_EQ(list_drawn_mirrors(frame.times()).size(), slices.drawn);
     EXPECT_EQ(slices.most, std::min(most, slices.mirrors));
     EXPECT_LT(slices.longest, slices.frames_per_cycle());
     EXPECT_EQ(frame.waiting(), slices.waiting);
 }
 
-constexpr int kCells = 5;
+constexpr int kBallCellCount = 5;
 
 /// Returns mirror balls, each in its own closed cell. The walls are visible only from inside their
 /// cell, so no ball shows another. Each ball shows the light that its cell emits.
-scene::Scene cells() {
+scene::Scene make_balls_in_cells() {
     scene::Scene scene{.name = "cells"};
     const std::size_t hot = add_material(scene,
                                          {.name = "hot", .front_only = true, .light = vec3(0)});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     scene::Mesh walls{.name = "cells"};
-    for (int i = 0; i < kCells; ++i)
+    for (int i = 0; i < kBallCellCount; ++i)
         for (int face = 0; face < 6; ++face) {
-            const scene::Mesh side = test::wall(face, {3. * i - 1.4, -1.4, -1.4},
-                                                {3. * i + 1.4, 1.4, 1.4});
+            const scene::Mesh side = test::make_box_wall(face, {3. * i - 1.4, -1.4, -1.4},
+                                                         {3. * i + 1.4, 1.4, 1.4});
             const auto first = static_cast<std::uint32_t>(walls.positions.size());
             walls.positions.insert(walls.positions.end(), side.positions.begin(),
                                    side.positions.end());
@@ -75,35 +78,36 @@ scene::Scene cells() {
             for (const auto& triangle : side.triangles) walls.triangles.push_back(triangle + first);
         }
     test::add_mesh(scene, walls, hot);
-    for (int i = 0; i < kCells; ++i)
+    for (int i = 0; i < kBallCellCount; ++i)
         test::add_ball(scene, "ball" + std::to_string(i + 1), mirror, {3. * i, 0, 0}, 1);
     scene.cameras.push_back({.eye = {6, 0, -20}, .target = {6, 0, 0}, .vertical_fov_degrees = 50});
-    return test::with_coarse_balls(std::move(scene));
+    return test::replace_balls_by_coarse_balls(std::move(scene));
 }
 
 // The cells emit the number of the frame as light. A ball's pixel therefore tells in which frame
 // its capture was drawn.
 TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
     for (const std::uint32_t most : {1u, 2u, 3u}) {
-        app::Session session(test::test_engine(), cells());
-        const app::FrameSpec spec = limited(session.scene(), most, "parallax:face=32,shadow=none");
-        const int round = static_cast<int>(round_of(kCells, most));
-        std::vector<int> oldest(kCells, 0);
+        app::Session session(test::get_test_engine(), make_balls_in_cells());
+        const app::FrameSpec spec = make_spec_with_capture_budget(session.scene(), most,
+                                                                  "parallax:face=32,shadow=none");
+        const int round = static_cast<int>(count_frames_per_turn(kBallCellCount, most));
+        std::vector<int> oldest(kBallCellCount, 0);
         for (int k = 1; k <= 4 * round; ++k) {
             scene::Material hot = session.scene().materials[0];
             hot.emission = vec3(static_cast<float>(k));
             session.change(scene::set_material(0, hot));
             const app::Frame frame = session.frame(spec);
-            expect_told(frame, most);
+            expect_reported_budget(frame, most);
             const measure::Picture picture = frame.hdr();
-            for (int i = 0; i < kCells; ++i) {
+            for (int i = 0; i < kBallCellCount; ++i) {
                 const vec3 pixel = picture.at(32 + (i - 2) * 10, 32);
                 const int age = k - static_cast<int>(std::round(pixel.x));
                 EXPECT_NEAR(pixel.x, std::round(pixel.x), .01) << "of one frame";
                 oldest[static_cast<std::size_t>(i)] = std::max(oldest[static_cast<std::size_t>(i)],
                                                                age);
             }
-            EXPECT_EQ(drawn(frame.times()).size(), k == 1 ? kCells : most);
+            EXPECT_EQ(list_drawn_mirrors(frame.times()).size(), k == 1 ? kBallCellCount : most);
         }
         EXPECT_THAT(oldest, testing::Each(testing::Le(round - 1))) << most;
         EXPECT_EQ(std::ranges::max(oldest), round - 1) << most;
@@ -113,9 +117,9 @@ TEST(CaptureBudget, NoCaptureIsOlderThanARound) {
 // Under a budget, each bounce needs a round of frames instead of one frame.
 TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
     for (const std::uint32_t most : {1u, 2u}) {
-        const scene::Scene scene = coarse_room();
-        app::Session all(test::test_engine(), scene), few(test::test_engine(), scene);
-        const app::FrameSpec spec = limited(scene, most);
+        const scene::Scene scene = make_coarse_room();
+        app::Session all(test::get_test_engine(), scene), few(test::get_test_engine(), scene);
+        const app::FrameSpec spec = make_spec_with_capture_budget(scene, most);
         app::FrameSpec everything = spec;
         everything.model = app::RenderedWork::everything, everything.most_captures = 0;
         const auto settle = [&] {
@@ -128,15 +132,15 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
             return bounces;
         };
         const auto follow = [&] {
-            const int frames = settle() * static_cast<int>(round_of(3, most));
+            const int frames = settle() * static_cast<int>(count_frames_per_turn(3, most));
             for (int k = 1; k <= frames; ++k) {
                 const app::Frame frame = few.frame(spec);
-                expect_told(frame, most);
-                EXPECT_LE(drawn(frame.times()).size(),
+                expect_reported_budget(frame, most);
+                EXPECT_LE(list_drawn_mirrors(frame.times()).size(),
                           app::Access::session_counters(few).frames == 1 ? 3 : most);
             }
             const app::Frame last = few.frame(spec);
-            EXPECT_EQ(drawn(last.times()), std::set<int>()) << "at rest";
+            EXPECT_EQ(list_drawn_mirrors(last.times()), std::set<int>()) << "at rest";
             EXPECT_EQ(last.waiting(), 0u);
             EXPECT_TRUE(test::have_equal_pixel_bytes(last.hdr(), all.frame(everything).hdr()));
         };
@@ -157,45 +161,46 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
 TEST(CaptureBudget, CapturesConvergeAfterRandomEvents) {
     for (const std::uint64_t seed : {3, 11}) {
         const scene::Scene hall = test::make_random_hall(seed, 4);
-        app::Session all(test::test_engine(), hall), few(test::test_engine(), hall);
-        app::FrameSpec spec = limited(hall, 1, "parallax:face=16,shadow_map=64");
+        app::Session all(test::get_test_engine(), hall), few(test::get_test_engine(), hall);
+        app::FrameSpec spec = make_spec_with_capture_budget(hall, 1,
+                                                            "parallax:face=16,shadow_map=64");
         test::RandomNumbers numbers(seed);
         const std::vector<std::size_t> mirrors = scene::mirrors(hall);
         for (int k = 0; k < 24; ++k) {
             if (k % 3 == 0) {
-                const std::size_t mirror = mirrors[numbers.integer_below(mirrors.size())];
+                const std::size_t mirror = mirrors[numbers.random_integer_below(mirrors.size())];
                 const dvec3 place(hall.objects[mirror].world_from_object[3]);
                 spec.camera = {.eye = place + dvec3(.3, .2, -1.7), .target = place};
             }
-            const std::size_t moved = numbers.integer_below(hall.objects.size());
+            const std::size_t moved = numbers.random_integer_below(hall.objects.size());
             dmat4 to = hall.objects[moved].world_from_object;
-            to[3] += dvec4(dvec3(numbers.point_in_cube()) * .3, 0);
+            to[3] += dvec4(dvec3(numbers.random_point_in_cube()) * .3, 0);
             for (app::Session* session : {&all, &few}) session->change(scene::move(moved, to));
-            expect_told(few.frame(spec), 1);
+            expect_reported_budget(few.frame(spec), 1);
         }
-        constexpr int kRounds = 12;
-        for (int k = 0; k < kRounds * 4; ++k) few.frame(spec);
+        constexpr int kBudgetRounds = 12;
+        for (int k = 0; k < kBudgetRounds * 4; ++k) few.frame(spec);
         spec.model = app::RenderedWork::everything, spec.most_captures = 0;
-        for (int k = 0; k < kRounds; ++k) all.frame(spec);
+        for (int k = 0; k < kBudgetRounds; ++k) all.frame(spec);
         const measure::Picture wanted = all.frame(spec).hdr();
         spec.model = app::RenderedWork::required, spec.most_captures = 1;
         const app::Frame last = few.frame(spec);
         EXPECT_TRUE(test::have_equal_pixel_bytes(last.hdr(), wanted)) << seed;
-        EXPECT_EQ(drawn(last.times()), std::set<int>()) << seed;
+        EXPECT_EQ(list_drawn_mirrors(last.times()), std::set<int>()) << seed;
     }
 }
 
 // Something moves in every frame, so every capture always waits to be drawn.
 TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
-    const scene::Scene scene = test::with_coarse_balls(scene::make_cornell_mirrors());
-    app::Session session(test::test_engine(), scene);
-    app::FrameSpec spec = limited(scene, 1);
+    const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors());
+    app::Session session(test::get_test_engine(), scene);
+    app::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
     std::vector<int> since(4, 0);
     for (int k = 1; k <= 14; ++k) {
         const app::Frame frame = session.frame(spec);
-        expect_told(frame, 1);
+        expect_reported_budget(frame, 1);
         for (int& frames : since) ++frames;
-        for (const int mirror : drawn(frame.times()))
+        for (const int mirror : list_drawn_mirrors(frame.times()))
             since[static_cast<std::size_t>(mirror - 1)] = 0;
         EXPECT_THAT(since, testing::Each(testing::Lt(4))) << k;
         spec.time += 1 / 20.0;
@@ -203,14 +208,15 @@ TEST(CaptureBudget, EachMirrorIsDrawnWithinARound) {
 }
 
 TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
-    const scene::Scene scene = test::with_coarse_balls(scene::make_cornell_mirrors());
-    app::Session one(test::test_engine(), scene), other(test::test_engine(), scene);
+    const scene::Scene scene = test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors());
+    app::Session one(test::get_test_engine(), scene), other(test::get_test_engine(), scene);
     for (int k = 0; k < 6; ++k) {
-        app::FrameSpec spec = limited(scene, 4), whole = limited(scene, 0);
+        app::FrameSpec spec = make_spec_with_capture_budget(scene, 4),
+                       whole = make_spec_with_capture_budget(scene, 0);
         spec.time = whole.time = k < 4 ? k / 20.0 : .2;
         const app::Frame found = one.frame(spec), wanted = other.frame(whole);
         EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
-        EXPECT_EQ(drawn(found.times()), drawn(wanted.times())) << k;
+        EXPECT_EQ(list_drawn_mirrors(found.times()), list_drawn_mirrors(wanted.times())) << k;
         EXPECT_FALSE(wanted.slices());
     }
 }
@@ -218,14 +224,14 @@ TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
 // Tests budgets in milliseconds that are right on any device: nearly no time draws one mirror a
 // frame, and very much time draws all mirrors.
 TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
-    const scene::Scene scene = coarse_room();
-    app::Session little(test::test_engine(), scene), much(test::test_engine(), scene);
-    app::FrameSpec spec = limited(scene, 0);
+    const scene::Scene scene = make_coarse_room();
+    app::Session little(test::get_test_engine(), scene), much(test::get_test_engine(), scene);
+    app::FrameSpec spec = make_spec_with_capture_budget(scene, 0);
     for (int k = 1; k <= 5; ++k) {
         spec.ambient = .05 * k; // a change of the ambient light, so all captures must be drawn
         spec.budget_ms = 1e-6;
         const app::Frame frame = little.frame(spec);
-        expect_told(frame, k == 1 ? 3 : 1);
+        expect_reported_budget(frame, k == 1 ? 3 : 1);
         EXPECT_EQ(frame.slices()->drawn, k == 1 ? 3u : 1u);
         app::FrameSpec aside = spec;
         aside.keeps_history = true;
@@ -241,35 +247,35 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
 }
 
 TEST(CaptureBudget, PicturesDoNotDependOnFramesInFlight) {
-    const scene::Scene scene = coarse_room();
-    app::Session one(test::test_engine(), scene), more(test::test_engine(), scene, 3);
+    const scene::Scene scene = make_coarse_room();
+    app::Session one(test::get_test_engine(), scene), more(test::get_test_engine(), scene, 3);
     for (int k = 0; k < 8; ++k) {
-        app::FrameSpec spec = limited(scene, 1);
+        app::FrameSpec spec = make_spec_with_capture_budget(scene, 1);
         spec.ambient = k < 3 ? .05 * (k + 1) : .2;
         const app::Frame wanted = one.frame(spec), found = more.frame(spec);
         EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
     }
     // Without a budget, the captures that were put off are drawn.
-    app::FrameSpec whole = limited(scene, 0);
+    app::FrameSpec whole = make_spec_with_capture_budget(scene, 0);
     std::optional<app::Frame> wanted, found;
     for (int k = 0; k < 40; ++k) wanted = one.frame(whole), found = more.frame(whole);
     EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
-    EXPECT_EQ(drawn(found->times()), std::set<int>());
+    EXPECT_EQ(list_drawn_mirrors(found->times()), std::set<int>());
 }
 
 // A shell hides the first ball, which has the first turn, so that drawing its capture changes no
 // visible pixel. The run must not end as settled then, because other captures still wait.
 TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
-    scene::Scene scene = coarse_room();
+    scene::Scene scene = make_coarse_room();
     scene::Object shell = scene.objects[scene::mirrors(scene).front()];
     shell.name = "shell", shell.material = 0, shell.sphere.reset();
     shell.world_from_object = shell.world_from_object * glm::scale(dmat4(1), dvec3(1.05));
     scene.objects.push_back(shell);
     app::Request request = test::make_test_request(scene, {"parallax:face=32,shadow_map=64"},
-                                                   kSlicesSize);
+                                                   kSlicesPictureSize);
     request.model = app::RenderedWork::required;
     request.frames = 28, request.until_settled = true;
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     const app::RunResult whole = app::run(session, request);
     request.most_captures = 1;
     const app::RunResult sliced = app::run(session, request);
@@ -282,19 +288,19 @@ TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
 }
 
 TEST(CaptureBudget, InvalidBudgetsAreRefused) {
-    const scene::Scene scene = coarse_room();
-    app::Session session(test::test_engine(), scene);
+    const scene::Scene scene = make_coarse_room();
+    app::Session session(test::get_test_engine(), scene);
     const auto refused = [&](app::FrameSpec spec, const std::string& text) {
         test::expect_error([&] { session.frame(spec); }, Failure::usage, {text});
     };
-    app::FrameSpec spec = limited(scene, 2);
+    app::FrameSpec spec = make_spec_with_capture_budget(scene, 2);
     spec.model = app::RenderedWork::everything;
     refused(spec, "a limit of captures that a frame draws is of the model required, not of "
                   "everything");
-    spec = limited(scene, 2);
+    spec = make_spec_with_capture_budget(scene, 2);
     spec.budget_ms = 4;
     refused(spec, "limited by number (2) and by milliseconds (4): wanted one of them");
-    spec = limited(scene, 0);
+    spec = make_spec_with_capture_budget(scene, 0);
     for (const double ms : {-1., double{INFINITY}, double{NAN}}) {
         spec.budget_ms = ms;
         refused(spec, "the milliseconds for captures must be finite and above 0, not ");

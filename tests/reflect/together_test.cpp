@@ -19,12 +19,12 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
                                                    {96, 80});
     request.warmup = 1, request.frames = 2;
     request.animate = true;
-    const app::RunResult together = app::run(test::test_engine(), request);
+    const app::RunResult together = app::run(test::get_test_engine(), request);
     ASSERT_EQ(together.parts.size(), techniques.size());
     for (std::size_t i = 0; i < techniques.size(); ++i) {
         request.techniques = {techniques[i]};
         const app::TechniqueResult alone = std::move(
-            app::run(test::test_engine(), request).parts.front());
+            app::run(test::get_test_engine(), request).parts.front());
         const app::TechniqueResult& part = together.parts[i];
         EXPECT_TRUE(test::have_equal_pixel_bytes(part.hdr, alone.hdr)) << techniques[i];
         EXPECT_TRUE(test::have_equal_pixel_bytes(part.display, alone.display)) << techniques[i];
@@ -40,7 +40,7 @@ TEST(Together, PicturesEqualThoseOfSeparateRuns) {
 TEST(Together, AllPassesLieOnOneTimeline) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
                                                    {"reuse:face=64", "raytrace"}, {64, 64});
-    const app::RunResult result = app::run(test::test_engine(), request);
+    const app::RunResult result = app::run(test::get_test_engine(), request);
     ASSERT_EQ(result.frames.size(), 1u);
     std::set<std::string> names;
     double time = 0;
@@ -61,7 +61,7 @@ TEST(Together, AllPassesLieOnOneTimeline) {
 TEST(Together, TheSameTechniqueTwiceIsRefused) {
     test::expect_error(
         [] {
-            app::run(test::test_engine(),
+            app::run(test::get_test_engine(),
                      test::make_test_request(test::make_lit_room(1, 1), {"reuse", "reuse:face=256"},
                                              {16, 16}));
         },

@@ -10,36 +10,38 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kToleranceSize{64, 64};
-constexpr double kMirror = 2, kWall = -4; // z of the mirror and of the wall opposite
+constexpr uvec2 kTolerancePictureSize{64, 64};
+constexpr double kMirrorPlaneZ = 2, kOppositeWallZ = -4; // z of the mirror and of the wall opposite
 
 /// Returns a box with a flat mirror and upright boards in front of the opposite wall. The boards
 /// are nearer to the mirror by the share `nearer` of the distance. Their edges hide parts of the
 /// wall from the mirror's centre, but not from all points of the mirror.
-scene::Scene slats(double nearer) {
+scene::Scene make_slat_scene(double nearer) {
     scene::Scene scene{.name = "slats"};
-    test::add_bright_box(scene, {-4, -4, kWall}, {4, 4, 4});
+    test::add_bright_box(scene, {-4, -4, kOppositeWallZ}, {4, 4, 4});
     test::add_quad(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}),
-                   {-2, -1.5, kMirror}, {-2, 1.5, kMirror}, {2, 1.5, kMirror}, {2, -1.5, kMirror});
+                   {-2, -1.5, kMirrorPlaneZ}, {-2, 1.5, kMirrorPlaneZ}, {2, 1.5, kMirrorPlaneZ},
+                   {2, -1.5, kMirrorPlaneZ});
     for (int i = -2; nearer > 0 && i <= 2; ++i)
-        test::add_glowing_board(scene, {.25f, 0, 0},
-                                {1.3 * i, 0, kMirror - (kMirror - kWall) * (1 - nearer)},
-                                {.35, 0, 0}, {0, 3, 0});
+        test::add_glowing_board(
+            scene, {.25f, 0, 0},
+            {1.3 * i, 0, kMirrorPlaneZ - (kMirrorPlaneZ - kOppositeWallZ) * (1 - nearer)},
+            {.35, 0, 0}, {0, 3, 0});
     scene.cameras.push_back(
-        {.eye = {.2, .3, -2}, .target = {0, 0, kMirror}, .vertical_fov_degrees = 50});
+        {.eye = {.2, .3, -2}, .target = {0, 0, kMirrorPlaneZ}, .vertical_fov_degrees = 50});
     return scene;
 }
 
 /// Number of first-order pixels, of hits among them, and of hits that looked aside by more than the
 /// allowed angle.
-struct Hits {
+struct HitCounts {
     std::size_t pixels = 0, hits = 0, wrong = 0;
 };
 
-Hits hits(double nearer, const std::string& technique, double degrees) {
-    Hits found;
-    for (const measure::LookupDirectionError& pixel :
-         test::measure_lookup_directions(slats(nearer), technique, kToleranceSize)) {
+HitCounts count_hits_between_slats(double nearer, const std::string& technique, double degrees) {
+    HitCounts found;
+    for (const measure::LookupDirectionError& pixel : test::measure_lookup_directions(
+             make_slat_scene(nearer), technique, kTolerancePictureSize)) {
         ++found.pixels;
         if (pixel.state != 0) continue;
         ++found.hits;
@@ -58,14 +60,15 @@ TEST(Tolerance, ContinuousSurfaceIsAHit) {
         for (const std::string settings :
              {"face=64", "face=256", "face=64,distance=unorm8,range=10",
               "face=256,distance=unorm8,range=10"}) {
-            const Hits found = hits(0, search + ":shadow=none," + settings, .5);
+            const HitCounts found = count_hits_between_slats(0, search + ":shadow=none," + settings,
+                                                             .5);
             EXPECT_GT(found.pixels, 2000u);
             EXPECT_GE(found.hits, found.pixels * 99 / 100) << search << settings;
             EXPECT_LE(found.wrong, found.pixels * 3 / 100) << search << settings;
         }
     // This board is so close to the wall that either may count as the hit.
     for (const std::string& search : kSearches) {
-        const Hits found = hits(.02, search + ":shadow=none,face=128", 1);
+        const HitCounts found = count_hits_between_slats(.02, search + ":shadow=none,face=128", 1);
         EXPECT_GE(found.hits, found.pixels * 95 / 100) << search;
     }
 }
@@ -75,7 +78,7 @@ TEST(Tolerance, SurfaceHiddenBehindAnEdgeIsNoHit) {
     const std::map<std::string, std::size_t> most{
         {"secant", 4}, {"march", 5}, {"pyramid", 2}, {"layered", 5}};
     for (const auto& [search, percent] : most) {
-        const Hits found = hits(.2, search + ":shadow=none,face=256", .5);
+        const HitCounts found = count_hits_between_slats(.2, search + ":shadow=none,face=256", .5);
         EXPECT_LE(found.wrong, found.pixels * percent / 100) << search;
     }
 }
@@ -83,8 +86,8 @@ TEST(Tolerance, SurfaceHiddenBehindAnEdgeIsNoHit) {
 // The box of `proxy` follows the walls. A board in front of a wall must not count as a hit on the
 // box. The tolerance is a twentieth of the distance.
 TEST(Tolerance, ProxyReportsNoHitForObjectsBeforeItsBox) {
-    const Hits close = hits(.03, "proxy:shadow=none,face=256", 1),
-               apart = hits(.08, "proxy:shadow=none,face=256", 1);
+    const HitCounts close = count_hits_between_slats(.03, "proxy:shadow=none,face=256", 1),
+                    apart = count_hits_between_slats(.08, "proxy:shadow=none,face=256", 1);
     EXPECT_EQ(close.hits, close.pixels);
     EXPECT_LE(apart.hits, apart.pixels * 3 / 4);
 }

@@ -11,7 +11,7 @@ namespace {
 
 using namespace catoptric;
 
-app::CompareRequest views_asked(const std::vector<std::string>& rows) {
+app::CompareRequest make_views_request(const std::vector<std::string>& rows) {
     app::CompareRequest request;
     request.base = test::make_test_request(test::make_lit_room(2, 1), rows, {32, 32});
     request.studies = {{"views", 6}};
@@ -22,8 +22,8 @@ app::CompareRequest views_asked(const std::vector<std::string>& rows) {
 /// in any view.
 TEST(ComparedViews, RowIsComparedAtItsOwnSampleCount) {
     const report::Comparison found = app::compare(
-        test::test_engine(),
-        views_asked({"raytrace:depth=16,samples=4", "raytrace:depth=16", "raytrace:depth=0"}));
+        test::get_test_engine(), make_views_request({"raytrace:depth=16,samples=4",
+                                                     "raytrace:depth=16", "raytrace:depth=0"}));
     ASSERT_EQ(found.rows.size(), 3u);
     for (const report::Row& row : found.rows) {
         ASSERT_EQ(row.views.size(), 6u) << row.label;
@@ -43,7 +43,7 @@ TEST(ComparedViews, RowIsComparedAtItsOwnSampleCount) {
 }
 
 TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
-    app::CompareRequest request = views_asked({"naive:bounces=0", "reuse:face=32"});
+    app::CompareRequest request = make_views_request({"naive:bounces=0", "reuse:face=32"});
     std::atomic<int> signal{0};
     request.watcher.stop = &signal;
     std::vector<std::string> labels;
@@ -58,7 +58,7 @@ TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
         EXPECT_FALSE(so_far.complete);
         known.push_back(so_far.rows.front().views.size());
     };
-    const report::Comparison found = app::compare(test::test_engine(), request);
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
     EXPECT_THAT(labels,
                 testing::IsSupersetOf({"view 1 of 6: reference", "view 2 of 6: naive:bounces=0",
                                        "view 3 of 6: reuse:face=32"}));
@@ -80,12 +80,12 @@ TEST(ComparedViews, FinishedViewsAreKeptWhenStopped) {
 /// that looked within one texel of a lamp's outline. Rows report this error with and without
 /// `--causes`, and also for plans whose cube maps have different edge lengths.
 TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
-    app::CompareRequest request = views_asked(
+    app::CompareRequest request = make_views_request(
         {"secant:face=16", "secant:face=auto", "naive:bounces=0",
          "1=secant:face=64 2=secant:face=16", "secant:face=64"});
     request.base.size = {96, 96};
     request.studies.clear();
-    const report::Comparison found = app::compare(test::test_engine(), request);
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_EQ(found.rows.size(), 5u);
     for (const report::Row& row : found.rows) {
         EXPECT_EQ(row.light_edges.has_value(), row.lookup.has_value()) << row.label;

@@ -18,36 +18,36 @@ namespace {
 
 using namespace catoptric;
 
-constexpr uvec2 kWorkSize{96, 64};
-constexpr std::uint64_t kWorkPixels = std::uint64_t{kWorkSize.x} * kWorkSize.y;
+constexpr uvec2 kWorkPictureSize{96, 64};
+constexpr std::uint64_t kWorkPixelCount = std::uint64_t{kWorkPictureSize.x} * kWorkPictureSize.y;
 
-std::vector<PassWork> count_work(const scene::Scene& scene, const std::string& technique,
-                                 app::RenderedWork model = app::RenderedWork::everything) {
-    app::Request asked = test::make_test_request(scene, {technique}, kWorkSize);
+std::vector<PassWork> count_work_of_frame(const scene::Scene& scene, const std::string& technique,
+                                          app::RenderedWork model = app::RenderedWork::everything) {
+    app::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
     asked.model = model;
     asked.warmup = 3;
-    app::Session session(test::test_engine(), scene);
+    app::Session session(test::get_test_engine(), scene);
     return app::count_frame_work(session, asked);
 }
 
-std::uint64_t total(const std::vector<PassWork>& passes, WorkKind kind) {
-    return sum_work(passes)[kind].value_or(0);
+std::uint64_t total_work_of_kind(const std::vector<PassWork>& passes, WorkKind kind) {
+    return sum_work_of_passes(passes)[kind].value_or(0);
 }
 
 /// Returns the work of all camera rays, by the traversal on the CPU.
-bvh::TraversalCounters count_on_cpu(const scene::Scene& scene) {
-    const app::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkSize);
+bvh::BvhTraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
+    const app::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
     const render::SceneUnits units = render::make_scene_units(scene);
-    const render::Geometry geometry = render::make_geometry(scene, units);
+    const render::FrameGeometry geometry = render::make_frame_geometry(scene, units);
     const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
-    const shared::View view = render::make_camera_view(asked.camera, units, kWorkSize, 0,
-                                                       render::geometry_bounds(geometry));
-    bvh::TraversalCounters sum;
-    for (std::size_t pixel = 0; pixel < kWorkPixels; ++pixel) {
-        bvh::TraversalCounters one;
-        bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, kWorkSize, pixel),
+    const shared::View view = render::make_camera_view(asked.camera, units, kWorkPictureSize, 0,
+                                                       render::compute_geometry_bounds(geometry));
+    bvh::BvhTraversalCounters sum;
+    for (std::size_t pixel = 0; pixel < kWorkPixelCount; ++pixel) {
+        bvh::BvhTraversalCounters one;
+        bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, kWorkPictureSize, pixel),
                                      std::numeric_limits<float>::max(),
-                                     bvh::kHiddenFromCamera | bvh::kOneSided, &one);
+                                     bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, &one);
         sum.nodes += one.nodes, sum.triangles += one.triangles;
     }
     return sum;
@@ -61,17 +61,17 @@ TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
         for (scene::Material& material : scene.materials)
             material.emission = vec3(0), material.light.reset();
         scene.punctual.clear();
-        const auto work = count_work(scene, "raytrace:depth=0,shadow=none");
-        const bvh::TraversalCounters wanted = count_on_cpu(scene);
-        EXPECT_EQ(total(work, WorkKind::camera_rays), kWorkPixels) << name;
-        EXPECT_EQ(total(work, WorkKind::mirror_rays), 0u) << name;
-        EXPECT_EQ(total(work, WorkKind::shadow_rays), 0u) << name;
+        const auto work = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
+        const bvh::BvhTraversalCounters wanted = count_traversal_work_on_cpu(scene);
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), kWorkPixelCount) << name;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), 0u) << name;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), 0u) << name;
         // Rounding may differ where the compiler of the shader contracts arithmetic.
         const double slack = 1e-3;
-        EXPECT_NEAR(double(total(work, WorkKind::nodes)), double(wanted.nodes),
+        EXPECT_NEAR(double(total_work_of_kind(work, WorkKind::nodes)), double(wanted.nodes),
                     slack * double(wanted.nodes))
             << name;
-        EXPECT_NEAR(double(total(work, WorkKind::triangles)), double(wanted.triangles),
+        EXPECT_NEAR(double(total_work_of_kind(work, WorkKind::triangles)), double(wanted.triangles),
                     slack * double(wanted.triangles))
             << name;
     }
@@ -80,20 +80,23 @@ TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
 TEST(Work, RaysAreThoseOfTheTracersOwnCounters) {
     const scene::Scene scene = test::make_random_hall(3, 5);
     for (const char* technique : {"raytrace:depth=4", "raytrace:depth=4,first=raster", "hybrid"}) {
-        const auto work = count_work(scene, technique);
-        const app::TechniqueResult drawn = test::render_technique(scene, technique, kWorkSize, 4);
+        const auto work = count_work_of_frame(scene, technique);
+        const app::TechniqueResult drawn = test::render_technique(scene, technique,
+                                                                  kWorkPictureSize, 4);
         ASSERT_TRUE(drawn.rays) << technique;
-        EXPECT_EQ(total(work, WorkKind::camera_rays), drawn.rays->primary) << technique;
-        EXPECT_EQ(total(work, WorkKind::mirror_rays), drawn.rays->mirror) << technique;
-        EXPECT_EQ(total(work, WorkKind::shadow_rays), drawn.rays->shadow) << technique;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), drawn.rays->primary)
+            << technique;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), drawn.rays->mirror) << technique;
+        EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), drawn.rays->shadow) << technique;
     }
 }
 
 TEST(Work, LiveLanesLieBetweenOneAndTheSubgroup) {
-    const auto work = count_work(scene::load("cornell-mirrors"), "raytrace:depth=4");
+    const auto work = count_work_of_frame(scene::load("cornell-mirrors"), "raytrace:depth=4");
     for (const auto& [each, lanes] : {std::pair(WorkKind::nodes, WorkKind::node_lanes),
                                       std::pair(WorkKind::triangles, WorkKind::triangle_lanes)}) {
-        const double live = double(total(work, each)) / double(total(work, lanes));
+        const double live = double(total_work_of_kind(work, each)) /
+                            double(total_work_of_kind(work, lanes));
         std::cout << "[ MEASURED ] live lanes: " << live << '\n';
         EXPECT_GT(live, 1.5);
         EXPECT_LE(live, 128);
@@ -104,8 +107,8 @@ TEST(Work, CountsRepeatToTheLastDigit) {
     const scene::Scene scene = test::make_random_hall(5, 4);
     for (const char* technique :
          {"parallax", "layered", "hybrid", "raytrace:depth=4", "raytrace:depth=4,first=raster"})
-        EXPECT_EQ(count_work(scene, technique, app::RenderedWork::required),
-                  count_work(scene, technique, app::RenderedWork::required))
+        EXPECT_EQ(count_work_of_frame(scene, technique, app::RenderedWork::required),
+                  count_work_of_frame(scene, technique, app::RenderedWork::required))
             << technique;
 }
 
@@ -113,8 +116,8 @@ TEST(Work, CountingChangesNoPixel) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     for (const char* technique : {"parallax", "pyramid", "layered", "hybrid", "raytrace:depth=4",
                                   "raytrace:depth=4,first=raster"}) {
-        const app::Request asked = test::make_test_request(scene, {technique}, kWorkSize);
-        app::Session session(test::test_engine(), scene);
+        const app::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
+        app::Session session(test::get_test_engine(), scene);
         const measure::Picture plain = session.frame(asked).hdr();
         session.forget();
         const app::Frame counted = app::Access::render_frame(session, asked, {.counts_work = true});
@@ -125,53 +128,58 @@ TEST(Work, CountingChangesNoPixel) {
 
 TEST(Work, FrameThatDoesNotCountHasNoWork) {
     const scene::Scene scene = scene::load("flat");
-    app::Session session(test::test_engine(), scene);
-    const app::Frame frame = session.frame(test::make_test_request(scene, {"parallax"}, kWorkSize));
+    app::Session session(test::get_test_engine(), scene);
+    const app::Frame frame = session.frame(
+        test::make_test_request(scene, {"parallax"}, kWorkPictureSize));
     EXPECT_TRUE(app::Access::pass_work(frame).empty());
 }
 
 TEST(Work, LookupsFollowFromTheMasks) {
     const scene::Scene scene = scene::load("flat"); // mirrors do not overlap in its view
-    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", kWorkSize);
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", kWorkPictureSize);
     const measure::Mask mask = measure::mask_mirror_pixels(traced.hits);
     const auto mirror_pixels = static_cast<double>(
         std::ranges::count_if(mask, [](auto in) { return in != 0; }));
     ASSERT_GT(mirror_pixels, 100);
     // One look-up a pixel. Rasterised outlines differ from traced ones by a few pixels.
-    EXPECT_NEAR(double(total(count_work(scene, "planar"), WorkKind::colour_lookups)), mirror_pixels,
-                .05 * mirror_pixels);
+    EXPECT_NEAR(
+        double(total_work_of_kind(count_work_of_frame(scene, "planar"), WorkKind::colour_lookups)),
+        mirror_pixels, .05 * mirror_pixels);
     // One light at each traced point of a scene with one lamp.
-    const auto lit = count_work(scene, "raytrace:depth=0,shadow=none");
-    EXPECT_LE(total(lit, WorkKind::lights), kWorkPixels * scene::list_lights(scene).size());
-    EXPECT_GT(total(lit, WorkKind::lights), kWorkPixels / 4);
+    const auto lit = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
+    EXPECT_LE(total_work_of_kind(lit, WorkKind::lights),
+              kWorkPixelCount * scene::list_lights(scene).size());
+    EXPECT_GT(total_work_of_kind(lit, WorkKind::lights), kWorkPixelCount / 4);
     // Each step of march reads at least one distance.
-    const auto march = count_work(scene, "march"), parallax = count_work(scene, "parallax");
-    EXPECT_GE(double(total(march, WorkKind::distance_lookups)), 2 * mirror_pixels);
-    EXPECT_GE(total(march, WorkKind::distance_lookups),
-              total(parallax, WorkKind::distance_lookups));
-    EXPECT_EQ(total(count_work(scene, "naive:bounces=0,shadow=none"), WorkKind::shadow_lookups),
+    const auto march = count_work_of_frame(scene, "march"),
+               parallax = count_work_of_frame(scene, "parallax");
+    EXPECT_GE(double(total_work_of_kind(march, WorkKind::distance_lookups)), 2 * mirror_pixels);
+    EXPECT_GE(total_work_of_kind(march, WorkKind::distance_lookups),
+              total_work_of_kind(parallax, WorkKind::distance_lookups));
+    EXPECT_EQ(total_work_of_kind(count_work_of_frame(scene, "naive:bounces=0,shadow=none"),
+                                 WorkKind::shadow_lookups),
               0u);
 }
 
 TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
     const scene::Scene scene = scene::load("cornell-mirrors");
-    const auto work = count_work(scene, "naive:bounces=1");
-    app::Session session(test::test_engine(), scene);
+    const auto work = count_work_of_frame(scene, "naive:bounces=1");
+    app::Session session(test::get_test_engine(), scene);
     const app::Frame frame = session.frame(
-        test::make_test_request(scene, {"naive:bounces=1"}, kWorkSize));
+        test::make_test_request(scene, {"naive:bounces=1"}, kWorkPictureSize));
     ASSERT_EQ(work.size(), frame.times().passes.size());
     for (std::size_t i = 0; i < work.size(); ++i) {
         EXPECT_EQ(work[i].name, frame.times().passes[i].name);
         EXPECT_EQ(work[i].counts[WorkKind::passes], 1u);
     }
-    EXPECT_EQ(total(work, WorkKind::frames), 1u);
-    EXPECT_EQ(total(work, WorkKind::passes), work.size());
+    EXPECT_EQ(total_work_of_kind(work, WorkKind::frames), 1u);
+    EXPECT_EQ(total_work_of_kind(work, WorkKind::passes), work.size());
     // Composing draws one triangle, reads nothing by attachment and stores 4 bytes a pixel, which
     // are cleared or loaded and stored.
     const PassWork& compose = work.back();
     EXPECT_EQ(compose.counts[WorkKind::draws], 1u) << compose.name;
-    EXPECT_EQ(compose.counts[WorkKind::bytes], 2 * 4 * kWorkPixels) << compose.name;
-    EXPECT_GE(compose.counts[WorkKind::fragments].value_or(0), kWorkPixels);
+    EXPECT_EQ(compose.counts[WorkKind::bytes], 2 * 4 * kWorkPixelCount) << compose.name;
+    EXPECT_GE(compose.counts[WorkKind::fragments].value_or(0), kWorkPixelCount);
     // A capture's six faces: each draws the objects around the mirror.
     for (const PassWork& pass : work)
         if (pass.name.find("capture") != std::string::npos) {

@@ -13,23 +13,23 @@ using namespace catoptric;
 TEST(Worth, EachSearchMeetsItsErrorBounds) {
     for (const auto& [search, worth] : test::kSearchErrorLimits) {
         SCOPED_TRACE(search);
-        test::expect_errors_within_limits(search, test::search_test_views().front());
+        test::expect_errors_within_limits(search, test::list_search_test_views().front());
     }
 }
 
 TEST(Worth, SecantNeedsSmallerCapturesThanParallax) {
-    test::expect_small_captures(test::search_test_views().front());
+    test::expect_small_captures(test::list_search_test_views().front());
 }
 
 TEST(Worth, HybridTracesFewPixelsForItsErrorBounds) {
-    test::expect_hybrid(test::search_test_views().front());
+    test::expect_hybrid_beats_parallax(test::list_search_test_views().front());
 }
 
 /// The more expensive of two searches must be the better one, also from cameras that were not used
 /// in development. No search may draw long false lines.
 TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
-    std::vector<test::SearchTestView> looks = test::search_test_views();
-    std::ranges::copy(test::unseen_search_test_views(), std::back_inserter(looks));
+    std::vector<test::SearchTestView> looks = test::list_search_test_views();
+    std::ranges::copy(test::list_unseen_search_test_views(), std::back_inserter(looks));
     for (const test::SearchTestView& look : looks) {
         SCOPED_TRACE(look.camera.name);
         const auto seen = test::compare_mirror_pictures(scene::make_cornell_mirrors(), look,

@@ -26,15 +26,15 @@ namespace {
 using namespace catoptric;
 using nlohmann::json;
 
-constexpr uvec2 kSize{128, 128};
-constexpr float kOff = .02f;
-constexpr int kLeastPixels = 32; // size of the smallest object judged on its own
+constexpr uvec2 kJudgedPictureSize{128, 128};
+constexpr float kOffThreshold = .02f;
+constexpr int kMinJudgedPixels = 32; // size of the smallest object judged on its own
 
-app::Request request_of(app::ResolvedScene& wanted, std::size_t camera) {
+app::Request make_camera_request(app::ResolvedScene& wanted, std::size_t camera) {
     app::Request request;
-    request.size = kSize;
+    request.size = kJudgedPictureSize;
     request.camera = camera < wanted.scene.cameras.size() ? wanted.scene.cameras[camera]
-                                                          : app::choose_camera(wanted, 1);
+                                                          : app::choose_or_add_camera(wanted, 1);
     request.ambient = app::choose_ambient_light(wanted);
     const std::optional<double> exposure = app::find_exposure(wanted);
     request.exposure = exposure.value_or(0);
@@ -43,36 +43,37 @@ app::Request request_of(app::ResolvedScene& wanted, std::size_t camera) {
     return request;
 }
 
-measure::Picture picture(app::Session& session, const app::Request& request,
-                         const std::string& technique) {
+measure::Picture render_picture(app::Session& session, const app::Request& request,
+                                const std::string& technique) {
     app::FrameSpec spec = request;
     spec.techniques = {technique};
     return measure::apply_exposure(session.frame(spec).hdr(), request.exposure);
 }
 
-float apart(const vec3& a, const vec3& b) {
-    return f32::largest(abs(clamp(a, 0.0f, 1.0f) - clamp(b, 0.0f, 1.0f)));
+float largest_channel_difference(const vec3& a, const vec3& b) {
+    return f32::largest_vector_component(abs(clamp(a, 0.0f, 1.0f) - clamp(b, 0.0f, 1.0f)));
 }
 
-/// Surfaces that the camera sees, at kFine x kFine places per pixel.
-struct Looked {
+/// Surfaces that the camera sees, at kRaysAlongPixelEdge x kRaysAlongPixelEdge places per pixel.
+struct CameraSurfaces {
     uvec2 size;
-    std::vector<scenes::Seen> seen;
-    const scenes::Seen& at(int x, int y) const {
-        const ivec2 fine(size * scenes::kFine);
+    std::vector<scenes::SeenSurface> seen;
+    const scenes::SeenSurface& surface_at(int x, int y) const {
+        const ivec2 fine(size * scenes::kRaysAlongPixelEdge);
         return seen[std::size_t(std::clamp(y, 0, fine.y - 1)) * std::size_t(fine.x) +
                     std::size_t(std::clamp(x, 0, fine.x - 1))];
     }
-    const scenes::Seen& centre(std::size_t pixel) const {
-        return at(int(pixel % size.x * scenes::kFine + scenes::kFine / 2),
-                  int(pixel / size.x * scenes::kFine + scenes::kFine / 2));
+    const scenes::SeenSurface& surface_at_pixel_centre(std::size_t pixel) const {
+        return surface_at(
+            int(pixel % size.x * scenes::kRaysAlongPixelEdge + scenes::kRaysAlongPixelEdge / 2),
+            int(pixel / size.x * scenes::kRaysAlongPixelEdge + scenes::kRaysAlongPixelEdge / 2));
     }
 };
 
 /// Why a pixel is left out of the comparison of raster and ray tracing.
-enum class Left { not_at_all, mirror, sharp, edge };
+enum class LeftOutReason { not_at_all, mirror, sharp, edge };
 
-bool differ(const scenes::Seen& a, const scenes::Seen& b, float pixel) {
+bool do_surfaces_differ(const scenes::SeenSurface& a, const scenes::SeenSurface& b, float pixel) {
     if (a.object != b.object || a.cut != b.cut || a.shadowed != b.shadowed ||
         a.texels != b.texels || a.sharp != b.sharp)
         return true;
@@ -82,67 +83,75 @@ bool differ(const scenes::Seen& a, const scenes::Seen& b, float pixel) {
                                      std::abs(dot(b.facet, a.place - b.place))) > 2 * pixel;
 }
 
-Left why_left(const Looked& looked, const scenes::Sight& sight, const scene::Scene& scene,
-              std::size_t pixel, bool leaves_sharp) {
-    const scenes::Seen& seen = looked.centre(pixel);
+LeftOutReason find_left_out_reason(const CameraSurfaces& looked, const scenes::SurfaceSight& sight,
+                                   const scene::Scene& scene, std::size_t pixel,
+                                   bool leaves_sharp) {
+    const scenes::SeenSurface& seen = looked.surface_at_pixel_centre(pixel);
     if (seen.object >= 0 && scene::is_mirror(scene, scene.objects[std::size_t(seen.object)]))
-        return Left::mirror;
-    if (leaves_sharp && seen.sharp) return Left::sharp;
-    const int fine = int(scenes::kFine), x = int(pixel % looked.size.x) * fine + fine / 2,
+        return LeftOutReason::mirror;
+    if (leaves_sharp && seen.sharp) return LeftOutReason::sharp;
+    const int fine = int(scenes::kRaysAlongPixelEdge),
+              x = int(pixel % looked.size.x) * fine + fine / 2,
               y = int(pixel / looked.size.x) * fine + fine / 2;
     const float width = sight.pixel_at(seen.distance);
     for (int down = -fine; down <= fine; ++down)
         for (int right = -fine; right <= fine; ++right)
-            if (differ(seen, looked.at(x + right, y + down), width)) return Left::edge;
-    return Left::not_at_all;
+            if (do_surfaces_differ(seen, looked.surface_at(x + right, y + down), width))
+                return LeftOutReason::edge;
+    return LeftOutReason::not_at_all;
 }
 
 /// Compares raster and ray tracing. Returns how many pixels show a surface, how many are left out
 /// and why, and how many of the rest are off. `judged`, if given, becomes a picture: left-out
 /// pixels grey, pixels that are off red, others black.
-json agreement(const app::Request& request, const Looked& looked, const scenes::Sight& sight,
-               const measure::Picture& raster, const measure::Picture& rays, bool leaves_sharp,
-               measure::Picture* judged) {
-    std::map<Left, int> counts;
+json measure_raster_agreement(const app::Request& request, const CameraSurfaces& looked,
+                              const scenes::SurfaceSight& sight, const measure::Picture& raster,
+                              const measure::Picture& rays, bool leaves_sharp,
+                              measure::Picture* judged) {
+    std::map<LeftOutReason, int> counts;
     int off = 0, shown = 0, background_off = 0, edge_off = 0;
     for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
-        const bool is_surface = looked.centre(i).object >= 0;
-        const Left why = why_left(looked, sight, request.scene, i, leaves_sharp);
+        const bool is_surface = looked.surface_at_pixel_centre(i).object >= 0;
+        const LeftOutReason why = find_left_out_reason(looked, sight, request.scene, i,
+                                                       leaves_sharp);
         shown += is_surface;
         counts[why] += is_surface;
-        const bool differs = !(apart(raster.pixels[i], rays.pixels[i]) <= kOff),
-                   is_off = differs && why == Left::not_at_all;
-        edge_off += differs && is_surface && why == Left::edge;
+        const bool differs = !(largest_channel_difference(raster.pixels[i], rays.pixels[i]) <=
+                               kOffThreshold),
+                   is_off = differs && why == LeftOutReason::not_at_all;
+        edge_off += differs && is_surface && why == LeftOutReason::edge;
         off += is_off && is_surface;
         background_off += is_off && !is_surface;
         if (judged)
-            judged->pixels[i] = is_off ? vec3(1, 0, 0) : vec3(why == Left::not_at_all ? 0 : .3f);
+            judged->pixels[i] = is_off ? vec3(1, 0, 0)
+                                       : vec3(why == LeftOutReason::not_at_all ? 0 : .3f);
     }
     return {{"shown", shown},
-            {"judged", counts[Left::not_at_all]},
-            {"mirror", counts[Left::mirror]},
-            {"sharp", counts[Left::sharp]},
-            {"edge", counts[Left::edge]},
+            {"judged", counts[LeftOutReason::not_at_all]},
+            {"mirror", counts[LeftOutReason::mirror]},
+            {"sharp", counts[LeftOutReason::sharp]},
+            {"edge", counts[LeftOutReason::edge]},
             {"edge_off", edge_off},
             {"off", off},
             {"background_off", background_off}};
 }
 
-/// Returns the pixels of each object that covers at least kLeastPixels pixels.
-std::map<int, std::vector<std::size_t>> pixels_of(const Looked& looked) {
+/// Returns the pixels of each object that covers at least kMinJudgedPixels pixels.
+std::map<int, std::vector<std::size_t>> list_pixels_of_objects(const CameraSurfaces& looked) {
     std::map<int, std::vector<std::size_t>> pixels;
     for (std::size_t i = 0; i < std::size_t{looked.size.x} * looked.size.y; ++i)
-        if (looked.centre(i).object >= 0) pixels[looked.centre(i).object].push_back(i);
-    std::erase_if(pixels, [](const auto& entry) { return entry.second.size() < kLeastPixels; });
+        if (looked.surface_at_pixel_centre(i).object >= 0)
+            pixels[looked.surface_at_pixel_centre(i).object].push_back(i);
+    std::erase_if(pixels, [](const auto& entry) { return entry.second.size() < kMinJudgedPixels; });
     return pixels;
 }
 
 /// Returns the standard deviation of the visible texels of a texture, 0 to 1, of the channel that
 /// varies most.
-float deviation(const Looked& looked, const std::vector<std::size_t>& pixels) {
+float deviation_of_texels(const CameraSurfaces& looked, const std::vector<std::size_t>& pixels) {
     dvec3 sum(0), squares(0);
     for (const std::size_t i : pixels) {
-        const dvec3 texel(looked.centre(i).texel);
+        const dvec3 texel(looked.surface_at_pixel_centre(i).texel);
         sum += texel, squares += texel * texel;
     }
     const double n = double(pixels.size());
@@ -151,7 +160,7 @@ float deviation(const Looked& looked, const std::vector<std::size_t>& pixels) {
 }
 
 /// Returns the scene with each base-colour texture replaced by its mean colour. Alpha stays.
-scene::Scene plain(scene::Scene scene) {
+scene::Scene replace_textures_by_mean(scene::Scene scene) {
     for (scene::Material& material : scene.materials) {
         if (!material.albedo_texture) continue;
         scene::Image image = *material.albedo_texture->image;
@@ -168,58 +177,60 @@ scene::Scene plain(scene::Scene scene) {
     return scene;
 }
 
-float luminance(const vec3& colour) { return dot(colour, vec3(.2126f, .7152f, .0722f)); }
+float luminance_of_colour(const vec3& colour) { return dot(colour, vec3(.2126f, .7152f, .0722f)); }
 
 /// Returns how far luminance varies over an object's normals: (most - least) / most, of means over
 /// similar normals. Returns nothing if no two normals are 30 degrees apart or if the object is
 /// black.
-std::optional<float> variation(const measure::Picture& picture, const Looked& looked,
-                               const std::vector<std::size_t>& pixels) {
-    struct Sum {
+std::optional<float> variation_over_normals(const measure::Picture& picture,
+                                            const CameraSurfaces& looked,
+                                            const std::vector<std::size_t>& pixels) {
+    struct RunningMean {
         vec3 normal{0};
         float luminance = 0, count = 0;
     };
-    std::map<std::array<int, 3>, Sum> directions;
+    std::map<std::array<int, 3>, RunningMean> directions;
     for (const std::size_t i : pixels) {
-        const vec3 n = looked.centre(i).normal, rounded = glm::round(n * 4.0f);
-        Sum& sum = directions[{int(rounded.x), int(rounded.y), int(rounded.z)}];
-        sum.normal += n, sum.luminance += luminance(picture.pixels[i]), sum.count += 1;
+        const vec3 n = looked.surface_at_pixel_centre(i).normal, rounded = glm::round(n * 4.0f);
+        RunningMean& sum = directions[{int(rounded.x), int(rounded.y), int(rounded.z)}];
+        sum.normal += n, sum.luminance += luminance_of_colour(picture.pixels[i]), sum.count += 1;
     }
-    constexpr float kCosine = .866f;
+    constexpr float kMinFacingCosine = .866f;
     std::erase_if(directions, [](const auto& entry) { return entry.second.count < 4; });
     float least = std::numeric_limits<float>::infinity(), most = 0, nearest = 1;
     for (const auto& entry : directions) {
-        const Sum& sum = entry.second;
+        const RunningMean& sum = entry.second;
         least = std::min(least, sum.luminance / sum.count);
         most = std::max(most, sum.luminance / sum.count);
         for (const auto& other : directions)
             nearest = std::min(nearest, dot(normalize(sum.normal), normalize(other.second.normal)));
     }
-    constexpr float kBlack = 1.0f / 255;
-    if (nearest > kCosine || most < kBlack) return {};
+    constexpr float kBlackThreshold = 1.0f / 255;
+    if (nearest > kMinFacingCosine || most < kBlackThreshold) return {};
     return (most - least) / most;
 }
 
 /// Returns two figures for each object: the share of pixels that its texture changes, and how far
 /// luminance varies over its normals.
-json surfaces(const app::Request& request, const Looked& looked, const measure::Picture& rays,
-              const measure::Picture& plain_rays) {
+json measure_object_surfaces(const app::Request& request, const CameraSurfaces& looked,
+                             const measure::Picture& rays, const measure::Picture& plain_rays) {
     json textures = json::array(), lit = json::array();
-    for (const auto& [number, pixels] : pixels_of(looked)) {
+    for (const auto& [number, pixels] : list_pixels_of_objects(looked)) {
         const scene::Object& object = request.scene.objects[std::size_t(number)];
         const scene::Material& material = request.scene.materials[object.material];
         if (scene::is_mirror(request.scene, object)) continue;
-        const float varies = material.albedo_texture ? deviation(looked, pixels) : 0;
+        const float varies = material.albedo_texture ? deviation_of_texels(looked, pixels) : 0;
         if (varies > 8.0f / 255) {
             const auto changed = std::ranges::count_if(pixels, [&](std::size_t i) {
-                return apart(rays.pixels[i], plain_rays.pixels[i]) > 1.0f / 255;
+                return largest_channel_difference(rays.pixels[i], plain_rays.pixels[i]) >
+                       1.0f / 255;
             });
             textures.push_back({{"object", object.name},
                                 {"pixels", pixels.size()},
                                 {"deviation", varies * 255},
                                 {"changed", double(changed) / double(pixels.size())}});
         }
-        const auto over_normals = variation(plain_rays, looked, pixels);
+        const auto over_normals = variation_over_normals(plain_rays, looked, pixels);
         if (!material.unlit && !scene::is_visibly_emissive(material) && over_normals)
             lit.push_back(
                 {{"object", object.name}, {"pixels", pixels.size()}, {"variation", *over_normals}});
@@ -227,14 +238,15 @@ json surfaces(const app::Request& request, const Looked& looked, const measure::
     return {{"textures", textures}, {"lit", lit}};
 }
 
-/// Returns the scene without vertex colours. After `plain`, each surface then has one colour.
-scene::Scene without_colours(scene::Scene scene) {
+/// Returns the scene without vertex colours. After `replace_textures_by_mean`, each surface then
+/// has one colour.
+scene::Scene remove_vertex_colours(scene::Scene scene) {
     for (scene::Mesh& mesh : scene.meshes) mesh.colours.clear();
     return scene;
 }
 
-void write(const measure::Picture& picture, const std::string& folder, const char* name,
-           std::size_t camera) {
+void write_picture(const measure::Picture& picture, const std::string& folder, const char* name,
+                   std::size_t camera) {
     if (folder.empty()) return;
     measure::write_png(measure::to_display(picture),
                        folder + "/" + name + "-" + std::to_string(camera) + ".png");
@@ -243,36 +255,39 @@ void write(const measure::Picture& picture, const std::string& folder, const cha
 constexpr const char* kRaster = "naive:bounces=0";
 constexpr const char* kRays = "raytrace";
 
-json measure_camera(app::Engine& engine, const std::string& name, std::size_t camera,
-                    const std::string& folder) {
-    app::ResolvedScene wanted = app::resolve_scene(name, {});
-    app::Request request = request_of(wanted, camera);
+json measure_view_of_camera(app::Engine& engine, const std::string& name, std::size_t camera,
+                            const std::string& folder) {
+    app::ResolvedScene wanted = app::load_resolved_scene(name, {});
+    app::Request request = make_camera_request(wanted, camera);
     app::Session session(engine, request.scene);
     app::resolve_auto_exposure(session, request);
-    const measure::Picture raster = picture(session, request, kRaster),
-                           rays = picture(session, request, kRays);
-    const scenes::Sight sight(request);
-    const Looked looked{request.size, sight.look()};
-    measure::Picture judged(int(kSize.x), int(kSize.y));
+    const measure::Picture raster = render_picture(session, request, kRaster),
+                           rays = render_picture(session, request, kRays);
+    const scenes::SurfaceSight sight(request);
+    const CameraSurfaces looked{request.size, sight.look()};
+    measure::Picture judged(int(kJudgedPictureSize.x), int(kJudgedPictureSize.y));
     json line = {{"scene", name}, {"camera", request.camera.name}, {"exposure", request.exposure}};
-    line["agreement"] = agreement(request, looked, sight, raster, rays, true, &judged);
-    write(raster, folder, "raster", camera), write(rays, folder, "rays", camera);
-    write(judged, folder, "judged", camera);
+    line["agreement"] = measure_raster_agreement(request, looked, sight, raster, rays, true,
+                                                 &judged);
+    write_picture(raster, folder, "raster", camera), write_picture(rays, folder, "rays", camera);
+    write_picture(judged, folder, "judged", camera);
 
     app::Request flat = request;
-    flat.scene = without_colours(plain(request.scene));
+    flat.scene = remove_vertex_colours(replace_textures_by_mean(request.scene));
     app::Session flat_session(engine, flat.scene);
-    line.update(surfaces(request, looked, rays, picture(flat_session, flat, kRays)));
+    line.update(
+        measure_object_surfaces(request, looked, rays, render_picture(flat_session, flat, kRays)));
 
-    app::ResolvedScene smooth = app::resolve_scene(name,
-                                                   {.overrides = {.dielectric_mirrors = true}});
-    app::Request with = request_of(smooth, camera);
+    app::ResolvedScene smooth = app::load_resolved_scene(
+        name, {.overrides = {.dielectric_mirrors = true}});
+    app::Request with = make_camera_request(smooth, camera);
     with.exposure = request.exposure;
     app::Session with_session(engine, with.scene);
-    const scenes::Sight with_sight(with);
-    line["agreement_dielectric_mirrors"] = agreement(
-        with, {with.size, with_sight.look()}, with_sight, picture(with_session, with, kRaster),
-        picture(with_session, with, kRays), false, nullptr);
+    const scenes::SurfaceSight with_sight(with);
+    line["agreement_dielectric_mirrors"] = measure_raster_agreement(
+        with, {with.size, with_sight.look()}, with_sight,
+        render_picture(with_session, with, kRaster), render_picture(with_session, with, kRays),
+        false, nullptr);
     return line;
 }
 
@@ -280,12 +295,12 @@ json measure_camera(app::Engine& engine, const std::string& name, std::size_t ca
 
 int main(int argc, char** argv) try {
     if (argc < 2) fail(Failure::usage, "catoptric_scenes SCENE [DIR]");
-    app::Engine engine({.cache = app::cache_folder()});
+    app::Engine engine({.cache = app::find_cache_folder()});
     const std::string folder = argc > 2 ? argv[2] : "";
     const std::size_t cameras = std::max<std::size_t>(
-        1, app::resolve_scene(argv[1], {}).scene.cameras.size());
+        1, app::load_resolved_scene(argv[1], {}).scene.cameras.size());
     for (std::size_t i = 0; i < cameras; ++i)
-        std::puts(measure_camera(engine, argv[1], i, folder).dump().c_str());
+        std::puts(measure_view_of_camera(engine, argv[1], i, folder).dump().c_str());
     return 0;
 } catch (const Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -15,9 +15,9 @@ namespace scenes {
 using namespace catoptric;
 
 /// Rays along each side of a pixel. The middle ray goes through the pixel's centre.
-inline constexpr std::uint32_t kFine = 3;
+inline constexpr std::uint32_t kRaysAlongPixelEdge = 3;
 
-struct Seen {
+struct SeenSurface {
     int object = -1;            ///< index; -1: the ray meets nothing
     float distance = 0;         ///< along the ray, scene units
     vec3 place{0};              ///< scene units
@@ -29,35 +29,36 @@ struct Seen {
     vec4 texel{0};              ///< base colour as in the file, 0 to 1; alpha last
 };
 
-class Sight {
+class SurfaceSight {
 public:
     /// Prepares the scene at the request's time. Builds a BVH over all triangles.
-    explicit Sight(const app::Request& request);
+    explicit SurfaceSight(const app::Request& request);
 
-    /// Returns what kFine x kFine rays per pixel meet, row by row. A ray takes about two
-    /// microseconds, more with lights.
-    std::vector<Seen> look() const;
+    /// Returns what kRaysAlongPixelEdge x kRaysAlongPixelEdge rays per pixel meet, row by row. A
+    /// ray takes about two microseconds, more with lights.
+    std::vector<SeenSurface> look() const;
     /// Returns the width of a pixel at a distance, both in scene units.
     float pixel_at(float distance) const;
 
 private:
-    struct Met {
+    struct CutOutSurface {
         bvh::RayHit<float> hit;
         vec4 uv{0};
         float alpha = 1;
     };
     /// Returns the first hit outside the cut-out parts of surfaces. `cut` becomes the number of
     /// cut-out surfaces before the hit.
-    std::optional<Met> meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut) const;
-    Seen see(const f32::Ray& ray) const;
-    std::uint32_t shadows(const Seen& seen, std::uint32_t triangle) const;
-    const scene::Material& material_of(std::uint32_t object) const {
-        return now_.materials[now_.objects[object].material];
+    std::optional<CutOutSurface> meet(f32::Ray ray, float farthest, std::uint32_t skipped,
+                                      int& cut) const;
+    SeenSurface see(const f32::Ray& ray) const;
+    std::uint32_t shadows(const SeenSurface& seen, std::uint32_t triangle) const;
+    const scene::Material& material_of_object(std::uint32_t object) const {
+        return current_scene_.materials[current_scene_.objects[object].material];
     }
 
-    scene::Scene now_;
+    scene::Scene current_scene_;
     render::SceneUnits space_;
-    render::Geometry geometry_;
+    render::FrameGeometry geometry_;
     std::vector<uvec3> triangles_; ///< indices of corners, by triangle
     bvh::Bvh tree_;
     shared::View view_;

@@ -13,7 +13,7 @@ inline scene::Scene make_coloured_box(const std::vector<dvec3>& boards, bool ope
     scene::Scene scene{.name = open ? "open box" : "box"};
     for (int face = 0; face < (open ? 5 : 6); ++face)
         add_mesh(
-            scene, wall(face, {-4, -3, -5}, {4, 3, 5}),
+            scene, make_box_wall(face, {-4, -3, -5}, {4, 3, 5}),
             add_material(scene, {.name = "wall",
                                  .emission = vec3(face & 1 ? .75f : .25f, face & 2 ? .75f : .25f,
                                                   face & 4 ? .75f : .25f)}));

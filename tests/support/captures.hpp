@@ -13,7 +13,7 @@
 namespace catoptric {
 
 /// Prints a format as a parameter of a test.
-inline void PrintTo(Format format, std::ostream* out) { *out << name_of(format); }
+inline void PrintTo(TexelFormat format, std::ostream* out) { *out << texel_format_name(format); }
 
 } // namespace catoptric
 
@@ -30,11 +30,11 @@ struct CapturedLayers {
 };
 
 /// Captures every mirror once, without shadows and with all other mirrors black. `range_world`: the
-/// range of r8_unorm distances, in world units. `staged`: see test_device().
+/// range of r8_unorm distances, in world units. `staged`: see get_test_device().
 inline CapturedLayers capture_with_options(const scene::Scene& scene,
                                            render::CaptureOptions options, double range_world,
                                            bool staged = false) {
-    auto& [device, pipelines] = test_device(staged);
+    auto& [device, pipelines] = get_test_device(staged);
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(
         scene, scene.cameras.empty() ? scene::make_default_camera(scene) : scene.cameras.front(),
@@ -42,32 +42,33 @@ inline CapturedLayers capture_with_options(const scene::Scene& scene,
     graph::GraphRunner runner(device, pipelines);
     graph::Graph graph;
     const render::FrameInputs inputs{gpu_scene, {16, 16}, ""};
-    if (options.distance == Format::r8_unorm)
-        options.stored_unit = gpu_scene.space().to_scene_length(range_world);
-    const render::CubeArray cubes = add_black_captures(graph, inputs, options);
+    if (options.distance == TexelFormat::r8_unorm)
+        options.stored_unit = gpu_scene.scene_units().world_to_scene_length(range_world);
+    const render::CubeCaptureArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
         if (image) graph.mark_output(*image);
     run_graph(runner, graph);
     const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
         return CapturedCubes{options.face, runner.read_resource(colour),
-                             runner.read_resource(distance), gpu_scene.space()};
+                             runner.read_resource(distance), gpu_scene.scene_units()};
     };
     CapturedLayers layers{read(cubes.colour, *cubes.distance), {}};
     if (options.second_layer) layers.second = read(*cubes.colour2, *cubes.distance2);
     return layers;
 }
 
-inline CapturedCubes capture_mirrors(const scene::Scene& scene, std::uint32_t face, Format distance,
-                                     double range_world = 1, bool staged = false) {
+inline CapturedCubes capture_mirrors(const scene::Scene& scene, std::uint32_t face,
+                                     TexelFormat distance, double range_world = 1,
+                                     bool staged = false) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance;
     return capture_with_options(scene, options, range_world, staged).first;
 }
 
 /// Captures both depth layers. Distances as r8_unorm range over 10 world units.
-inline std::pair<CapturedCubes, CapturedCubes> capture_layers(const scene::Scene& scene,
-                                                              std::uint32_t face, Format distance) {
+inline std::pair<CapturedCubes, CapturedCubes>
+capture_both_depth_layers(const scene::Scene& scene, std::uint32_t face, TexelFormat distance) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance, options.second_layer = true;
     CapturedLayers layers = capture_with_options(scene, options, 10);

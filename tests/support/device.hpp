@@ -23,21 +23,21 @@ using namespace catoptric;
 /// A device with its pipelines, for tests that build their own render graphs.
 struct TestDevice {
     explicit TestDevice(const gpu::DeviceOptions& options) : device(options), pipelines(device) {}
-    gpu::Device device;
-    gpu::Pipelines pipelines;
+    gpu::GpuDevice device;
+    gpu::PipelineStore pipelines;
 };
 
 namespace detail {
 
-struct TestDevices {
+struct AllTestDevices {
     std::map<bool, std::unique_ptr<TestDevice>>
-        benches; ///< devices, by the argument of test_device()
+        benches; ///< devices, by the argument of get_test_device()
     std::map<bool, std::unique_ptr<app::Engine>>
-        engines; ///< engines, by the argument of test_engine()
+        engines; ///< engines, by the argument of get_test_engine()
 };
-inline TestDevices devices;
+inline AllTestDevices devices;
 
-inline std::string error_message_of(const std::function<void()>& check) {
+inline std::string catch_error_message(const std::function<void()>& check) {
     try {
         check();
     } catch (const std::exception& error) {
@@ -55,9 +55,9 @@ class DestroyDevicesAtEnd : public testing::Environment {
 class CheckValidationAfterTest : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo&) override {
         for (const auto& [staged, bench] : devices.benches)
-            EXPECT_EQ(error_message_of([&] { bench->device.check_validation(); }), "");
+            EXPECT_EQ(catch_error_message([&] { bench->device.check_validation(); }), "");
         for (const auto& [layered, engine] : devices.engines)
-            EXPECT_EQ(error_message_of([&] { engine->check_validation(); }), "");
+            EXPECT_EQ(catch_error_message([&] { engine->check_validation(); }), "");
     }
 };
 
@@ -71,27 +71,27 @@ inline const bool watched = [] {
 
 /// Returns the device of the test program and creates it at first use. With `staged`, the device
 /// behaves as if its memory could not be mapped.
-inline TestDevice& test_device(bool staged = false) {
+inline TestDevice& get_test_device(bool staged = false) {
     auto& made = detail::devices.benches[staged];
     if (!made)
-        made = std::make_unique<TestDevice>(
-            gpu::DeviceOptions{.wanted = wanted_device(), .validate = true, .staged = staged});
+        made = std::make_unique<TestDevice>(gpu::DeviceOptions{
+            .wanted = read_wanted_device_name(), .validate = true, .staged = staged});
     return *made;
 }
 
 /// Returns the engine of the test program and creates it at first use. Without `layered`, the
 /// engine draws captures face by face.
-inline app::Engine& test_engine(bool layered = true) {
+inline app::Engine& get_test_engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
         made.reset(new app::Engine(app::Access::make_engine(
-            {.device = wanted_device(), .validate = true}, {.layered = layered})));
+            {.device = read_wanted_device_name(), .validate = true}, {.layered = layered})));
     return *made;
 }
 
 /// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
 /// limits/limits_test.cpp tests the error on devices that do not support it.
-inline bool has_float_colour() { return test_device().device.has_float_filtering(); }
+inline bool has_float_colour() { return get_test_device().device.has_float_filtering(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
 inline graph::GraphFrameTimes run_graph(graph::GraphRunner& runner, const graph::Graph& graph,
@@ -101,7 +101,7 @@ inline graph::GraphFrameTimes run_graph(graph::GraphRunner& runner, const graph:
 
 /// Returns the texels of an image, or the contents of a buffer, as numbers of type T.
 template <typename T, typename Resource>
-std::vector<T> read_values(graph::GraphRunner& runner, Resource resource) {
+std::vector<T> read_resource_values(graph::GraphRunner& runner, Resource resource) {
     const std::vector<std::byte> bytes = runner.read_resource(resource);
     std::vector<T> values(bytes.size() / sizeof(T));
     std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));

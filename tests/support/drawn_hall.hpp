@@ -14,7 +14,7 @@
 namespace test {
 
 /// Returns the transform that rotates by `angle` about `axis` and then moves the origin to `at`.
-inline dmat4 rotation_about_axis(dvec3 axis, double angle, dvec3 at) {
+inline dmat4 make_rotation_about_axis(dvec3 axis, double angle, dvec3 at) {
     const dvec3 x = glm::normalize(
                     cross(axis, std::abs(axis.x) < .5 ? dvec3(1, 0, 0) : dvec3(0, 1, 0))),
                 y = cross(axis, x);
@@ -40,24 +40,26 @@ inline scene::Scene make_random_hall(std::uint64_t seed, int mirrors) {
                       mirror = add_material(scene, {.name = "mirror", .mirror = true}),
                       lamp = add_material(scene, {.name = "lamp", .emission = vec3(9)});
     for (int face = 0; face < 6; ++face)
-        add_mesh(scene, wall(face, {-8, -6, -10}, {8, 6, 10}), white);
+        add_mesh(scene, make_box_wall(face, {-8, -6, -10}, {8, 6, 10}), white);
     for (int i = 0; i < 3; ++i) {
-        const double z = -5. + 5. * i + numbers.number_between(-1, 1),
-                     tilt = numbers.number_between(-.5f, .5f);
-        const double to = numbers.integer_below(2) == 0 ? 8 : numbers.number_between(0, 6);
-        if (numbers.integer_below(4) == 0) continue;
-        add_quad(scene, "partition", numbers.integer_below(3) == 0 ? front : white, {-8, -6, z},
-                 {to, -6, z + tilt}, {to, 6, z + tilt}, {-8, 6, z});
-        scene.objects.back().seen_by_camera = numbers.integer_below(6) != 0;
+        const double z = -5. + 5. * i + numbers.random_number_between(-1, 1),
+                     tilt = numbers.random_number_between(-.5f, .5f);
+        const double to = numbers.random_integer_below(2) == 0
+                              ? 8
+                              : numbers.random_number_between(0, 6);
+        if (numbers.random_integer_below(4) == 0) continue;
+        add_quad(scene, "partition", numbers.random_integer_below(3) == 0 ? front : white,
+                 {-8, -6, z}, {to, -6, z + tilt}, {to, 6, z + tilt}, {-8, 6, z});
+        scene.objects.back().seen_by_camera = numbers.random_integer_below(6) != 0;
     }
     const auto place = [&] {
-        return dvec3(numbers.number_between(-7, 7), numbers.number_between(-5, 5),
-                     numbers.number_between(-9, 9));
+        return dvec3(numbers.random_number_between(-7, 7), numbers.random_number_between(-5, 5),
+                     numbers.random_number_between(-9, 9));
     };
     for (int i = 0; i < 2 * mirrors; ++i) {
         const std::size_t material = i < mirrors ? mirror : white;
-        const double size = numbers.number_between(.2f, .9f);
-        const auto kind = numbers.integer_below(3);
+        const double size = numbers.random_number_between(.2f, .9f);
+        const auto kind = numbers.random_integer_below(3);
         if (kind == 0) {
             add_ball(scene, "ball", material, place(), size, 2);
             continue;
@@ -67,18 +69,21 @@ inline scene::Scene make_random_hall(std::uint64_t seed, int mirrors) {
         else
             add_quad(scene, "panel", material, {-size, -size, 0}, {size, -size, 0}, {size, size, 0},
                      {-size, size, 0});
-        const dvec3 axis(numbers.unit_direction());
-        const double angle = numbers.integer_below(2) == 0 ? 0 : numbers.number_between(0, 6);
-        scene.objects.back().world_from_object = rotation_about_axis(axis, angle, place());
+        const dvec3 axis(numbers.random_unit_direction());
+        const double angle = numbers.random_integer_below(2) == 0
+                                 ? 0
+                                 : numbers.random_number_between(0, 6);
+        scene.objects.back().world_from_object = make_rotation_about_axis(axis, angle, place());
     }
     add_quad(scene, "lamp", lamp, {-1, 5.9, -1}, {1, 5.9, -1}, {1, 5.9, 1}, {-1, 5.9, 1});
     scene::PunctualLight bare{.name = "bare", .intensity = vec3(5)};
     bare.world_from_light[3] = dvec4(place(), 1);
     scene.punctual.push_back(bare);
-    scene.cameras.push_back({.eye = place(),
-                             .target = place(),
-                             .vertical_fov_degrees = numbers.number_between(20, 80),
-                             .orthographic_height = numbers.integer_below(4) == 0 ? 8. : 0.});
+    scene.cameras.push_back(
+        {.eye = place(),
+         .target = place(),
+         .vertical_fov_degrees = numbers.random_number_between(20, 80),
+         .orthographic_height = numbers.random_integer_below(4) == 0 ? 8. : 0.});
     return scene;
 }
 
@@ -89,21 +94,22 @@ public:
         for (std::size_t i = 0; i < now.objects.size(); ++i) add_object_triangles(now, i);
         tree_ = bvh::build_bvh(triangles_);
     }
-    struct ObjectHit {
+    struct RayCasterObjectHit {
         std::size_t object = 0;
         double t = 0;
-        bool operator==(const ObjectHit&) const = default;
+        bool operator==(const RayCasterObjectHit&) const = default;
     };
     /// Returns the first object that a ray meets, except object `but`. Pass the number of objects
     /// as `but` to exclude none. `skipped`: flags of triangles that the ray ignores.
-    std::optional<ObjectHit> find_first_object(dvec3 from, const dvec3& direction, std::size_t but,
-                                               std::uint32_t skipped) const {
+    std::optional<RayCasterObjectHit> find_first_object(dvec3 from, const dvec3& direction,
+                                                        std::size_t but,
+                                                        std::uint32_t skipped) const {
         double passed = 0;
         for (;;) {
             const auto hit = bvh::find_closest_hit<double>(
                 tree_, {from, direction, 0}, std::numeric_limits<double>::infinity(), skipped);
             if (!hit) return std::nullopt;
-            if (hit->object != but) return ObjectHit{hit->object, passed + hit->t};
+            if (hit->object != but) return RayCasterObjectHit{hit->object, passed + hit->t};
             const double step = hit->t * (1 + 1e-9) + 1e-9;
             passed += step, from += step * direction;
         }
@@ -112,14 +118,14 @@ public:
     bool is_in_shadow(const dvec3& place, const dvec3& light) const {
         const dvec3 way = light - place;
         const auto hit = bvh::find_closest_hit<double>(tree_, {place + 1e-6 * way, way, 0}, 1.,
-                                                       bvh::kCastsNoShadow);
+                                                       bvh::kCastsNoShadowFlag);
         return hit.has_value();
     }
     /// Returns a random place on the object's surface.
     dvec3 random_point_on_object(std::size_t object, RandomNumbers& numbers) const {
         const auto [first, count] = ranges_[object];
-        const bvh::Triangle& t = triangles_[first + numbers.integer_below(count)];
-        const vec3 w = numbers.barycentric_weights();
+        const bvh::Triangle& t = triangles_[first + numbers.random_integer_below(count)];
+        const vec3 w = numbers.random_barycentric_weights();
         return dvec3(w.x * t.a + w.y * t.b + w.z * t.c);
     }
 
@@ -129,13 +135,14 @@ private:
         const scene::Material& material = now.materials[object.material];
         const scene::Mesh& mesh = now.meshes[object.mesh];
         std::uint32_t flags = 0;
-        if (!object.seen_by_camera) flags |= bvh::kHiddenFromCamera;
-        if (scene::emitted_radiance(material) != vec3(0)) flags |= bvh::kCastsNoShadow;
+        if (!object.seen_by_camera) flags |= bvh::kHiddenFromCameraFlag;
+        if (scene::emitted_radiance(material) != vec3(0)) flags |= bvh::kCastsNoShadowFlag;
         if (!scene::is_mirror(now, object) && scene::is_one_sided(material))
-            flags |= bvh::kOneSided;
+            flags |= bvh::kOneSidedFlag;
         ranges_.emplace_back(triangles_.size(), mesh.triangles.size());
         const auto at = [&](std::uint32_t vertex) {
-            return vec3(scene::transform_point(object.world_from_object, mesh.positions[vertex]));
+            return vec3(
+                scene::transform_point_to_world(object.world_from_object, mesh.positions[vertex]));
         };
         for (const uvec3& t : mesh.triangles)
             triangles_.push_back(

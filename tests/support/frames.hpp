@@ -14,40 +14,41 @@ using namespace catoptric;
 /// last frame.
 inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
     using graph::ResourceUse;
-    constexpr graph::ClearValue kBlack{};
+    constexpr graph::ClearValue kBlackClearValue{};
     const auto nothing = [](graph::PassCommands&) {};
     graph::Graph g;
-    const auto add = [&](const std::string& name, Format format, std::uint32_t layers, bool cube) {
+    const auto add = [&](const std::string& name, TexelFormat format, std::uint32_t layers,
+                         bool cube) {
         return g.add_image({name, format, 64, 64, layers, cube});
     };
-    const graph::ImageHandle shadow = add("shadow", Format::d32f, 5, false);
-    const graph::ImageHandle cubes = add("cubes", Format::rgba16f, 6 * mirrors, true);
-    const graph::ImageHandle distance = add("distance", Format::r32f, 6 * mirrors, true);
-    const graph::ImageHandle hdr = add("hdr", Format::rgba32f, 1, false);
-    const graph::ImageHandle view_depth = add("view.depth", Format::d32f, 1, false);
-    const graph::ImageHandle display = add("display", Format::rgba8_unorm, 1, false);
-    g.add_pass("shadow", graph::PassTag::scene)
-        .writes(shadow, ResourceUse::depth, kBlack)
+    const graph::ImageHandle shadow = add("shadow", TexelFormat::d32f, 5, false);
+    const graph::ImageHandle cubes = add("cubes", TexelFormat::rgba16f, 6 * mirrors, true);
+    const graph::ImageHandle distance = add("distance", TexelFormat::r32f, 6 * mirrors, true);
+    const graph::ImageHandle hdr = add("hdr", TexelFormat::rgba32f, 1, false);
+    const graph::ImageHandle view_depth = add("view.depth", TexelFormat::d32f, 1, false);
+    const graph::ImageHandle display = add("display", TexelFormat::rgba8_unorm, 1, false);
+    g.add_pass("shadow", graph::PassPurpose::scene)
+        .writes(shadow, ResourceUse::depth, kBlackClearValue)
         .set_layer_count(5)
         .record(nothing);
     for (std::uint32_t n = 0; n < mirrors; ++n) {
         const std::string name = "capture/" + std::to_string(n + 1);
-        const graph::ImageHandle depth = add(name + ".depth", Format::d32f, 6, true);
-        g.add_pass(name, graph::PassTag::scene)
+        const graph::ImageHandle depth = add(name + ".depth", TexelFormat::d32f, 6, true);
+        g.add_pass(name, graph::PassPurpose::scene)
             .reads(shadow, ResourceUse::sampled)
             .reads(g.previous_contents(cubes), ResourceUse::sampled)
-            .writes(cubes.layers(6 * n, 6), ResourceUse::colour, kBlack)
-            .writes(distance.layers(6 * n, 6), ResourceUse::colour, kBlack)
-            .writes(depth, ResourceUse::depth, kBlack)
+            .writes(cubes.select_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
+            .writes(distance.select_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
+            .writes(depth, ResourceUse::depth, kBlackClearValue)
             .set_layer_count(6)
             .record(nothing);
     }
-    g.add_pass("view", graph::PassTag::scene)
+    g.add_pass("view", graph::PassPurpose::scene)
         .reads(shadow, ResourceUse::sampled)
         .reads(cubes, ResourceUse::sampled)
         .reads(distance, ResourceUse::sampled)
-        .writes(hdr, ResourceUse::colour, kBlack)
-        .writes(view_depth, ResourceUse::depth, kBlack)
+        .writes(hdr, ResourceUse::colour, kBlackClearValue)
+        .writes(view_depth, ResourceUse::depth, kBlackClearValue)
         .record(nothing);
     g.add_pass("compose")
         .reads(hdr, ResourceUse::sampled)

@@ -5,11 +5,13 @@
 /// Helpers that many tests of the render graph use.
 namespace test {
 
-inline constexpr catoptric::graph::ClearValue kClearToBlack{};
-inline void record_nothing(catoptric::graph::PassCommands&) {}
-/// Returns the plan of a graph whose images all have the bytes that `make_default_sizer` states.
+inline constexpr catoptric::graph::ClearValue kBlackClearColour{};
+inline void record_no_commands(catoptric::graph::PassCommands&) {}
+/// Returns the plan of a graph whose images all have the bytes that
+/// `make_default_requirement_queries` states.
 inline catoptric::graph::GraphPlan plan_test_graph(const catoptric::graph::Graph& graph) {
-    return catoptric::graph::plan_graph(graph, {}, catoptric::graph::make_default_sizer());
+    return catoptric::graph::plan_graph(graph, {},
+                                        catoptric::graph::make_default_requirement_queries());
 }
 
 } // namespace test

@@ -20,10 +20,10 @@ inline std::vector<catoptric::bvh::Triangle> make_random_triangles(std::size_t c
     RandomNumbers random(seed);
     std::vector<catoptric::bvh::Triangle> result(count);
     for (catoptric::bvh::Triangle& t : result) {
-        const vec3 centre = random.point_in_cube();
-        t.a = centre + 0.1f * random.point_in_cube();
-        t.b = centre + 0.1f * random.point_in_cube();
-        t.c = centre + 0.1f * random.point_in_cube();
+        const vec3 centre = random.random_point_in_cube();
+        t.a = centre + 0.1f * random.random_point_in_cube();
+        t.b = centre + 0.1f * random.random_point_in_cube();
+        t.c = centre + 0.1f * random.random_point_in_cube();
     }
     return result;
 }
@@ -37,8 +37,8 @@ struct BvhChecker {
 
     Bounds<float> check_subtree(std::uint32_t child, std::uint32_t depth) {
         Bounds<float> box;
-        const std::uint32_t first = catoptric::f32::bvh_index(child);
-        if (catoptric::f32::bvh_is_inner(child)) {
+        const std::uint32_t first = catoptric::f32::bvh_word_index(child);
+        if (catoptric::f32::is_bvh_word_inner_node(child)) {
             ++nodes;
             deepest = std::max(deepest, depth + 1);
             const vec4* node = &bvh.nodes[4 * std::size_t{first}];
@@ -52,8 +52,9 @@ struct BvhChecker {
             }
             return box;
         }
-        EXPECT_LE(catoptric::f32::bvh_count(child), catoptric::bvh::kMaxLeafTriangles);
-        for (std::uint32_t i = 0; i < catoptric::f32::bvh_count(child); ++i) {
+        EXPECT_LE(catoptric::f32::bvh_word_triangle_count(child),
+                  catoptric::bvh::kMaxLeafTriangles);
+        for (std::uint32_t i = 0; i < catoptric::f32::bvh_word_triangle_count(child); ++i) {
             EXPECT_EQ(first + i, triangles) << "leaves follow each other";
             ++triangles;
             for (int k = 0; k < 3; ++k) box.add(vec3(bvh.triangles[3 * (first + i) + k]));

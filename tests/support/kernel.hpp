@@ -32,7 +32,7 @@ struct DeviceHit {
     std::uint32_t outcome = 0; ///< bit 0: hit; bit 1: the walk gave up
     std::uint32_t steps = 0;   ///< number of node visits and triangle tests
     bool is_hit() const { return (outcome & 1u) != 0; }
-    bool reached_step_limit() const { return (outcome & 2u) != 0; }
+    bool has_reached_step_limit() const { return (outcome & 2u) != 0; }
 };
 static_assert(sizeof(DeviceHit) == 32);
 
@@ -62,10 +62,11 @@ static_assert(sizeof(LeavingRayOrigin) == 48);
 class DeviceRayTracer {
 public:
     explicit DeviceRayTracer(bvh::Bvh hierarchy)
-        : hierarchy_(std::move(hierarchy)), runner_(test_device().device, test_device().pipelines) {
-        upload_to_buffer(test_device().device, nodes_, "nodes", hierarchy_.nodes,
+        : bvh_(std::move(hierarchy)),
+          runner_(get_test_device().device, get_test_device().pipelines) {
+        upload_to_buffer(get_test_device().device, nodes_, "nodes", bvh_.nodes,
                          gpu::BufferUsage::texels);
-        upload_to_buffer(test_device().device, triangles_, "triangles", hierarchy_.triangles,
+        upload_to_buffer(get_test_device().device, triangles_, "triangles", bvh_.triangles,
                          gpu::BufferUsage::texels);
     }
     explicit DeviceRayTracer(std::span<const bvh::Triangle> triangles)
@@ -75,7 +76,7 @@ public:
     /// a rule, a test shows the errors that the rule prevents.
     gpu::ShaderConstants rules{};
 
-    const bvh::Bvh& bvh_tree() const { return hierarchy_; }
+    const bvh::Bvh& traversed_bvh() const { return bvh_; }
 
     /// Returns the first hit of each ray, at most 4 million rays. Triangles with a flag of
     /// `skipped` are ignored. `lows`: rounding errors of the rays' origins as floats; empty: 0.
@@ -92,75 +93,75 @@ public:
     }
     std::vector<LeavingRayOrigin>
     compute_ray_origins(const std::vector<SurfacePointQuery>& starts) {
-        return run_shader<LeavingRayOrigin>("tests/spawn.comp", rules, "Starts", starts, "Leavings",
-                                            std::array{size_as_uint32(starts)});
+        return run_ray_shader<LeavingRayOrigin>("tests/spawn.comp", rules, "Starts", starts,
+                                                "Leavings",
+                                                std::array{list_size_as_uint32(starts)});
     }
 
 private:
     std::vector<DeviceHit> trace_rays(const std::vector<DeviceRay>& rays, std::uint32_t skipped,
                                       const std::vector<vec4>& lows, std::uint32_t occluded) {
         gpu::ShaderConstants constants = rules;
-        const bool object_spaces = hierarchy_.nodes[2].x > 0; // tree with instances (bvh/tlas.hpp)
+        const bool object_spaces = bvh_.nodes[2].x > 0; // tree with instances (bvh/tlas.hpp)
         constants.emplace_back("object_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_sphere_primitives() ? 1u : 0u);
-        upload_to_buffer(test_device().device, lows_, "lows",
+        upload_to_buffer(get_test_device().device, lows_, "lows",
                          lows.empty() ? std::vector<vec4>(rays.size(), vec4(0)) : lows,
                          gpu::BufferUsage::plain);
-        return run_shader<DeviceHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
-                                     std::array{size_as_uint32(rays), skipped, occluded});
+        return run_ray_shader<DeviceHit>("tests/kernel.comp", constants, "Rays", rays, "Hits",
+                                         std::array{list_size_as_uint32(rays), skipped, occluded});
     }
 
     bool has_sphere_primitives() const {
-        for (std::size_t i = 2; i < hierarchy_.triangles.size(); i += 3)
-            if ((bvh::float_word_to_integer(hierarchy_.triangles[i].w) & bvh::kSpherePrimitive) !=
-                0)
+        for (std::size_t i = 2; i < bvh_.triangles.size(); i += 3)
+            if ((bvh::float_word_to_integer(bvh_.triangles[i].w) & bvh::kSpherePrimitiveFlag) != 0)
                 return true;
         return false;
     }
 
     template <typename In>
-    static std::uint32_t size_as_uint32(const std::vector<In>& list) {
+    static std::uint32_t list_size_as_uint32(const std::vector<In>& list) {
         return static_cast<std::uint32_t>(list.size());
     }
 
     template <typename Out, typename In, typename Push>
-    std::vector<Out> run_shader(const char* shader, const gpu::ShaderConstants& constants,
-                                const char* input, const std::vector<In>& in, const char* output,
-                                const Push& push) {
-        upload_to_buffer(test_device().device, input_, "input", in, gpu::BufferUsage::plain);
+    std::vector<Out> run_ray_shader(const char* shader, const gpu::ShaderConstants& constants,
+                                    const char* input, const std::vector<In>& in,
+                                    const char* output, const Push& push) {
+        upload_to_buffer(get_test_device().device, input_, "input", in, gpu::BufferUsage::plain);
         graph::Graph graph;
         const graph::BufferHandle out = graph.add_buffer({"output", in.size() * sizeof(Out)});
         graph.add_pass("kernel")
             .writes(out, graph::ResourceUse::storage_write)
             .record([&](graph::PassCommands& commands) {
-                commands.bind("bvh_nodes", nodes_);
-                commands.bind("bvh_triangles", triangles_);
-                commands.bind(input, input_);
-                commands.bind("Lows", lows_);
-                commands.bind(output, out);
+                commands.bind_resource("bvh_nodes", nodes_);
+                commands.bind_resource("bvh_triangles", triangles_);
+                commands.bind_resource(input, input_);
+                commands.bind_resource("Lows", lows_);
+                commands.bind_resource(output, out);
                 commands.bind_pipeline(gpu::ComputeState{shader, constants});
                 commands.push_constants(push);
-                commands.dispatch((size_as_uint32(in) + 63) / 64, 1);
+                commands.dispatch((list_size_as_uint32(in) + 63) / 64, 1);
             });
         graph.mark_output(out);
         test::run_graph(runner_, graph);
-        return read_values<Out>(runner_, out);
+        return read_resource_values<Out>(runner_, out);
     }
 
-    bvh::Bvh hierarchy_;
+    bvh::Bvh bvh_;
     graph::GraphRunner runner_;
-    gpu::Buffer nodes_, triangles_, input_, lows_;
+    gpu::GpuBuffer nodes_, triangles_, input_, lows_;
 };
 
-inline std::uint32_t float_bits(float x) { return std::bit_cast<std::uint32_t>(x); }
+inline std::uint32_t bits_of_float(float x) { return std::bit_cast<std::uint32_t>(x); }
 
 /// Returns whether two hits are equal bit for bit, except for the number of steps.
 inline bool are_equal_hits(const DeviceHit& a, const DeviceHit& b) {
     const auto words = [](const DeviceHit& h) {
-        return std::array{float_bits(h.t),
-                          float_bits(h.barycentric.x),
-                          float_bits(h.barycentric.y),
-                          float_bits(h.barycentric.z),
+        return std::array{bits_of_float(h.t),
+                          bits_of_float(h.barycentric.x),
+                          bits_of_float(h.barycentric.y),
+                          bits_of_float(h.barycentric.z),
                           h.triangle,
                           h.object,
                           h.outcome};
@@ -171,21 +172,21 @@ inline bool are_equal_hits(const DeviceHit& a, const DeviceHit& b) {
 /// Returns the hit that the CPU reference finds (bvh/closest_hit.hpp).
 inline DeviceHit find_hit_on_cpu(const bvh::Bvh& hierarchy, const DeviceRay& ray,
                                  std::uint32_t skipped = 0, const vec3& low = vec3(0)) {
-    bvh::TraversalCounters steps;
+    bvh::BvhTraversalCounters steps;
     const auto hit = bvh::find_closest_hit<float>(
         hierarchy, {ray.origin, ray.direction, ray.leaves}, ray.t_max, skipped, &steps, low);
     DeviceHit result;
     if (hit) result = {hit->t, hit->barycentric, hit->triangle, hit->object, 1, 0};
-    result.steps = static_cast<std::uint32_t>(steps.total_steps());
+    result.steps = static_cast<std::uint32_t>(steps.count_all_steps());
     return result;
 }
 
 inline std::string format_for_message(const DeviceHit& hit) {
     std::ostringstream out;
-    if (!hit.is_hit()) return hit.reached_step_limit() ? "gave up" : "miss";
+    if (!hit.is_hit()) return hit.has_reached_step_limit() ? "gave up" : "miss";
     out << std::hexfloat << "t " << hit.t << " weights " << hit.barycentric.x << ' '
         << hit.barycentric.y << ' ' << hit.barycentric.z << " triangle " << hit.triangle
-        << " object " << hit.object << (hit.reached_step_limit() ? " gave up" : "");
+        << " object " << hit.object << (hit.has_reached_step_limit() ? " gave up" : "");
     return out.str();
 }
 
@@ -205,7 +206,7 @@ inline std::size_t count_wrong_hits(const DeviceRayTracer& kernel,
                                     std::size_t stride = 1, const std::vector<vec4>& lows = {}) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < rays.size(); i += stride) {
-        const DeviceHit expected = find_hit_on_cpu(kernel.bvh_tree(), rays[i], skipped,
+        const DeviceHit expected = find_hit_on_cpu(kernel.traversed_bvh(), rays[i], skipped,
                                                    lows.empty() ? vec3(0) : vec3(lows[i]));
         if (are_equal_hits(hits[i], expected)) continue;
         if (count++ == 0)

@@ -22,7 +22,7 @@ struct ClosedMesh {
     double core_radius;
     double reach; ///< half edge of a cube around a point of the core
 };
-constexpr double kInsideMargin = 0.12; ///< least distance of these cubes from the mesh
+constexpr double kMinDistanceInsideMesh = 0.12; ///< least distance of these cubes from the mesh
 
 /// Returns a torus of 64 x 32 quadrilaterals. Its circle has radius 1, its tube radius 0.4.
 /// Neighbouring triangles share their corners.
@@ -50,8 +50,8 @@ inline ClosedMesh make_closed_torus() {
 inline ClosedMesh make_closed_box(std::string name, double stretch) {
     scene::Mesh mesh{.name = std::move(name)};
     for (int face = 0; face < 6; ++face) {
-        const scene::Mesh side = wall(face, {-0.91, -0.63, -1.17 * stretch},
-                                      {0.87, 0.71, 1.03 * stretch});
+        const scene::Mesh side = make_box_wall(face, {-0.91, -0.63, -1.17 * stretch},
+                                               {0.87, 0.71, 1.03 * stretch});
         const uvec3 first(static_cast<std::uint32_t>(mesh.positions.size()));
         mesh.positions.insert(mesh.positions.end(), side.positions.begin(), side.positions.end());
         for (const uvec3& triangle : side.triangles) mesh.triangles.push_back(triangle + first);
@@ -63,8 +63,8 @@ inline ClosedMesh make_closed_ball() { return {scene::ball("ball", 5), 0, 0.5}; 
 
 /// Returns the mesh times `scale` plus `offset`, rounded to float. Returns nothing if rounding
 /// leaves a triangle without area.
-inline std::optional<std::vector<bvh::Triangle>> place_triangles(const scene::Mesh& mesh,
-                                                                 double scale, dvec3 offset) {
+inline std::optional<std::vector<bvh::Triangle>> make_placed_triangles(const scene::Mesh& mesh,
+                                                                       double scale, dvec3 offset) {
     std::vector<bvh::Triangle> result;
     for (const uvec3& t : mesh.triangles) {
         const auto corner = [&](std::uint32_t i) {
@@ -82,7 +82,7 @@ inline std::optional<std::vector<bvh::Triangle>> place_triangles(const scene::Me
 /// points by less than the distance between the starts of rays and the mesh.
 inline bool is_float_precise_enough(double scale, dvec3 offset) {
     const double largest = 2 * scale + glm::length(offset);
-    return std::sqrt(3.0) * std::ldexp(largest, -23) < kInsideMargin * scale;
+    return std::sqrt(3.0) * std::ldexp(largest, -23) < kMinDistanceInsideMesh * scale;
 }
 
 /// Returns a random start of a ray inside the placed mesh, rounded to float. The start is strictly
@@ -91,10 +91,11 @@ inline vec3 random_point_inside(const ClosedMesh& closed, double scale, dvec3 of
                                 RandomNumbers& numbers) {
     dvec3 core(0);
     if (closed.core_radius > 0) {
-        const double around = 2 * std::numbers::pi * static_cast<double>(numbers.unit_fraction());
+        const double around = 2 * std::numbers::pi *
+                              static_cast<double>(numbers.random_unit_fraction());
         core = closed.core_radius * dvec3(std::cos(around), std::sin(around), 0);
     }
-    return vec3((core + closed.reach * dvec3(numbers.point_in_cube())) * scale + offset);
+    return vec3((core + closed.reach * dvec3(numbers.random_point_in_cube())) * scale + offset);
 }
 
 } // namespace test

@@ -9,7 +9,7 @@ namespace test {
 
 /// Returns the transform of a light at `from` that shines along `axis`. A light shines along -z of
 /// its node.
-inline dmat4 light_transform(const dvec3& from, const dvec3& axis) {
+inline dmat4 make_light_transform(const dvec3& from, const dvec3& axis) {
     const dvec3 back = -glm::normalize(axis);
     const dvec3 other = std::abs(back.y) < .9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
     const dvec3 right = glm::normalize(glm::cross(other, back));
@@ -32,7 +32,7 @@ inline scene::Scene make_yard_scene() {
     add_quad(scene, "wall", red, {-2, 0, -2}, {2, 0, -2}, {2, 1, -2}, {-2, 1, -2});
     add_ball(scene, "ball", red, {-.6, .5, .2}, .5);
     for (int face = 0; face < 6; ++face)
-        add_mesh(scene, scene::wall(face, {1.1, .8, -.3}, {.5, 0, -.9}), red);
+        add_mesh(scene, scene::make_box_wall(face, {1.1, .8, -.3}, {.5, 0, -.9}), red);
     scene.cameras.push_back(
         {.name = "side", .eye = {1, 2.5, 4}, .target = {0, .3, 0}, .vertical_fov_degrees = 50});
     return scene;
@@ -80,7 +80,7 @@ inline app::TechniqueResult render_without_ambient(const scene::Scene& scene,
     app::Request asked = make_test_request(scene, {technique}, size);
     asked.ambient = 0;
     asked.warmup = frames - 1;
-    return std::move(app::run(test_engine(), asked).parts.front());
+    return std::move(app::run(get_test_engine(), asked).parts.front());
 }
 
 /// Returns the share of pixels off between the rasterised and the ray-traced picture, without

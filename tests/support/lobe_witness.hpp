@@ -14,7 +14,7 @@ using catoptric::dvec3;
 
 /// Returns the reflectance times the cosine for a Fresnel reflectance of 1, with textbook formulas:
 /// D by the angle of the half vector, G2 by the lambdas of Smith.
-inline double textbook_lobe(double roughness, const dvec3& o, const dvec3& i) {
+inline double textbook_lobe_reflectance(double roughness, const dvec3& o, const dvec3& i) {
     if (i.z <= 0) return 0;
     const double alpha = roughness * roughness;
     const dvec3 h = glm::normalize(o + i);

@@ -17,7 +17,7 @@ namespace {
 
 /// Returns the processor time of this process with its driver's threads, plus that of the child
 /// processes that it has waited for.
-double processor_seconds() {
+double read_processor_seconds() {
     double seconds = 0;
     for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
         rusage usage{};
@@ -36,9 +36,9 @@ public:
     }
 
 private:
-    void OnTestStart(const testing::TestInfo&) override { start_ = processor_seconds(); }
+    void OnTestStart(const testing::TestInfo&) override { start_ = read_processor_seconds(); }
     void OnTestEnd(const testing::TestInfo& info) override {
-        file_ << processor_seconds() - start_ << '\t' << info.test_suite_name() << '.'
+        file_ << read_processor_seconds() - start_ << '\t' << info.test_suite_name() << '.'
               << info.name() << '\t' << std::filesystem::path(info.file()).filename().string()
               << std::endl;
     }
@@ -49,7 +49,7 @@ private:
 
 /// Returns a GoogleTest filter with the names of all tests of a source file; empty if the file has
 /// no tests.
-std::string test_filter_of_arguments(const std::string& file) {
+std::string find_test_filter_in_arguments(const std::string& file) {
     std::string filter;
     const testing::UnitTest& all = *testing::UnitTest::GetInstance();
     for (int s = 0; s < all.total_test_suite_count(); ++s) {
@@ -68,7 +68,7 @@ std::string test_filter_of_arguments(const std::string& file) {
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     if (argc > 2 && std::string(argv[1]) == "--from") {
-        const std::string filter = test_filter_of_arguments(argv[2]);
+        const std::string filter = find_test_filter_in_arguments(argv[2]);
         if (filter.empty()) {
             std::cerr << "wanted tests from " << argv[2] << ", found none\n";
             return 1;

@@ -21,31 +21,33 @@ public:
         return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32);
     }
     /// Returns a number in [0, 1) that is a multiple of 2^-24.
-    float unit_fraction() { return static_cast<float>(random_word() >> 8) * 0x1p-24f; }
-    float number_between(float lo, float hi) { return lo + (hi - lo) * unit_fraction(); }
-    std::size_t integer_below(std::size_t count) {
+    float random_unit_fraction() { return static_cast<float>(random_word() >> 8) * 0x1p-24f; }
+    float random_number_between(float lo, float hi) {
+        return lo + (hi - lo) * random_unit_fraction();
+    }
+    std::size_t random_integer_below(std::size_t count) {
         return static_cast<std::size_t>((std::uint64_t{random_word()} * count) >> 32);
     }
-    vec3 point_in_cube() {
-        const float x = number_between(-1, 1), y = number_between(-1, 1);
-        return {x, y, number_between(-1, 1)};
+    vec3 random_point_in_cube() {
+        const float x = random_number_between(-1, 1), y = random_number_between(-1, 1);
+        return {x, y, random_number_between(-1, 1)};
     }
-    vec3 unit_direction() {
+    vec3 random_unit_direction() {
         for (;;) {
-            const vec3 v = point_in_cube();
+            const vec3 v = random_point_in_cube();
             const float size = glm::length(v);
             if (size > 0.1f && size <= 1) return v / size;
         }
     }
     /// Returns a number of random sign with a magnitude of 10^low to 10^high, uniform in the
     /// exponent.
-    float log_uniform_number(float low, float high) {
-        const float size = std::pow(10.0f, number_between(low, high));
+    float random_log_uniform_number(float low, float high) {
+        const float size = std::pow(10.0f, random_number_between(low, high));
         return random_word() % 2 == 0 ? size : -size;
     }
     /// Returns the barycentric weights of a random point, uniform over the triangle.
-    vec3 barycentric_weights() {
-        const float s = std::sqrt(unit_fraction()), r = unit_fraction();
+    vec3 random_barycentric_weights() {
+        const float s = std::sqrt(random_unit_fraction()), r = random_unit_fraction();
         return {1 - s, s * (1 - r), s * r};
     }
 

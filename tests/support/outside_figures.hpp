@@ -16,12 +16,12 @@ inline app::TechniqueResult trace_cornell_mirrors(int depth, int samples) {
         {"raytrace:depth=" + std::to_string(depth) + ",samples=" + std::to_string(samples)},
         {512, 512});
     asked.ambient = 0;
-    return std::move(app::run(test_engine(), asked).parts.front());
+    return std::move(app::run(get_test_engine(), asked).parts.front());
 }
 
 /// Expects that `found` differs from `wanted` by at most `share` times `wanted`, and prints both.
-inline void expect_within_share(const std::string& what, double found, double wanted,
-                                double share) {
+inline void expect_share_of_pixels_within(const std::string& what, double found, double wanted,
+                                          double share) {
     std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside "
               << wanted << ", " << std::setprecision(3) << std::showpos
               << 100 * (found / wanted - 1) << std::noshowpos << " %\n";

@@ -27,7 +27,7 @@ inline std::size_t add_halving_mirror(scene::Scene& scene, int number) {
 /// Adds a closed box [lo, hi] that emits radiance 1 in all channels at every point.
 inline void add_bright_box(scene::Scene& scene, dvec3 lo, dvec3 hi) {
     const std::size_t bright = add_material(scene, {.name = "bright", .emission = vec3(1)});
-    for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, lo, hi), bright);
+    for (int face = 0; face < 6; ++face) add_mesh(scene, make_box_wall(face, lo, hi), bright);
 }
 
 /// Returns a scene of three mirror balls in a bright box. The balls reflect each other and are
@@ -57,7 +57,9 @@ inline void add_glowing_board(scene::Scene& scene, vec3 emission, dvec3 centre, 
 /// Number of compared mirror pixels, and number of those that are off.
 struct PixelComparison {
     std::size_t pixels = 0, off = 0;
-    double share_off() const { return static_cast<double>(off) / static_cast<double>(pixels); }
+    double share_of_off_mirror_pixels() const {
+        return static_cast<double>(off) / static_cast<double>(pixels);
+    }
 };
 
 inline bool is_pixel_off(const vec3& a, const vec3& b) {
@@ -70,7 +72,7 @@ inline bool is_pixel_off(const vec3& a, const vec3& b) {
 
 /// Returns how many mirrors a traced ray has met, from the colour of its pixel; 0 for black. The
 /// surroundings of the mirrors must have radiance 1.
-inline int count_mirrors_met(const vec3& colour) {
+inline int count_mirrors_met_by_ray(const vec3& colour) {
     const float product = colour.x * colour.y * colour.z;
     return product > 0 ? static_cast<int>(std::lround(-std::log2(product))) : 0;
 }
@@ -78,20 +80,21 @@ inline int count_mirrors_met(const vec3& colour) {
 /// Compares a picture with the ray-traced one over the mirror pixels for which `counts(hit,
 /// colour)` is true. Hit and colour are those of the ray-traced picture.
 template <typename Counts>
-PixelComparison compare_mirror_pixels(const measure::Picture& picture,
-                                      const app::TechniqueResult& truth, Counts&& counts) {
+PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
+                                          const app::TechniqueResult& truth, Counts&& counts) {
     PixelComparison result;
     for (std::size_t i = 0; i < truth.hits.size(); ++i) {
-        if (!measure::first_mirror_of_hit(truth.hits[i])) continue;
+        if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
         ++result.pixels;
         result.off += is_pixel_off(picture.pixels[i], truth.hdr.pixels[i]);
     }
     return result;
 }
-inline PixelComparison compare_mirror_pixels(const measure::Picture& picture,
-                                             const app::TechniqueResult& truth) {
-    return compare_mirror_pixels(picture, truth, [](std::uint32_t, const vec3&) { return true; });
+inline PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
+                                                 const app::TechniqueResult& truth) {
+    return compare_pixels_of_mirrors(picture, truth,
+                                     [](std::uint32_t, const vec3&) { return true; });
 }
 
 inline std::ostream& operator<<(std::ostream& out, const PixelComparison& found) {

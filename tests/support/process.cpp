@@ -19,13 +19,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
+double seconds_since_time(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 /// Reads all text from a file descriptor and closes it. Calls `seen` once, as soon as the text
 /// contains `marker`.
-std::string read_all(int fd, const std::string& marker = {}, std::function<void()> seen = {}) {
+std::string read_file_descriptor_text(int fd, const std::string& marker = {},
+                                      std::function<void()> seen = {}) {
     std::string text;
     char block[1 << 16];
     for (ssize_t count; (count = ::read(fd, block, sizeof block)) > 0;) {
@@ -37,7 +38,7 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 }
 
 /// Prepares the child process after fork as `start` says, and then executes the program.
-[[noreturn]] void execute_program(const ProcessStart& start, int out, int err) {
+[[noreturn]] void execute_program(const ProcessStartOptions& start, int out, int err) {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     for (const auto& [resource, most] :
          {std::pair{RLIMIT_FSIZE, start.file_limit}, std::pair{RLIMIT_AS, start.memory_limit},
@@ -62,7 +63,7 @@ std::string read_all(int fd, const std::string& marker = {}, std::function<void(
 
 } // namespace
 
-ProcessResult run_process(const ProcessStart& start) {
+ProcessResult run_process(const ProcessStartOptions& start) {
     int out[2], err[2];
     if (::pipe2(out, O_CLOEXEC) != 0 || ::pipe2(err, O_CLOEXEC) != 0) return {};
     if (start.no_reader) ::close(out[0]);
@@ -74,7 +75,7 @@ ProcessResult run_process(const ProcessStart& start) {
     ::close(err[1]);
     ProcessResult ended;
     std::thread reader([&] {
-        if (!start.no_reader) ended.out = read_all(out[0]);
+        if (!start.no_reader) ended.out = read_file_descriptor_text(out[0]);
     });
     std::function<void()> send;
     if (start.signal != 0)
@@ -86,16 +87,16 @@ ProcessResult run_process(const ProcessStart& start) {
             std::this_thread::sleep_for(start.again_after);
             ::kill(child, start.signal);
         };
-    ended.err = read_all(err[0], start.signal_at, send);
+    ended.err = read_file_descriptor_text(err[0], start.signal_at, send);
     reader.join();
     int status = 0;
     rusage usage{};
     ::wait4(child, &status, 0, &usage);
     ended.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-    ended.seconds = seconds_since(begin);
+    ended.seconds = seconds_since_time(begin);
     for (const timeval& used : {usage.ru_utime, usage.ru_stime})
         ended.processor_seconds += double(used.tv_sec) + 1e-6 * double(used.tv_usec);
-    if (signalled != begin) ended.seconds_after_signal = seconds_since(signalled);
+    if (signalled != begin) ended.seconds_after_signal = seconds_since_time(signalled);
     ended.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ended;
 }
@@ -119,7 +120,7 @@ std::string run_in_forked_process(const std::function<std::string()>& work) {
         ::_exit(0);
     }
     ::close(out[1]);
-    std::string said = read_all(out[0]);
+    std::string said = read_file_descriptor_text(out[0]);
     int status = 0;
     ::waitpid(child, &status, 0);
     if (WIFSIGNALED(status)) said += "ended by signal " + std::to_string(WTERMSIG(status));

@@ -19,7 +19,7 @@ struct ProcessResult {
     double seconds_after_signal = 0; ///< seconds from the signal to the end; 0: no signal sent
 };
 
-struct ProcessStart {
+struct ProcessStartOptions {
     /// The path of the program, then its arguments.
     std::vector<std::string> command;
     /// Variables that are added to the environment of this process.
@@ -37,7 +37,7 @@ struct ProcessStart {
 };
 
 /// Runs a program until it ends and returns its exit code, output, time and memory.
-ProcessResult run_process(const ProcessStart& start);
+ProcessResult run_process(const ProcessStartOptions& start);
 
 /// Runs `work` in a forked copy of this process, which then ends without running destructors.
 /// Returns the text that `work` returned. If a signal or an exception ended the copy, the text says

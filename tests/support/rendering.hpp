@@ -39,7 +39,7 @@ inline app::Request make_test_request(const scene::Scene& scene,
 
 /// Returns the unit direction from the camera through the centre of pixel (x, y) of a square
 /// picture of `edge` pixels.
-inline dvec3 pixel_direction(const scene::Camera& camera, int x, int y, int edge) {
+inline dvec3 camera_direction_of_pixel(const scene::Camera& camera, int x, int y, int edge) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye),
                 right = glm::normalize(glm::cross(forward, camera.up)),
                 down = glm::cross(forward, right);
@@ -53,7 +53,7 @@ inline app::TechniqueResult render_technique(const scene::Scene& scene,
                                              int frames = 1) {
     app::Request asked = make_test_request(scene, {technique}, size);
     asked.warmup = frames - 1;
-    return std::move(app::run(test_engine(), asked).parts.front());
+    return std::move(app::run(get_test_engine(), asked).parts.front());
 }
 
 /// Renders `frames` frames of a still scene and returns the last. Only the last frame has the
@@ -61,7 +61,7 @@ inline app::TechniqueResult render_technique(const scene::Scene& scene,
 /// frame needs only their captures, which do not depend on the picture's size. Not for face=auto,
 /// whose captures do.
 inline std::vector<app::TechniqueResult> render_last_frame(const app::Request& asked, int frames) {
-    app::Session session(test_engine(), asked.scene);
+    app::Session session(get_test_engine(), asked.scene);
     app::FrameSpec early = asked;
     early.model = app::RenderedWork::required; // gives the same pictures in less time
     app::FrameSpec last = early;
@@ -85,8 +85,8 @@ technique_with_knobs(const app::TechniqueInfo& technique,
     return text;
 }
 
-inline double picture_rmse(const measure::Picture& a, const measure::Picture& b,
-                           const measure::Mask& mask = {}) {
+inline double rmse_of_pictures(const measure::Picture& a, const measure::Picture& b,
+                               const measure::Mask& mask = {}) {
     const std::vector<float> no_flip(a.pixels.size(), 0.0f);
     const measure::Difference difference = measure::difference(a, b, mask, no_flip);
     EXPECT_EQ(difference.nonfinite, 0u);
@@ -99,7 +99,7 @@ inline bool have_equal_pixel_bytes(const measure::Picture& a, const measure::Pic
 }
 
 /// Returns how many pixels of the picture are not finite numbers.
-inline std::size_t nonfinite_pixel_count(const measure::Picture& picture) {
+inline std::size_t count_nonfinite_pixels(const measure::Picture& picture) {
     return static_cast<std::size_t>(std::ranges::count_if(picture.pixels, [](const vec3& c) {
         return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z));
     }));

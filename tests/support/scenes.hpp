@@ -13,10 +13,10 @@ namespace test {
 
 using namespace catoptric;
 
-using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, scene::wall;
+using scene::add_ball, scene::add_material, scene::add_mesh, scene::add_quad, scene::make_box_wall;
 
 /// Radiance of every wall of a furnace; exact in 16-bit floats.
-constexpr vec3 kFurnaceRadiance{0.5f, 0.25f, 0.75f};
+constexpr vec3 kFurnaceWallRadiance{0.5f, 0.25f, 0.75f};
 
 /// Turns all perfect mirrors of a scene into metals of this roughness, which stay mirrors.
 inline void make_mirrors_rough(scene::Scene& scene, float roughness) {
@@ -30,12 +30,13 @@ inline void make_mirrors_rough(scene::Scene& scene, float roughness) {
 }
 
 /// Returns a furnace: a closed box with one or two mirror balls. Every point of the box emits
-/// kFurnaceRadiance and reflects nothing, so every pixel must show kFurnaceRadiance.
+/// kFurnaceWallRadiance and reflects nothing, so every pixel must show kFurnaceWallRadiance.
 inline scene::Scene make_furnace_scene(int mirrors) {
     scene::Scene scene{.name = "furnace"};
-    const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnaceRadiance});
+    const std::size_t hot = add_material(scene, {.name = "hot", .emission = kFurnaceWallRadiance});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
-    for (int face = 0; face < 6; ++face) add_mesh(scene, wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
+    for (int face = 0; face < 6; ++face)
+        add_mesh(scene, make_box_wall(face, {-4, -3, -5}, {4, 3, 5}), hot);
     add_ball(scene, "ball1", mirror, {-1.2, -0.3, 1}, 1);
     if (mirrors > 1) add_ball(scene, "ball2", mirror, {1.3, 0.4, 1.5}, 1.2);
     scene.cameras.push_back({.name = "inside",
@@ -47,7 +48,7 @@ inline scene::Scene make_furnace_scene(int mirrors) {
 
 /// Returns the scene with balls of only 256 triangles, because triangles take most of the time of
 /// small pictures.
-inline scene::Scene with_coarse_balls(scene::Scene scene) {
+inline scene::Scene replace_balls_by_coarse_balls(scene::Scene scene) {
     for (const scene::Object& object : scene.objects)
         if (object.sphere) scene.meshes[object.mesh] = scene::ball("ball", 3);
     return scene;
@@ -63,7 +64,7 @@ inline scene::Scene make_lit_room(int mirrors, int lights) {
     const std::size_t lamp = add_material(scene, {.name = "lamp", .emission = {9, 8, 6}});
     const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
     for (int face = 0; face < 6; ++face)
-        add_mesh(scene, wall(face, {-2, -2, -3}, {2, 2, 2}),
+        add_mesh(scene, make_box_wall(face, {-2, -2, -3}, {2, 2, 2}),
                  face == 0   ? red
                  : face == 1 ? green
                              : white);
@@ -93,7 +94,7 @@ inline scene::Scene make_mirror_hall() {
     scene::Mesh block{.name = "block"};
     for (int face = 0; face < 6; ++face) {
         // The walls of the block face outwards, because the low and high corners are exchanged.
-        const scene::Mesh side = wall(face, {1.5, -.7, .9}, {.5, -1.9, -.1});
+        const scene::Mesh side = make_box_wall(face, {1.5, -.7, .9}, {.5, -1.9, -.1});
         const auto first = static_cast<std::uint32_t>(block.positions.size());
         block.positions.insert(block.positions.end(), side.positions.begin(), side.positions.end());
         block.normals.insert(block.normals.end(), side.normals.begin(), side.normals.end());

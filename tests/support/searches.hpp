@@ -13,7 +13,7 @@
 /// several cameras.
 namespace test {
 
-inline constexpr uvec2 kSearchTestSize{512, 512};
+inline constexpr uvec2 kSearchTestPictureSize{512, 512};
 inline constexpr int kConvergedFrames = 4; ///< frames until deeper bounces have arrived
 
 /// A camera and the instant of its picture.
@@ -24,7 +24,7 @@ struct SearchTestView {
 
 /// Returns three cameras: the scene's own, one at the side and one above. Ball 4 is at another
 /// place at each camera's instant.
-inline std::vector<SearchTestView> search_test_views() {
+inline std::vector<SearchTestView> list_search_test_views() {
     return {{scene::make_cornell_mirrors().cameras.front(), 0},
             {{.name = "side",
               .eye = {400, 330, -760},
@@ -40,7 +40,7 @@ inline std::vector<SearchTestView> search_test_views() {
 
 /// Returns three cameras that were not used while searches were developed: low at the open front of
 /// the room, along the floor, and down from below the ceiling.
-inline std::vector<SearchTestView> unseen_search_test_views() {
+inline std::vector<SearchTestView> list_unseen_search_test_views() {
     return {{{.name = "low",
               .eye = {540, 12, -60},
               .target = {300, 60, 400},
@@ -71,12 +71,12 @@ namespace detail {
 /// The reference picture from one camera, and an oracle that knows where its reflected rays end.
 struct ReferencePicture {
     app::TechniqueResult part;
-    app::LookupOracle oracle;
+    app::TrueHitFinder oracle;
 };
 
 inline app::Request make_view_request(const scene::Scene& scene, const SearchTestView& look,
                                       const std::string& technique) {
-    app::Request asked = make_test_request(scene, {technique}, kSearchTestSize);
+    app::Request asked = make_test_request(scene, {technique}, kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
     return asked;
@@ -89,9 +89,10 @@ inline SearchErrors measure_search_errors(const scene::Scene& scene, const Searc
     asked.with_lookup = true;
     const app::TechniqueResult part = std::move(render_last_frame(asked, kConvergedFrames).front());
     const SearchErrors error{
-        picture_rmse(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
-        picture_rmse(part.hdr, truth.part.hdr, measure::mask_first_order_pixels(truth.part.hits)),
-        picture_rmse(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
+        rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirror_pixels(truth.part.hits)),
+        rmse_of_pictures(part.hdr, truth.part.hdr,
+                         measure::mask_first_order_pixels(truth.part.hits)),
+        rmse_of_pictures(part.hdr, truth.part.hdr, measure::mask_mirror_in_mirror(truth.part.hits)),
         measure::summarise_lookup_errors(truth.oracle.judge_lookups(part.lookup)),
         part.traced_fraction.value_or(0)};
     std::cout << "[ MEASURED ] " << look.camera.name << ", " << part.label << ": rmse " << error.all
@@ -116,9 +117,9 @@ measure_search_errors(const scene::Scene& scene, const SearchTestView& look,
     const std::string place = scene.name + ", " + look.camera.name + ", " + reference;
     if (!truths.contains(place)) {
         const app::Request asked = detail::make_view_request(scene, look, reference);
-        truths.emplace(
-            place, detail::ReferencePicture{std::move(app::run(test_engine(), asked).parts.front()),
-                                            app::LookupOracle(asked)});
+        truths.emplace(place, detail::ReferencePicture{
+                                  std::move(app::run(get_test_engine(), asked).parts.front()),
+                                  app::TrueHitFinder(asked)});
     }
     std::vector<SearchErrors> judged;
     for (const std::string& technique : techniques) {
@@ -138,7 +139,7 @@ inline std::vector<measure::Difference>
 compare_mirror_pictures(const scene::Scene& scene, const SearchTestView& look,
                         std::vector<std::string> techniques) {
     techniques.push_back("raytrace:depth=16");
-    app::Request asked = make_test_request(scene, techniques, kSearchTestSize);
+    app::Request asked = make_test_request(scene, techniques, kSearchTestPictureSize);
     asked.camera = look.camera;
     asked.time = look.time;
     const std::vector<app::TechniqueResult> parts = render_last_frame(asked, 2);
@@ -162,8 +163,8 @@ inline std::vector<measure::LookupDirectionError>
 measure_lookup_directions(const scene::Scene& scene, const std::string& technique, uvec2 size) {
     app::Request asked = make_test_request(scene, {technique}, size);
     asked.with_lookup = true;
-    return app::LookupOracle(asked).judge_lookups(
-        app::run(test_engine(), asked).parts.front().lookup);
+    return app::TrueHitFinder(asked).judge_lookups(
+        app::run(get_test_engine(), asked).parts.front().lookup);
 }
 
 } // namespace test

@@ -15,16 +15,19 @@ inline reflect::TechniqueOutputs add_technique(graph::Graph& graph,
                                                const std::string& technique) {
     return reflect::add_frame_passes(
         graph, inputs,
-        reflect::assign_mirrors(reflect::parse_plan(technique),
-                                std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
+        reflect::assign_techniques_to_mirrors(
+            reflect::parse_plan(technique),
+            std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
 }
 
 /// Adds passes that capture all mirrors. Each capture shows the other mirrors black.
-inline render::CubeArray add_black_captures(graph::Graph& graph, const render::FrameInputs& inputs,
-                                            const render::CaptureOptions& options) {
-    const render::Captures captures = render::declare_captures(
+inline render::CubeCaptureArray add_black_captures(graph::Graph& graph,
+                                                   const render::FrameInputs& inputs,
+                                                   const render::CaptureOptions& options) {
+    const render::MirrorCaptures captures = render::declare_captures(
         graph, inputs, "capture", std::vector(inputs.scene.mirror_count(), options));
-    render::add_capture_passes(graph, inputs, captures, render::use_one_shader(inputs.scene, {}));
+    render::add_capture_passes(graph, inputs, captures,
+                               render::use_same_shader_for_mirrors(inputs.scene, {}));
     return captures.arrays.front();
 }
 

@@ -52,7 +52,7 @@ inline void expect_small_captures(const SearchTestView& look) {
 
 /// Expects that `hybrid` has much smaller errors than `parallax` and traces few pixels, also in the
 /// closed room.
-inline void expect_hybrid(const SearchTestView& look) {
+inline void expect_hybrid_beats_parallax(const SearchTestView& look) {
     const auto judged = measure_search_errors(
         scene::make_cornell_mirrors(), look,
         {"parallax:face=512", "hybrid:face=512", "hybrid:face=512,continue=0", "hybrid:face=256"});

@@ -13,27 +13,30 @@ namespace {
 
 using namespace catoptric;
 using app::BenchmarkSubject;
-using app::UsageMeter;
+using app::ProcessorUsageMeter;
 
 /// Builds a benchmark that logs `letter` for each iteration and '|' at the end of each turn.
-BenchmarkSubject writer(char letter, std::string& log, int warmup = 1) {
-    return {.name = std::string(1, letter),
-            .work =
-                [letter, &log] {
-                    log += letter;
-                    return app::IterationFigures{2, {{"length", static_cast<double>(log.size())}}};
-                },
-            .warmup = warmup,
-            .leave = [&log] { log += '|'; },
-            .caller = letter == 'a' ? "caller of a" : ""};
+BenchmarkSubject make_logging_benchmark(char letter, std::string& log, int warmup = 1) {
+    return {
+        .name = std::string(1, letter),
+        .work =
+            [letter, &log] {
+                log += letter;
+                return app::IterationMeasurements{2, {{"length", static_cast<double>(log.size())}}};
+            },
+        .warmup = warmup,
+        .leave = [&log] { log += '|'; },
+        .caller = letter == 'a' ? "caller of a" : ""};
 }
 
 TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
     std::string log;
-    const UsageMeter meter(UsageMeter::CountedThreads::process);
-    const std::vector<BenchmarkSubject> subjects{writer('a', log, 2), writer('b', log),
-                                                 writer('c', log, 0)};
-    app::measure_in_rounds(subjects, meter, {.iterations = 5, .rounds = 3, .watcher = {}});
+    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 2),
+                                                 make_logging_benchmark('b', log),
+                                                 make_logging_benchmark('c', log, 0)};
+    app::measure_benchmarks_in_rounds(subjects, meter,
+                                      {.iterations = 5, .rounds = 3, .watcher = {}});
     EXPECT_EQ(log, "aa|b||"
                    "aa|bb|cc|"
                    "cc|bb|aa|"
@@ -42,9 +45,10 @@ TEST(BenchRounds, BenchmarksTakeTurnsForwardsThenBackwardsAfterWarmUp) {
 
 TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
     std::string log;
-    const UsageMeter meter(UsageMeter::CountedThreads::process);
-    const std::vector<BenchmarkSubject> subjects{writer('a', log, 0), writer('b', log, 0)};
-    const std::vector<measure::Benchmark> found = app::measure_in_rounds(
+    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    const std::vector<BenchmarkSubject> subjects{make_logging_benchmark('a', log, 0),
+                                                 make_logging_benchmark('b', log, 0)};
+    const std::vector<measure::BenchmarkResult> found = app::measure_benchmarks_in_rounds(
         subjects, meter, {.iterations = 3, .rounds = 2, .watcher = {}});
     ASSERT_EQ(found.size(), 3U);
     EXPECT_EQ(found[0].name, "a");
@@ -61,13 +65,14 @@ TEST(BenchRounds, RoundsKeepIterationsCountersAndCallerTime) {
 
 TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     std::string log;
-    const UsageMeter meter(UsageMeter::CountedThreads::process);
-    EXPECT_EQ(app::measure_in_rounds({writer('b', log)}, meter,
-                                     {.iterations = 2, .rounds = 6, .watcher = {}})[0]
+    const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
+    EXPECT_EQ(app::measure_benchmarks_in_rounds({make_logging_benchmark('b', log)}, meter,
+                                                {.iterations = 2, .rounds = 6, .watcher = {}})[0]
                   .rounds.size(),
               2U);
     try {
-        app::measure_in_rounds({writer('b', log), writer('b', log)}, meter, {});
+        app::measure_benchmarks_in_rounds(
+            {make_logging_benchmark('b', log), make_logging_benchmark('b', log)}, meter, {});
         ADD_FAILURE();
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::usage);
@@ -75,7 +80,7 @@ TEST(BenchRounds, RoundsAreAtMostIterationsAndRepeatedNamesAreRefused) {
     }
 }
 
-double thread_ms() {
+double thread_processor_ms() {
     timespec used{};
     ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
     return 1e3 * static_cast<double>(used.tv_sec) + 1e-6 * static_cast<double>(used.tv_nsec);
@@ -83,24 +88,25 @@ double thread_ms() {
 
 /// Processor time of another thread counts for the process, but not for the calling thread.
 TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
-    const UsageMeter process(UsageMeter::CountedThreads::process),
-        caller(UsageMeter::CountedThreads::caller);
-    const double caller_before = thread_ms();
+    const ProcessorUsageMeter process(ProcessorUsageMeter::CountedThreadChoice::process),
+        caller(ProcessorUsageMeter::CountedThreadChoice::caller);
+    const double caller_before = thread_processor_ms();
     const app::ProcessorUsage all = process.read(), own = caller.read();
     double worked_ms = 0;
     std::thread([&worked_ms] {
-        while ((worked_ms = thread_ms()) < 5) {
+        while ((worked_ms = thread_processor_ms()) < 5) {
         }
     }).join();
     const app::ProcessorUsage own_after = caller.read() - own, all_after = process.read() - all;
     EXPECT_GE(all_after.cpu_ms, worked_ms);
-    EXPECT_LE(own_after.cpu_ms, thread_ms() - caller_before + 1e-9) << "but for roundings";
-    EXPECT_EQ(all_after.cycles.has_value(), process.uncounted().empty());
-    if (process.uncounted().empty()) {
+    EXPECT_LE(own_after.cpu_ms, thread_processor_ms() - caller_before + 1e-9)
+        << "but for roundings";
+    EXPECT_EQ(all_after.cycles.has_value(), process.why_not_counted().empty());
+    if (process.why_not_counted().empty()) {
         EXPECT_GT(*all_after.cycles, *own_after.cycles);
         EXPECT_GT(*all_after.instructions, *own_after.instructions);
     } else {
-        EXPECT_THAT(process.uncounted(), testing::StartsWith("perf_event_open: "));
+        EXPECT_THAT(process.why_not_counted(), testing::StartsWith("perf_event_open: "));
     }
 }
 

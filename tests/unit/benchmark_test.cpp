@@ -12,18 +12,18 @@
 namespace {
 
 using namespace catoptric;
-using measure::Benchmark;
 using measure::BenchmarkChange;
+using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
 using measure::CostKind;
-using Outcome = BenchmarkChange::ChangeOutcome;
+using Outcome = BenchmarkChange::BenchmarkChangeOutcome;
 using nlohmann::json;
 
 /// Builds a benchmark with one round for each value of `ms`. The value is both the wall-clock time
 /// and the processor time of the round.
-Benchmark benchmark(const std::string& name, const std::vector<double>& ms) {
-    Benchmark made{name, {}};
+BenchmarkResult make_benchmark(const std::string& name, const std::vector<double>& ms) {
+    BenchmarkResult made{name, {}};
     for (const double value : ms) {
         BenchmarkRound round;
         round.iterations = 3, round.real_ms = value, round.cpu_ms = value;
@@ -32,7 +32,7 @@ Benchmark benchmark(const std::string& name, const std::vector<double>& ms) {
     return made;
 }
 
-BenchmarkRun benchmark_run_of(std::vector<Benchmark> list) {
+BenchmarkRun make_benchmark_run(std::vector<BenchmarkResult> list) {
     BenchmarkRun run;
     run.device.type = "cpu";
     run.benchmarks = std::move(list);
@@ -41,22 +41,22 @@ BenchmarkRun benchmark_run_of(std::vector<Benchmark> list) {
 
 const std::vector<double> kSix{10, 11, 12, 13, 14, 15};
 
-std::vector<double> times(double factor) {
+std::vector<double> make_benchmark_times(double factor) {
     std::vector<double> values = kSix;
     for (double& value : values) value *= factor;
     return values;
 }
 
-BenchmarkChange change(const BenchmarkRun& before, const BenchmarkRun& after) {
+BenchmarkChange compute_only_change(const BenchmarkRun& before, const BenchmarkRun& after) {
     return measure::compare_benchmark_runs(before, after).list.at(0);
 }
 
 TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
     // The ratios of the rounds are 1.5, 1, 1, 1, 1 and 3, with median 1. The ratio of the two
     // medians would be 20 / 15.
-    const BenchmarkChange found = change(
-        benchmark_run_of({benchmark("a", {10, 10, 20, 20, 30, 10})}),
-        benchmark_run_of({benchmark("a", {15, 10, 20, 20, 30, 30})}));
+    const BenchmarkChange found = compute_only_change(
+        make_benchmark_run({make_benchmark("a", {10, 10, 20, 20, 30, 10})}),
+        make_benchmark_run({make_benchmark("a", {15, 10, 20, 20, 30, 30})}));
     EXPECT_EQ(found.ratio.median, 1);
     EXPECT_EQ(found.ratio.ci95.low, 1);
     EXPECT_EQ(found.ratio.ci95.high, 3);
@@ -66,8 +66,9 @@ TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
 
 TEST(BenchmarkCompare, RunsDifferIfTheRatioIntervalExcludesOne) {
     const auto outcome = [](double factor) {
-        return change(benchmark_run_of({benchmark("a", kSix)}),
-                      benchmark_run_of({benchmark("a", times(factor))}))
+        return compute_only_change(
+                   make_benchmark_run({make_benchmark("a", kSix)}),
+                   make_benchmark_run({make_benchmark("a", make_benchmark_times(factor))}))
             .outcome();
     };
     EXPECT_EQ(outcome(1.01), Outcome::slower);
@@ -77,70 +78,76 @@ TEST(BenchmarkCompare, RunsDifferIfTheRatioIntervalExcludesOne) {
 
 TEST(BenchmarkCompare, FewerThanSixRoundsGiveAnUnknownOutcome) {
     const std::vector<double> five{1, 1, 1, 1, 1}, double_of_it{2, 2, 2, 2, 2};
-    EXPECT_EQ(change(benchmark_run_of({benchmark("a", five)}),
-                     benchmark_run_of({benchmark("a", double_of_it)}))
+    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", five)}),
+                                  make_benchmark_run({make_benchmark("a", double_of_it)}))
                   .outcome(),
               Outcome::unknown);
 }
 
 TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
-    Benchmark counted = benchmark("a", kSix), more = benchmark("a", times(.5));
+    BenchmarkResult counted = make_benchmark("a", kSix),
+                    more = make_benchmark("a", make_benchmark_times(.5));
     for (BenchmarkRound& round : counted.rounds) round.cycles = 1e6;
     for (BenchmarkRound& round : more.rounds) round.cycles = 2e6;
-    const BenchmarkChange found = change(benchmark_run_of({counted}), benchmark_run_of({more}));
+    const BenchmarkChange found = compute_only_change(make_benchmark_run({counted}),
+                                                      make_benchmark_run({more}));
     EXPECT_EQ(found.cost, CostKind::cycles);
     EXPECT_EQ(found.ratio.median, 2);
     EXPECT_EQ(found.outcome(), Outcome::mixed) << "twice the cycles in half the time";
     more.rounds[3].cycles.reset();
-    EXPECT_EQ(change(benchmark_run_of({counted}), benchmark_run_of({more})).cost,
+    EXPECT_EQ(compute_only_change(make_benchmark_run({counted}), make_benchmark_run({more})).cost,
               CostKind::cpu_time);
 }
 
 TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
-    Benchmark counted = benchmark("a", kSix), more = benchmark("a", kSix);
+    BenchmarkResult counted = make_benchmark("a", kSix), more = make_benchmark("a", kSix);
     for (BenchmarkRound& round : counted.rounds) round.instructions = 1e6;
     for (BenchmarkRound& round : more.rounds) round.instructions = 3e6;
-    const BenchmarkChange found = change(benchmark_run_of({counted}), benchmark_run_of({more}));
+    const BenchmarkChange found = compute_only_change(make_benchmark_run({counted}),
+                                                      make_benchmark_run({more}));
     EXPECT_EQ(found.cost, CostKind::instructions);
     EXPECT_EQ(found.ratio.median, 3);
 }
 
 TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
-    Benchmark before = benchmark("a", kSix), after = benchmark("a", kSix);
+    BenchmarkResult before = make_benchmark("a", kSix), after = make_benchmark("a", kSix);
     for (BenchmarkRound& round : before.rounds)
         round.counters = {{"work/nodes", 1000}, {"work/draws", 7}, {"work/bytes", 5}, {"rays", 1}};
     for (BenchmarkRound& round : after.rounds)
         round.counters = {{"work/nodes", 1011}, {"work/draws", 7}, {"work/bytes", 4}, {"rays", 9}};
-    const BenchmarkChange found = change(benchmark_run_of({before}), benchmark_run_of({after}));
+    const BenchmarkChange found = compute_only_change(make_benchmark_run({before}),
+                                                      make_benchmark_run({after}));
     EXPECT_EQ(found.outcome(), Outcome::same);
     EXPECT_EQ(found.compared_counts, 3u);
     ASSERT_EQ(found.counts.size(), 2u);
     EXPECT_EQ(found.counts[0].name, "work/bytes");
-    EXPECT_FALSE(found.counts[0].is_growth());
+    EXPECT_FALSE(found.counts[0].is_work_growth());
     EXPECT_EQ(found.counts[1].name, "work/nodes");
     EXPECT_EQ(found.counts[1].after, 1011);
-    EXPECT_TRUE(found.counts[1].is_growth());
-    EXPECT_FALSE((measure::CountChange{"work/nodes", 1000, 1010}).is_growth());
+    EXPECT_TRUE(found.counts[1].is_work_growth());
+    EXPECT_FALSE((measure::CountedWorkChange{"work/nodes", 1000, 1010}).is_work_growth());
 }
 
 TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
-    Benchmark shared = benchmark("a", times(1.1));
+    BenchmarkResult shared = make_benchmark("a", make_benchmark_times(1.1));
     for (BenchmarkRound& round : shared.rounds) round.real_ms /= 2;
-    EXPECT_EQ(
-        change(benchmark_run_of({benchmark("a", kSix)}), benchmark_run_of({shared})).outcome(),
-        Outcome::mixed);
+    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", kSix)}),
+                                  make_benchmark_run({shared}))
+                  .outcome(),
+              Outcome::mixed);
 }
 
 TEST(BenchmarkCompare, WallTimeIsComparedIfTheDeviceIsNoProcessor) {
-    BenchmarkRun gpu = benchmark_run_of({benchmark("a", kSix)});
+    BenchmarkRun gpu = make_benchmark_run({make_benchmark("a", kSix)});
     gpu.device.type = "discrete";
-    EXPECT_EQ(change(benchmark_run_of({benchmark("a", kSix)}), gpu).cost, CostKind::real_time);
+    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", kSix)}), gpu).cost,
+              CostKind::real_time);
 }
 
 TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
     const measure::BenchmarkChanges found = measure::compare_benchmark_runs(
-        benchmark_run_of({benchmark("gone", kSix), benchmark("both", kSix)}),
-        benchmark_run_of({benchmark("both", kSix), benchmark("new", kSix)}));
+        make_benchmark_run({make_benchmark("gone", kSix), make_benchmark("both", kSix)}),
+        make_benchmark_run({make_benchmark("both", kSix), make_benchmark("new", kSix)}));
     ASSERT_EQ(found.list.size(), 1U);
     EXPECT_THAT(found.only_before, testing::ElementsAre("gone"));
     EXPECT_THAT(found.only_after, testing::ElementsAre("new"));
@@ -148,15 +155,15 @@ TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
 
 TEST(BenchmarkJoin, JoinedRunsAppendRoundsAndDropUnmatchedBenchmarks) {
     const BenchmarkRun both = measure::join_benchmark_runs(
-        benchmark_run_of({benchmark("a", {1, 2}), benchmark("b", {5})}),
-        benchmark_run_of({benchmark("a", {3})}));
+        make_benchmark_run({make_benchmark("a", {1, 2}), make_benchmark("b", {5})}),
+        make_benchmark_run({make_benchmark("a", {3})}));
     ASSERT_EQ(both.benchmarks.size(), 1U);
     EXPECT_EQ(list_round_costs(both.benchmarks[0], CostKind::real_time),
               (std::vector{1.0, 2.0, 3.0}));
 }
 
 TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
-    BenchmarkRun run = benchmark_run_of({benchmark("frame/x", kSix)});
+    BenchmarkRun run = make_benchmark_run({make_benchmark("frame/x", kSix)});
     run.benchmarks[0].rounds[0].cycles = 5e6;
     run.benchmarks[0].rounds[0].counters["rays"] = 508289;
     run.uncounted = "nobody knows";
@@ -186,7 +193,7 @@ TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
 }
 
 TEST(BenchmarkFile, WrittenRunIsReadBackUnchanged) {
-    BenchmarkRun run = benchmark_run_of({benchmark("a", kSix), benchmark("b", {1.5})});
+    BenchmarkRun run = make_benchmark_run({make_benchmark("a", kSix), make_benchmark("b", {1.5})});
     run.commit = "abc", run.device.name = "llvmpipe", run.noisy = true;
     run.benchmarks[1].rounds[0].cycles = 7, run.benchmarks[1].rounds[0].instructions = 9;
     run.benchmarks[1].rounds[0].counters["gpu_ms"] = .25;
@@ -261,8 +268,9 @@ TEST(BenchmarkFile, ErrorsNamePlaceExpectedAndFound) {
 
 TEST(BenchmarkChanges, ComparisonIsWrittenAsJson) {
     const json document = json::parse(report::to_json(measure::compare_benchmark_runs(
-        benchmark_run_of({benchmark("a", kSix), benchmark("b", {1})}),
-        benchmark_run_of({benchmark("a", times(2)), benchmark("c", {1})}))));
+        make_benchmark_run({make_benchmark("a", kSix), make_benchmark("b", {1})}),
+        make_benchmark_run(
+            {make_benchmark("a", make_benchmark_times(2)), make_benchmark("c", {1})}))));
     EXPECT_EQ(document["schema"], "catoptric/bench-compare/1");
     ASSERT_EQ(document["benchmarks"].size(), 1U);
     const json& row = document["benchmarks"][0];

@@ -26,24 +26,25 @@ const std::string kCamera = "# catoptric camera c 0 0 5 0 0 0 0 1 0 40\n";
 
 class Beside : public test::InFolder {
 protected:
-    std::string write(const std::string& name, const std::string& text) const {
+    std::string write_file_beside_scene(const std::string& name, const std::string& text) const {
         write_file(folder / name, text);
         return (folder / name).string();
     }
     /// Loads a small scene whose override file x.obj.catoptric.json contains the text `beside`.
-    app::ResolvedScene load(const std::string& beside, const SceneOverrides& overrides = {}) const {
-        const std::string scene = write("x.obj", kDark + kCamera);
-        write("x.obj.catoptric.json", beside);
-        return app::resolve_scene(scene, {.overrides = overrides});
+    app::ResolvedScene load_with_override_file(const std::string& beside,
+                                               const SceneOverrides& overrides = {}) const {
+        const std::string scene = write_file_beside_scene("x.obj", kDark + kCamera);
+        write_file_beside_scene("x.obj.catoptric.json", beside);
+        return app::load_resolved_scene(scene, {.overrides = overrides});
     }
-    std::string refused(const std::string& beside) const {
-        return test::error_text_of(Failure::bad_data, [&] { load(beside); });
+    std::string override_file_error_text(const std::string& beside) const {
+        return test::catch_error_text(Failure::bad_data, [&] { load_with_override_file(beside); });
     }
 };
 
 TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
-    const app::ResolvedScene found = load(
+    const app::ResolvedScene found = load_with_override_file(
         R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin", "light_samples": 4,
             "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
             "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
@@ -73,29 +74,30 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
 }
 
 TEST_F(Beside, OverrideFileChangesTheSceneHashAndCanBeIgnored) {
-    const app::ResolvedScene plain = load("{}");
+    const app::ResolvedScene plain = load_with_override_file("{}");
     const std::string path = (folder / "x.obj").string();
     for (const char* text : {R"({"mirrors": ["thing"]})", R"({"environment": "none"})",
                              R"({"camera": "1,2,3:0,0,0:30"})", R"({"exposure": 1})"}) {
-        EXPECT_NE(hash_scene(load(text).scene), hash_scene(plain.scene)) << text;
-        EXPECT_EQ(hash_scene(app::resolve_scene(path, {.use_scene_file = false}).scene),
+        EXPECT_NE(hash_scene(load_with_override_file(text).scene), hash_scene(plain.scene)) << text;
+        EXPECT_EQ(hash_scene(app::load_resolved_scene(path, {.use_scene_file = false}).scene),
                   hash_scene(plain.scene));
     }
 }
 
 TEST_F(Beside, CameraIndexCountsInTheOrderOfTheScene) {
-    const std::string scene = write("x.obj", kDark + kCamera +
-                                                 "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
-                                                 "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
+    const std::string scene = write_file_beside_scene(
+        "x.obj", kDark + kCamera + "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
+                     "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
     for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
-        write("x.obj.catoptric.json", std::string("{\"camera\": \"") + index + "\"}");
-        app::ResolvedScene found = app::resolve_scene(scene, {});
-        EXPECT_EQ(app::choose_camera(found, 1).name, name);
+        write_file_beside_scene("x.obj.catoptric.json",
+                                std::string("{\"camera\": \"") + index + "\"}");
+        app::ResolvedScene found = app::load_resolved_scene(scene, {});
+        EXPECT_EQ(app::choose_or_add_camera(found, 1).name, name);
         EXPECT_EQ(found.scene.cameras.front().name, name);
         SceneOverrides overrides;
         overrides.camera = "1";
-        app::ResolvedScene other = app::resolve_scene(scene, {.overrides = overrides});
-        EXPECT_EQ(app::choose_camera(other, 1).name, "d");
+        app::ResolvedScene other = app::load_resolved_scene(scene, {.overrides = overrides});
+        EXPECT_EQ(app::choose_or_add_camera(other, 1).name, "d");
     }
 }
 
@@ -106,7 +108,7 @@ TEST_F(Beside, CommandLineWinsOverTheOverrideFile) {
     overrides.ambient = .5;
     overrides.camera = "c";
     overrides.mirrors = {{"thing", vec3(1)}};
-    app::ResolvedScene found = load(
+    app::ResolvedScene found = load_with_override_file(
         R"({"mirrors": ["thing=0.5"], "environment": "studio", "ambient": 0, "exposure": "auto",
             "camera": "1,2,3:0,0,0:30"})",
         overrides);
@@ -114,32 +116,39 @@ TEST_F(Beside, CommandLineWinsOverTheOverrideFile) {
     EXPECT_EQ(found.scene.environment, nullptr);
     EXPECT_EQ(app::choose_ambient_light(found), .5);
     EXPECT_EQ(app::find_exposure(found), 2);
-    EXPECT_EQ(app::choose_camera(found, 1).name, "c");
+    EXPECT_EQ(app::choose_or_add_camera(found, 1).name, "c");
 }
 
 TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
-    EXPECT_THAT(refused(R"({"camra": "c"})"),
+    EXPECT_THAT(override_file_error_text(R"({"camra": "c"})"),
                 HasSubstr("x.obj.catoptric.json: 'camra': wanted one of mirrors, lights, "));
-    EXPECT_THAT(refused(R"({"camra": "c"})"), HasSubstr("(did you mean 'camera'?)"));
-    EXPECT_THAT(refused("[]"), HasSubstr("wanted an object, found an array"));
-    EXPECT_THAT(refused("{"), HasSubstr("x.obj.catoptric.json: JSON: "));
-    EXPECT_THAT(refused(R"({"exposure": 99})"),
+    EXPECT_THAT(override_file_error_text(R"({"camra": "c"})"),
+                HasSubstr("(did you mean 'camera'?)"));
+    EXPECT_THAT(override_file_error_text("[]"), HasSubstr("wanted an object, found an array"));
+    EXPECT_THAT(override_file_error_text("{"), HasSubstr("x.obj.catoptric.json: JSON: "));
+    EXPECT_THAT(override_file_error_text(R"({"exposure": 99})"),
                 HasSubstr("exposure: wanted a number from -64 to 64, found 99"));
-    EXPECT_THAT(refused(R"({"exposure": "bright"})"), HasSubstr("found \"bright\""));
-    EXPECT_THAT(refused(R"({"mirrors": "thing"})"), HasSubstr("mirrors: wanted a list of texts"));
-    EXPECT_THAT(refused(R"({"mirrors": ["thing=7"]})"), HasSubstr("from 0 to 1, found 'thing=7'"));
-    EXPECT_THAT(refused(R"({"dielectric_mirrors": 1})"), HasSubstr("wanted true or false"));
-    EXPECT_THAT(refused(R"({"multiple_scattering": "full"})"),
+    EXPECT_THAT(override_file_error_text(R"({"exposure": "bright"})"),
+                HasSubstr("found \"bright\""));
+    EXPECT_THAT(override_file_error_text(R"({"mirrors": "thing"})"),
+                HasSubstr("mirrors: wanted a list of texts"));
+    EXPECT_THAT(override_file_error_text(R"({"mirrors": ["thing=7"]})"),
+                HasSubstr("from 0 to 1, found 'thing=7'"));
+    EXPECT_THAT(override_file_error_text(R"({"dielectric_mirrors": 1})"),
+                HasSubstr("wanted true or false"));
+    EXPECT_THAT(override_file_error_text(R"({"multiple_scattering": "full"})"),
                 HasSubstr("wanted \"none\" or \"turquin\", found 'full'"));
-    EXPECT_THAT(refused(R"({"light_samples": 0})"),
+    EXPECT_THAT(override_file_error_text(R"({"light_samples": 0})"),
                 HasSubstr("light_samples: wanted a number from 1 to 128, found 0"));
-    EXPECT_THAT(refused(R"({"light_samples": 2.5})"),
+    EXPECT_THAT(override_file_error_text(R"({"light_samples": 2.5})"),
                 HasSubstr("light_samples: wanted a whole number, found 2.5"));
-    EXPECT_THAT(refused(R"({"up": "x"})"), HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
-    EXPECT_THAT(refused(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
-    EXPECT_THAT(test::error_text_of(Failure::missing_input,
-                                    [&] { load(R"({"environment": "gone.exr"})"); }),
-                HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
+    EXPECT_THAT(override_file_error_text(R"({"up": "x"})"),
+                HasSubstr("up: wanted \"y\" or \"z\", found \"x\""));
+    EXPECT_THAT(override_file_error_text(R"({"environment": "../sky.exr"})"), HasSubstr("--root"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::missing_input,
+                               [&] { load_with_override_file(R"({"environment": "gone.exr"})"); }),
+        HasSubstr("x.obj.catoptric.json: environment: 'gone.exr' is not there"));
 }
 
 /// Errors of an override file that appear only once the scene is known, such as names of missing
@@ -157,28 +166,29 @@ TEST_F(Beside, MissingSceneItemErrorsNameFileAndKey) {
                  {R"({"environment": "none", "environment_scale": 2})",
                   "environment_scale: wanted an environment, found none; say \"environment\""}};
     for (const auto& [text, wanted] : cases) {
-        const std::string said = refused(text);
+        const std::string said = override_file_error_text(text);
         EXPECT_THAT(said, HasSubstr("x.obj.catoptric.json: ")) << text;
         EXPECT_THAT(said, HasSubstr(wanted)) << text;
         EXPECT_EQ(said.find("--"), said.npos) << said;
     }
     SceneOverrides none;
     none.environment = "none";
-    EXPECT_EQ(load(R"({"environment": "studio", "environment_scale": 2})", none).scene.environment,
+    EXPECT_EQ(load_with_override_file(R"({"environment": "studio", "environment_scale": 2})", none)
+                  .scene.environment,
               nullptr);
 }
 
 TEST_F(Beside, AnimationNameIsRefusedForAFileWithoutAnimations) {
     SceneOverrides walk;
     walk.animation = "walk";
-    const std::string path = write("x.obj", kDark);
+    const std::string path = write_file_beside_scene("x.obj", kDark);
     for (const std::string& scene : {path, std::string("cornell-mirrors")})
         EXPECT_THAT(
-            test::error_text_of(Failure::usage,
-                                [&] { app::resolve_scene(scene, {.overrides = walk}); }),
+            test::catch_error_text(Failure::usage,
+                                   [&] { app::load_resolved_scene(scene, {.overrides = walk}); }),
             HasSubstr("--animation: " + scene + " has no animation 'walk': wanted one of none"));
     walk.animation = "none";
-    EXPECT_NO_THROW(app::resolve_scene(path, {.overrides = walk}));
+    EXPECT_NO_THROW(app::load_resolved_scene(path, {.overrides = walk}));
 }
 
 TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
@@ -190,23 +200,23 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.multiple_scattering = true, overrides.light_samples = 9;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
-    const std::string scene = write("x.obj", kDark);
+    const std::string scene = write_file_beside_scene("x.obj", kDark);
     const std::string text = write_scene_file_text(overrides, scene);
     EXPECT_THAT(text, HasSubstr("\"environment\": \"sky.exr\""));
-    write("x.obj.catoptric.json", text);
+    write_file_beside_scene("x.obj.catoptric.json", text);
     const std::optional<SceneFile> found = read_scene_file(scene, {});
     ASSERT_TRUE(found);
     overrides.environment = resolve_real_path(folder / "sky.exr").string();
     EXPECT_EQ(found->overrides, overrides);
     overrides.environment = "/dev/null";
     EXPECT_THAT(
-        test::error_text_of(Failure::usage, [&] { write_scene_file_text(overrides, scene); }),
+        test::catch_error_text(Failure::usage, [&] { write_scene_file_text(overrides, scene); }),
         HasSubstr("wanted a picture below"));
 }
 
 /// Returns OBJ text of a closed box. The walls face inwards or outwards, and a mirror may hang at
 /// one wall.
-std::string closed_room(bool turns_in, bool has_mirror) {
+std::string make_closed_room_obj(bool turns_in, bool has_mirror) {
     std::string text = "mtllib m.mtl\n";
     for (int i = 0; i < 8; ++i)
         text += "v " + std::string(i & 1 ? "2" : "-2") + (i & 2 ? " 3" : " 0") +
@@ -225,10 +235,11 @@ std::string closed_room(bool turns_in, bool has_mirror) {
 }
 
 TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
-    write("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
+    write_file_beside_scene("m.mtl", "newmtl tin\nKs 1 1 1\nillum 3\n");
     const auto camera_of = [&](const std::string& text) {
-        app::ResolvedScene found = app::resolve_scene(write("x.obj", text), {});
-        const Camera camera = app::choose_camera(found, 1);
+        app::ResolvedScene found = app::load_resolved_scene(write_file_beside_scene("x.obj", text),
+                                                            {});
+        const Camera camera = app::choose_or_add_camera(found, 1);
         const Bounds<double> box = bounds(found.scene);
         const bool is_inside = box.lo.x < camera.eye.x && camera.eye.x < box.hi.x &&
                                box.lo.y < camera.eye.y && camera.eye.y < box.hi.y &&
@@ -240,19 +251,19 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
         EXPECT_EQ(found.scene.unsupported.back().id, "added-camera");
         return is_inside;
     };
-    EXPECT_TRUE(camera_of(closed_room(true, false))) << "outside it shows its backs alone";
-    EXPECT_TRUE(camera_of(closed_room(false, true))) << "outside it hides its mirror";
-    EXPECT_FALSE(camera_of(closed_room(false, false))) << "a crate";
+    EXPECT_TRUE(camera_of(make_closed_room_obj(true, false))) << "outside it shows its backs alone";
+    EXPECT_TRUE(camera_of(make_closed_room_obj(false, true))) << "outside it hides its mirror";
+    EXPECT_FALSE(camera_of(make_closed_room_obj(false, false))) << "a crate";
     EXPECT_FALSE(camera_of(kDark)) << "not closed";
-    std::string open = closed_room(true, true);
+    std::string open = make_closed_room_obj(true, true);
     open.erase(open.find("f 7 8 6 5")); // removes this wall and the text after it
     EXPECT_FALSE(camera_of(open)) << "walls are missing";
 }
 
 TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
-    const std::string path = write("x.obj", kDark);
-    app::ResolvedScene found = app::resolve_scene(path, {});
-    const Camera camera = app::choose_camera(found, 2);
+    const std::string path = write_file_beside_scene("x.obj", kDark);
+    app::ResolvedScene found = app::load_resolved_scene(path, {});
+    const Camera camera = app::choose_or_add_camera(found, 2);
     ASSERT_NE(found.scene.environment, nullptr);
     EXPECT_TRUE(found.scene.environment->studio);
     EXPECT_EQ(app::choose_ambient_light(found), 0);
@@ -273,19 +284,20 @@ TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
 TEST_F(Beside, NoEnvironmentIsAddedToALitSceneOrIfTheUserChoseNone) {
     SceneOverrides none;
     none.environment = "none";
-    const std::string dark = write("x.obj", kDark + kCamera);
-    const app::ResolvedScene black = app::resolve_scene(dark, {.overrides = none});
+    const std::string dark = write_file_beside_scene("x.obj", kDark + kCamera);
+    const app::ResolvedScene black = app::load_resolved_scene(dark, {.overrides = none});
     EXPECT_EQ(black.scene.environment, nullptr);
     EXPECT_EQ(app::choose_ambient_light(black), .05);
     EXPECT_THAT(black.scene.unsupported, IsEmpty());
     EXPECT_THAT(black.said, IsEmpty());
-    write("l.mtl", "newmtl l\nKe 1 1 1\n");
-    const std::string lit = write("y.obj", "mtllib l.mtl\nusemtl l\n" + kDark + kCamera);
-    EXPECT_EQ(app::resolve_scene(lit, {}).scene.environment, nullptr);
+    write_file_beside_scene("l.mtl", "newmtl l\nKe 1 1 1\n");
+    const std::string lit = write_file_beside_scene("y.obj",
+                                                    "mtllib l.mtl\nusemtl l\n" + kDark + kCamera);
+    EXPECT_EQ(app::load_resolved_scene(lit, {}).scene.environment, nullptr);
     SceneOverrides turned;
     turned.environment_rotation = 3;
-    EXPECT_THAT(test::error_text_of(Failure::usage,
-                                    [&] { app::resolve_scene(lit, {.overrides = turned}); }),
+    EXPECT_THAT(test::catch_error_text(
+                    Failure::usage, [&] { app::load_resolved_scene(lit, {.overrides = turned}); }),
                 HasSubstr("--environment-rotate: wanted an environment, found none"));
 }
 
@@ -295,14 +307,16 @@ TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
     measure::write_exr(picture, folder / "sky.exr");
     SceneOverrides overrides;
     overrides.environment = (folder / "sky.exr").string();
-    const std::string path = write("x.obj", kDark);
-    EXPECT_THAT(test::error_text_of(Failure::bad_data,
-                                    [&] { app::resolve_scene(path, {.overrides = overrides}); }),
-                HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
+    const std::string path = write_file_beside_scene("x.obj", kDark);
+    EXPECT_THAT(
+        test::catch_error_text(Failure::bad_data,
+                               [&] { app::load_resolved_scene(path, {.overrides = overrides}); }),
+        HasSubstr("sky.exr: texel 1,1: wanted finite light of at least 0, found 0,-1,0"));
     overrides.environment = "gone.hdr";
-    EXPECT_THAT(test::error_text_of(Failure::missing_input,
-                                    [&] { app::resolve_scene(path, {.overrides = overrides}); }),
-                HasSubstr("gone.hdr"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::missing_input,
+                               [&] { app::load_resolved_scene(path, {.overrides = overrides}); }),
+        HasSubstr("gone.hdr"));
 }
 
 /// The Radiance file is not run-length encoded. Each texel has a shared exponent, and rows run from
@@ -311,9 +325,9 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
     std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
     for (const int byte : {128, 64, 32, 129, 255, 128, 0, 133}) file += static_cast<char>(byte);
     SceneOverrides overrides;
-    overrides.environment = write("sky.hdr", file);
-    const app::ResolvedScene found = app::resolve_scene(write("x.obj", kDark),
-                                                        {.overrides = overrides});
+    overrides.environment = write_file_beside_scene("sky.hdr", file);
+    const app::ResolvedScene found = app::load_resolved_scene(
+        write_file_beside_scene("x.obj", kDark), {.overrides = overrides});
     ASSERT_EQ(found.scene.environment->size, uvec2(2, 1));
     const std::vector<vec3>& texels = found.scene.environment->texels;
     const vec3 first(1, .5f, .25f),
@@ -326,13 +340,13 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
 }
 
 TEST_F(Beside, BuiltInScenesGetNoAddedLightOrCamera) {
-    app::ResolvedScene found = app::resolve_scene("cornell-mirrors", {});
+    app::ResolvedScene found = app::load_resolved_scene("cornell-mirrors", {});
     EXPECT_EQ(hash_scene(found.scene), hash_scene(make_cornell_mirrors()));
     EXPECT_EQ(app::choose_ambient_light(found), .05);
     EXPECT_EQ(app::find_exposure(found), 0);
     ASSERT_EQ(found.scene.unsupported.size(), 1u) << "as in any scene that is lit";
     EXPECT_EQ(found.scene.unsupported[0].id, "indirect-left-out");
-    EXPECT_EQ(app::choose_camera(found, 1).name, "contract");
+    EXPECT_EQ(app::choose_or_add_camera(found, 1).name, "contract");
     EXPECT_THAT(found.said, IsEmpty());
 }
 

@@ -16,7 +16,7 @@ constexpr std::uint64_t kGibibyte = std::uint64_t{1} << 30;
 class BudgetFor : public test::InFolder {
 protected:
     /// Creates a sparse file of `bytes` bytes, which occupies no disk space, and returns its path.
-    std::filesystem::path file(std::uint64_t bytes) const {
+    std::filesystem::path write_sparse_file(std::uint64_t bytes) const {
         const std::filesystem::path path = folder / "scene.glb";
         std::ofstream(path).close();
         std::filesystem::resize_file(path, bytes);
@@ -25,7 +25,7 @@ protected:
 };
 
 TEST_F(BudgetFor, SmallFileKeepsTheDefaultTriangleBudgetOnALargeMachine) {
-    const LoadBudget budget = choose_load_budget(file(1000), {}, 1000 * kGibibyte);
+    const LoadBudget budget = choose_load_budget(write_sparse_file(1000), {}, 1000 * kGibibyte);
     EXPECT_EQ(budget.triangles, LoadBudget().triangles);
     EXPECT_EQ(budget.vertices, LoadBudget().vertices);
     EXPECT_EQ(budget.shown, LoadBudget().shown);
@@ -33,23 +33,24 @@ TEST_F(BudgetFor, SmallFileKeepsTheDefaultTriangleBudgetOnALargeMachine) {
 }
 
 TEST_F(BudgetFor, LargeFileBudgetIsLimitedByFileSizeAndMemory) {
-    const std::filesystem::path path = file(kGibibyte);
+    const std::filesystem::path path = write_sparse_file(kGibibyte);
     EXPECT_EQ(choose_load_budget(path, {}, 1000 * kGibibyte).triangles, kGibibyte / 6);
     EXPECT_EQ(choose_load_budget(path, {}, 1000 * kGibibyte).vertices, 3 * (kGibibyte / 6));
     EXPECT_EQ(choose_load_budget(path, {}, 16 * kGibibyte).triangles,
-              16 * kGibibyte / kBytesPerTriangle);
+              16 * kGibibyte / kRenderBytesPerTriangle);
     EXPECT_EQ(choose_load_budget(path, {}, kGibibyte).triangles, LoadBudget().triangles);
     EXPECT_EQ(choose_load_budget(path, {}, kGibibyte).file_bytes, LoadBudget().file_bytes);
 }
 
 TEST_F(BudgetFor, UserLimitsReplaceComputedLimits) {
-    const LoadBudget most = choose_load_budget(file(1000), {.bytes = 7, .triangles = 50'000'000},
-                                               0);
+    const LoadBudget most = choose_load_budget(write_sparse_file(1000),
+                                               {.bytes = 7, .triangles = 50'000'000}, 0);
     EXPECT_EQ(most.file_bytes, 7u);
     EXPECT_EQ(most.triangles, 50'000'000u);
     EXPECT_EQ(most.vertices, 150'000'000u);
-    EXPECT_EQ(choose_load_budget(file(1000), {.triangles = 3}, 0).triangles, 3u);
-    EXPECT_EQ(choose_load_budget(file(1000), {.triangles = 3}, 0).vertices, LoadBudget().vertices);
+    EXPECT_EQ(choose_load_budget(write_sparse_file(1000), {.triangles = 3}, 0).triangles, 3u);
+    EXPECT_EQ(choose_load_budget(write_sparse_file(1000), {.triangles = 3}, 0).vertices,
+              LoadBudget().vertices);
 }
 
 TEST_F(BudgetFor, FreeMemoryOfTheMachineIsKnown) {

@@ -14,47 +14,54 @@ namespace {
 
 using test::expect_valid_bvh, test::have_equal_bytes, test::make_random_triangles;
 
-std::vector<TriangleReference> references(std::span<const Triangle> triangles) {
+std::vector<TriangleReference> make_triangle_references(std::span<const Triangle> triangles) {
     std::vector<TriangleReference> result;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const BoundingBox box = triangle_bounds(triangles[i].a, triangles[i].b, triangles[i].c, 0);
-        result.push_back({load_simd(box.lo, id_to_float_word(i)), load_simd(box.hi, 0)});
+        const BoundingBox box = compute_triangle_bounds(triangles[i].a, triangles[i].b,
+                                                        triangles[i].c, 0);
+        result.push_back(
+            {load_simd_vector(box.lo, index_to_float_word(i)), load_simd_vector(box.hi, 0)});
     }
     return result;
 }
 
 /// Returns the cost of references in one node: half the area of their bounds times their number.
-double cost_of(std::span<const TriangleReference> references) {
+double node_cost_of_references(std::span<const TriangleReference> references) {
     Bounds<double> box;
     for (const TriangleReference& r : references)
         box.add(Bounds<double>{dvec3(simd_to_vec3(r.lo)), dvec3(simd_to_vec3(r.hi))});
     return box.area() / 2 * static_cast<double>(references.size());
 }
 
-double cost_of(std::span<const TriangleReference> references, std::size_t middle) {
-    return cost_of(references.first(middle)) + cost_of(references.subspan(middle));
+double node_cost_of_references(std::span<const TriangleReference> references, std::size_t middle) {
+    return node_cost_of_references(references.first(middle)) +
+           node_cost_of_references(references.subspan(middle));
 }
 
-std::vector<TriangleReference> sorted(std::vector<TriangleReference> references, int axis) {
+std::vector<TriangleReference> sort_references_along_axis(std::vector<TriangleReference> references,
+                                                          int axis) {
     std::ranges::stable_sort(references, {},
-                             [&](const TriangleReference& r) { return r.centre()[axis]; });
+                             [&](const TriangleReference& r) { return r.centre_of_box()[axis]; });
     return references;
 }
 
 TEST(BvhDivision, SweepFindsTheCheapestDivision) {
     for (unsigned seed = 1; seed <= 200; ++seed) {
         const std::size_t count = 2 + seed % (kMaxSweepTriangles - 1), most = count - seed % 2;
-        std::vector<TriangleReference> few = references(make_random_triangles(count, seed));
+        std::vector<TriangleReference> few = make_triangle_references(
+            make_random_triangles(count, seed));
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis)
             for (std::size_t middle = 1; middle < count; ++middle)
                 if (std::max(middle, count - middle) <= most)
-                    least = std::min(least, cost_of(sorted(few, axis), middle));
-        const std::optional<SweepDivision> found = find_best_division_by_sweep(few, most);
+                    least = std::min(least, node_cost_of_references(
+                                                sort_references_along_axis(few, axis), middle));
+        const std::optional<SweepSplit> found = find_best_division_by_sweep(few, most);
         ASSERT_EQ(found.has_value(), std::isfinite(least));
         if (!found) continue;
         EXPECT_NEAR(found->cost, least, 1e-6 * least);
-        EXPECT_NEAR(cost_of(few, found->middle), least, 1e-6 * least) << "sorted as it says";
+        EXPECT_NEAR(node_cost_of_references(few, found->middle), least, 1e-6 * least)
+            << "sorted as it says";
     }
 }
 
@@ -62,41 +69,42 @@ TEST(BvhDivision, SweepFindsTheCheapestDivision) {
 TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
-        std::vector<TriangleReference> all = references(make_random_triangles(count, seed));
-        ReferenceRange part;
-        for (const TriangleReference& r : all) part.add(r);
+        std::vector<TriangleReference> all = make_triangle_references(
+            make_random_triangles(count, seed));
+        TriangleReferenceRange part;
+        for (const TriangleReference& r : all) part.add_reference(r);
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            const std::vector<TriangleReference> along = sorted(all, axis);
+            const std::vector<TriangleReference> along = sort_references_along_axis(all, axis);
             for (int plane = 1; plane < kSplitBinCount; ++plane) {
                 const double lo = double{part.centres.lo[axis]}, hi = double{part.centres.hi[axis]},
                              place = lo + (hi - lo) * plane / kSplitBinCount;
                 const auto middle = static_cast<std::size_t>(
                     std::ranges::count_if(along, [&](const TriangleReference& r) {
-                        return double{r.centre()[axis]} < place;
+                        return double{r.centre_of_box()[axis]} < place;
                     }));
                 if (middle > 0 && middle < count && std::max(middle, count - middle) <= most)
-                    least = std::min(least, cost_of(along, middle));
+                    least = std::min(least, node_cost_of_references(along, middle));
             }
         }
         SplitBins bins;
-        bins.add_references(all, BinMapping(part.centres));
+        bins.add_references(all, SplitBinMapping(part.centres));
         const std::optional<BinSplit> split = find_best_split(bins, most);
         ASSERT_TRUE(split);
         const std::size_t middle = bins.left_count(*split);
         std::vector<TriangleReference> sides(count);
         std::array<SimdBox, 2> centres;
-        split->scatter_references(all, BinMapping(part.centres), {sides.data(), &sides[middle]},
-                                  centres);
-        EXPECT_NEAR(cost_of(sides, middle), least, 1e-6 * least);
+        split->scatter_references(all, SplitBinMapping(part.centres),
+                                  {sides.data(), &sides[middle]}, centres);
+        EXPECT_NEAR(node_cost_of_references(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
                                                       side == 0 ? middle : count - middle);
-            ReferenceRange made;
-            for (const TriangleReference& r : own) made.add(r);
+            TriangleReferenceRange made;
+            for (const TriangleReference& r : own) made.add_reference(r);
             EXPECT_EQ(bins.extents(*split)[side].to_bounding_box(), made.box.to_bounding_box());
             EXPECT_EQ(centres[side].to_bounding_box(), made.centres.to_bounding_box());
-            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &TriangleReference::triangle))
+            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &TriangleReference::triangle_number))
                 << "in their order";
         }
     }
@@ -104,43 +112,45 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
 
 /// A named list of triangles that may be hard to divide. Most lists are longer than one thread
 /// builds at once.
-struct Input {
+struct BvhBuildInput {
     const char* name;
     std::vector<Triangle> triangles;
     std::size_t kept;
     BoundingBox core{};
 };
 
-std::vector<Input> inputs() {
-    constexpr std::size_t kMany = 20000;
-    std::vector<Input> list{{"nothing", {}, 0},
-                            {"one", make_random_triangles(1, 1), 1},
-                            {"two", make_random_triangles(2, 2), 2},
-                            {"soup", make_random_triangles(kMany, 3), kMany}};
-    Input flat{"points and lines", make_random_triangles(kMany, 4), kMany};
-    for (std::size_t i = 0; i < kMany; ++i) {
+std::vector<BvhBuildInput> list_bvh_build_inputs() {
+    constexpr std::size_t kManyTriangles = 20000;
+    std::vector<BvhBuildInput> list{
+        {"nothing", {}, 0},
+        {"one", make_random_triangles(1, 1), 1},
+        {"two", make_random_triangles(2, 2), 2},
+        {"soup", make_random_triangles(kManyTriangles, 3), kManyTriangles}};
+    BvhBuildInput flat{"points and lines", make_random_triangles(kManyTriangles, 4),
+                       kManyTriangles};
+    for (std::size_t i = 0; i < kManyTriangles; ++i) {
         Triangle& t = flat.triangles[i];
         t.c = t.b;
         if (i % 2 == 0) t.b = t.c = t.a;
     }
     list.push_back(flat);
-    Input heap{"one centre", make_random_triangles(kMany, 5), kMany};
+    BvhBuildInput heap{"one centre", make_random_triangles(kManyTriangles, 5), kManyTriangles};
     for (Triangle& t : heap.triangles) t.b = -t.a, t.c = vec3(0);
     list.push_back(heap);
     // Copies and triangles with NaN are dropped, which leaves gaps between the kept triangles.
-    Input holes{"holes", make_random_triangles(kMany, 6), 0};
-    for (std::size_t i = 0; i < kMany; ++i) {
+    BvhBuildInput holes{"holes", make_random_triangles(kManyTriangles, 6), 0};
+    for (std::size_t i = 0; i < kManyTriangles; ++i) {
         Triangle& t = holes.triangles[i];
         if (i % 3 == 0) t = holes.triangles[i / 3 % 20];
         if (i % 1000 == 999) t.a.x = std::numeric_limits<float>::quiet_NaN();
     }
     list.push_back(holes);
-    Input bits{"any finite numbers, most of them far out",
-               make_random_triangles(kMany, 7),
-               kMany,
-               {vec3(-1), vec3(1)}};
+    BvhBuildInput bits{"any finite numbers, most of them far out",
+                       make_random_triangles(kManyTriangles, 7),
+                       kManyTriangles,
+                       {vec3(-1), vec3(1)}};
     test::RandomNumbers random(8);
-    for (std::size_t i = 0; i < kMany; ++i) {
+    for (std::size_t i = 0; i < kManyTriangles; ++i) {
         // Triangles of distinct objects do not count as copies.
         bits.triangles[i].object = static_cast<std::uint32_t>(i);
         for (vec3* corner : {&bits.triangles[i].a, &bits.triangles[i].b, &bits.triangles[i].c})
@@ -148,14 +158,15 @@ std::vector<Input> inputs() {
                 (*corner)[k] = i % 100 == 0
                                    ? std::copysign(f32::kLargestFloat, (*corner)[k])
                                    : std::ldexp((*corner)[k],
-                                                static_cast<int>(random.integer_below(250)) - 125);
+                                                static_cast<int>(random.random_integer_below(250)) -
+                                                    125);
     }
     list.push_back(bits);
     return list;
 }
 
 TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
-    for (const Input& input : inputs()) {
+    for (const BvhBuildInput& input : list_bvh_build_inputs()) {
         SCOPED_TRACE(input.name);
         const Bvh one = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 1);
         const std::size_t kept = input.triangles.size() - one.dropped - one.copies;
@@ -177,7 +188,7 @@ TEST(BvhBuild, TheTreeDoesNotDependOnTheNumberOfThreads) {
 
 /// A tree built by three threads stores no triangle twice, and each stored triangle unchanged.
 TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
-    for (const Input& input : inputs()) {
+    for (const BvhBuildInput& input : list_bvh_build_inputs()) {
         SCOPED_TRACE(input.name);
         const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 3);
         std::vector<char> seen(input.triangles.size());

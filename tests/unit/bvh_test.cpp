@@ -20,7 +20,7 @@ using test::expect_valid_bvh, test::have_equal_bytes, test::make_random_triangle
 
 /// Builds a ball by dividing the faces of an octahedron `levels` times. Neighbouring faces compute
 /// the midpoint of their shared edge from the same two corners, so both get the same floats.
-std::vector<Triangle> bvh_ball(int levels, float scale = 1, vec3 offset = vec3(0)) {
+std::vector<Triangle> make_divided_octahedron(int levels, float scale = 1, vec3 offset = vec3(0)) {
     std::vector<std::array<vec3, 3>> faces;
     for (int i = 0; i < 8; ++i) {
         const vec3 x((i & 1) != 0 ? -1 : 1, 0, 0), y(0, (i & 2) != 0 ? -1 : 1, 0);
@@ -54,33 +54,34 @@ TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
 std::size_t count_casters_before(const Bvh& bvh, std::size_t place) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < place; ++i)
-        count += (float_word_to_integer(bvh.triangles[3 * i + 2].w) & kCastsNoShadow) == 0 ? 1 : 0;
+        count += (float_word_to_integer(bvh.triangles[3 * i + 2].w) & kCastsNoShadowFlag) == 0 ? 1
+                                                                                               : 0;
     return count;
 }
 
 TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
-    constexpr std::size_t kCount = 20000; // more than one task reads
+    constexpr std::size_t kTriangleCount = 20000; // more than one task reads
     for (const std::size_t shadowless : {0, 1, 7, 256, 257, 20000}) {
         SCOPED_TRACE(shadowless);
-        std::vector<Triangle> triangles = make_random_triangles(kCount, 31);
+        std::vector<Triangle> triangles = make_random_triangles(kTriangleCount, 31);
         for (std::size_t i = 0; i < shadowless; ++i)
-            triangles[7919 * i % kCount].flags = kCastsNoShadow;
-        for (std::size_t i = 3; i < kCount; i += 1000)
+            triangles[7919 * i % kTriangleCount].flags = kCastsNoShadowFlag;
+        for (std::size_t i = 3; i < kTriangleCount; i += 1000)
             if (triangles[i].flags == 0) triangles[i].b.x = test::kInfinity;
         const Bvh bvh = build_bvh(triangles, {}, kMaxLeafTriangles, 1);
-        const std::size_t stored = kCount - bvh.dropped,
+        const std::size_t stored = kTriangleCount - bvh.dropped,
                           casters = stored - std::min(shadowless, stored);
         expect_valid_bvh(bvh, stored);
         EXPECT_TRUE(
             have_equal_bytes(bvh.nodes, build_bvh(triangles, {}, kMaxLeafTriangles, 3).nodes));
-        const bool is_apart = shadowless > 0 && shadowless <= kMaxShadowlessApart;
+        const bool is_apart = shadowless > 0 && shadowless <= kMaxSeparateShadowlessTriangles;
         const std::uint32_t first = float_to_bits(bvh.nodes[3].x),
                             second = float_to_bits(bvh.nodes[3].y);
         EXPECT_EQ(first, is_apart ? float_to_bits(bvh.nodes[4].w) : f32::kBvhRoot);
         EXPECT_EQ(second, is_apart ? float_to_bits(bvh.nodes[5].w) : f32::kBvhEmptyChild);
         EXPECT_EQ(count_casters_before(bvh, stored), casters);
         EXPECT_EQ(count_casters_before(bvh, casters) == casters,
-                  is_apart || shadowless % kCount == 0)
+                  is_apart || shadowless % kTriangleCount == 0)
             << "casters come first";
     }
 }
@@ -99,7 +100,7 @@ TEST(Bvh, EqualInputsGiveEqualBytes) {
 }
 
 TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
-    const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSided}; // the lamp faces +z
+    const Triangle lamp{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 0, kOneSidedFlag}; // the lamp faces +z
     const Bvh bvh = build_bvh(std::vector{lamp});
     const auto meets = [&](double from, std::uint32_t skipped) {
         const dvec3 origin(0, 0, from), direction(0, 0, 1 - from);
@@ -114,14 +115,14 @@ TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
             in_double);
         return in_double;
     };
-    EXPECT_TRUE(meets(3, kOneSided));
-    EXPECT_FALSE(meets(-1, kOneSided));
-    EXPECT_TRUE(meets(3, kCastsNoShadow));
-    EXPECT_TRUE(meets(-1, kCastsNoShadow)) << "whichever side it turns, it casts a shadow";
+    EXPECT_TRUE(meets(3, kOneSidedFlag));
+    EXPECT_FALSE(meets(-1, kOneSidedFlag));
+    EXPECT_TRUE(meets(3, kCastsNoShadowFlag));
+    EXPECT_TRUE(meets(-1, kCastsNoShadowFlag)) << "whichever side it turns, it casts a shadow";
 }
 
 TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
-    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHiddenFromCamera};
+    const Triangle near{{-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, 7, kHiddenFromCameraFlag};
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
     const Bvh bvh = build_bvh(std::vector{far, near});
     const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
@@ -130,7 +131,7 @@ TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
     EXPECT_EQ(first->triangle, 1u);
     EXPECT_EQ(first->object, 7u);
     EXPECT_EQ(first->t, 1);
-    const auto seen = find_closest_hit<float>(bvh, ray, test::kInfinity, kHiddenFromCamera);
+    const auto seen = find_closest_hit<float>(bvh, ray, test::kInfinity, kHiddenFromCameraFlag);
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
     EXPECT_EQ(seen->object, 0x1ffffffeu);
@@ -183,9 +184,9 @@ TEST(Bvh, LowestNumberWinsAmongCoincidentTriangles) {
     const auto hit = find_closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
-    TraversalCounters steps;
+    BvhTraversalCounters steps;
     EXPECT_TRUE(has_any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity, 0, &steps));
-    EXPECT_LE(steps.total_steps(), kMaxTreeDepth + kMaxLeafTriangles);
+    EXPECT_LE(steps.count_all_steps(), kMaxTreeDepth + kMaxLeafTriangles);
 }
 
 TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
@@ -193,8 +194,11 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
     // distinct triangles.
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < 8000; ++i) {
-        Triangle t{
-            {-1, -1, 1}, {1, -1, 1}, {0, 1, 1}, i / 2 % 2, i / 4 % 2 == 0 ? 0 : kHiddenFromCamera};
+        Triangle t{{-1, -1, 1},
+                   {1, -1, 1},
+                   {0, 1, 1},
+                   i / 2 % 2,
+                   i / 4 % 2 == 0 ? 0 : kHiddenFromCameraFlag};
         if (i % 2 == 0) std::swap(t.a, t.b);
         if (i / 8 % 2 == 0) t.a.z = t.b.z = t.c.z = 2;
         triangles.push_back(t);
@@ -211,14 +215,15 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
 }
 
 TEST(Bvh, LowestNumberWinsAmongCopiesInDifferentLeaves) {
-    std::vector<Triangle> triangles = bvh_ball(4);
+    std::vector<Triangle> triangles = make_divided_octahedron(4);
     const std::vector<Triangle> original = triangles;
     triangles.insert(triangles.end(), original.begin(), original.end());
     const Bvh bvh = build_bvh(triangles);
     test::RandomNumbers random(5);
     for (int i = 0; i < 2000; ++i) {
         const auto hit = find_closest_hit<float>(
-            bvh, {0.5f * random.point_in_cube(), random.unit_direction()}, test::kInfinity);
+            bvh, {0.5f * random.random_point_in_cube(), random.random_unit_direction()},
+            test::kInfinity);
         ASSERT_TRUE(hit);
         ASSERT_LT(hit->triangle, original.size());
     }
@@ -241,16 +246,17 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
     test::RandomNumbers random(seed);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
-        const vec3 origin = 2.0f * random.point_in_cube();
+        const vec3 origin = 2.0f * random.random_point_in_cube();
         // Most rays aim at edges and corners of triangles, which lie on the faces of bounding
         // boxes.
-        const Triangle& aim = triangles[random.integer_below(triangles.size())];
-        const float along = i % 4 == 0 ? 0 : random.number_between(0, 1);
-        const vec3 target = i % 4 == 1 ? random.point_in_cube() : aim.a + along * (aim.b - aim.a);
+        const Triangle& aim = triangles[random.random_integer_below(triangles.size())];
+        const float along = i % 4 == 0 ? 0 : random.random_number_between(0, 1);
+        const vec3 target = i % 4 == 1 ? random.random_point_in_cube()
+                                       : aim.a + along * (aim.b - aim.a);
         Ray<Real> ray{Vec3<Real>(origin), Vec3<Real>(target - origin)};
         if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
         const Real t_max = i % 2 == 0 ? Real(test::kInfinity)
-                                      : Real(random.number_between(0, 1.5f));
+                                      : Real(random.random_number_between(0, 1.5f));
         const auto tree = find_closest_hit<Real>(bvh, ray, t_max);
         const auto all = find_closest_hit_by_brute_force<Real>(bvh, ray, t_max);
         ASSERT_EQ(tree, all) << "ray " << i;
@@ -263,27 +269,27 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
 TEST(ClosestHit, TreeHitsEqualBruteForceHitsBitForBit) {
     expect_equal_to_brute_force<float>(make_random_triangles(500, 6), 10000, 7);
     expect_equal_to_brute_force<double>(make_random_triangles(500, 6), 5000, 8);
-    expect_equal_to_brute_force<float>(bvh_ball(3), 10000, 9);
+    expect_equal_to_brute_force<float>(make_divided_octahedron(3), 10000, 9);
 }
 
 /// Triangles without shadows are out of the way of shadow rays. No other hit changes.
 TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
     std::vector<Triangle> triangles = make_random_triangles(500, 6);
-    for (std::size_t i = 0; i < 90; ++i) triangles[5 * i].flags = kCastsNoShadow;
+    for (std::size_t i = 0; i < 90; ++i) triangles[5 * i].flags = kCastsNoShadowFlag;
     std::vector<Triangle> casters = triangles;
     std::erase_if(casters, [](const Triangle& t) { return t.flags != 0; });
     const Bvh bvh = build_bvh(triangles), only_casters = build_bvh(casters);
     test::RandomNumbers random(17);
     std::size_t blocked = 0;
     for (int i = 0; i < 5000; ++i) {
-        const Ray<float> ray{2.0f * random.point_in_cube(), random.unit_direction()};
-        TraversalCounters steps, steps_of_casters;
-        const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kCastsNoShadow, &steps);
+        const Ray<float> ray{2.0f * random.random_point_in_cube(), random.random_unit_direction()};
+        BvhTraversalCounters steps, steps_of_casters;
+        const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kCastsNoShadowFlag, &steps);
         ASSERT_EQ(is_blocked,
-                  has_any_hit<float>(only_casters, ray, 2, kCastsNoShadow, &steps_of_casters));
-        ASSERT_TRUE(is_blocked || steps.total_steps() == steps_of_casters.total_steps())
+                  has_any_hit<float>(only_casters, ray, 2, kCastsNoShadowFlag, &steps_of_casters));
+        ASSERT_TRUE(is_blocked || steps.count_all_steps() == steps_of_casters.count_all_steps())
             << "the same tree";
-        for (const std::uint32_t skipped : {0u, kCastsNoShadow})
+        for (const std::uint32_t skipped : {0u, kCastsNoShadowFlag})
             ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity, skipped),
                       find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity, skipped));
         blocked += is_blocked ? 1 : 0;
@@ -298,15 +304,15 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
     int hits = 0;
     for (int i = 0; i < 20000; ++i) {
         const float length = i % 2 == 0 ? 100 : 1e4f;
-        const vec2 edge(random.number_between(-1, 1), random.number_between(-1, 1));
+        const vec2 edge(random.random_number_between(-1, 1), random.random_number_between(-1, 1));
         Triangle t;
-        t.a = vec3(edge, -length * random.number_between(0, 1));
-        t.b = vec3(edge, length * random.number_between(0, 1));
-        t.c = vec3(edge, 0) + 0.5f * (random.point_in_cube() + vec3(1));
-        const vec3 origin = vec3(edge, 0) +
-                            vec3(random.number_between(0, 1), -random.number_between(0, 1), 0);
-        const vec3 target(edge.x - length * random.number_between(0, 1e-7f), edge.y,
-                          random.number_between(1, 3));
+        t.a = vec3(edge, -length * random.random_number_between(0, 1));
+        t.b = vec3(edge, length * random.random_number_between(0, 1));
+        t.c = vec3(edge, 0) + 0.5f * (random.random_point_in_cube() + vec3(1));
+        const vec3 origin = vec3(edge, 0) + vec3(random.random_number_between(0, 1),
+                                                 -random.random_number_between(0, 1), 0);
+        const vec3 target(edge.x - length * random.random_number_between(0, 1e-7f), edge.y,
+                          random.random_number_between(1, 3));
         const Bvh bvh = build_bvh(std::span(&t, 1));
         const Ray<float> ray{origin, target - origin};
         const auto expected = find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity);
@@ -317,10 +323,11 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
 }
 
 TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
-    const Bvh bvh = build_bvh(bvh_ball(4));
+    const Bvh bvh = build_bvh(make_divided_octahedron(4));
     test::RandomNumbers random(10);
     for (int i = 0; i < 20000; ++i) {
-        const vec3 origin = 0.5f * random.point_in_cube(), direction = random.unit_direction();
+        const vec3 origin = 0.5f * random.random_point_in_cube(),
+                   direction = random.random_unit_direction();
         const auto single = find_closest_hit<float>(bvh, {origin, direction}, test::kInfinity);
         const auto precise_hit = find_closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
                                                           test::kInfinity);
@@ -334,29 +341,30 @@ TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
 
 /// Counts the rays that miss a closed mesh although they start inside. Each ray aims at a corner or
 /// at a point of a random edge.
-int leaks(float scale, vec3 offset, int rays, unsigned seed) {
-    const std::vector<Triangle> triangles = bvh_ball(4, scale, offset);
+int count_rays_leaking_from_mesh(float scale, vec3 offset, int rays, unsigned seed) {
+    const std::vector<Triangle> triangles = make_divided_octahedron(4, scale, offset);
     const Bvh bvh = build_bvh(triangles);
     test::RandomNumbers random(seed);
     int result = 0;
     for (int i = 0; i < rays; ++i) {
-        const Triangle& t = triangles[random.integer_below(triangles.size())];
-        const vec3 target = i % 4 == 0 ? t.a : t.a + random.number_between(0, 1) * (t.b - t.a);
-        const vec3 origin = offset + 0.4f * scale * random.point_in_cube();
+        const Triangle& t = triangles[random.random_integer_below(triangles.size())];
+        const vec3 target = i % 4 == 0 ? t.a
+                                       : t.a + random.random_number_between(0, 1) * (t.b - t.a);
+        const vec3 origin = offset + 0.4f * scale * random.random_point_in_cube();
         if (!find_closest_hit<float>(bvh, {origin, target - origin}, test::kInfinity)) ++result;
     }
     return result;
 }
 
 TEST(ClosestHit, RaysFromInsideAClosedMeshAlwaysHit) {
-    EXPECT_EQ(leaks(1, vec3(0), 100000, 11), 0);
-    EXPECT_EQ(leaks(1e-4f, vec3(0), 20000, 12), 0);
-    EXPECT_EQ(leaks(1e4f, vec3(0), 20000, 13), 0);
-    EXPECT_EQ(leaks(100, vec3(148376, 1234, -223423), 20000, 14), 0);
+    EXPECT_EQ(count_rays_leaking_from_mesh(1, vec3(0), 100000, 11), 0);
+    EXPECT_EQ(count_rays_leaking_from_mesh(1e-4f, vec3(0), 20000, 12), 0);
+    EXPECT_EQ(count_rays_leaking_from_mesh(1e4f, vec3(0), 20000, 13), 0);
+    EXPECT_EQ(count_rays_leaking_from_mesh(100, vec3(148376, 1234, -223423), 20000, 14), 0);
 }
 
 TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
-    const std::vector<Triangle> triangles = bvh_ball(3);
+    const std::vector<Triangle> triangles = make_divided_octahedron(3);
     const Bvh bvh = build_bvh(triangles);
     for (const Triangle& t : triangles)
         for (int axis = 0; axis < 3; ++axis)
@@ -371,11 +379,11 @@ TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
 }
 
 TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
-    const Bvh bvh = build_bvh(bvh_ball(4));
+    const Bvh bvh = build_bvh(make_divided_octahedron(4));
     test::RandomNumbers random(15);
     for (float bad : {test::kNan, test::kInfinity, -test::kInfinity})
         for (int k = 0; k < 7; ++k) {
-            vec3 origin(0), direction = random.unit_direction();
+            vec3 origin(0), direction = random.random_unit_direction();
             float t_max = test::kInfinity;
             if (k < 3)
                 origin[k] = bad;
@@ -384,11 +392,11 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
             else
                 t_max = bad;
             if (k == 6 && bad > 0) continue; // t_max = +infinity is valid
-            TraversalCounters steps;
+            BvhTraversalCounters steps;
             EXPECT_FALSE(find_closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
             EXPECT_FALSE(has_any_hit<float>(bvh, {origin, direction}, t_max));
             EXPECT_FALSE(find_closest_hit_by_brute_force<float>(bvh, {origin, direction}, t_max));
-            EXPECT_EQ(steps.total_steps(), 0u);
+            EXPECT_EQ(steps.count_all_steps(), 0u);
         }
     EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kInfinity))
         << "no direction";
@@ -405,7 +413,8 @@ TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
         const Bvh other = build_bvh(scaled);
         test::RandomNumbers random(17);
         for (int i = 0; i < 2000; ++i) {
-            const vec3 origin = 2.0f * random.point_in_cube(), direction = random.unit_direction();
+            const vec3 origin = 2.0f * random.random_point_in_cube(),
+                       direction = random.random_unit_direction();
             const auto a = find_closest_hit<float>(one, {origin, direction}, test::kInfinity);
             const auto b = find_closest_hit<float>(other, {s * origin, direction}, test::kInfinity);
             ASSERT_EQ(a.has_value(), b.has_value());
@@ -420,8 +429,9 @@ TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
 TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
     test::RandomNumbers random(19);
     const auto wide = [&] {
-        return random.number_between(-1, 1) < 0 ? -std::pow(10.0f, random.number_between(-8, 8))
-                                                : std::pow(10.0f, random.number_between(-8, 8));
+        return random.random_number_between(-1, 1) < 0
+                   ? -std::pow(10.0f, random.random_number_between(-8, 8))
+                   : std::pow(10.0f, random.random_number_between(-8, 8));
     };
     for (int i = 0; i < 100; ++i) {
         Triangle t;
@@ -429,12 +439,14 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
             for (int k = 0; k < 3; ++k) (*corner)[k] = wide();
         const Bvh bvh = build_bvh(std::span(&t, 1));
         for (int k = 0; k < 100; ++k) {
-            const float s = std::sqrt(random.number_between(0, 1)), r = random.number_between(0, 1);
+            const float s = std::sqrt(random.random_number_between(0, 1)),
+                        r = random.random_number_between(0, 1);
             vec3 error;
-            const vec3 p = f32::triangle_point(t.a, t.b, t.c, {1 - s, s * (1 - r), s * r}, error);
-            const vec3 direction = random.unit_direction();
+            const vec3 p = f32::triangle_hit_point(t.a, t.b, t.c, {1 - s, s * (1 - r), s * r},
+                                                   error);
+            const vec3 direction = random.random_unit_direction();
             const vec3 n = f32::facet_normal(t.a, t.b, t.c);
-            const Ray<float> ray{f32::spawn_origin(p, error, n, direction), direction, 1};
+            const Ray<float> ray{f32::ray_spawn_origin(p, error, n, direction), direction, 1};
             ASSERT_FALSE(find_closest_hit<float>(bvh, ray, test::kInfinity));
         }
     }
@@ -444,16 +456,19 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
 /// close to its origin.
 TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
     for (float scale : {1e-3f, 1.0f, 1e3f}) {
-        const std::vector<Triangle> triangles = bvh_ball(3, scale, vec3(2, 3, 5) * scale);
+        const std::vector<Triangle> triangles = make_divided_octahedron(3, scale,
+                                                                        vec3(2, 3, 5) * scale);
         const Bvh bvh = build_bvh(triangles);
         test::RandomNumbers random(20);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             const auto& [a, b, c, object, flags] = triangles[i];
             vec3 error;
-            const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
+            const vec3 p = f32::triangle_hit_point(a, b, c, vec3(1.0f / 3), error);
             const vec3 inward = vec3(2, 3, 5) * scale - p;
-            const vec3 direction = glm::normalize(inward + 0.5f * scale * random.unit_direction());
-            const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
+            const vec3 direction = glm::normalize(inward +
+                                                  0.5f * scale * random.random_unit_direction());
+            const vec3 origin = f32::ray_spawn_origin(p, error, f32::facet_normal(a, b, c),
+                                                      direction);
             const auto hit = find_closest_hit<float>(bvh, {origin, direction, 0}, test::kInfinity);
             ASSERT_TRUE(hit);
             ASSERT_GT(hit->t, scale);
@@ -478,7 +493,7 @@ TEST(Refit, RefitWithoutMovementChangesNothing) {
 /// holds for coincident triangles.
 TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
     test::RandomNumbers random(21);
-    std::vector<Triangle> triangles = bvh_ball(3);
+    std::vector<Triangle> triangles = make_divided_octahedron(3);
     const std::size_t room = triangles.size();
     for (const Triangle& t : make_random_triangles(400, 4)) triangles.push_back(t);
     for (std::size_t i = 0; i < 50; ++i)
@@ -486,15 +501,15 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
     Bvh refitted = build_bvh(triangles);
     std::size_t found = 0;
     for (int step = 0; step < 6; ++step) {
-        const vec3 move = random.point_in_cube();
+        const vec3 move = random.random_point_in_cube();
         for (std::size_t i = 0; i < room; ++i)
             for (vec3* corner : {&triangles[i].a, &triangles[i].b, &triangles[i].c})
                 *corner += move;
         refit_bvh(refitted, triangles);
         const Bvh rebuilt = build_bvh(triangles);
         for (int k = 0; k < 3000; ++k) {
-            const Triangle& aim = triangles[random.integer_below(triangles.size())];
-            const vec3 origin = 2.0f * random.point_in_cube();
+            const Triangle& aim = triangles[random.random_integer_below(triangles.size())];
+            const vec3 origin = 2.0f * random.random_point_in_cube();
             const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
             const auto hit = find_closest_hit<float>(refitted, ray, test::kInfinity),
                        wanted = find_closest_hit<float>(rebuilt, ray, test::kInfinity);
@@ -511,7 +526,7 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
 
 /// Returns the smallest range of stored triangle data that contains all differences between two
 /// trees.
-IndexRange bvh_run_of(const Bvh& before, const Bvh& after) {
+IndexRange find_changed_range(const Bvh& before, const Bvh& after) {
     IndexRange run;
     for (std::size_t i = 0; i < after.triangles.size(); i += 3)
         if (std::memcmp(&before.triangles[i], &after.triangles[i], 3 * sizeof(vec4)) != 0)
@@ -527,15 +542,15 @@ TEST(Refit, PartialRefitEqualsFullRefit) {
         for (std::size_t i = 0; i < triangles.size(); ++i)
             triangles[i].object = i >= 80 && i < 150 ? 1 : 0;
         Bvh few = build_bvh(triangles, core), all = few;
-        const RefitRegion reach = find_refit_region(few, std::vector<char>{0, 1});
+        const BvhRefitRegion reach = find_refit_region(few, std::vector<char>{0, 1});
         EXPECT_LT(reach.boxes.size(), count_nodes(few)) << "half of them";
         test::RandomNumbers random(23);
         for (int step = 0; step < 5; ++step) {
-            for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.point_in_cube();
+            for (std::size_t i = 100; i < 140; ++i) triangles[i].b += random.random_point_in_cube();
             triangles[90].a =
                 -triangles[90].a; // a zero that changes its sign counts as a move, too
             const auto run = refit_bvh(few, triangles, core, &reach);
-            EXPECT_EQ(run, bvh_run_of(all, few));
+            EXPECT_EQ(run, find_changed_range(all, few));
             std::vector<Triangle> elsewhere = triangles;
             for (Triangle& t : elsewhere) t.a += vec3(1), t.b += vec3(1), t.c += vec3(1);
             refit_bvh(all, elsewhere, {vec3(-9), vec3(9)});
@@ -555,7 +570,7 @@ TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
     const double before = compute_sah_cost(tree);
     test::RandomNumbers random(22);
     for (Triangle& t : triangles) {
-        const vec3 move = 2.0f * random.point_in_cube();
+        const vec3 move = 2.0f * random.random_point_in_cube();
         t.a += move, t.b += move, t.c += move;
     }
     refit_bvh(tree, triangles);
@@ -564,14 +579,15 @@ TEST(Refit, CostRisesIfNeighbouringTrianglesMoveApart) {
 }
 
 TEST(ClosestHit, RaysVisitFewNodes) {
-    const Bvh bvh = build_bvh(bvh_ball(5)); // the ball has 8192 triangles
+    const Bvh bvh = build_bvh(make_divided_octahedron(5)); // the ball has 8192 triangles
     test::RandomNumbers random(18);
     std::size_t total = 0;
     for (int i = 0; i < 1000; ++i) {
-        TraversalCounters steps;
-        find_closest_hit<float>(bvh, {0.5f * random.point_in_cube(), random.unit_direction()},
-                                test::kInfinity, 0, &steps);
-        total += steps.total_steps();
+        BvhTraversalCounters steps;
+        find_closest_hit<float>(
+            bvh, {0.5f * random.random_point_in_cube(), random.random_unit_direction()},
+            test::kInfinity, 0, &steps);
+        total += steps.count_all_steps();
     }
     EXPECT_LT(total / 1000, 60u);
 }

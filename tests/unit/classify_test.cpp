@@ -19,7 +19,7 @@ using namespace catoptric::scene;
 using testing::ElementsAre;
 
 /// Builds a 1 x 1 wall of the given material. The texture covers the wall once.
-Scene panel(Material material) {
+Scene make_panel_scene(Material material) {
     Scene scene{.name = "wall"};
     Mesh mesh = quad("wall", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     mesh.uv[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -27,20 +27,20 @@ Scene panel(Material material) {
     return scene;
 }
 
-Texture texture(uvec2 size, std::vector<std::uint32_t> texels, bool srgb = false) {
+Texture make_test_texture(uvec2 size, std::vector<std::uint32_t> texels, bool srgb = false) {
     Texture made;
     made.image = std::make_shared<Image>(Image{"i", size, std::move(texels)});
     made.srgb = srgb, made.nearest = true;
     return made;
 }
 
-Material metal(float roughness, vec3 colour = vec3(1)) {
+Material make_metal_material(float roughness, vec3 colour = vec3(1)) {
     return {.name = "m", .albedo = colour, .metallic = 1, .roughness = roughness};
 }
 
 TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
     for (const auto& [roughness, is] : {std::pair(0.f, true), {.6f, true}, {.61f, false}}) {
-        Scene scene = panel(metal(roughness));
+        Scene scene = make_panel_scene(make_metal_material(roughness));
         find_mirrors(scene);
         EXPECT_EQ(mirrors(scene).size(), is ? 1u : 0u) << roughness;
         ASSERT_EQ(scene.unsupported.size(), is ? 0u : 1u);
@@ -58,7 +58,7 @@ TEST(Classify, SmoothMetalIsAMirrorAndRoughMetalIsUnsupported) {
 
 TEST(Classify, LargestF0ChannelDecidesWhetherAMetalIsAMirror) {
     for (const auto& [blue, is] : {std::pair(.19f, false), {.2f, true}}) {
-        Scene scene = panel(metal(0, {.05f, .1f, blue}));
+        Scene scene = make_panel_scene(make_metal_material(0, {.05f, .1f, blue}));
         find_mirrors(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << blue;
         EXPECT_EQ(scene.unsupported.size(), is ? 0u : 1u);
@@ -66,19 +66,21 @@ TEST(Classify, LargestF0ChannelDecidesWhetherAMetalIsAMirror) {
 }
 
 TEST(Classify, DielectricsAreMirrorsOnlyOnRequestAndIfSmoothEnough) {
-    struct Case {
+    struct ClassifyTestCase {
         float roughness;
         const char* gap;
         bool may_be_mirror;
     };
     for (const auto& [roughness, gap, may_be_mirror] :
-         {Case{.04f, "smooth-dielectric", true}, Case{.05f, "rough-dielectric", true},
-          Case{.6f, "rough-dielectric", true}, Case{.61f, "rough-dielectric", false}}) {
-        Scene scene = panel({.name = "lacquer",
-                             .albedo = vec3(.5f),
-                             .roughness = roughness,
-                             .dielectric_f0 = vec3(.04f),
-                             .dielectric_f90 = vec3(1)});
+         {ClassifyTestCase{.04f, "smooth-dielectric", true},
+          ClassifyTestCase{.05f, "rough-dielectric", true},
+          ClassifyTestCase{.6f, "rough-dielectric", true},
+          ClassifyTestCase{.61f, "rough-dielectric", false}}) {
+        Scene scene = make_panel_scene({.name = "lacquer",
+                                        .albedo = vec3(.5f),
+                                        .roughness = roughness,
+                                        .dielectric_f0 = vec3(.04f),
+                                        .dielectric_f90 = vec3(1)});
         find_mirrors(scene);
         EXPECT_FALSE(scene.objects[0].mirror);
         ASSERT_EQ(scene.unsupported.size(), 1u);
@@ -93,46 +95,49 @@ TEST(Classify, DielectricsAreMirrorsOnlyOnRequestAndIfSmoothEnough) {
 }
 
 TEST(Classify, LambertianSurfacesReflectNothing) {
-    Scene scene = panel({.name = "wall", .albedo = vec3(.5f), .roughness = .02f});
+    Scene scene = make_panel_scene({.name = "wall", .albedo = vec3(.5f), .roughness = .02f});
     find_mirrors(scene, true);
     EXPECT_FALSE(scene.objects[0].mirror);
     EXPECT_TRUE(scene.unsupported.empty());
-    EXPECT_FALSE(reflects_by_lobe(scene, scene.objects[0]));
+    EXPECT_FALSE(may_reflect_by_lobe(scene, scene.objects[0]));
 }
 
-std::vector<std::string> ids(const Scene& scene) {
+std::vector<std::string> list_scene_feature_ids(const Scene& scene) {
     std::vector<std::string> list;
     for (const UnsupportedFeature& gap : scene.unsupported) list.push_back(gap.id);
     return list;
 }
 
 TEST(SettleGaps, IndirectLightOfDiffuseSurfacesIsListedAsUnsupported) {
-    Scene scene = panel({.name = "wall", .albedo = vec3(.5f)});
+    Scene scene = make_panel_scene({.name = "wall", .albedo = vec3(.5f)});
     sort_unsupported_features(scene);
-    EXPECT_THAT(ids(scene), testing::IsEmpty()) << "nothing lights it";
+    EXPECT_THAT(list_scene_feature_ids(scene), testing::IsEmpty()) << "nothing lights it";
     scene.punctual.push_back({.intensity = vec3(1)});
     sort_unsupported_features(scene);
-    ASSERT_THAT(ids(scene), ElementsAre("indirect-left-out"));
+    ASSERT_THAT(list_scene_feature_ids(scene), ElementsAre("indirect-left-out"));
     EXPECT_EQ(scene.unsupported[0].count, 1u);
     EXPECT_EQ(scene.unsupported[0].first, "materials[0] 'wall'");
     EXPECT_THAT(scene.unsupported[0].materials, ElementsAre(0u));
     scene.punctual.clear();
     scene.environment = std::make_shared<Environment>();
     sort_unsupported_features(scene);
-    EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
+    EXPECT_THAT(list_scene_feature_ids(scene),
+                ElementsAre("indirect-left-out", "environment-unshadowed"));
     // A second call must not list anything twice.
     sort_unsupported_features(scene);
-    EXPECT_THAT(ids(scene), ElementsAre("indirect-left-out", "environment-unshadowed"));
-    for (const Material& none :
-         {Material{.albedo = vec3(0)}, {.albedo = vec3(1), .unlit = true}, metal(0)}) {
+    EXPECT_THAT(list_scene_feature_ids(scene),
+                ElementsAre("indirect-left-out", "environment-unshadowed"));
+    for (const Material& none : {Material{.albedo = vec3(0)},
+                                 {.albedo = vec3(1), .unlit = true},
+                                 make_metal_material(0)}) {
         scene.materials[0] = none;
         sort_unsupported_features(scene);
-        EXPECT_THAT(ids(scene), testing::IsEmpty()) << "it has no diffuse part";
+        EXPECT_THAT(list_scene_feature_ids(scene), testing::IsEmpty()) << "it has no diffuse part";
     }
 }
 
 TEST(Classify, MirrorsOfConstantReflectanceStayMirrors) {
-    Scene scene = panel({.name = "m", .mirror = true, .reflectance = vec3(.01f)});
+    Scene scene = make_panel_scene({.name = "m", .mirror = true, .reflectance = vec3(.01f)});
     find_mirrors(scene);
     EXPECT_FALSE(scene.objects[0].mirror);
     EXPECT_EQ(mirrors(scene).size(), 1u);
@@ -141,17 +146,17 @@ TEST(Classify, MirrorsOfConstantReflectanceStayMirrors) {
 
 /// Builds a metal wall with a roughness texture of `columns` texels, of which one is smooth. The
 /// texture stores roughness in green and metallic in blue.
-Scene partly_smooth(std::uint32_t columns) {
+Scene make_partly_smooth_wall(std::uint32_t columns) {
     std::vector<std::uint32_t> texels(columns, 0xffffff00u); // rough metal: green 255, blue 255
     texels[0] = 0xffff0000u;
-    Material material = metal(1);
-    material.roughness_texture = texture({columns, 1}, texels);
-    return panel(material);
+    Material material = make_metal_material(1);
+    material.roughness_texture = make_test_texture({columns, 1}, texels);
+    return make_panel_scene(material);
 }
 
 TEST(Classify, TexturedMetalIsAMirrorIfATwentiethOfItsAreaIsSmooth) {
     for (const auto& [columns, is] : {std::pair(2u, true), {19u, true}, {21u, false}}) {
-        Scene scene = partly_smooth(columns);
+        Scene scene = make_partly_smooth_wall(columns);
         EXPECT_NEAR(measure_surface_kinds(scene, scene.objects[0]).mirror, 1.0 / columns, .003);
         find_mirrors(scene);
         EXPECT_EQ(scene.objects[0].mirror, is) << columns;
@@ -163,9 +168,9 @@ TEST(Classify, TexturedMetalIsAMirrorIfATwentiethOfItsAreaIsSmooth) {
 /// triangles.
 TEST(Classify, MirrorShareIsWeightedByWorldArea) {
     Scene scene{.name = "two"};
-    Material material = metal(1);
-    material.roughness_texture = texture({2, 1},
-                                         {0xffff0000u, 0xffffff00u}); // the left texel is smooth
+    Material material = make_metal_material(1);
+    material.roughness_texture = make_test_texture(
+        {2, 1}, {0xffff0000u, 0xffffff00u}); // the left texel is smooth
     const std::size_t index = add_material(scene, material);
     Mesh mesh = quad("both", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     mesh.uv[0].assign(4, {.25f, .5f});
@@ -183,16 +188,16 @@ TEST(Classify, MirrorShareIsWeightedByWorldArea) {
 }
 
 TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
-    Material material = metal(0, {.5f, .5f, .5f});
-    material.albedo_texture = texture({1, 1}, {0xff808080u},
-                                      true); // sRGB 0x80 is .2159 in linear light
-    Scene scene = panel(material);
+    Material material = make_metal_material(0, {.5f, .5f, .5f});
+    material.albedo_texture = make_test_texture({1, 1}, {0xff808080u},
+                                                true); // sRGB 0x80 is .2159 in linear light
+    Scene scene = make_panel_scene(material);
     scene.meshes[0].colours.assign(4, vec4(1));
     const float f0 = .5f * linear_from_srgb(0x80);
     EXPECT_NEAR(f0, .1079, 1e-4);
     EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 0);
     scene.materials[0].albedo = vec3(1);
-    const SurfaceShares surface = measure_surface_kinds(scene, scene.objects[0]);
+    const SurfaceKindShares surface = measure_surface_kinds(scene, scene.objects[0]);
     EXPECT_EQ(surface.mirror, 1);
     EXPECT_NEAR(surface.mirror_f0.x, .2159, 1e-4);
     scene.meshes[0].colours.assign(4, vec4(.5f, .5f, .5f, 1));
@@ -200,18 +205,18 @@ TEST(Classify, F0MultipliesMaterialTextureAndVertexColours) {
 }
 
 TEST(Classify, CutOutTexelsDoNotCountAsArea) {
-    Material material = metal(1);
+    Material material = make_metal_material(1);
     material.alpha_cutoff = .5f;
-    material.albedo_texture = texture({2, 1},
-                                      {0xffffffffu, 0x00ffffffu}); // the right texel is cut out
-    material.roughness_texture = texture({2, 1}, {0xffff0000u, 0xffffff00u});
-    const Scene scene = panel(material);
+    material.albedo_texture = make_test_texture(
+        {2, 1}, {0xffffffffu, 0x00ffffffu}); // the right texel is cut out
+    material.roughness_texture = make_test_texture({2, 1}, {0xffff0000u, 0xffffff00u});
+    const Scene scene = make_panel_scene(material);
     EXPECT_EQ(measure_surface_kinds(scene, scene.objects[0]).mirror, 1);
 }
 
 TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
     using enum Texture::Wrap;
-    Texture one = texture({3, 1}, {10, 20, 30});
+    Texture one = make_test_texture({3, 1}, {10, 20, 30});
     const auto red = [&](float u) { return std::lround(255 * read_texel(one, {u, 0}).x); };
     one.wrap_u = repeat;
     EXPECT_EQ(red(.1f), 10);
@@ -227,31 +232,31 @@ TEST(Texel, LookupFollowsTheWrapModeOfTheTexture) {
     EXPECT_EQ(red(-7), 10);
     one.u_row = {0, 0, .5f}; // a texture transform that makes every u equal to .5
     EXPECT_EQ(red(7), 20);
-    EXPECT_NEAR(mean_texel(one).x, 20 / 255.0, 1e-6);
+    EXPECT_NEAR(mean_texel_colour(one).x, 20 / 255.0, 1e-6);
 }
 
-MirrorShape::Kind kind_of(Mesh mesh) {
+MirrorShape::ShapeKind classify_shape_of_mesh(Mesh mesh) {
     Scene scene;
     add_mesh(scene, std::move(mesh), add_material(scene, {}));
     return classify_mirror_shape(scene, scene.objects[0]).kind;
 }
 
 TEST(ShapeOf, MeshesAreClassifiedByShape) {
-    using enum MirrorShape::Kind;
-    EXPECT_EQ(kind_of(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})), flat);
-    EXPECT_EQ(kind_of(ball("b", 4)), sphere);
-    EXPECT_EQ(kind_of(ball("b", 1)), convex) << "too few facets for a ball";
+    using enum MirrorShape::ShapeKind;
+    EXPECT_EQ(classify_shape_of_mesh(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})), flat);
+    EXPECT_EQ(classify_shape_of_mesh(ball("b", 4)), sphere);
+    EXPECT_EQ(classify_shape_of_mesh(ball("b", 1)), convex) << "too few facets for a ball";
     Mesh inside = ball("b", 4);
     for (uvec3& t : inside.triangles) std::swap(t.y, t.z);
     Mesh dish = inside;
     std::erase_if(dish.triangles, [&](const uvec3& t) { return dish.positions[t.x].y > -.5; });
-    EXPECT_EQ(kind_of(dish), concave);
+    EXPECT_EQ(classify_shape_of_mesh(dish), concave);
     for (uvec3& t : dish.triangles) std::swap(t.y, t.z);
-    EXPECT_EQ(kind_of(dish), convex);
+    EXPECT_EQ(classify_shape_of_mesh(dish), convex);
     Mesh step = quad("s", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     step.positions.insert(step.positions.end(), {{2, 0, 1}, {2, 1, 1}, {3, 0, 1}, {3, 1, 1}});
     step.triangles.insert(step.triangles.end(), {{1, 4, 5}, {1, 5, 2}, {4, 6, 7}, {4, 7, 5}});
-    EXPECT_EQ(kind_of(step), other);
+    EXPECT_EQ(classify_shape_of_mesh(step), other);
 }
 
 TEST(ShapeOf, SphereIsFittedToPartOfABall) {
@@ -281,7 +286,7 @@ TEST(ShapeOf, ClosedBoxIsConvexOrConcaveByFacing) {
     Scene scene;
     Mesh box{.name = "box"};
     for (int face = 0; face < 6; ++face) {
-        const Mesh side = wall(face, {-1, -1, -1}, {1, 2, 1});
+        const Mesh side = make_box_wall(face, {-1, -1, -1}, {1, 2, 1});
         const auto first = static_cast<std::uint32_t>(box.positions.size());
         box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
         box.normals.insert(box.normals.end(), side.normals.begin(), side.normals.end());
@@ -289,11 +294,11 @@ TEST(ShapeOf, ClosedBoxIsConvexOrConcaveByFacing) {
     }
     add_mesh(scene, box, add_material(scene, {}));
     MirrorShape shape = classify_mirror_shape(scene, scene.objects[0]);
-    EXPECT_EQ(shape.kind, MirrorShape::Kind::concave) << "walls face in";
+    EXPECT_EQ(shape.kind, MirrorShape::ShapeKind::concave) << "walls face in";
     EXPECT_TRUE(shape.is_closed);
     for (uvec3& t : scene.meshes[0].triangles) std::swap(t.y, t.z);
     shape = classify_mirror_shape(scene, scene.objects[0]);
-    EXPECT_EQ(shape.kind, MirrorShape::Kind::convex);
+    EXPECT_EQ(shape.kind, MirrorShape::ShapeKind::convex);
 }
 
 /// Scene files do not mark balls. One function recognises a ball by its triangles, for `info`,
@@ -322,15 +327,15 @@ TEST(Classify, SmoothMirrorBallsGetAnExactSphere) {
     ASSERT_TRUE(scene.objects[0].sphere);
     EXPECT_NEAR(distance(scene.objects[0].sphere->centre, dvec3(3, -2, 1)), 0, 1e-6);
     EXPECT_NEAR(scene.objects[0].sphere->radius, .5, 1e-6);
-    EXPECT_EQ(classify_mirror_shape(scene, scene.objects[0]).kind, MirrorShape::Kind::sphere);
+    EXPECT_EQ(classify_mirror_shape(scene, scene.objects[0]).kind, MirrorShape::ShapeKind::sphere);
     EXPECT_FALSE(scene.objects[1].sphere);
-    EXPECT_NE(classify_mirror_shape(scene, scene.objects[1]).kind, MirrorShape::Kind::sphere);
+    EXPECT_NE(classify_mirror_shape(scene, scene.objects[1]).kind, MirrorShape::ShapeKind::sphere);
     EXPECT_FALSE(scene.objects[2].sphere) << "no mirror";
 }
 
 /// Returns a mirror ball of radius 1 around the middle of the node of a rig. The node's parent
 /// turns, and the node has the given scales at 0 s and 2 s.
-Scene ball_on_a_rig(const dvec3& first, const dvec3& last, const dvec3& of_parent = dvec3(1)) {
+Scene make_ball_on_rig(const dvec3& first, const dvec3& last, const dvec3& of_parent = dvec3(1)) {
     Scene scene{.name = "ball"};
     add_mesh(scene, ball("ball", 5), add_material(scene, {.name = "m", .mirror = true}));
     const double half = std::sqrt(.5);
@@ -350,7 +355,7 @@ Scene ball_on_a_rig(const dvec3& first, const dvec3& last, const dvec3& of_paren
 }
 
 TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
-    Scene scene = ball_on_a_rig(dvec3(1), dvec3(3), dvec3(.5));
+    Scene scene = make_ball_on_rig(dvec3(1), dvec3(3), dvec3(.5));
     find_mirrors(scene);
     for (const double seconds : {0., .5, 1.25, 2., 7.}) {
         const Scene still = scene_at_time(scene, seconds);
@@ -364,13 +369,13 @@ TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
         }
     }
     for (Scene stretched :
-         {ball_on_a_rig(dvec3(1), dvec3(1, 2, 1)), ball_on_a_rig(dvec3(0), dvec3(1)),
-          ball_on_a_rig(dvec3(1), dvec3(2), dvec3(1, 1, 2))}) {
+         {make_ball_on_rig(dvec3(1), dvec3(1, 2, 1)), make_ball_on_rig(dvec3(0), dvec3(1)),
+          make_ball_on_rig(dvec3(1), dvec3(2), dvec3(1, 1, 2))}) {
         find_mirrors(stretched);
         EXPECT_FALSE(stretched.objects[0].sphere);
     }
     // A program may set a sphere itself. The sphere is lost as soon as the rig stretches it.
-    Scene marked = ball_on_a_rig(dvec3(1), dvec3(1, 2, 1));
+    Scene marked = make_ball_on_rig(dvec3(1), dvec3(1, 2, 1));
     marked.objects[0].sphere = Sphere{dvec3(marked.objects[0].world_from_object[3]), 1};
     EXPECT_TRUE(scene_at_time(marked, 0).objects[0].sphere);
     EXPECT_FALSE(scene_at_time(marked, 1).objects[0].sphere);

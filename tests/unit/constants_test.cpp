@@ -13,7 +13,7 @@ using namespace catoptric::gpu;
 
 TEST(Constants, SpecialisationConstantsHaveOneNumberInAllShaders) {
     // OWN_CONSTANTS of the shaders: each shader numbers its own constants from here on.
-    constexpr std::uint32_t kOwn = 40;
+    constexpr std::uint32_t kFirstOwnConstantId = 40;
     std::map<std::string, std::set<std::uint32_t>> ids;
     std::map<std::uint32_t, std::set<std::string>> names;
     for (const EmbeddedShader& shader : embedded_shaders()) {
@@ -22,7 +22,7 @@ TEST(Constants, SpecialisationConstantsHaveOneNumberInAllShaders) {
              reflect_spirv(shader.name, shader.words).constants) {
             EXPECT_TRUE(here.insert(constant.id).second)
                 << shader.name << ": " << constant.name << " has another's number";
-            if (constant.id >= kOwn) continue;
+            if (constant.id >= kFirstOwnConstantId) continue;
             ids[constant.name].insert(constant.id);
             names[constant.id].insert(constant.name);
         }

@@ -19,23 +19,23 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::require;
 
-constexpr std::uint32_t kEdge = 1024;
+constexpr std::uint32_t kShadowMapEdgeTexels = 1024;
 
 /// Computes the work that a scene's picture requires (the model) at given times in seconds.
-class Instants {
+class ModelAtInstants {
 public:
-    explicit Instants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
-    Model at(double seconds) {
+    explicit ModelAtInstants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
+    RequiredWorkModel model_at(double seconds) {
         const scene::Scene now = scene::scene_at_time(rest_, seconds);
-        return requirements_.model_for({now, rest_.cameras[0], {64, 64}, kEdge});
+        return requirements_.model_for({now, rest_.cameras[0], {64, 64}, kShadowMapEdgeTexels});
     }
 
 private:
     const scene::Scene& rest_;
-    ModelBuilder requirements_;
+    RequiredWorkModelBuilder requirements_;
 };
 
-int kept(const Model& before, const Model& after) {
+int count_unchanged_faces(const RequiredWorkModel& before, const RequiredWorkModel& after) {
     int count = 0;
     for (std::size_t i = 0; i < after.mirrors.size(); ++i)
         for (std::size_t face = 0; face < 6; ++face)
@@ -47,11 +47,11 @@ int kept(const Model& before, const Model& after) {
 
 TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    Instants instants(scene);
-    const Model first = instants.at(0), second = instants.at(0), elsewhere = instants.at(1),
-                again = instants.at(1);
-    EXPECT_EQ(kept(first, second), 24);
-    EXPECT_EQ(kept(elsewhere, again), 24);
+    ModelAtInstants instants(scene);
+    const RequiredWorkModel first = instants.model_at(0), second = instants.model_at(0),
+                            elsewhere = instants.model_at(1), again = instants.model_at(1);
+    EXPECT_EQ(count_unchanged_faces(first, second), 24);
+    EXPECT_EQ(count_unchanged_faces(elsewhere, again), 24);
     EXPECT_EQ(first.lights[0].content_hash, second.lights[0].content_hash);
     EXPECT_EQ(first.lights[0].content_hash, elsewhere.lights[0].content_hash);
     ASSERT_EQ(first.casters.size(), 1u);
@@ -62,12 +62,12 @@ TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
 
 TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    Instants instants(scene);
-    Model before = instants.at(0);
+    ModelAtInstants instants(scene);
+    RequiredWorkModel before = instants.model_at(0);
     int stays = 0;
     for (int frame = 1; frame <= 20; ++frame) {
-        const Model after = instants.at(.1 * frame);
-        stays += kept(before, after);
+        const RequiredWorkModel after = instants.model_at(.1 * frame);
+        stays += count_unchanged_faces(before, after);
         for (std::size_t face = 0; face < 6; ++face)
             EXPECT_NE(before.mirrors[3].content_hashes[face],
                       after.mirrors[3].content_hashes[face]); // the moving ball's own capture
@@ -80,30 +80,30 @@ TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
 TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
     const scene::Scene rest = scene::make_cornell_mirrors();
     scene::Scene scene = rest;
-    ModelBuilder requirements(scene);
+    RequiredWorkModelBuilder requirements(scene);
     const auto model = [&] {
-        return Model(requirements.model_for({scene, scene.cameras[0], {64, 64}}));
+        return RequiredWorkModel(requirements.model_for({scene, scene.cameras[0], {64, 64}}));
     };
-    const Model first = model();
+    const RequiredWorkModel first = model();
     scene.materials[3].emission = {1, 1, 1};
-    const Model dimmed = model();
-    EXPECT_EQ(kept(first, dimmed), 0);
+    const RequiredWorkModel dimmed = model();
+    EXPECT_EQ(count_unchanged_faces(first, dimmed), 0);
     EXPECT_NE(first.lights[0].content_hash, dimmed.lights[0].content_hash);
     scene.materials[0].albedo = {.1f, .1f, .1f};
-    const Model painted = model();
-    EXPECT_EQ(kept(dimmed, painted), 0);
-    EXPECT_EQ(kept(painted, model()), 24);
+    const RequiredWorkModel painted = model();
+    EXPECT_EQ(count_unchanged_faces(dimmed, painted), 0);
+    EXPECT_EQ(count_unchanged_faces(painted, model()), 24);
     scene.materials[3].emission = vec3(0);
     EXPECT_TRUE(model().lights.empty());
     scene.materials[3].emission = {1, 1, 1};
-    EXPECT_EQ(kept(painted, model()), 24);
+    EXPECT_EQ(count_unchanged_faces(painted, model()), 24);
     // Edits the floor, which has no motion.
     scene.objects[0].world_from_object[3].y = -1;
-    const Model lowered = model();
-    EXPECT_EQ(kept(painted, lowered), 0);
-    EXPECT_EQ(kept(lowered, model()), 24);
+    const RequiredWorkModel lowered = model();
+    EXPECT_EQ(count_unchanged_faces(painted, lowered), 0);
+    EXPECT_EQ(count_unchanged_faces(lowered, model()), 24);
     scene.punctual.push_back({.name = "bare", .intensity = vec3(1)});
-    EXPECT_EQ(kept(lowered, model()), 0);
+    EXPECT_EQ(count_unchanged_faces(lowered, model()), 0);
 }
 
 /// A block that comes nearer changes only the hash of the face that shows the block. Content hashes
@@ -112,16 +112,16 @@ TEST(RequireStamps, ApproachingBlockChangesOnlyTheFaceThatShowsTheBlock) {
     scene::Scene scene{.name = "bare"};
     const std::size_t white = add_material(scene, {.albedo = vec3(.7f)});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, dvec3(-10), dvec3(10)), white);
+        test::add_mesh(scene, test::make_box_wall(face, dvec3(-10), dvec3(10)), white);
     test::add_ball(scene, "ball", add_material(scene, {.mirror = true}), {0, 0, 0}, .5, 2);
     test::add_mesh(scene, scene::box("block", dvec3(-.2), dvec3(.2)), white);
     scene.objects.back().world_from_object[3] = {3, 0, 0, 1};
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.5, 0, 0}, .period = 1};
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
-    Instants instants(scene);
-    const Model before = instants.at(.1), after = instants.at(.2);
+    ModelAtInstants instants(scene);
+    const RequiredWorkModel before = instants.model_at(.1), after = instants.model_at(.2);
     // Five faces keep their hash: all but face +X.
-    EXPECT_EQ(kept(before, after), 5);
+    EXPECT_EQ(count_unchanged_faces(before, after), 5);
     EXPECT_NE(before.mirrors[0].content_hashes[0], after.mirrors[0].content_hashes[0]);
 }
 
@@ -130,37 +130,39 @@ TEST(RequireShadows, ShadowBoundsFollowTheLight) {
     scene::PointLight light{.position = {0, 10, 0}};
     // The shadow of the object's top reaches the floor at 2.5 times the top's distance from the
     // lamp.
-    const ShadeVolume below = compute_shade_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    const ShadowedVolume below = compute_shadowed_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(below.from.hi, dvec3(1, 6, 1));
     EXPECT_EQ(below.to.hi, dvec3(2.5, 0, 2.5));
     EXPECT_EQ(below.to.lo, dvec3(-2.5, -2.5, -2.5));
     // An object around the lamp may shade any place of the room.
-    EXPECT_EQ(compute_shade_volume(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
+    EXPECT_EQ(compute_shadowed_volume(light, {{-1, 9, -1}, {1, 11, 1}}, room).to.hi, room.hi);
     light = {.axis = {0, -1, 0}, .directional = true};
-    const ShadeVolume along = compute_shade_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
+    const ShadowedVolume along = compute_shadowed_volume(light, {{-1, 5, -1}, {1, 6, 1}}, room);
     EXPECT_EQ(along.to.lo, dvec3(-1, -1, -1));
     EXPECT_EQ(along.to.hi, dvec3(1, 0, 1));
 }
 
-constexpr int kRays = 16; ///< rays along the edge of a face
+constexpr int kRaysAlongFaceEdge = 16; ///< rays along the edge of a face
 
-/// Returns the direction of ray `k` of the kRays * kRays rays through a cube map's face.
-dvec3 ray_of(int face, int k) {
-    const double u = (2. * (k % kRays) + 1) / kRays - 1, v = (2. * (k / kRays) + 1) / kRays - 1;
+/// Returns the direction of ray `k` of the kRaysAlongFaceEdge * kRaysAlongFaceEdge rays through a
+/// cube map's face.
+dvec3 face_ray_direction(int face, int k) {
+    const double u = (2. * (k % kRaysAlongFaceEdge) + 1) / kRaysAlongFaceEdge - 1,
+                 v = (2. * (k / kRaysAlongFaceEdge) + 1) / kRaysAlongFaceEdge - 1;
     return f64::cube_direction(face, dvec3(u, v, 1));
 }
 
 /// Returns three results for each ray through a face of a capture: the object that the ray hits,
 /// the distance, and the lights that are shaded at the hit.
-std::vector<std::vector<double>> seen_in_face(const test::ObjectRayCaster& tree,
-                                              const scene::Scene& now, std::size_t mirror,
-                                              int face) {
+std::vector<std::vector<double>> results_of_rays_through_face(const test::ObjectRayCaster& tree,
+                                                              const scene::Scene& now,
+                                                              std::size_t mirror, int face) {
     const dvec3 centre = scene::bounds(now, now.objects[mirror]).centre();
     const std::vector<scene::PointLight> lights = scene::list_lights(now);
     std::vector<std::vector<double>> seen;
-    for (int k = 0; k < kRays * kRays; ++k) {
-        const dvec3 direction = ray_of(face, k);
-        const auto met = tree.find_first_object(centre, direction, mirror, bvh::kOneSided);
+    for (int k = 0; k < kRaysAlongFaceEdge * kRaysAlongFaceEdge; ++k) {
+        const dvec3 direction = face_ray_direction(face, k);
+        const auto met = tree.find_first_object(centre, direction, mirror, bvh::kOneSidedFlag);
         std::vector<double>& ray = seen.emplace_back();
         ray.push_back(met ? static_cast<double>(met->object) : -1);
         ray.push_back(met ? met->t : 0);
@@ -173,15 +175,17 @@ std::vector<std::vector<double>> seen_in_face(const test::ObjectRayCaster& tree,
 }
 
 /// Counts rays whose results differ between two times, but that lie outside the part of the face
-/// that `find_differing_part` reports.
-int outside(const MirrorNeeds& before, const MirrorNeeds& after, int face,
-            const std::vector<std::vector<double>>& then,
-            const std::vector<std::vector<double>>& now) {
+/// that `find_changed_face_part` reports.
+int count_changed_rays_outside_part(const MirrorRequirements& before,
+                                    const MirrorRequirements& after, int face,
+                                    const std::vector<std::vector<double>>& then,
+                                    const std::vector<std::vector<double>>& now) {
     const auto f = static_cast<std::size_t>(face);
-    const FacePart part = find_differing_part(before.pieces->faces[f], after.pieces->faces[f]);
+    const CubeFacePart part = find_changed_face_part(before.pieces->faces[f],
+                                                     after.pieces->faces[f]);
     int count = 0;
-    for (int k = 0; k < kRays * kRays; ++k) {
-        const dvec2 at(f64::cube_coordinates(face, ray_of(face, k)));
+    for (int k = 0; k < kRaysAlongFaceEdge * kRaysAlongFaceEdge; ++k) {
+        const dvec2 at(f64::cube_coordinates(face, face_ray_direction(face, k)));
         const bool holds = all(lessThanEqual(part.low, at)) && all(lessThanEqual(at, part.high));
         count += then[static_cast<std::size_t>(k)] != now[static_cast<std::size_t>(k)] && !holds;
     }
@@ -194,11 +198,11 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
         scene::Scene scene = test::make_random_hall(seed, 3);
         test::RandomNumbers numbers(seed + 1000);
         // Chooses one of the six objects before the lamp.
-        const std::size_t mover = scene.objects.size() - 2 - numbers.integer_below(6);
+        const std::size_t mover = scene.objects.size() - 2 - numbers.random_integer_below(6);
         scene.objects[mover].motion = scene::HarmonicMotion{
-            .amplitude = dvec3(numbers.unit_direction()), .period = 2};
-        Instants instants(scene);
-        const Model before = instants.at(.2), after = instants.at(.5);
+            .amplitude = dvec3(numbers.random_unit_direction()), .period = 2};
+        ModelAtInstants instants(scene);
+        const RequiredWorkModel before = instants.model_at(.2), after = instants.model_at(.5);
         const scene::Scene then = scene::scene_at_time(scene, .2),
                            now = scene::scene_at_time(scene, .5);
         const test::ObjectRayCaster old_tree(then), new_tree(now);
@@ -209,8 +213,8 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
                 const auto f = static_cast<std::size_t>(face);
                 const bool is_persistent = before.mirrors[i].content_hashes[f] ==
                                            after.mirrors[i].content_hashes[f];
-                const auto saw = seen_in_face(old_tree, then, mirrors[i], face),
-                           sees = seen_in_face(new_tree, now, mirrors[i], face);
+                const auto saw = results_of_rays_through_face(old_tree, then, mirrors[i], face),
+                           sees = results_of_rays_through_face(new_tree, now, mirrors[i], face);
                 const bool is_same = saw == sees;
                 EXPECT_TRUE(is_same || !is_persistent)
                     << "seed " << seed << ", mirror " << i + 1 << ", face " << face;
@@ -219,7 +223,9 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
                     !before.mirrors[i].pieces || !after.mirrors[i].pieces)
                     continue;
                 ++parts;
-                EXPECT_EQ(outside(before.mirrors[i], after.mirrors[i], face, saw, sees), 0)
+                EXPECT_EQ(count_changed_rays_outside_part(before.mirrors[i], after.mirrors[i], face,
+                                                          saw, sees),
+                          0)
                     << "seed " << seed << ", mirror " << i + 1 << ", face " << face;
             }
         }

@@ -14,7 +14,7 @@
 namespace catoptric {
 namespace {
 
-scene::Scene with_copies(std::size_t count) {
+scene::Scene make_scene_with_coincident_triangles(std::size_t count) {
     scene::Scene scene;
     scene.name = "copies";
     scene.materials.emplace_back();
@@ -27,11 +27,12 @@ scene::Scene with_copies(std::size_t count) {
 }
 
 /// Counts the traversal steps of a grid of rays through the bounds of `count` coincident triangles.
-std::size_t steps_past(std::size_t count) {
-    const scene::Scene scene = with_copies(count);
-    const render::Geometry geometry = render::make_geometry(scene, render::make_scene_units(scene));
+std::size_t count_steps_past_copies(std::size_t count) {
+    const scene::Scene scene = make_scene_with_coincident_triangles(count);
+    const render::FrameGeometry geometry = render::make_frame_geometry(
+        scene, render::make_scene_units(scene));
     const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
-    bvh::TraversalCounters steps;
+    bvh::BvhTraversalCounters steps;
     int hits = 0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
@@ -46,13 +47,13 @@ std::size_t steps_past(std::size_t count) {
             EXPECT_EQ(hit->object, 0u) << "the first of them is seen";
         }
     EXPECT_GT(hits, 100);
-    return steps.total_steps();
+    return steps.count_all_steps();
 }
 
 TEST(CopiesInOnePlace, ManyCopiesCostARayNoMoreStepsThanFewCopies) {
-    const std::size_t few = steps_past(8);
-    EXPECT_EQ(steps_past(2000), few);
-    EXPECT_EQ(steps_past(4000), few);
+    const std::size_t few = count_steps_past_copies(8);
+    EXPECT_EQ(count_steps_past_copies(2000), few);
+    EXPECT_EQ(count_steps_past_copies(4000), few);
 }
 
 /// One masked copy is kept for each object. Where the mask of one object cuts out its surface, a
@@ -61,8 +62,8 @@ TEST(CopiesInOnePlace, CopiesOfMaskedSurfacesAreKept) {
     std::vector<bvh::Triangle> triangles;
     for (std::uint32_t i = 0; i < 40; ++i)
         triangles.push_back(
-            {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kAlphaMasked : 0});
-    const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::DuplicateScope::across_objects);
+            {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kAlphaMaskedFlag : 0});
+    const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::DuplicateSearchScope::across_objects);
     // Ten masked objects keep one copy each, and the other ten objects keep one copy together.
     EXPECT_EQ(bvh::count_triangles(tree), 11u);
     EXPECT_EQ(bvh::count_triangles(bvh::build_bvh(triangles)), 20u);

@@ -18,7 +18,7 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::scene;
 
-struct Facet {
+struct PlanarFacet {
     std::array<dvec3, 3> corners;
     dvec3 normal;
     std::size_t object;
@@ -26,12 +26,12 @@ struct Facet {
 
 /// Returns whether two coplanar triangles overlap by more than `slack`. Uses separating axes: the
 /// direction across each edge.
-bool overlap(const Facet& a, const Facet& b, double slack) {
-    for (const Facet* from : {&a, &b})
+bool do_facets_overlap(const PlanarFacet& a, const PlanarFacet& b, double slack) {
+    for (const PlanarFacet* from : {&a, &b})
         for (int i = 0; i < 3; ++i) {
             const dvec3 edge = from->corners[(i + 1) % 3] - from->corners[i];
             const dvec3 across = glm::normalize(glm::cross(from->normal, edge));
-            const auto span = [&](const Facet& of) {
+            const auto span = [&](const PlanarFacet& of) {
                 std::array<double, 3> at{};
                 for (int k = 0; k < 3; ++k) at[k] = glm::dot(across, of.corners[k]);
                 return std::ranges::minmax(at);
@@ -49,15 +49,15 @@ TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
         const double size = glm::length(bounds(scene).extent()), slack = 1e-6 * size;
         // Groups facets by plane. The key is the rounded normal and the rounded distance from the
         // origin. Opposite normals share a key.
-        std::map<std::array<long, 4>, std::vector<Facet>> planes;
+        std::map<std::array<long, 4>, std::vector<PlanarFacet>> planes;
         for (std::size_t i = 0; i < scene.objects.size(); ++i) {
             const Object& object = scene.objects[i];
             const Mesh& mesh = scene.meshes[object.mesh];
             for (const uvec3& t : mesh.triangles) {
-                Facet facet{.object = i};
+                PlanarFacet facet{.object = i};
                 for (int k = 0; k < 3; ++k)
-                    facet.corners[k] = transform_point(object.world_from_object,
-                                                       mesh.positions[t[k]]);
+                    facet.corners[k] = transform_point_to_world(object.world_from_object,
+                                                                mesh.positions[t[k]]);
                 facet.normal = normalized_or_zero(glm::cross(facet.corners[1] - facet.corners[0],
                                                              facet.corners[2] - facet.corners[0]));
                 if (facet.normal == dvec3(0)) continue;
@@ -76,7 +76,7 @@ TEST(ShippedScenes, NoTwoObjectsOverlapInOnePlane) {
             for (std::size_t i = 0; i < facets.size(); ++i)
                 for (std::size_t j = 0; j < i; ++j) {
                     if (facets[i].object == facets[j].object) continue;
-                    EXPECT_FALSE(overlap(facets[i], facets[j], 100 * slack))
+                    EXPECT_FALSE(do_facets_overlap(facets[i], facets[j], 100 * slack))
                         << name << ": " << scene.objects[facets[i].object].name << " and "
                         << scene.objects[facets[j].object].name;
                 }

@@ -13,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-WorkCounts make_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_t passes) {
+WorkCounts make_work_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_t passes) {
     WorkCounts counts;
     counts[WorkKind::camera_rays] = rays;
     counts[WorkKind::fragments] = fragments;
@@ -21,17 +21,18 @@ WorkCounts make_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_
     return counts;
 }
 
-constexpr WorkKind kCostKinds[] = {WorkKind::camera_rays, WorkKind::fragments, WorkKind::passes};
+constexpr WorkKind kFittedWorkKinds[] = {WorkKind::camera_rays, WorkKind::fragments,
+                                         WorkKind::passes};
 
 /// Returns rows of a device with 100 ns a ray, 2 ns a fragment and 50 us a pass, whose times are
 /// off by at most the share `noise`.
-std::vector<measure::CostSample> draw_samples(std::size_t count, double noise) {
+std::vector<measure::TimedRowSample> draw_random_cost_samples(std::size_t count, double noise) {
     std::mt19937_64 random(7);
     const auto draw = [&](double most) { return most * double(random() >> 11) * 0x1p-53; };
-    std::vector<measure::CostSample> samples;
+    std::vector<measure::TimedRowSample> samples;
     for (std::size_t i = 0; i < count; ++i) {
-        const WorkCounts counts = make_counts(std::uint64_t(draw(1e6)), std::uint64_t(draw(1e7)),
-                                              1 + std::uint64_t(draw(30)));
+        const WorkCounts counts = make_work_counts(
+            std::uint64_t(draw(1e6)), std::uint64_t(draw(1e7)), 1 + std::uint64_t(draw(30)));
         const double ms = 1e-6 * (100 * double(*counts[WorkKind::camera_rays]) +
                                   2 * double(*counts[WorkKind::fragments]) +
                                   5e4 * double(*counts[WorkKind::passes]));
@@ -41,60 +42,64 @@ std::vector<measure::CostSample> draw_samples(std::size_t count, double noise) {
     return samples;
 }
 
-double cost_of(const measure::DeviceCosts& costs, WorkKind kind) {
-    for (const measure::UnitCost& unit : costs.units)
+double unit_cost_of_kind(const measure::DeviceCosts& costs, WorkKind kind) {
+    for (const measure::WorkUnitCost& unit : costs.units)
         if (unit.kind == kind) return unit.ns;
     return 0;
 }
 
 TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
-    const measure::DeviceCosts costs = measure::fit_costs("d", draw_samples(40, 0), kCostKinds);
-    EXPECT_NEAR(cost_of(costs, WorkKind::camera_rays), 100, 1e-3);
-    EXPECT_NEAR(cost_of(costs, WorkKind::fragments), 2, 1e-5);
-    EXPECT_NEAR(cost_of(costs, WorkKind::passes), 5e4, 1);
+    const measure::DeviceCosts costs = measure::fit_unit_costs("d", draw_random_cost_samples(40, 0),
+                                                               kFittedWorkKinds);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 1e-3);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, 1e-5);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::passes), 5e4, 1);
     ASSERT_TRUE(costs.fit);
     EXPECT_EQ(costs.fit->fraction_within(1.0001), 1);
     EXPECT_EQ(costs.origin, measure::CostOrigin::fitted);
 }
 
 TEST(Costs, FitOfNoisyTimesIsNear) {
-    const measure::DeviceCosts costs = measure::fit_costs("d", draw_samples(60, .1), kCostKinds);
-    EXPECT_NEAR(cost_of(costs, WorkKind::camera_rays), 100, 5);
-    EXPECT_NEAR(cost_of(costs, WorkKind::fragments), 2, .2);
+    const measure::DeviceCosts costs = measure::fit_unit_costs(
+        "d", draw_random_cost_samples(60, .1), kFittedWorkKinds);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 5);
+    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, .2);
     EXPECT_EQ(costs.fit->fraction_within(1.2), 1);
     EXPECT_LT(costs.fit->fraction_within(1.01), 1);
 }
 
 TEST(Costs, NoCostIsNegative) {
     // Rows with more fragments take less time, so the best cost of a fragment would be negative.
-    std::vector<measure::CostSample> samples;
+    std::vector<measure::TimedRowSample> samples;
     for (std::uint64_t i = 1; i <= 8; ++i)
-        samples.push_back({"row", make_counts(1000, 1000 * i, 1), 10.0 - double(i)});
-    const measure::DeviceCosts costs = measure::fit_costs("d", samples, kCostKinds);
-    for (const measure::UnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
-    EXPECT_EQ(cost_of(costs, WorkKind::fragments), 0);
+        samples.push_back({"row", make_work_counts(1000, 1000 * i, 1), 10.0 - double(i)});
+    const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
+    for (const measure::WorkUnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
+    EXPECT_EQ(unit_cost_of_kind(costs, WorkKind::fragments), 0);
 }
 
 TEST(Costs, RowIsPredictedByTheOtherRows) {
-    std::vector<measure::CostSample> samples = draw_samples(20, 0);
+    std::vector<measure::TimedRowSample> samples = draw_random_cost_samples(20, 0);
     samples[4].ms *= 3; // its own time does not help to predict it
-    const measure::DeviceCosts costs = measure::fit_costs("d", samples, kCostKinds);
+    const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
     EXPECT_NEAR(costs.fit->left_out_ms[4], samples[4].ms / 3, 1e-6 * samples[4].ms);
 }
 
 TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
-    EXPECT_EQ(test::error_text_of(Failure::usage,
-                                  [] { measure::fit_costs("d", draw_samples(2, 0), kCostKinds); }),
-              "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
-              "2");
-    std::vector<measure::CostSample> samples = draw_samples(9, 0);
-    samples[3].ms = 0;
     EXPECT_EQ(
-        test::error_text_of(Failure::usage, [&] { measure::fit_costs("d", samples, kCostKinds); }),
-        "row 'row 3': wanted a time above 0 ms, found 0");
+        test::catch_error_text(
+            Failure::usage,
+            [] { measure::fit_unit_costs("d", draw_random_cost_samples(2, 0), kFittedWorkKinds); }),
+        "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
+        "2");
+    std::vector<measure::TimedRowSample> samples = draw_random_cost_samples(9, 0);
+    samples[3].ms = 0;
+    EXPECT_EQ(test::catch_error_text(
+                  Failure::usage, [&] { measure::fit_unit_costs("d", samples, kFittedWorkKinds); }),
+              "row 'row 3': wanted a time above 0 ms, found 0");
 }
 
-measure::DeviceCosts make_costs() {
+measure::DeviceCosts make_device_costs() {
     measure::DeviceCosts costs{.device = "card", .origin = measure::CostOrigin::literature};
     costs.units = {{WorkKind::camera_rays, 10, {5, 20}, "a paper"},
                    {WorkKind::fragments, 1, {.5, 4}, "a data sheet"},
@@ -103,8 +108,8 @@ measure::DeviceCosts make_costs() {
 }
 
 TEST(Costs, TimeIsTheSumOfCountsTimesCosts) {
-    const measure::PredictedTime time = measure::predict_time(make_costs(),
-                                                              make_counts(1000, 5000, 3));
+    const measure::PredictedTime time = measure::predict_time(make_device_costs(),
+                                                              make_work_counts(1000, 5000, 3));
     EXPECT_DOUBLE_EQ(time.ms, 1e-6 * (10 * 1000 + 5000 + 3000));
     EXPECT_DOUBLE_EQ(time.low, 1e-6 * (5 * 1000 + .5 * 5000 + 3000));
     EXPECT_DOUBLE_EQ(time.high, 1e-6 * (20 * 1000 + 4 * 5000 + 3000));
@@ -115,7 +120,7 @@ measure::Row make_costed_row(const std::string& technique, double flip, std::uin
     measure::Row row;
     row.technique = row.label = technique;
     row.error.pixels = 10, row.error.flip = flip, row.error.rmse = flip;
-    measure::set_row_work(row, {{"pass", make_counts(rays, fragments, 1)}});
+    measure::set_row_work(row, {{"pass", make_work_counts(rays, fragments, 1)}});
     return row;
 }
 
@@ -123,7 +128,7 @@ TEST(Costs, FrontDependsOnTheCostsOfRaysAndOfOtherWork) {
     const std::vector<measure::Row> rows{make_costed_row("raytrace", 0, 1000, 0),
                                          make_costed_row("secant", .02, 0, 6000),
                                          make_costed_row("worse", .03, 0, 7000)};
-    const measure::PredictedFront front = measure::find_predicted_front(make_costs(), rows);
+    const measure::PredictedFront front = measure::find_predicted_front(make_device_costs(), rows);
     // A traced frame costs 10 us and a searched one 6 us, but 5 and 24 us where rays are cheap.
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1, 0}));
     EXPECT_EQ(front.rows_if_rays_are_cheap, (std::vector<std::size_t>{0}));
@@ -134,14 +139,15 @@ TEST(Costs, RowWithoutCountsIsNotOnTheFront) {
     measure::Row blank;
     blank.error.pixels = 10, blank.error.flip = 0;
     const measure::PredictedFront front = measure::find_predicted_front(
-        make_costs(), {blank, make_costed_row("secant", .02, 0, 6000)});
+        make_device_costs(), {blank, make_costed_row("secant", .02, 0, 6000)});
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1}));
     EXPECT_TRUE(std::isnan(front.times[0].ms));
 }
 
 TEST(Costs, FileIsReadBack) {
-    const measure::DeviceCosts wanted = make_costs();
-    const measure::DeviceCosts found = report::read_costs(report::to_json(wanted), "costs.json");
+    const measure::DeviceCosts wanted = make_device_costs();
+    const measure::DeviceCosts found = report::read_device_costs(report::to_json(wanted),
+                                                                 "costs.json");
     EXPECT_EQ(found.device, wanted.device);
     EXPECT_EQ(found.origin, wanted.origin);
     ASSERT_EQ(found.units.size(), wanted.units.size());
@@ -153,43 +159,48 @@ TEST(Costs, FileIsReadBack) {
     }
 }
 
-std::string refuse_costs(const std::string& text) {
-    return test::error_text_of(Failure::bad_data, [&] { report::read_costs(text, "c.json"); });
+std::string costs_error_text(const std::string& text) {
+    return test::catch_error_text(Failure::bad_data,
+                                  [&] { report::read_device_costs(text, "c.json"); });
 }
 
 TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {
     const std::string head = R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given")";
     EXPECT_EQ(
-        refuse_costs("{}"),
+        costs_error_text("{}"),
         "c.json: schema: wanted costs of a device, schema 'catoptric/costs/1', found nothing");
-    EXPECT_EQ(refuse_costs(head + "}"),
+    EXPECT_EQ(costs_error_text(head + "}"),
               "c.json: costs: wanted a list with at least one entry, found nothing");
-    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "fragment", "ns": 1}]})"),
+    EXPECT_EQ(costs_error_text(head + R"(, "costs": [{"work": "fragment", "ns": 1}]})"),
               "c.json: costs[0].work: wanted a kind of work, found 'fragment' (did you mean "
               "'fragments'?)");
-    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": -1}]})"),
+    EXPECT_EQ(costs_error_text(head + R"(, "costs": [{"work": "draws", "ns": -1}]})"),
               "c.json: costs[0].ns: wanted nanoseconds of at least 0, found '-1'");
-    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3, "range": [4, 5]}]})"),
-              "c.json: costs[0].range: wanted a range around ns, 3.000000, found a list");
-    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3},
+    EXPECT_EQ(
+        costs_error_text(head + R"(, "costs": [{"work": "draws", "ns": 3, "range": [4, 5]}]})"),
+        "c.json: costs[0].range: wanted a range around ns, 3.000000, found a list");
+    EXPECT_EQ(costs_error_text(head + R"(, "costs": [{"work": "draws", "ns": 3},
                                                  {"work": "draws", "ns": 3}]})"),
               "c.json: costs[1].work: 'draws' is given twice");
-    EXPECT_EQ(refuse_costs(head + R"(, "costs": [{"work": "draws", "ns": 3, "rnage": [2, 4]}]})"),
-              "c.json: costs[0]: wanted the members work, ns, range, source, found 'rnage'");
-    EXPECT_EQ(refuse_costs(head + R"(, "note": "", "cost": []})"),
+    EXPECT_EQ(
+        costs_error_text(head + R"(, "costs": [{"work": "draws", "ns": 3, "rnage": [2, 4]}]})"),
+        "c.json: costs[0]: wanted the members work, ns, range, source, found 'rnage'");
+    EXPECT_EQ(costs_error_text(head + R"(, "note": "", "cost": []})"),
               "c.json: wanted the members schema, device, origin, note, costs, fit, found 'cost'");
-    EXPECT_EQ(refuse_costs(R"({"schema": "catoptric/costs/1", "device": "d", "origin": "felt"})"),
-              "c.json: origin: wanted fitted, literature or given, found '\"felt\"'");
+    EXPECT_EQ(
+        costs_error_text(R"({"schema": "catoptric/costs/1", "device": "d", "origin": "felt"})"),
+        "c.json: origin: wanted fitted, literature or given, found '\"felt\"'");
 }
 
 TEST(Work, CountsOfARowAreReadBack) {
-    const std::vector<PassWork> passes{{"a", make_counts(1, 2, 1)}, {"b", make_counts(3, 4, 1)}};
+    const std::vector<PassWork> passes{{"a", make_work_counts(1, 2, 1)},
+                                       {"b", make_work_counts(3, 4, 1)}};
     measure::Row row;
-    EXPECT_FALSE(measure::has_work(row));
+    EXPECT_FALSE(measure::has_counted_work(row));
     measure::set_row_work(row, passes);
-    EXPECT_TRUE(measure::has_work(row));
-    EXPECT_EQ(measure::work_of_row(row), make_counts(4, 6, 2));
-    EXPECT_EQ(sum_work(passes, "b"), make_counts(3, 4, 1));
+    EXPECT_TRUE(measure::has_counted_work(row));
+    EXPECT_EQ(measure::total_work_of_row(row), make_work_counts(4, 6, 2));
+    EXPECT_EQ(sum_work_of_passes(passes, "b"), make_work_counts(3, 4, 1));
 }
 
 } // namespace

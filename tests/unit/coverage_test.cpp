@@ -14,19 +14,20 @@
 namespace catoptric {
 namespace {
 
-std::vector<int> by_tree(const render::Geometry& geometry, const shared::View& view, uvec2 size) {
+std::vector<int> objects_by_pixel_from_tree(const render::FrameGeometry& geometry,
+                                            const shared::View& view, uvec2 size) {
     const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
     std::vector<int> seen;
     for (std::size_t pixel = 0; pixel < std::size_t{size.x} * size.y; ++pixel) {
-        const auto hit = bvh::find_closest_hit<float>(tree, app::make_camera_ray(view, size, pixel),
-                                                      std::numeric_limits<float>::max(),
-                                                      bvh::kHiddenFromCamera | bvh::kOneSided);
+        const auto hit = bvh::find_closest_hit<float>(
+            tree, app::make_camera_ray(view, size, pixel), std::numeric_limits<float>::max(),
+            bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag);
         seen.push_back(hit ? static_cast<int>(hit->object) : -1);
     }
     return seen;
 }
 
-scene::Camera drawn_camera(const scene::Camera& near, std::mt19937& random) {
+scene::Camera draw_random_camera_near(const scene::Camera& near, std::mt19937& random) {
     std::uniform_real_distribution<double> apart(-.6, .6);
     scene::Camera camera = near;
     camera.eye += dvec3(apart(random), apart(random), apart(random));
@@ -36,18 +37,21 @@ scene::Camera drawn_camera(const scene::Camera& near, std::mt19937& random) {
 }
 
 TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
-    constexpr uvec2 kSize{61, 47};
+    constexpr uvec2 kCoveragePictureSize{61, 47};
     std::mt19937 random(5);
     for (const char* name : {"cornell-mirrors", "room", "courtyard", "gallery"}) {
         const scene::Scene scene = scene::load(name);
         const render::SceneUnits space = render::make_scene_units(scene);
-        const render::Geometry geometry = render::make_geometry(scene, space);
+        const render::FrameGeometry geometry = render::make_frame_geometry(scene, space);
         for (int k = 0; k < 8; ++k) {
-            const scene::Camera camera = drawn_camera(scene.cameras.front(), random);
-            const shared::View view = render::make_camera_view(camera, space, kSize, 0);
-            const auto seen = app::find_first_object_per_pixel(geometry, view, kSize, 1U << 30);
+            const scene::Camera camera = draw_random_camera_near(scene.cameras.front(), random);
+            const shared::View view = render::make_camera_view(camera, space, kCoveragePictureSize,
+                                                               0);
+            const auto seen = app::find_first_object_per_pixel(geometry, view, kCoveragePictureSize,
+                                                               1U << 30);
             ASSERT_TRUE(seen.has_value());
-            EXPECT_EQ(*seen, by_tree(geometry, view, kSize)) << name << ", camera " << k;
+            EXPECT_EQ(*seen, objects_by_pixel_from_tree(geometry, view, kCoveragePictureSize))
+                << name << ", camera " << k;
         }
     }
 }
@@ -55,7 +59,7 @@ TEST(Coverage, ObjectsPerPixelEqualThoseThatRaysHit) {
 TEST(Coverage, SearchStopsAtTheLimitOfTests) {
     const scene::Scene scene = scene::load("cornell-mirrors");
     const render::SceneUnits space = render::make_scene_units(scene);
-    const render::Geometry geometry = render::make_geometry(scene, space);
+    const render::FrameGeometry geometry = render::make_frame_geometry(scene, space);
     const shared::View view = render::make_camera_view(scene.cameras.front(), space, {64, 64}, 0);
     EXPECT_FALSE(app::find_first_object_per_pixel(geometry, view, {64, 64}, 100));
 }

@@ -18,13 +18,13 @@ namespace {
 
 using testing::HasSubstr;
 
-Picture difference_row_of(const std::vector<vec3>& pixels) {
+Picture make_picture_of_one_row(const std::vector<vec3>& pixels) {
     Picture picture(static_cast<int>(pixels.size()), 1);
     picture.pixels = pixels;
     return picture;
 }
 
-Picture random_picture(int width, int height, unsigned seed, float low, float high) {
+Picture make_random_uniform_picture(int width, int height, unsigned seed, float low, float high) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> value(low, high);
     Picture picture(width, height);
@@ -33,8 +33,8 @@ Picture random_picture(int width, int height, unsigned seed, float low, float hi
 }
 
 TEST(Difference, FiguresEqualHandComputedValues) {
-    const Picture a = difference_row_of({vec3(0), vec3(0.5F, 0.25F, 1), vec3(1)});
-    const Picture b = difference_row_of({vec3(0), vec3(0.25F, 0.75F, 1), vec3(0.5F, 1, 1)});
+    const Picture a = make_picture_of_one_row({vec3(0), vec3(0.5F, 0.25F, 1), vec3(1)});
+    const Picture b = make_picture_of_one_row({vec3(0), vec3(0.25F, 0.75F, 1), vec3(0.5F, 1, 1)});
     const Difference d = difference(a, b, {}, std::vector<float>{0, 0.25F, 0.5F});
     EXPECT_EQ(d.pixels, 3U);
     EXPECT_EQ(d.nonfinite, 0U);
@@ -51,7 +51,7 @@ TEST(Difference, FiguresEqualHandComputedValues) {
 TEST(Difference, P99InterpolatesLinearlyBetweenRanks) {
     std::vector<vec3> ramp;
     for (int i = 0; i <= 50; ++i) ramp.push_back(vec3(0, static_cast<float>(i) / 64.0F, 0));
-    const Difference d = difference(difference_row_of(ramp), Picture(51, 1), {},
+    const Difference d = difference(make_picture_of_one_row(ramp), Picture(51, 1), {},
                                     std::vector<float>(51));
     EXPECT_DOUBLE_EQ(d.p99, 49.5 / 64); // rank 0.99 * 50 = 49.5, between two samples
     EXPECT_DOUBLE_EQ(d.max, 50.0 / 64);
@@ -59,8 +59,8 @@ TEST(Difference, P99InterpolatesLinearlyBetweenRanks) {
 }
 
 TEST(Difference, ValuesAreClampedToTheDisplayRange) {
-    const Picture a = difference_row_of({vec3(17, -4, 0.5F)});
-    const Picture b = difference_row_of({vec3(1, 0, 0.5F)});
+    const Picture a = make_picture_of_one_row({vec3(17, -4, 0.5F)});
+    const Picture b = make_picture_of_one_row({vec3(1, 0, 0.5F)});
     const Difference d = difference(a, b, {}, std::vector<float>{0});
     EXPECT_EQ(d.rmse, 0);
     EXPECT_EQ(d.max, 0);
@@ -69,7 +69,7 @@ TEST(Difference, ValuesAreClampedToTheDisplayRange) {
 }
 
 TEST(Difference, OnlyPixelsOfTheMaskCount) {
-    const Picture a = difference_row_of({vec3(1), vec3(1), vec3(0)});
+    const Picture a = make_picture_of_one_row({vec3(1), vec3(1), vec3(0)});
     const Difference d = difference(a, Picture(3, 1), {0, 1, 255},
                                     std::vector<float>{1, 0.5F, 0.25F});
     EXPECT_EQ(d.pixels, 2U);
@@ -80,9 +80,9 @@ TEST(Difference, OnlyPixelsOfTheMaskCount) {
 }
 
 TEST(Difference, NonFinitePixelsOfEitherPictureAreCountedAndLeftOut) {
-    const Picture a = difference_row_of(
+    const Picture a = make_picture_of_one_row(
         {vec3(0, test::kNan, 0), vec3(0.5F), vec3(1), vec3(test::kInfinity)});
-    const Picture b = difference_row_of(
+    const Picture b = make_picture_of_one_row(
         {vec3(0), vec3(0), vec3(1, 1, -test::kInfinity), vec3(test::kNan)});
     const Difference d = difference(a, b, {}, std::vector<float>{1, 0.5F, 1, 1});
     EXPECT_EQ(d.pixels, 4U);
@@ -96,7 +96,7 @@ TEST(Difference, NonFinitePixelsOfEitherPictureAreCountedAndLeftOut) {
 }
 
 TEST(Difference, DifferenceWithoutFinitePixelsIsNan) {
-    const Picture a = difference_row_of({vec3(test::kNan)});
+    const Picture a = make_picture_of_one_row({vec3(test::kNan)});
     for (const Mask& mask : {Mask{0}, Mask{1}}) {
         const Difference d = difference(a, a, mask, std::vector<float>{0});
         EXPECT_EQ(d.pixels, mask[0]);
@@ -111,8 +111,8 @@ TEST(Difference, DifferenceWithoutFinitePixelsIsNan) {
 
 TEST(Difference, DifferenceIsSymmetricAndIndependentOfPixelOrder) {
     const int width = 37;
-    const Picture a = random_picture(width, 23, 1, 0, 1);
-    const Picture b = random_picture(width, 23, 2, 0, 1);
+    const Picture a = make_random_uniform_picture(width, 23, 1, 0, 1);
+    const Picture b = make_random_uniform_picture(width, 23, 2, 0, 1);
     std::vector<float> map(a.pixels.size());
     for (std::size_t i = 0; i < map.size(); ++i) map[i] = static_cast<float>(i % 7) / 8.0F;
     const Difference d = difference(a, b, {}, map);
@@ -143,8 +143,8 @@ TEST(Difference, DifferenceIsSymmetricAndIndependentOfPixelOrder) {
 }
 
 TEST(Difference, FiguresAgreeWithAnIndependentComputation) {
-    const Picture a = random_picture(16, 16, 4, -0.2F, 1.3F);
-    const Picture b = random_picture(16, 16, 5, -0.2F, 1.3F);
+    const Picture a = make_random_uniform_picture(16, 16, 4, -0.2F, 1.3F);
+    const Picture b = make_random_uniform_picture(16, 16, 5, -0.2F, 1.3F);
     // Computes the expected figures independently of the tested code: one channel at a time, with a
     // full sort.
     long double squares = 0, absolutes = 0;
@@ -168,23 +168,25 @@ TEST(Difference, FiguresAgreeWithAnIndependentComputation) {
 
 TEST(Difference, PicturesMasksAndMapsOfDifferentSizesAreRefused) {
     const std::vector<float> map(6);
-    EXPECT_EQ(test::error_text_of(Failure::bad_data,
-                                  [&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
+    EXPECT_EQ(test::catch_error_text(Failure::bad_data,
+                                     [&] { difference(Picture(3, 2), Picture(2, 3), {}, map); }),
               "a difference wants two pictures of the same size, found 3x2 and 2x3");
-    EXPECT_EQ(test::error_text_of(Failure::bad_data,
-                                  [&] { difference(Picture(3, 2), Picture(3, 2), Mask(5), map); }),
-              "a difference of 6 pixels wants a mask of as many, found 5");
-    EXPECT_EQ(test::error_text_of(
+    EXPECT_EQ(
+        test::catch_error_text(Failure::bad_data,
+                               [&] { difference(Picture(3, 2), Picture(3, 2), Mask(5), map); }),
+        "a difference of 6 pixels wants a mask of as many, found 5");
+    EXPECT_EQ(test::catch_error_text(
                   Failure::bad_data,
                   [&] { difference(Picture(3, 2), Picture(3, 2), {}, std::vector<float>(7)); }),
               "a difference of 6 pixels wants a FLIP map of as many, found 7");
-    EXPECT_THAT(test::error_text_of(Failure::bad_data,
-                                    [&] { mean_of(Picture(3, 2), ValueRange::clamped, Mask(5)); }),
-                HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::bad_data,
+                               [&] { mean_of(Picture(3, 2), ValueRange::clamped, Mask(5)); }),
+        HasSubstr("a mean of 6 pixels wants a mask of as many, found 5"));
 }
 
 TEST(Mean, MeanUsesUnclampedOrClampedValues) {
-    const Picture picture = difference_row_of({vec3(0, 3, -1), vec3(1, 0.5F, 0.5F)});
+    const Picture picture = make_picture_of_one_row({vec3(0, 3, -1), vec3(1, 0.5F, 0.5F)});
     const Mean plain = mean_of(picture, ValueRange::unclamped);
     EXPECT_EQ(plain.rgb, dvec3(0.5, 1.75, -0.25));
     EXPECT_DOUBLE_EQ(plain.all, 2.0 / 3);
@@ -196,7 +198,7 @@ TEST(Mean, MeanUsesUnclampedOrClampedValues) {
 }
 
 TEST(Mean, MeanOfNanIsNan) {
-    const Picture picture = difference_row_of({vec3(test::kNan, test::kInfinity, 0.5F)});
+    const Picture picture = make_picture_of_one_row({vec3(test::kNan, test::kInfinity, 0.5F)});
     for (const ValueRange range : {ValueRange::unclamped, ValueRange::clamped})
         EXPECT_TRUE(std::isnan(mean_of(picture, range).rgb.x));
     EXPECT_EQ(mean_of(picture, ValueRange::clamped).rgb.y, 1);

@@ -18,7 +18,7 @@ namespace {
 class FileDifferences : public test::InFolder {};
 
 /// Draws a picture with flat areas, edges and noise from a seed.
-Picture drawn(int width, int height, unsigned seed) {
+Picture draw_random_test_picture(int width, int height, unsigned seed) {
     std::mt19937 random(seed);
     Picture picture(width, height);
     for (int y = 0; y < height; ++y)
@@ -33,12 +33,13 @@ Picture drawn(int width, int height, unsigned seed) {
 /// The pictures are several bands high, and their height is no multiple of a band's height.
 TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
     const int width = 8192, height = 700;
-    write_exr(drawn(width, height, 1), folder / "a.exr");
-    write_exr(drawn(width, height, 2), folder / "b.exr");
+    write_exr(draw_random_test_picture(width, height, 1), folder / "a.exr");
+    write_exr(draw_random_test_picture(width, height, 2), folder / "b.exr");
     const Picture a = read_picture(folder / "a.exr"), b = read_picture(folder / "b.exr");
     const Difference whole = difference(a, b, {},
                                         flip(to_unrounded_display(a), to_unrounded_display(b)));
-    const FileDifference found = compare_picture_files(folder / "a.exr", folder / "b.exr", {}, 0);
+    const PictureFileDifference found = compare_picture_files(folder / "a.exr", folder / "b.exr",
+                                                              {}, 0);
     EXPECT_EQ(found.width, width);
     EXPECT_EQ(found.height, height);
     EXPECT_GT(whole.flip, .01);
@@ -57,7 +58,7 @@ TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
 TEST_F(FileDifferences, PictureFilesOfDifferentSizesAreRefused) {
     write_png(Picture(3, 2), folder / "a.png");
     write_png(Picture(2, 3), folder / "b.png");
-    EXPECT_THAT(test::error_text_of(
+    EXPECT_THAT(test::catch_error_text(
                     Failure::bad_data,
                     [&] { compare_picture_files(folder / "a.png", folder / "b.png", {}, 0); }),
                 testing::HasSubstr("b.png is 2x3: wanted two pictures of one size"));

@@ -19,13 +19,13 @@ using testing::HasSubstr;
 
 class File : public test::InFolder {
 protected:
-    std::ptrdiff_t entries() const {
+    std::ptrdiff_t count_folder_entries() const {
         return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
     }
 };
 
 template <typename Body>
-Error error_of(Body&& body) {
+Error catch_error_of(Body&& body) {
     try {
         body();
     } catch (const Error& error) {
@@ -40,7 +40,7 @@ TEST_F(File, WrittenFileIsReadBackByteForByte) {
     EXPECT_EQ(catoptric::read_file(folder / "x"), first);
     catoptric::write_file(folder / "x", std::string_view());
     EXPECT_EQ(catoptric::read_file(folder / "x"), "");
-    EXPECT_EQ(entries(), 1);
+    EXPECT_EQ(count_folder_entries(), 1);
 }
 
 /// write_file removes the partial file of a process that ended while writing. Partial files of
@@ -56,7 +56,8 @@ TEST_F(File, PartialFilesOfEndedProcessesAreRemoved) {
         std::ofstream(folder / name) << "part";
     catoptric::write_file(folder / "x", "whole");
     EXPECT_FALSE(fs::exists(folder / ("x.partial-" + std::to_string(dead))));
-    EXPECT_EQ(entries(), 4) << "x, a living process's, no process's, and another file's";
+    EXPECT_EQ(count_folder_entries(), 4)
+        << "x, a living process's, no process's, and another file's";
 }
 
 /// Replacing a file neither adds nor removes permissions. The permissions are set before the bytes
@@ -99,34 +100,35 @@ TEST_F(File, WritingToALinkWritesTheTarget) {
 }
 
 TEST_F(File, WritingIntoAMissingFolderIsAnError) {
-    const Error error = error_of([&] { catoptric::write_file(folder / "no" / "x", "text"); });
+    const Error error = catch_error_of([&] { catoptric::write_file(folder / "no" / "x", "text"); });
     EXPECT_EQ(error.failure, Failure::cannot_create);
     EXPECT_THAT(error.what(), HasSubstr((folder / "no" / "x").string()));
 }
 
 TEST_F(File, ReadingOrWritingAFolderIsAnError) {
-    EXPECT_EQ(error_of([&] { catoptric::write_file(folder, "text"); }).failure,
+    EXPECT_EQ(catch_error_of([&] { catoptric::write_file(folder, "text"); }).failure,
               Failure::cannot_create);
-    EXPECT_EQ(error_of([&] { catoptric::read_file(folder); }).failure, Failure::missing_input);
+    EXPECT_EQ(catch_error_of([&] { catoptric::read_file(folder); }).failure,
+              Failure::missing_input);
 }
 
 TEST_F(File, WritingToAFullDeviceIsAnIoError) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
-    const Error error = error_of([] { catoptric::write_file("/dev/full", "text"); });
+    const Error error = catch_error_of([] { catoptric::write_file("/dev/full", "text"); });
     EXPECT_EQ(error.failure, Failure::io);
     EXPECT_THAT(error.what(), HasSubstr("/dev/full"));
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
 TEST_F(File, TooLongNameLeavesNoPartialFile) {
-    const Error error = error_of(
+    const Error error = catch_error_of(
         [&] { catoptric::write_file(folder / std::string(300, 'x'), "t"); });
     EXPECT_EQ(error.failure, Failure::cannot_create);
-    EXPECT_EQ(entries(), 0);
+    EXPECT_EQ(count_folder_entries(), 0);
 }
 
 TEST_F(File, ReadingAMissingFileIsAMissingInputError) {
-    const Error error = error_of([&] { catoptric::read_file(folder / "gone"); });
+    const Error error = catch_error_of([&] { catoptric::read_file(folder / "gone"); });
     EXPECT_EQ(error.failure, Failure::missing_input);
     EXPECT_THAT(error.what(), HasSubstr("gone"));
 }

@@ -17,7 +17,9 @@ namespace {
 
 using namespace catoptric;
 
-scene::Mesh board() { return scene::quad("board", {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}); }
+scene::Mesh make_flat_board() {
+    return scene::quad("board", {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+}
 
 const dmat4 kTurned = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7,
                                   glm::normalize(dvec3(1, 2, -1))) *
@@ -28,12 +30,12 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
     scene.mirror_max_roughness = .6f;
     const std::size_t metal = scene::add_material(
         scene, {.name = "metal", .albedo = vec3(.9f), .metallic = 1, .roughness = .3f});
-    scene::add_mesh(scene, board(), metal);
+    scene::add_mesh(scene, make_flat_board(), metal);
     scene.objects.front().mirror = true;
     const scene::FlatFaces rough = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(rough.misfit, "rough");
     EXPECT_TRUE(rough.faces.empty());
-    EXPECT_EQ(rough.bent, (std::vector<scene::TriangleRun>{{0, 2}}));
+    EXPECT_EQ(rough.bent, (std::vector<scene::TriangleIndexRun>{{0, 2}}));
     scene.materials.front().roughness = .03f;
     const scene::FlatFaces sharp = scene::find_flat_faces(scene, scene.objects.front());
     EXPECT_EQ(sharp.misfit, "");
@@ -47,13 +49,13 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
-    const auto flat = scene::find_mesh_plane(board(), kTurned);
+    const auto flat = scene::find_mesh_plane(make_flat_board(), kTurned);
     ASSERT_TRUE(flat);
     EXPECT_LE(flat->off, 1e-12);
     const dvec3 normal = glm::normalize(glm::dmat3(kTurned)[2]);
     EXPECT_NEAR(std::abs(dot(flat->normal, normal)), 1, 1e-12);
     ASSERT_EQ(flat->corners.size(), 4u);
-    for (const dvec3& p : board().positions) {
+    for (const dvec3& p : make_flat_board().positions) {
         const dvec3 at(kTurned * dvec4(p, 1));
         EXPECT_LE(std::ranges::min(flat->corners | std::views::transform([&](const dvec3& c) {
                                        return distance(c, at);
@@ -63,21 +65,21 @@ TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
     }
     EXPECT_FALSE(scene::find_mesh_plane(scene::ball("ball", 2), dmat4(1)));
     EXPECT_FALSE(scene::find_mesh_plane({}, dmat4(1)));
-    EXPECT_FALSE(scene::find_mesh_plane(board(), dmat4(0))) << "without an area";
+    EXPECT_FALSE(scene::find_mesh_plane(make_flat_board(), dmat4(0))) << "without an area";
 }
 
 TEST(FlatMirror, DeviationFromFlatCoversNormalsAndVertices) {
-    scene::Mesh turned = board();
+    scene::Mesh turned = make_flat_board();
     turned.normals[2] = glm::normalize(vec3(.003f, 0, 1));
     EXPECT_NEAR(scene::find_mesh_plane(turned, dmat4(1))->off, .003, 1e-6);
     turned.normals[2] = glm::normalize(vec3(.03f, 0, 1));
     EXPECT_FALSE(scene::find_mesh_plane(turned, dmat4(1)));
-    scene::Mesh bent = board();
+    scene::Mesh bent = make_flat_board();
     // The vertex is sqrt(2) from the diagonal, so its triangle tilts by .004 / sqrt(2) against the
     // other triangle.
     bent.positions[3].z = .004;
     EXPECT_NEAR(scene::find_mesh_plane(bent, dmat4(1))->off, .004 / std::sqrt(2.0), 1e-7);
-    scene::Mesh back = board();
+    scene::Mesh back = make_flat_board();
     for (vec3& normal : back.normals) normal = -normal;
     EXPECT_EQ(scene::find_mesh_plane(back, dmat4(1))->off, 0) << "a mirror has two sides";
 }
@@ -124,7 +126,7 @@ TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
     const scene::FlatFaces ball = scene::find_flat_faces(scene::ball("ball", 3), dmat4(1));
     EXPECT_TRUE(ball.faces.empty());
     EXPECT_EQ(ball.bent.size(), 1u);
-    const scene::FlatFaces quad = scene::find_flat_faces(board(), kTurned);
+    const scene::FlatFaces quad = scene::find_flat_faces(make_flat_board(), kTurned);
     EXPECT_TRUE(quad.is_single_plane());
     EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
 }
@@ -138,35 +140,37 @@ TEST(FlatMirror, FlatToleranceIsASixteenthOfAPixel) {
                 2.0 / 600 / 16, 1e-9);
 }
 
-render::MirroredEye eye_at(const dvec3& place, const dvec3& target) {
-    render::MirroredEye eye;
+render::MirroredViewEye make_eye_at(const dvec3& place, const dvec3& target) {
+    render::MirroredViewEye eye;
     eye.view = render::make_camera_view(
         {.eye = place, .target = target, .vertical_fov_degrees = 90}, {}, {64, 64}, .1f);
     eye.place = place;
     return eye;
 }
 
-std::optional<render::MirrorPlane> plane(const scene::Mesh& mesh, int bounces = 2) {
+std::optional<render::MirrorPlane> find_mirror_plane(const scene::Mesh& mesh, int bounces = 2) {
     return render::MirrorPlane{*scene::find_mesh_plane(mesh, dmat4(1)), bounces};
 }
 
 TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
     int most = 2;
-    const auto views = render::find_mirrored_views(eye_at({.5, .25, 3}, {.5, .25, 0}),
-                                                   {plane(board())}, {64, 64}, most);
+    const auto views = render::find_mirrored_views(make_eye_at({.5, .25, 3}, {.5, .25, 0}),
+                                                   {find_mirror_plane(make_flat_board())}, {64, 64},
+                                                   most);
     ASSERT_EQ(views.size(), 1u);
     EXPECT_NEAR(distance(views[0].eye, dvec3(.5, .25, -3)), 0, 1e-12);
     EXPECT_EQ(views[0].view.forward, vec3(0, 0, 1));
     EXPECT_EQ(views[0].view.clip, vec4(0, 0, 1, -3)) << "kept: what is in front of the mirror";
-    const auto behind = render::find_mirrored_views(eye_at({.5, .25, -3}, {.5, .25, 0}),
-                                                    {plane(board())}, {64, 64}, most);
+    const auto behind = render::find_mirrored_views(make_eye_at({.5, .25, -3}, {.5, .25, 0}),
+                                                    {find_mirror_plane(make_flat_board())},
+                                                    {64, 64}, most);
     EXPECT_EQ(behind.at(0).view.clip, vec4(0, 0, -1, -3)) << "on whichever side the eye is";
     // The mirror covers x from -1.5 / 3 to .5 / 3 of half the picture, and y from -1.25 / 3 to .75
     // / 3, upside down. The area has a margin of one pixel.
     EXPECT_EQ(views[0].area, (graph::PixelArea{15, 23, 24, 24}));
     // A point p lies in the mirrored view where the mirror image of p lies in the camera's view.
     const vec3 p(.3f, -.6f, 2), image(.3f, -.6f, -2);
-    const render::MirroredEye eye = eye_at({.5, .25, 3}, {.5, .25, 0});
+    const render::MirroredViewEye eye = make_eye_at({.5, .25, 3}, {.5, .25, 0});
     const vec3 seen = image - eye.view.eye, mirrored = p - views[0].view.eye;
     EXPECT_NEAR(dot(eye.view.right, seen), dot(views[0].view.right, mirrored), 1e-5f);
     EXPECT_NEAR(dot(eye.view.down, seen), dot(views[0].view.down, mirrored), 1e-5f);
@@ -177,7 +181,8 @@ TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
 TEST(MirroredViews, OnlyMirrorsInThePictureGetMirroredViews) {
     const auto count = [](const dvec3& place, const dvec3& target) {
         int most = 2;
-        return render::find_mirrored_views(eye_at(place, target), {plane(board())}, {64, 64}, most)
+        return render::find_mirrored_views(make_eye_at(place, target),
+                                           {find_mirror_plane(make_flat_board())}, {64, 64}, most)
             .size();
     };
     EXPECT_EQ(count({0, 0, 3}, {0, 0, 0}), 1u);
@@ -195,7 +200,8 @@ TEST(MirroredViews, OnlyFacesTowardsTheEyeGetMirroredViews) {
     ASSERT_EQ(faces.size(), 6u);
     const auto count = [&](const dvec3& place) {
         int most = 2;
-        return render::find_mirrored_views(eye_at(place, {0, 0, 0}), faces, {64, 64}, most).size();
+        return render::find_mirrored_views(make_eye_at(place, {0, 0, 0}), faces, {64, 64}, most)
+            .size();
     };
     EXPECT_EQ(count({.2, .3, 3}), 1u) << "its front";
     EXPECT_EQ(count({2, .3, 3}), 2u) << "and one side of the rim";
@@ -205,8 +211,8 @@ TEST(MirroredViews, OnlyFacesTowardsTheEyeGetMirroredViews) {
 TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
     std::vector<std::optional<render::MirrorPlane>> corner; // the six walls of a box around the eye
     for (int face = 0; face < 6; ++face)
-        corner.push_back(plane(scene::wall(face, dvec3(-1), dvec3(1)), 16));
-    const render::MirroredEye eye = eye_at({.1, .2, -.3}, {1, 1, 1});
+        corner.push_back(find_mirror_plane(scene::make_box_wall(face, dvec3(-1), dvec3(1)), 16));
+    const render::MirroredViewEye eye = make_eye_at({.1, .2, -.3}, {1, 1, 1});
     for (int asked = 1; asked <= 3; ++asked) {
         int most = asked;
         const auto views = render::find_mirrored_views(eye, corner, {64, 64}, most);
@@ -241,8 +247,8 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
 TEST(MirroredViews, MirroredViewCullsBoxesBehindOrBesideTheMirror) {
     int most = 1;
     const render::MirroredView view = render::find_mirrored_views(
-                                          eye_at({.5, .25, 3}, {.5, .25, 0}), {plane(board())},
-                                          {64, 64}, most)
+                                          make_eye_at({.5, .25, 3}, {.5, .25, 0}),
+                                          {find_mirror_plane(make_flat_board())}, {64, 64}, most)
                                           .front();
     const auto meets = [&](const vec3& low, const vec3& high) {
         return may_view_show_box(view, {64, 64}, {low, high});

@@ -20,7 +20,8 @@ const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) /
 
 /// Returns the pixels of a square picture from `eye` towards `target`, with the field of view of
 /// the built-in scene's camera.
-PixelGrid pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height = 512) {
+PicturePixelGrid make_pixel_grid(const dvec3& eye, const dvec3& target,
+                                 std::uint32_t height = 512) {
     const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
     return {make_camera_view(camera, SceneUnits{}, uvec2(height), 1), height};
 }
@@ -28,7 +29,7 @@ PixelGrid pixels_at(const dvec3& eye, const dvec3& target, std::uint32_t height 
 /// Returns the direction of a ray, as an angle, after reflection at a circle of radius |r| around
 /// (centre, 0). The ray starts at the origin with `angle` to +x. If r < 0, the circle's
 /// far side reflects, as a hollow mirror.
-double onward(double centre, double r, double angle) {
+double reflected_angle_at_circle(double centre, double r, double angle) {
     const dvec3 d(std::cos(angle), std::sin(angle), 0), c(centre, 0, 0);
     const double along = dot(c, d), half = std::sqrt(r * r - dot(c, c) + along * along);
     const dvec3 n = glm::normalize(d * (r > 0 ? along - half : along + half) - c);
@@ -37,41 +38,45 @@ double onward(double centre, double r, double angle) {
 }
 
 TEST(Footprint, FootprintEqualsTheAngleBetweenTwoTracedRays) {
-    constexpr double kCentre = 10, kTiny = 1e-7;
+    constexpr double kMirrorCentreDistance = 10, kTiny = 1e-7;
     for (const double r : {.5, 3.0, -.5, -3.0})
         for (const double share : {.0, .4, .8}) { // share of the way to the rim of the circle
-            const double angle = std::asin(share * std::abs(r) / kCentre);
+            const double angle = std::asin(share * std::abs(r) / kMirrorCentreDistance);
             const double cosine = std::sqrt(1 - share * share);
-            const double distance = kCentre * std::cos(angle) - r * cosine;
-            double spread = std::abs(onward(kCentre, r, angle + kTiny) - onward(kCentre, r, angle));
+            const double distance = kMirrorCentreDistance * std::cos(angle) - r * cosine;
+            double spread = std::abs(
+                reflected_angle_at_circle(kMirrorCentreDistance, r, angle + kTiny) -
+                reflected_angle_at_circle(kMirrorCentreDistance, r, angle));
             spread = std::min(spread, 2 * std::numbers::pi - spread);
-            EXPECT_NEAR(reflected_pixel_footprint(kTiny, distance, 1 / r, cosine) / spread, 1, 1e-5)
+            EXPECT_NEAR(angle_between_reflected_pixels(kTiny, distance, 1 / r, cosine) / spread, 1,
+                        1e-5)
                 << "r " << r << ", share " << share;
         }
 }
 
 TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
-    EXPECT_EQ(reflected_pixel_footprint(kPixel, 1e9, 0, 1e-9), kPixel);
-    EXPECT_EQ(reflected_pixel_footprint(kPixel, 1, -.5, 1),
+    EXPECT_EQ(angle_between_reflected_pixels(kPixel, 1e9, 0, 1e-9), kPixel);
+    EXPECT_EQ(angle_between_reflected_pixels(kPixel, 1, -.5, 1),
               kPixel); // the eye is in the focus of a hollow mirror
-    EXPECT_EQ(reflected_pixel_footprint(kPixel, 0, 5, 1), kPixel); // the eye is on the mirror
+    EXPECT_EQ(angle_between_reflected_pixels(kPixel, 0, 5, 1), kPixel); // the eye is on the mirror
 }
 
 TEST(Footprint, FaceEdgesEqualHandComputedValues) {
-    const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
+    const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
     EXPECT_NEAR(pixels.angle_per_pixel(1), kPixel, 1e-7 * kPixel);
-    EXPECT_NEAR(texels_for_footprint(kPixel), 1184.62,
+    EXPECT_NEAR(cube_edge_texels_for_footprint(kPixel), 1184.62,
                 .01); // the face edge that a flat mirror needs
     // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
     // radius times its angle.
     EXPECT_NEAR(texels_needed_by_sphere(pixels, {0, 0, 12}, 2),
-                texels_for_footprint(kPixel * (1 + 2 * 10 / 2.)), .01);
-    EXPECT_EQ(texels_needed_by_sphere(pixels, {0, 0, 1}, 2),
-              texels_for_footprint(pixels.angle_per_pixel(0))); // the eye is inside the ball
+                cube_edge_texels_for_footprint(kPixel * (1 + 2 * 10 / 2.)), .01);
+    EXPECT_EQ(
+        texels_needed_by_sphere(pixels, {0, 0, 1}, 2),
+        cube_edge_texels_for_footprint(pixels.angle_per_pixel(0))); // the eye is inside the ball
 }
 
 TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
-    const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
+    const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
     // The expected angle lies between the two borders of a pixel in the middle row, at distance
     // `place` from the axis.
     for (const double place : {.0, .1, .3}) {
@@ -88,7 +93,7 @@ TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
 }
 
 TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
-    const PixelGrid pixels = pixels_at(dvec3(0), {0, 0, 1});
+    const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
     EXPECT_EQ(texels_needed_by_sphere(pixels, {0, 0, -12}, 2), 0);
     EXPECT_EQ(texels_needed_by_sphere(pixels, {12, 0, 12}, 2), 0);
     EXPECT_GT(texels_needed_by_sphere(pixels, {5, 0, 12}, 2), 0) << "its rim is";
@@ -98,22 +103,22 @@ TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
         {{-50, -50, -9}, {0, 0, 1}}, {{50, -50, -.5f}, {0, 0, 1}}, {{0, 50, -.5f}, {0, 0, 1}}};
     const std::vector<std::uint32_t> triangle{0, 1, 2};
     EXPECT_EQ(texels_needed_by_mesh(pixels, corners, triangle), 0);
-    EXPECT_GT(texels_needed_by_mesh(pixels_at(dvec3(0), {0, 0, -1}), corners, triangle), 0);
+    EXPECT_GT(texels_needed_by_mesh(make_pixel_grid(dvec3(0), {0, 0, -1}), corners, triangle), 0);
 }
 
-struct Mirror {
+struct FootprintMirror {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    double need(const dvec3& eye, const dvec3& target) const {
-        return texels_needed_by_mesh(pixels_at(eye, target), vertices, indices);
+    double needed_face_edge(const dvec3& eye, const dvec3& target) const {
+        return texels_needed_by_mesh(make_pixel_grid(eye, target), vertices, indices);
     }
 };
 
 /// Builds a mirror from the triangles of a mesh. `moulded` maps each corner to a vertex with
 /// position and normal.
-Mirror mirror_of(const scene::Mesh& mesh,
-                 const std::function<shared::Vertex(const dvec3&)>& moulded) {
-    Mirror mirror;
+FootprintMirror make_mirror_of_mesh(const scene::Mesh& mesh,
+                                    const std::function<shared::Vertex(const dvec3&)>& moulded) {
+    FootprintMirror mirror;
     for (const dvec3& position : mesh.positions) mirror.vertices.push_back(moulded(position));
     for (const uvec3& triangle : mesh.triangles)
         for (int j = 0; j < 3; ++j) mirror.indices.push_back(triangle[j]);
@@ -121,22 +126,22 @@ Mirror mirror_of(const scene::Mesh& mesh,
 }
 
 TEST(Footprint, BallMeshNeedsTheSameEdgeAsItsSphere) {
-    constexpr double kRadius = .2;
+    constexpr double kMirrorBallRadius = .2;
     const dvec3 centre(.1, -.2, .3), eye(-1, .4, -.7);
-    const Mirror ball = mirror_of(scene::ball("ball", 5), [&](const dvec3& p) {
-        return shared::Vertex{vec3(centre + kRadius * p), vec3(p)};
+    const FootprintMirror ball = make_mirror_of_mesh(scene::ball("ball", 5), [&](const dvec3& p) {
+        return shared::Vertex{vec3(centre + kMirrorBallRadius * p), vec3(p)};
     });
     // The tolerance allows for the width of a facet, about a twentieth of the radius. The point
     // nearest to the eye is up to half a facet away from a vertex.
     for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
-        const double wanted = texels_needed_by_sphere(pixels_at(eye, target), vec3(centre),
-                                                      kRadius);
-        EXPECT_NEAR(ball.need(eye, target), wanted, .01 * wanted);
+        const double wanted = texels_needed_by_sphere(make_pixel_grid(eye, target), vec3(centre),
+                                                      kMirrorBallRadius);
+        EXPECT_NEAR(ball.needed_face_edge(eye, target), wanted, .01 * wanted);
     }
 }
 
 TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
-    constexpr double kRadius = 2, kDistance = 5;
+    constexpr double kMirrorBallRadius = 2, kDistance = 5;
     // The mirror is a cap of a ball around its corner (0, 0, -1), seen along its axis from outside
     // and from inside.
     scene::Mesh cap = scene::ball("cap", 5);
@@ -146,14 +151,16 @@ TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
     });
     ASSERT_FALSE(cap.triangles.empty());
     for (const double side : {1., -1.}) { // the mirror's normals point out or in
-        const Mirror mirror = mirror_of(cap, [&](const dvec3& p) {
-            return shared::Vertex{vec3(kRadius * p), vec3(side * p)};
+        const FootprintMirror mirror = make_mirror_of_mesh(cap, [&](const dvec3& p) {
+            return shared::Vertex{vec3(kMirrorBallRadius * p), vec3(side * p)};
         });
-        const dvec3 top(0, 0, -kRadius), away(0, 0, -kDistance);
-        const double bulge = texels_for_footprint(kPixel * (1 + 2 * kDistance / kRadius)),
-                     hollow = texels_for_footprint(kPixel * (2 * kDistance / kRadius - 1));
-        EXPECT_NEAR(mirror.need(top + away, top), bulge, .01 * bulge);
-        EXPECT_NEAR(mirror.need(top - away, top), hollow, .01 * hollow);
+        const dvec3 top(0, 0, -kMirrorBallRadius), away(0, 0, -kDistance);
+        const double bulge = cube_edge_texels_for_footprint(
+                         kPixel * (1 + 2 * kDistance / kMirrorBallRadius)),
+                     hollow = cube_edge_texels_for_footprint(
+                         kPixel * (2 * kDistance / kMirrorBallRadius - 1));
+        EXPECT_NEAR(mirror.needed_face_edge(top + away, top), bulge, .01 * bulge);
+        EXPECT_NEAR(mirror.needed_face_edge(top - away, top), hollow, .01 * hollow);
     }
 }
 
@@ -175,18 +182,21 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
     const dvec3 eye(0, 0, 5), middle(0);
     // Squared tangent of the angle between the camera's axis and a corner of the plane.
     const double corner = 2 * .4 * .4 / (5 * 5);
-    const double wanted = texels_for_footprint(kPixel) * (1 + corner);
-    EXPECT_NEAR(mirror_of(plane, bent).need(eye, middle), wanted, .01 * wanted);
+    const double wanted = cube_edge_texels_for_footprint(kPixel) * (1 + corner);
+    EXPECT_NEAR(make_mirror_of_mesh(plane, bent).needed_face_edge(eye, middle), wanted,
+                .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
-    EXPECT_NEAR(mirror_of(plane, flat).need(eye, middle), wanted, 1e-6 * wanted);
-    EXPECT_NEAR(mirror_of(plane, flat).need(-eye, middle), wanted, 1e-6 * wanted);
+    EXPECT_NEAR(make_mirror_of_mesh(plane, flat).needed_face_edge(eye, middle), wanted,
+                1e-6 * wanted);
+    EXPECT_NEAR(make_mirror_of_mesh(plane, flat).needed_face_edge(-eye, middle), wanted,
+                1e-6 * wanted);
     const auto nothing = [](const dvec3&) { return shared::Vertex{vec3(1), vec3(0, 0, 1)}; };
-    EXPECT_EQ(mirror_of(plane, nothing).need(eye, middle), 0);
+    EXPECT_EQ(make_mirror_of_mesh(plane, nothing).needed_face_edge(eye, middle), 0);
 }
 
 TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     const auto edge = [](const std::vector<double>& needs) {
-        return common_capture_edge(needs, 16384);
+        return choose_common_capture_edge(needs, 16384);
     };
     EXPECT_EQ(edge({}), 16u);
     EXPECT_EQ(edge({0}), 16u);
@@ -196,8 +206,8 @@ TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     EXPECT_EQ(edge({16370}), 16384u);
     EXPECT_EQ(edge({1e30}), 16384u);
     EXPECT_EQ(edge({std::numeric_limits<double>::infinity()}), 16384u);
-    EXPECT_EQ(common_capture_edge(std::vector<double>{90}, 100), 96u);
-    EXPECT_EQ(common_capture_edge(std::vector<double>{97}, 100), 100u);
+    EXPECT_EQ(choose_common_capture_edge(std::vector<double>{90}, 100), 96u);
+    EXPECT_EQ(choose_common_capture_edge(std::vector<double>{97}, 100), 100u);
 }
 
 } // namespace

@@ -38,7 +38,8 @@ TEST(Glass, ReflectsAllLightBeyondTheCriticalAngle) {
 TEST(Glass, SlabGivesBackDirectionAndShare) {
     test::RandomNumbers numbers(3);
     for (int k = 0; k < 1000; ++k) {
-        const float ior = 1 + 2 * numbers.unit_fraction(), angle = 1.5f * numbers.unit_fraction();
+        const float ior = 1 + 2 * numbers.random_unit_fraction(),
+                    angle = 1.5f * numbers.random_unit_fraction();
         const vec3 direction(std::sin(angle), 0, -std::cos(angle)), normal(0, 0, 1);
         float behind, outside;
         const float in = f32::fresnel_dielectric(std::cos(angle), ior, behind);

@@ -9,7 +9,7 @@
 namespace catoptric::graph {
 namespace {
 
-using test::kClearToBlack;
+using test::kBlackClearColour;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -19,15 +19,17 @@ using Json = nlohmann::json;
 /// pass and a buffer.
 struct Dump : ::testing::Test {
     Graph g;
-    ImageHandle first = add("first"), second = add("second"), third = add("third");
-    ImageHandle kept = add("kept"), out = add("out"), unused = add("say \"no\"");
+    ImageHandle first = add_graph_image("first"), second = add_graph_image("second"),
+                third = add_graph_image("third");
+    ImageHandle kept = add_graph_image("kept"), out = add_graph_image("out"),
+                unused = add_graph_image("say \"no\"");
     BufferHandle args = g.add_buffer({.name = "args", .bytes = 64});
     GraphPlan plan;
 
     Dump() {
         const auto body = [](PassCommands&) {};
-        g.add_pass("one", PassTag::scene)
-            .writes(first, ResourceUse::colour, kClearToBlack)
+        g.add_pass("one", PassPurpose::scene)
+            .writes(first, ResourceUse::colour, kBlackClearColour)
             .writes(args, ResourceUse::storage_write)
             .set_layer_count(2)
             .record(body);
@@ -50,21 +52,21 @@ struct Dump : ::testing::Test {
             .writes(out, ResourceUse::storage_write)
             .record(body);
         g.add_pass("five")
-            .writes(kept, ResourceUse::colour, kClearToBlack)
+            .writes(kept, ResourceUse::colour, kBlackClearColour)
             .set_layer_count(2)
             .record(body);
-        g.add_pass("six").writes(kept.layers(0, 1), ResourceUse::colour).record(body);
+        g.add_pass("six").writes(kept.select_layers(0, 1), ResourceUse::colour).record(body);
         g.mark_output(out);
-        plan = graph::plan_graph(g, {}, make_default_sizer());
+        plan = graph::plan_graph(g, {}, make_default_requirement_queries());
     }
 
-    ImageHandle add(const std::string& name) {
+    ImageHandle add_graph_image(const std::string& name) {
         return g.add_image({.name = name, .width = 8, .height = 8, .layers = 2});
     }
 };
 
 TEST_F(Dump, TextListsPassesImagesAndBuffers) {
-    EXPECT_EQ(to_text(g, plan),
+    EXPECT_EQ(plan_to_text(g, plan),
               R"(6 passes, scene_passes 1, 5376 bytes (6400 without sharing)
 
 passes
@@ -104,7 +106,7 @@ buffers
 }
 
 TEST_F(Dump, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
-    const std::string dot = to_dot(g, plan);
+    const std::string dot = plan_to_dot(g, plan);
     EXPECT_THAT(dot, HasSubstr("p0 [shape=box, style=solid, label=\"one\\n(scene)\"]"));
     EXPECT_THAT(dot, HasSubstr("p3 [shape=box, style=dashed, label=\"vain\"]"));
     EXPECT_THAT(dot, HasSubstr("i5 [shape=ellipse, label=\"say \\\"no\\\"\"]"));
@@ -117,7 +119,7 @@ TEST_F(Dump, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
 }
 
 TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
-    const Json json = Json::parse(to_json(g, plan));
+    const Json json = Json::parse(plan_to_json(g, plan));
     ASSERT_EQ(json["passes"].size(), 6u);
     EXPECT_EQ(json["passes"][0]["name"], "one");
     EXPECT_EQ(json["passes"][0]["tag"], "scene");
@@ -146,17 +148,18 @@ TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
 
 TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
     const Graph g;
-    const GraphPlan plan = graph::plan_graph(g, {}, make_default_sizer());
-    EXPECT_EQ(to_text(g, plan),
+    const GraphPlan plan = graph::plan_graph(g, {}, make_default_requirement_queries());
+    EXPECT_EQ(plan_to_text(g, plan),
               "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
-    EXPECT_THAT(to_dot(g, plan), Not(HasSubstr("->")));
-    EXPECT_EQ(Json::parse(to_json(g, plan))["passes"], Json::array());
+    EXPECT_THAT(plan_to_dot(g, plan), Not(HasSubstr("->")));
+    EXPECT_EQ(Json::parse(plan_to_json(g, plan))["passes"], Json::array());
 }
 
 // In a frame of 100 mirrors, the depth images of all captures share the same memory.
 TEST(LargeDump, DumpNamesTheFirstSharingImagesAndCountsTheOthers) {
     const Graph g = test::make_reuse_graph(100);
-    const std::string text = to_text(g, graph::plan_graph(g, {}, make_default_sizer()));
+    const std::string text = plan_to_text(
+        g, graph::plan_graph(g, {}, make_default_requirement_queries()));
     EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));
     EXPECT_THAT(text, HasSubstr(", 'capture/31.depth' and 68 more\n"));
     EXPECT_THAT(text, HasSubstr(", 'capture/32.depth' and 68 more\n"));

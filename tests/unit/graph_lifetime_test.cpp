@@ -10,21 +10,21 @@
 namespace catoptric::graph {
 namespace {
 
-using test::kClearToBlack, test::record_nothing, test::plan_test_graph;
+using test::kBlackClearColour, test::record_no_commands, test::plan_test_graph;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-std::string graph_lifetime_refusal(const Graph& graph) {
-    return test::error_text_of(Failure::internal, [&] { plan_test_graph(graph); });
+std::string graph_lifetime_error_text(const Graph& graph) {
+    return test::catch_error_text(Failure::internal, [&] { plan_test_graph(graph); });
 }
 
 /// Returns a barrier as text, "image 0 mips [0,1) layers [0,2) before > after", and the number of
 /// other uses that the barrier waits for.
-std::string graph_lifetime_text(const PlannedBarrier& b) {
-    const auto word = [](const ResourceTouch& t) {
-        return t.nothing ? "nothing" : std::string(name_of(t.use)) + (t.write ? "!" : "");
+std::string describe_layer_barrier(const PlannedBarrier& b) {
+    const auto word = [](const AccessState& t) {
+        return t.nothing ? "nothing" : std::string(resource_use_name(t.use)) + (t.write ? "!" : "");
     };
     const std::string more = b.shared.empty() ? "" : " +" + std::to_string(b.shared.size());
     if (b.is_buffer) return "buffer " + word(b.before) + " > " + word(b.after) + more;
@@ -36,132 +36,133 @@ std::string graph_lifetime_text(const PlannedBarrier& b) {
            word(b.after) + more;
 }
 
-std::vector<std::string> texts(const std::vector<PlannedBarrier>& barriers) {
+std::vector<std::string> describe_barriers(const std::vector<PlannedBarrier>& barriers) {
     std::vector<std::string> all;
-    for (const PlannedBarrier& barrier : barriers) all.push_back(graph_lifetime_text(barrier));
+    for (const PlannedBarrier& barrier : barriers) all.push_back(describe_layer_barrier(barrier));
     return all;
 }
 
 const ImageDesc kDesc{.name = "cubes", .width = 8, .height = 8, .layers = 12};
 
 /// Returns a history in which layers [first, end) of image "cubes" have the content hash `stamp`.
-GraphHistory held(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
+GraphHistory make_history_with_hash(std::uint32_t first, std::uint32_t end, std::uint64_t stamp) {
     LayerHashes stamps(12);
-    stamps.fill_range(first, end, stamp);
+    stamps.fill_cell_range(first, end, stamp);
     return {.previous = {}, .persistent = {{"cubes", {kDesc, stamps}}}};
 }
 
-struct View {
-    explicit View(GraphHistory history = {}) : g(std::move(history)) {}
+struct HashedCubeGraph {
+    explicit HashedCubeGraph(GraphHistory history = {}) : g(std::move(history)) {}
     Graph g;
     ImageHandle cubes = g.add_persistent_image(kDesc);
     ImageHandle out = g.add_image({.name = "out", .width = 8, .height = 8});
 
-    void make(ImageHandle part, std::uint64_t stamp) {
+    void add_writing_pass_with_hash(ImageHandle part, std::uint64_t stamp) {
         g.add_pass("make")
-            .writes(part, ResourceUse::colour, kClearToBlack)
+            .writes(part, ResourceUse::colour, kBlackClearColour)
             .set_layer_count(part.layer_count)
-            .record(record_nothing);
+            .record(record_no_commands);
         g.set_content_hash(part, stamp);
     }
-    void view(ImageHandle part) {
+    void add_reading_pass(ImageHandle part) {
         g.add_pass("view")
             .reads(part, ResourceUse::sampled)
-            .writes(out, ResourceUse::colour, kClearToBlack)
-            .record(record_nothing);
+            .writes(out, ResourceUse::colour, kBlackClearColour)
+            .record(record_no_commands);
         g.mark_output(out);
     }
 };
 
 TEST(PersistentImages, HistoryDecidesWhichContentIsHeld) {
-    const View fresh;
+    const HashedCubeGraph fresh;
     EXPECT_FALSE(fresh.g.holds_content(fresh.cubes, 0));
-    const View later(held(0, 6, 7));
-    EXPECT_TRUE(later.g.holds_content(later.cubes.layers(0, 6), 7));
-    EXPECT_TRUE(later.g.holds_content(later.cubes.layers(2, 3), 7));
-    EXPECT_FALSE(later.g.holds_content(later.cubes.layers(0, 6), 8));
+    const HashedCubeGraph later(make_history_with_hash(0, 6, 7));
+    EXPECT_TRUE(later.g.holds_content(later.cubes.select_layers(0, 6), 7));
+    EXPECT_TRUE(later.g.holds_content(later.cubes.select_layers(2, 3), 7));
+    EXPECT_FALSE(later.g.holds_content(later.cubes.select_layers(0, 6), 8));
     EXPECT_FALSE(later.g.holds_content(later.cubes, 7));
-    Graph other(held(0, 12, 7));
+    Graph other(make_history_with_hash(0, 12, 7));
     ImageDesc desc = kDesc;
     desc.width = 16;
     EXPECT_FALSE(other.holds_content(other.add_persistent_image(desc), 7));
 }
 
 TEST(PersistentImages, PersistentImageIsReadWithoutABarrierInTheNextFrame) {
-    View first;
-    first.make(first.cubes, 7);
-    first.view(first.cubes);
+    HashedCubeGraph first;
+    first.add_writing_pass_with_hash(first.cubes, 7);
+    first.add_reading_pass(first.cubes);
     const GraphPlan made = plan_test_graph(first.g);
-    EXPECT_THAT(texts(made.passes.at(0).barriers),
+    EXPECT_THAT(describe_barriers(made.passes.at(0).barriers),
                 ElementsAre("image 0 mips [0,1) layers [0,12) sampled > colour! +1"));
-    EXPECT_THAT(texts(made.last),
+    EXPECT_THAT(describe_barriers(made.last),
                 ElementsAre("image 0 mips [0,1) layers [0,12) sampled > sampled",
                             "image 1 mips [0,1) layers [0,1) colour! > copy_from"));
-    View second(held(0, 12, 7));
-    second.view(second.cubes);
+    HashedCubeGraph second(make_history_with_hash(0, 12, 7));
+    second.add_reading_pass(second.cubes);
     const GraphPlan plan = plan_test_graph(second.g);
-    EXPECT_THAT(texts(plan.passes.at(0).barriers),
+    EXPECT_THAT(describe_barriers(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
-    EXPECT_THAT(texts(plan.last),
+    EXPECT_THAT(describe_barriers(plan.last),
                 ElementsAre("image 1 mips [0,1) layers [0,1) colour! > copy_from"));
     EXPECT_TRUE(plan.images[0].alone);
     EXPECT_EQ(plan.images[0].bytes, 12u * 8 * 8 * 8); // a persistent image has one copy
-    EXPECT_THAT(to_text(second.g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, kept, passes"));
+    EXPECT_THAT(plan_to_text(second.g, plan),
+                HasSubstr("'cubes' rgba16f 8x8, 12 layers, kept, passes"));
 }
 
 TEST(PersistentImages, UntouchedPersistentImageMayBeAnOutput) {
-    View v(held(0, 12, 7));
-    v.g.mark_output(v.cubes.layers(0, 6));
+    HashedCubeGraph v(make_history_with_hash(0, 12, 7));
+    v.g.mark_output(v.cubes.select_layers(0, 6));
     const GraphPlan plan = plan_test_graph(v.g);
     EXPECT_THAT(plan.passes, IsEmpty());
     EXPECT_THAT(plan.last, IsEmpty()); // the image is already readable
 }
 
 TEST(PersistentImages, PassThatWritesAPersistentImageIsNotCulled) {
-    View v;
-    v.make(v.cubes.layers(6, 6), 7);
+    HashedCubeGraph v;
+    v.add_writing_pass_with_hash(v.cubes.select_layers(6, 6), 7);
     const GraphPlan plan = plan_test_graph(v.g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
 }
 
 TEST(PersistentImages, ReadingUnwrittenLayersIsRefused) {
-    View v(held(0, 6, 7));
-    v.view(v.cubes);
-    EXPECT_EQ(graph_lifetime_refusal(v.g),
+    HashedCubeGraph v(make_history_with_hash(0, 6, 7));
+    v.add_reading_pass(v.cubes);
+    EXPECT_EQ(graph_lifetime_error_text(v.g),
               "pass 'view' reads 'cubes' [0,12) as sampled before any pass writes "
               "layers [6,12)");
 }
 
 TEST(PersistentImages, WritingWithoutAContentHashIsRefused) {
-    View v;
+    HashedCubeGraph v;
     v.g.add_pass("make")
-        .writes(v.cubes, ResourceUse::colour, kClearToBlack)
+        .writes(v.cubes, ResourceUse::colour, kBlackClearColour)
         .set_layer_count(12)
-        .record(record_nothing);
-    v.g.set_content_hash(v.cubes.layers(0, 6), 7);
-    EXPECT_EQ(graph_lifetime_refusal(v.g),
+        .record(record_no_commands);
+    v.g.set_content_hash(v.cubes.select_layers(0, 6), 7);
+    EXPECT_EQ(graph_lifetime_error_text(v.g),
               "pass 'make' writes 'cubes' [0,12), which is kept, but nobody says what "
               "layers [6,12) are made from");
 }
 
 TEST(PersistentImages, ContentHashWithoutAWriteIsRefused) {
-    View v(held(0, 12, 7));
-    v.view(v.cubes);
-    v.g.set_content_hash(v.cubes.layers(0, 6), 7);
-    EXPECT_EQ(graph_lifetime_refusal(v.g),
+    HashedCubeGraph v(make_history_with_hash(0, 12, 7));
+    v.add_reading_pass(v.cubes);
+    v.g.set_content_hash(v.cubes.select_layers(0, 6), 7);
+    EXPECT_EQ(graph_lifetime_error_text(v.g),
               "'cubes' [0,6) is said to be made from something, but no pass writes "
               "layers [0,6)");
-    View w;
-    w.make(w.cubes.layers(6, 6), 1);
-    w.g.set_content_hash(w.cubes.layers(6, 7), 1);
-    EXPECT_EQ(graph_lifetime_refusal(w.g),
+    HashedCubeGraph w;
+    w.add_writing_pass_with_hash(w.cubes.select_layers(6, 6), 1);
+    w.g.set_content_hash(w.cubes.select_layers(6, 7), 1);
+    EXPECT_EQ(graph_lifetime_error_text(w.g),
               "'cubes' [6,13) is said to be made from something, but the image has "
               "layers [0,12) and 1 mip(s)");
 }
 
 TEST(PersistentImages, PreviousFrameOfAPersistentImageIsRefused) {
-    View v;
+    HashedCubeGraph v;
     try {
         v.g.previous_contents(v.cubes);
         FAIL() << "accepted";
@@ -184,11 +185,11 @@ TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
     const ImageHandle out = g.add_image({.name = "out"});
     g.add_pass("view")
         .reads(texture, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kClearToBlack)
-        .record(record_nothing);
+        .writes(out, ResourceUse::colour, kBlackClearColour)
+        .record(record_no_commands);
     g.mark_output(out);
     const GraphPlan plan = plan_test_graph(g);
-    EXPECT_THAT(texts(plan.passes.at(0).barriers),
+    EXPECT_THAT(describe_barriers(plan.passes.at(0).barriers),
                 ElementsAre("image 1 mips [0,1) layers [0,1) nothing > colour!"));
     EXPECT_EQ(plan.last.size(), 1u);
     EXPECT_EQ(plan.images[0].bytes, 0u);
@@ -196,13 +197,13 @@ TEST(Imported, ImportedTextureNeedsNoBarrierAndNoMemory) {
                               Graph alone;
                               const ImageHandle image = alone.add_image({.name = "out"});
                               alone.add_pass("view")
-                                  .writes(image, ResourceUse::colour, kClearToBlack)
-                                  .record(record_nothing);
+                                  .writes(image, ResourceUse::colour, kBlackClearColour)
+                                  .record(record_no_commands);
                               alone.mark_output(image);
                               return alone;
                           }())
                               .bytes);
-    EXPECT_THAT(to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
+    EXPECT_THAT(plan_to_text(g, plan), HasSubstr("'cubes' rgba16f 8x8, 12 layers, imported"));
 }
 
 TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
@@ -210,13 +211,16 @@ TEST(Imported, ImportedWindowIsLeftReadyToPresent) {
     const ImageHandle window = g.import_external({.name = "window"}, nullptr, std::nullopt,
                                                  ResourceUse::present);
     // No output depends on the window.
-    g.add_pass("show").writes(window, ResourceUse::colour, kClearToBlack).record(record_nothing);
+    g.add_pass("show")
+        .writes(window, ResourceUse::colour, kBlackClearColour)
+        .record(record_no_commands);
     const GraphPlan plan = plan_test_graph(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_EQ(plan.passes[0].unread, 0u);
-    EXPECT_THAT(texts(plan.passes[0].barriers),
+    EXPECT_THAT(describe_barriers(plan.passes[0].barriers),
                 ElementsAre("image 0 mips [0,1) layers [0,1) nothing > colour!"));
-    EXPECT_THAT(texts(plan.last), ElementsAre("image 0 mips [0,1) layers [0,1) colour! > present"));
+    EXPECT_THAT(describe_barriers(plan.last),
+                ElementsAre("image 0 mips [0,1) layers [0,1) colour! > present"));
 }
 
 TEST(Imported, AllLayersEndInTheDeclaredUse) {
@@ -224,10 +228,10 @@ TEST(Imported, AllLayersEndInTheDeclaredUse) {
     const ImageHandle image = g.import_external(kDesc, nullptr, ResourceUse::copy_from,
                                                 ResourceUse::sampled);
     g.add_pass("some")
-        .writes(image.layers(0, 6), ResourceUse::colour, kClearToBlack)
+        .writes(image.select_layers(0, 6), ResourceUse::colour, kBlackClearColour)
         .set_layer_count(6)
-        .record(record_nothing);
-    EXPECT_THAT(texts(plan_test_graph(g).last),
+        .record(record_no_commands);
+    EXPECT_THAT(describe_barriers(plan_test_graph(g).last),
                 ElementsAre("image 0 mips [0,1) layers [0,6) colour! > sampled",
                             "image 0 mips [0,1) layers [6,12) copy_from > sampled +1"));
 }
@@ -239,9 +243,9 @@ TEST(Imported, ReadingAnImportWithoutContentsIsRefused) {
     const ImageHandle out = g.add_image({.name = "out"});
     g.add_pass("view")
         .reads(image, ResourceUse::sampled)
-        .writes(out, ResourceUse::colour, kClearToBlack)
-        .record(record_nothing);
-    EXPECT_THAT(graph_lifetime_refusal(g),
+        .writes(out, ResourceUse::colour, kBlackClearColour)
+        .record(record_no_commands);
+    EXPECT_THAT(graph_lifetime_error_text(g),
                 HasSubstr("pass 'view' reads 'window' [0,1) as sampled before any"));
 }
 
@@ -250,12 +254,12 @@ TEST(Imported, ImportedResourceAsOutputIsRefused) {
     const ImageHandle image = g.import_external({.name = "window"}, nullptr, ResourceUse::sampled,
                                                 ResourceUse::sampled);
     g.mark_output(image);
-    EXPECT_EQ(graph_lifetime_refusal(g),
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "'window' [0,1) is wanted, but imported: read it where it comes from");
     Graph h;
     const BufferHandle buffer = h.import_external(BufferDesc{.name = "back", .bytes = 4}, nullptr);
     h.mark_output(buffer);
-    EXPECT_EQ(graph_lifetime_refusal(h),
+    EXPECT_EQ(graph_lifetime_error_text(h),
               "buffer 'back' is wanted, but imported: read it where it comes from");
 }
 
@@ -266,11 +270,12 @@ TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     g.add_pass("fill")
         .reads(list, ResourceUse::storage_read) // no pass of this frame writes the list
         .writes(back, ResourceUse::storage_write)
-        .record(record_nothing);
+        .record(record_no_commands);
     const GraphPlan plan = plan_test_graph(g);
     ASSERT_EQ(plan.passes.size(), 1u);
     EXPECT_THAT(plan.passes[0].barriers, IsEmpty());
-    EXPECT_THAT(texts(plan.last), ::testing::Contains("buffer storage_write! > copy_from"));
+    EXPECT_THAT(describe_barriers(plan.last),
+                ::testing::Contains("buffer storage_write! > copy_from"));
     EXPECT_EQ(plan.bytes, 0u);
 }
 
@@ -280,28 +285,28 @@ struct Mips : ::testing::Test {
         {.name = "pyramid", .width = 8, .height = 4, .layers = 2, .mips = 4});
     ImageHandle out = g.add_image({.name = "out", .width = 8, .height = 4});
 
-    void write(std::uint32_t mip) {
+    void add_mip_writing_pass(std::uint32_t mip) {
         PassBuilder pass = g.add_pass("mip" + std::to_string(mip));
-        if (mip > 0) pass.reads(image.mip(mip - 1), ResourceUse::sampled);
-        pass.writes(image.mip(mip), ResourceUse::storage_write).record(record_nothing);
+        if (mip > 0) pass.reads(image.select_mip(mip - 1), ResourceUse::sampled);
+        pass.writes(image.select_mip(mip), ResourceUse::storage_write).record(record_no_commands);
     }
-    void view(ImageHandle part) {
+    void add_mip_reading_pass(ImageHandle part) {
         g.add_pass("view")
             .reads(part, ResourceUse::sampled)
-            .writes(out, ResourceUse::colour, kClearToBlack)
-            .record(record_nothing);
+            .writes(out, ResourceUse::colour, kBlackClearColour)
+            .record(record_no_commands);
         g.mark_output(out);
     }
 };
 
 TEST_F(Mips, EachMipHasItsOwnBarriers) {
-    for (std::uint32_t m = 0; m < 4; ++m) write(m);
-    view(image);
+    for (std::uint32_t m = 0; m < 4; ++m) add_mip_writing_pass(m);
+    add_mip_reading_pass(image);
     const GraphPlan plan = plan_test_graph(g);
-    EXPECT_THAT(texts(plan.passes.at(2).barriers),
+    EXPECT_THAT(describe_barriers(plan.passes.at(2).barriers),
                 ElementsAre("image 0 mips [1,2) layers [0,2) storage_write! > sampled",
                             "image 0 mips [2,3) layers [0,2) nothing > storage_write!"));
-    EXPECT_THAT(texts(plan.passes.at(4).barriers),
+    EXPECT_THAT(describe_barriers(plan.passes.at(4).barriers),
                 ElementsAre("image 0 mips [0,3) layers [0,2) sampled > sampled",
                             "image 0 mips [3,4) layers [0,2) storage_write! > sampled",
                             "image 1 mips [0,1) layers [0,1) nothing > colour!"));
@@ -309,89 +314,93 @@ TEST_F(Mips, EachMipHasItsOwnBarriers) {
 }
 
 TEST_F(Mips, BarriersCoverRangesOfMipsAndLayers) {
-    for (std::uint32_t m = 0; m < 4; ++m) write(m);
-    view(image.layers(1, 1));
-    EXPECT_THAT(texts(plan_test_graph(g).passes.at(4).barriers),
+    for (std::uint32_t m = 0; m < 4; ++m) add_mip_writing_pass(m);
+    add_mip_reading_pass(image.select_layers(1, 1));
+    EXPECT_THAT(describe_barriers(plan_test_graph(g).passes.at(4).barriers),
                 ElementsAre("image 0 mips [0,3) layers [1,2) sampled > sampled",
                             "image 0 mips [3,4) layers [1,2) storage_write! > sampled",
                             "image 1 mips [0,1) layers [0,1) nothing > colour!"));
 }
 
 TEST_F(Mips, ReadingUnwrittenMipsIsRefused) {
-    write(0);
-    write(1);
-    view(image.mips(0, 3));
-    EXPECT_EQ(graph_lifetime_refusal(g),
+    add_mip_writing_pass(0);
+    add_mip_writing_pass(1);
+    add_mip_reading_pass(image.select_mips(0, 3));
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'view' reads 'pyramid' [0,2) mips [0,3) as sampled before any pass "
               "writes layers [0,2) of mip 2");
 }
 
 TEST_F(Mips, WritingSeveralMipsAtOnceIsRefused) {
-    g.add_pass("all").writes(image, ResourceUse::storage_write).record(record_nothing);
-    EXPECT_EQ(graph_lifetime_refusal(g),
+    g.add_pass("all").writes(image, ResourceUse::storage_write).record(record_no_commands);
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
               "a time");
 }
 
 TEST_F(Mips, MipOutOfRangeIsRefused) {
-    g.add_pass("all").writes(image.mip(4), ResourceUse::storage_write).record(record_nothing);
-    EXPECT_EQ(graph_lifetime_refusal(g),
+    g.add_pass("all")
+        .writes(image.select_mip(4), ResourceUse::storage_write)
+        .record(record_no_commands);
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'all' uses 'pyramid' [0,2) mip 4 as storage_write, but the image has "
               "mips [0,4)");
 }
 
 TEST_F(Mips, MoreMipsThanTheSizeAllowsAreRefused) {
     g.add_image({.name = "deep", .width = 8, .height = 4, .mips = 5});
-    EXPECT_EQ(graph_lifetime_refusal(g), "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
+    EXPECT_EQ(graph_lifetime_error_text(g),
+              "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
 }
 
 TEST_F(Mips, OutputOfMipsOutOfRangeIsRefused) {
-    write(0);
-    g.mark_output(image.mips(0, 5));
-    EXPECT_EQ(graph_lifetime_refusal(g),
+    add_mip_writing_pass(0);
+    g.mark_output(image.select_mips(0, 5));
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
 }
 
 TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
     const ImageHandle depth = g.add_image(
-        {.name = "depth", .format = Format::d32f, .width = 8, .height = 4});
+        {.name = "depth", .format = TexelFormat::d32f, .width = 8, .height = 4});
     g.add_pass("draw")
-        .writes(image.mip(1).layers(0, 1), ResourceUse::colour, kClearToBlack)
-        .writes(depth, ResourceUse::depth, kClearToBlack)
-        .record(record_nothing);
-    EXPECT_EQ(graph_lifetime_refusal(g),
+        .writes(image.select_mip(1).select_layers(0, 1), ResourceUse::colour, kBlackClearColour)
+        .writes(depth, ResourceUse::depth, kBlackClearColour)
+        .record(record_no_commands);
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'draw' attaches 'pyramid' [0,1) mip 1 as colour (4x2) and 'depth' "
               "[0,1) as depth (8x4): attachments have one size");
 }
 
 TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
-    write(0);
+    add_mip_writing_pass(0);
     g.add_pass("twice")
-        .reads(image.mip(0), ResourceUse::sampled)
-        .writes(image.mip(0), ResourceUse::storage_write)
-        .record(record_nothing);
-    EXPECT_EQ(graph_lifetime_refusal(g),
+        .reads(image.select_mip(0), ResourceUse::sampled)
+        .writes(image.select_mip(0), ResourceUse::storage_write)
+        .record(record_no_commands);
+    EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'twice' reads 'pyramid' [0,2) mip 0 as sampled while it writes "
               "'pyramid' [0,2) mip 0 as storage_write, in layers [0,2) of mip 0");
 }
 
 TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
     Graph g;
-    const ImageHandle depth = g.add_image({.name = "depth", .format = Format::d32f, .layers = 2});
+    const ImageHandle depth = g.add_image(
+        {.name = "depth", .format = TexelFormat::d32f, .layers = 2});
     const ImageHandle a = g.add_image({.name = "a", .layers = 2}),
                       b = g.add_image({.name = "b", .layers = 2});
     const auto draw = [&](const std::string& name, ImageHandle colour,
                           std::optional<ClearValue> clear) {
         g.add_pass(name)
-            .writes(colour, ResourceUse::colour, kClearToBlack)
+            .writes(colour, ResourceUse::colour, kBlackClearColour)
             .writes(depth, ResourceUse::depth, clear)
             .set_layer_count(2)
-            .record(record_nothing);
+            .record(record_no_commands);
     };
     // The second pass loads the depth of the first pass.
-    draw("first", a, kClearToBlack);
+    draw("first", a, kBlackClearColour);
     draw("second", b, std::nullopt);
-    draw("third", a, kClearToBlack);
+    draw("third", a, kBlackClearColour);
     g.mark_output(a);
     g.mark_output(b);
     const GraphPlan plan = plan_test_graph(g);
@@ -406,11 +415,11 @@ TEST(Unread, AttachmentOverwrittenBeforeAnyReadIsUnread) {
 
 TEST(Shape, GraphShapeIgnoresClearValuesAndContentHashes) {
     const auto graph = [](const std::string& name, float red, std::uint64_t stamp, bool there) {
-        View v(there ? held(0, 12, stamp) : GraphHistory{});
+        HashedCubeGraph v(there ? make_history_with_hash(0, 12, stamp) : GraphHistory{});
         v.g.add_pass(name)
             .writes(v.out, ResourceUse::colour, ClearValue{red})
-            .record(record_nothing);
-        if (!there) v.make(v.cubes, stamp);
+            .record(record_no_commands);
+        if (!there) v.add_writing_pass_with_hash(v.cubes, stamp);
         return std::move(v.g);
     };
     const Graph known = graph("p", 0, 1, false);

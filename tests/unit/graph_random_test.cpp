@@ -11,16 +11,16 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr unsigned kGraphs = 500;
+constexpr unsigned kRandomGraphCount = 500;
 
 /// Returns a sizer with two heaps, and with alignments that do not divide the sizes.
-MemorySizer awkward_sizer() {
+MemoryRequirementQueries make_two_heap_sizer() {
     return {.image =
                 [](const ImageDesc& desc) {
                     return MemoryRequirements{.bytes = std::uint64_t{desc.layers} * 1000 *
                                                        bytes_per_texel(desc.format),
                                               .alignment = desc.layers % 2 ? 256u : 96u,
-                                              .heap = is_depth(desc.format) ? 2u : 0u};
+                                              .heap = is_depth_format(desc.format) ? 2u : 0u};
                 },
             .buffer =
                 [](const BufferDesc& desc) {
@@ -28,28 +28,30 @@ MemorySizer awkward_sizer() {
                 }};
 }
 
-struct Sample {
-    explicit Sample(unsigned seed) : sizer(seed % 2 ? awkward_sizer() : make_default_sizer()) {
+struct RandomGraphSample {
+    explicit RandomGraphSample(unsigned seed)
+        : sizer(seed % 2 ? make_two_heap_sizer() : make_default_requirement_queries()) {
         std::mt19937 random(seed);
-        graph = random_graph(random);
+        graph = make_random_graph(random);
         right = plan_graph(graph, {}, sizer);
     }
     /// Expects that the replay reports an error in the broken plan `wrong`.
-    void expect_refused(const GraphPlan& wrong, const std::string& mistake) const {
-        EXPECT_THAT(replay(graph, wrong, sizer), Not(IsEmpty())) << mistake << "\n"
-                                                                 << to_text(graph, right);
+    void expect_replay_error(const GraphPlan& wrong, const std::string& mistake) const {
+        EXPECT_THAT(replay_graph_plan(graph, wrong, sizer), Not(IsEmpty()))
+            << mistake << "\n"
+            << plan_to_text(graph, right);
     }
-    MemorySizer sizer;
+    MemoryRequirementQueries sizer;
     Graph graph;
     GraphPlan right;
 };
 
 /// Calls `test` with the random graph of every seed.
 template <typename Test>
-void for_each_sample(const Test& test) {
-    for (unsigned seed = 0; seed < kGraphs; ++seed) {
+void for_each_random_graph(const Test& test) {
+    for (unsigned seed = 0; seed < kRandomGraphCount; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        test(Sample(seed));
+        test(RandomGraphSample(seed));
     }
 }
 
@@ -64,23 +66,23 @@ void for_each_barrier(const GraphPlan& right, const Test& test) {
 }
 
 TEST(RandomGraphs, PlansOfRandomGraphsReplayWithoutErrors) {
-    for_each_sample([](const Sample& sample) {
-        EXPECT_THAT(replay(sample.graph, sample.right, sample.sizer), IsEmpty());
+    for_each_random_graph([](const RandomGraphSample& sample) {
+        EXPECT_THAT(replay_graph_plan(sample.graph, sample.right, sample.sizer), IsEmpty());
     });
 }
 
 TEST(RandomGraphs, ReplayDetectsAMissingBarrier) {
-    for_each_sample([](const Sample& sample) {
+    for_each_random_graph([](const RandomGraphSample& sample) {
         for_each_barrier(sample.right, [&](GraphPlan& wrong, std::vector<PlannedBarrier>& barriers,
                                            std::size_t b) {
             barriers.erase(barriers.begin() + static_cast<std::ptrdiff_t>(b));
-            sample.expect_refused(wrong, "without barrier " + std::to_string(b));
+            sample.expect_replay_error(wrong, "without barrier " + std::to_string(b));
         });
     });
 }
 
 TEST(RandomGraphs, ReplayDetectsAMissingReaderOfABarrier) {
-    for_each_sample([](const Sample& sample) {
+    for_each_random_graph([](const RandomGraphSample& sample) {
         for_each_barrier(sample.right, [&](GraphPlan& wrong, std::vector<PlannedBarrier>& barriers,
                                            std::size_t b) {
             // Skips barriers with redundant readers. A wait for the last user of memory includes
@@ -88,30 +90,31 @@ TEST(RandomGraphs, ReplayDetectsAMissingReaderOfABarrier) {
             if (barriers[b].before.nothing || barriers[b].previous) return;
             if (barriers[b].shared.empty()) return;
             barriers[b].shared.pop_back();
-            sample.expect_refused(wrong, "with one reader less in barrier " + std::to_string(b));
+            sample.expect_replay_error(wrong,
+                                       "with one reader less in barrier " + std::to_string(b));
         });
     });
 }
 
 TEST(RandomGraphs, ReplayDetectsAMissingPass) {
-    for_each_sample([](const Sample& sample) {
+    for_each_random_graph([](const RandomGraphSample& sample) {
         for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
             GraphPlan wrong = sample.right;
             wrong.culled.push_back({wrong.passes[p].pass, "mistake"});
             wrong.passes.erase(wrong.passes.begin() + static_cast<std::ptrdiff_t>(p));
-            sample.expect_refused(wrong, "without pass " + std::to_string(p));
+            sample.expect_replay_error(wrong, "without pass " + std::to_string(p));
         }
     });
 }
 
 TEST(RandomGraphs, ReplayDetectsOverlappingMemory) {
-    for_each_sample([](const Sample& sample) {
+    for_each_random_graph([](const RandomGraphSample& sample) {
         for (std::size_t i = 0; i < sample.right.images.size(); ++i) {
             if (sample.right.images[i].offset == 0) continue;
             GraphPlan wrong = sample.right;
             wrong.images[i].offset = 0; // another image needs this memory at the same time
             wrong.images[i].heap = sample.right.images[i].heap;
-            sample.expect_refused(wrong, "with image " + std::to_string(i) + " at 0");
+            sample.expect_replay_error(wrong, "with image " + std::to_string(i) + " at 0");
         }
     });
 }
@@ -120,10 +123,10 @@ TEST(RandomGraphs, ReplayDetectsOverlappingMemory) {
 // unread must be an error.
 TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
     int unread = 0;
-    for_each_sample([&](const Sample& sample) {
+    for_each_random_graph([&](const RandomGraphSample& sample) {
         for (std::size_t p = 0; p < sample.right.passes.size(); ++p) {
             const PlannedPass& planned = sample.right.passes[p];
-            const Pass& pass = sample.graph.passes()[planned.pass];
+            const Pass& pass = sample.graph.list_passes()[planned.pass];
             for (std::size_t i = 0; i < pass.images.size(); ++i) {
                 const ImageUse& use = pass.images[i];
                 if (!use.write || (use.use != ResourceUse::colour && use.use != ResourceUse::depth))
@@ -134,7 +137,7 @@ TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
                 }
                 GraphPlan wrong = sample.right;
                 wrong.passes[p].unread |= 1u << i;
-                sample.expect_refused(wrong, "without attachment " + std::to_string(i));
+                sample.expect_replay_error(wrong, "without attachment " + std::to_string(i));
             }
         }
     });
@@ -145,14 +148,15 @@ TEST(RandomGraphs, ReplayDetectsAnAttachmentThatIsNotStored) {
 // history.
 TEST(RandomGraphs, RandomGraphsUseEveryFeatureOfPlans) {
     int culled = 0, aliased = 0, kept = 0, chained = 0, changed = 0, several = 0, empty = 0;
-    for (unsigned seed = 0; seed < kGraphs; ++seed) {
+    for (unsigned seed = 0; seed < kRandomGraphCount; ++seed) {
         std::mt19937 random(seed);
-        const Graph graph = random_graph(random);
-        const GraphPlan plan = graph::plan_graph(graph, {}, make_default_sizer());
+        const Graph graph = make_random_graph(random);
+        const GraphPlan plan = graph::plan_graph(graph, {}, make_default_requirement_queries());
         culled += plan.culled.empty() ? 0 : 1;
         empty += plan.passes.empty() ? 1 : 0;
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
-            kept += plan.images[i].used && (graph.lifetime(i) == ImageLifetime::previous) ? 1 : 0;
+            kept += plan.images[i].used && (graph.image_lifetime(i) == ImageLifetime::previous) ? 1
+                                                                                                : 0;
         for (const PlannedPass& pass : plan.passes)
             for (const PlannedBarrier& b : pass.barriers) {
                 const bool read_after_read = !b.before.nothing && !b.before.write && !b.after.write;

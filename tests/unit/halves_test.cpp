@@ -20,15 +20,17 @@ using measure::Picture;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kEdge = 128;
+constexpr int kTestPictureEdge = 128;
 
 /// The picture without noise: a slope in [.3, .7].
-vec3 true_pixel(int x, int y) { return vec3(.3f) + vec3(.2f, .1f, .2f) * (float(x + y) / kEdge); }
+vec3 noise_free_pixel(int x, int y) {
+    return vec3(.3f) + vec3(.2f, .1f, .2f) * (float(x + y) / kTestPictureEdge);
+}
 
 Picture make_true_picture() {
-    Picture picture(kEdge, kEdge);
-    for (int y = 0; y < kEdge; ++y)
-        for (int x = 0; x < kEdge; ++x) picture.at(x, y) = true_pixel(x, y);
+    Picture picture(kTestPictureEdge, kTestPictureEdge);
+    for (int y = 0; y < kTestPictureEdge; ++y)
+        for (int x = 0; x < kTestPictureEdge; ++x) picture.at(x, y) = noise_free_pixel(x, y);
     return picture;
 }
 
@@ -37,7 +39,7 @@ Picture make_true_picture() {
 Picture add_noise(Picture picture, double deviation, test::RandomNumbers& numbers) {
     const auto range = static_cast<float>(deviation * std::sqrt(3.));
     for (vec3& pixel : picture.pixels)
-        for (int k = 0; k < 4; ++k) pixel += range / 2 * numbers.point_in_cube();
+        for (int k = 0; k < 4; ++k) pixel += range / 2 * numbers.random_point_in_cube();
     return picture;
 }
 
@@ -45,20 +47,22 @@ Picture add_noise(Picture picture, double deviation, test::RandomNumbers& number
 /// .0025.
 Picture make_wrong_picture() {
     Picture picture = make_true_picture();
-    for (int y = 0; y < kEdge; ++y)
-        for (int x = 0; x < kEdge; ++x) picture.at(x, y) += vec3(x % 2 == 0 ? .05f : -.05f);
+    for (int y = 0; y < kTestPictureEdge; ++y)
+        for (int x = 0; x < kTestPictureEdge; ++x)
+            picture.at(x, y) += vec3(x % 2 == 0 ? .05f : -.05f);
     return picture;
 }
-constexpr double kTrueSquare = .0025, kNoiseDeviation = .08;
+constexpr double kTrueSquaredError = .0025, kNoiseDeviation = .08;
 
-measure::HalvesEstimate estimate(const Picture& picture, const Picture& a, const Picture& b,
-                                 const measure::Mask& mask = {}) {
+measure::HalvesEstimate estimate_error_of_all_pixels(const Picture& picture, const Picture& a,
+                                                     const Picture& b,
+                                                     const measure::Mask& mask = {}) {
     measure::ReferenceHalves halves{a, b, a, std::vector<float>(a.pixels.size(), .01f)};
-    return measure::estimate_by_halves(picture, halves, mask,
-                                       std::vector<float>(a.pixels.size(), .02f));
+    return measure::estimate_error_by_halves(picture, halves, mask,
+                                             std::vector<float>(a.pixels.size(), .02f));
 }
 
-double mean_square(const Picture& a, const Picture& b) {
+double mean_square_difference(const Picture& a, const Picture& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         const dvec3 difference = dvec3(a.pixels[i]) - dvec3(b.pixels[i]);
@@ -73,18 +77,18 @@ TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
     for (const float value : values) {
         Picture picture(2, 1);
         picture.pixels = {vec3(value, 2 * value, 0), vec3(7)};
-        mean.add(picture);
+        mean.add_picture(picture);
     }
-    EXPECT_EQ(mean.count(), 4);
+    EXPECT_EQ(mean.picture_count(), 4);
     EXPECT_EQ(mean.mean().pixels[0], vec3(3, 6, 0));
     // Squared deviations 4 + 1 + 1 + 4 = 10, divided by 3 and by 4.
     EXPECT_FLOAT_EQ(mean.variance().pixels[0].x, 10.f / 12);
     EXPECT_FLOAT_EQ(mean.variance().pixels[0].y, 40.f / 12);
     EXPECT_EQ(mean.variance().pixels[1], vec3(0));
     measure::PictureMean one;
-    one.add(Picture(1, 1));
+    one.add_picture(Picture(1, 1));
     EXPECT_TRUE(std::isnan(one.variance().pixels[0].x));
-    EXPECT_THROW(one.add(Picture(2, 1)), Error);
+    EXPECT_THROW(one.add_picture(Picture(2, 1)), Error);
 }
 
 /// The interval holds the true error, which is known here, and the biased estimate from one half
@@ -97,31 +101,33 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
         test::RandomNumbers numbers(seed);
         const Picture a = add_noise(truth, kNoiseDeviation, numbers),
                       b = add_noise(truth, kNoiseDeviation, numbers);
-        const measure::HalvesEstimate found = estimate(wrong, a, b);
+        const measure::HalvesEstimate found = estimate_error_of_all_pixels(wrong, a, b);
         ASSERT_TRUE(found.ci95.is_known());
         const auto holds = [&](double square) {
             return found.ci95.low <= square && square <= found.ci95.high;
         };
-        held += holds(kTrueSquare);
-        biased_held += holds(mean_square(wrong, a));
-        held_by_deviation += std::abs(found.squared_error - kTrueSquare) <= 1.96 * found.deviation;
+        held += holds(kTrueSquaredError);
+        biased_held += holds(mean_square_difference(wrong, a));
+        held_by_deviation += std::abs(found.squared_error - kTrueSquaredError) <=
+                             1.96 * found.deviation;
         mean += found.squared_error / 20;
         width += (found.ci95.high - found.ci95.low) / 20;
         EXPECT_NEAR(found.unclamped, found.squared_error, 1e-4);
         EXPECT_NEAR(found.halves_rmse, std::sqrt(2.) * kNoiseDeviation, .002);
     }
     std::cout << "[ MEASURED ] " << held << " of 20 intervals hold the true error, " << biased_held
-              << " that of one half; mean estimate " << mean << " of " << kTrueSquare
+              << " that of one half; mean estimate " << mean << " of " << kTrueSquaredError
               << ", mean width " << width << ", held by the deviation " << held_by_deviation
               << '\n';
     EXPECT_GE(held, 17);
     EXPECT_GE(held_by_deviation, 17);
     EXPECT_EQ(biased_held, 0);
-    EXPECT_NEAR(mean, kTrueSquare, 5e-5);
+    EXPECT_NEAR(mean, kTrueSquaredError, 5e-5);
     // 4 standard errors of the mean of 49152 products, whose variance is that of
     // (e - n)(e - m) = e^2 - e(n + m) + nm: 2 e^2 s^2 + s^4.
-    const double e = kTrueSquare, s = kNoiseDeviation * kNoiseDeviation;
-    const double wanted = 4 * std::sqrt((2 * e * s + s * s) / (3. * kEdge * kEdge));
+    const double e = kTrueSquaredError, s = kNoiseDeviation * kNoiseDeviation;
+    const double wanted = 4 * std::sqrt((2 * e * s + s * s) /
+                                        (3. * kTestPictureEdge * kTestPictureEdge));
     EXPECT_NEAR(width, wanted, .25 * wanted);
 }
 
@@ -129,13 +135,14 @@ TEST(Halves, IntervalIsUnknownForFewTiles) {
     const Picture picture = make_true_picture();
     measure::Mask mask(picture.pixels.size(), 0);
     for (int k = 0; k < 9; ++k)
-        mask[std::size_t(k) * measure::kTileEdge % kEdge +
-             std::size_t(k / 8) * measure::kTileEdge * kEdge] = 255;
-    EXPECT_FALSE(estimate(picture, picture, picture, mask).ci95.is_known());
+        mask[std::size_t(k) * measure::kBootstrapTileEdge % kTestPictureEdge +
+             std::size_t(k / 8) * measure::kBootstrapTileEdge * kTestPictureEdge] = 255;
+    EXPECT_FALSE(estimate_error_of_all_pixels(picture, picture, picture, mask).ci95.is_known());
     mask.back() = 255;
-    EXPECT_TRUE(estimate(picture, picture, picture, mask).ci95.is_known());
+    EXPECT_TRUE(estimate_error_of_all_pixels(picture, picture, picture, mask).ci95.is_known());
     const measure::Mask none(picture.pixels.size(), 0);
-    EXPECT_TRUE(std::isnan(estimate(picture, picture, picture, none).squared_error));
+    EXPECT_TRUE(
+        std::isnan(estimate_error_of_all_pixels(picture, picture, picture, none).squared_error));
 }
 
 TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
@@ -143,7 +150,7 @@ TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
     a.pixels = {vec3(.5f), vec3(1.5f, .5f, .5f), vec3(2), vec3(3)};
     b.pixels = {vec3(.5f), vec3(.5f), vec3(3), vec3(.5f)};
     x.pixels = {vec3(.5f), vec3(.5f), vec3(1), vec3(1)};
-    const measure::HalvesEstimate found = estimate(x, a, b);
+    const measure::HalvesEstimate found = estimate_error_of_all_pixels(x, a, b);
     EXPECT_DOUBLE_EQ(found.crossing, .5);
     EXPECT_DOUBLE_EQ(found.squared_error, 0); // clamped: (1-1)(1-1) and (1-1)(1-.5)
     // Pixel 3: (1-2)(1-3) = 2 in three channels. Pixel 4: (1-3)(1-.5) = -1.
@@ -152,12 +159,12 @@ TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
 
 /// A perfect picture with halves that lie on both sides of it.
 measure::Difference make_hidden_difference() {
-    Picture x(kEdge, kEdge), a = x, b = x;
+    Picture x(kTestPictureEdge, kTestPictureEdge), a = x, b = x;
     for (std::size_t i = 0; i < x.pixels.size(); ++i)
         x.pixels[i] = vec3(.5f), a.pixels[i] = vec3(.6f), b.pixels[i] = vec3(.4f);
-    const measure::ReferenceHalves halves = measure::make_halves(a, b, 0);
-    return measure::difference_from_halves(x, halves, {},
-                                           measure::flip_against_halves(x, halves, 0));
+    const measure::ReferenceHalves halves = measure::make_reference_halves(a, b, 0);
+    return measure::compute_difference_from_halves(
+        x, halves, {}, measure::compute_flip_against_halves(x, halves, 0));
 }
 
 TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
@@ -166,18 +173,18 @@ TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
     EXPECT_FALSE(hidden.psnr);
     EXPECT_GT(hidden.flip_floor, hidden.flip);
     EXPECT_TRUE(measure::is_below_noise(hidden));
-    EXPECT_EQ(report::format_error(hidden.rmse), "below the noise");
+    EXPECT_EQ(report::format_picture_error(hidden.rmse), "below the noise");
     EXPECT_THAT(report::format_flip(hidden), HasSubstr(", below the noise"));
 
-    report::Row row = report::sample::row("parallax", 5, .1, .1);
+    report::Row row = report::sample::make_row("parallax", 5, .1, .1);
     row.error = hidden;
-    measure::set_noise(row, {{.squared_error = -.01, .flip = .1, .flip_floor = .2}});
-    report::Comparison made = report::sample::comparison({row});
-    made.studies = {std::string(measure::kNoise)};
+    measure::set_noise_of_row(row, {{.squared_error = -.01, .flip = .1, .flip_floor = .2}});
+    report::Comparison made = report::sample::make_comparison({row});
+    made.studies = {std::string(measure::kNoiseMetricName)};
     made.noise = std::make_shared<measure::ReferenceNoise>();
     made.noise->flip_floor = hidden.flip_floor;
     made.pareto = {0};
-    const std::string text = report::sample::said(made);
+    const std::string text = report::sample::report_text_of_comparison(made);
     EXPECT_THAT(text, HasSubstr("| below the noise |")); // rmse in the table of rows
     EXPECT_THAT(text, HasSubstr("Errors against a reference with noise"));
     const std::string page = report::to_html(made);
@@ -190,7 +197,7 @@ TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
 }
 
 TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {
-    const report::Comparison usual = report::sample::usual();
+    const report::Comparison usual = report::sample::make_usual_comparison();
     EXPECT_THAT(report::to_json(usual), Not(HasSubstr("noise")));
     EXPECT_THAT(report::to_markdown(usual), Not(HasSubstr("noise")));
     EXPECT_THAT(report::to_csv(usual), Not(HasSubstr("noise")));
@@ -198,11 +205,12 @@ TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {
 
 TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
     const Picture truth = make_true_picture(), wrong = make_wrong_picture();
-    const measure::ReferenceHalves halves = measure::make_halves(truth, truth, 1);
-    const std::vector<float> map = measure::flip_against_halves(wrong, halves, 1);
+    const measure::ReferenceHalves halves = measure::make_reference_halves(truth, truth, 1);
+    const std::vector<float> map = measure::compute_flip_against_halves(wrong, halves, 1);
     Picture shown = wrong;
     for (vec3& pixel : shown.pixels) pixel *= 2;
-    const measure::Difference found = measure::difference_from_halves(shown, halves, {}, map),
+    const measure::Difference found = measure::compute_difference_from_halves(shown, halves, {},
+                                                                              map),
                               plain = measure::difference(shown, halves.mean, {}, map);
     EXPECT_EQ(map, measure::flip(measure::to_unrounded_display(wrong, 1),
                                  measure::to_unrounded_display(truth, 1)));
@@ -215,17 +223,17 @@ TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
 }
 
 TEST(Halves, DifferencesBelowTheFloorTie) {
-    using report::sample::row;
-    report::Row near = row("near", 2, .1, .20), far = row("far", 1, .1, .21);
+    using report::sample::make_row;
+    report::Row near = make_row("near", 2, .1, .20), far = make_row("far", 1, .1, .21);
     EXPECT_TRUE(measure::has_less_flip(near, far));
     near.error.flip_floor = far.error.flip_floor = .005;
     EXPECT_TRUE(measure::has_less_flip(near, far));
     near.error.flip_floor = far.error.flip_floor = .02;
     EXPECT_FALSE(measure::has_less_flip(near, far));
     EXPECT_FALSE(measure::has_less_flip(far, near));
-    EXPECT_TRUE(measure::is_better_choice(far, near)) << "it is faster and ties in FLIP";
-    report::Comparison made = report::sample::comparison({near, far});
-    made.pareto = measure::find_front(made.rows);
+    EXPECT_TRUE(measure::is_better_variant_choice(far, near)) << "it is faster and ties in FLIP";
+    report::Comparison made = report::sample::make_comparison({near, far});
+    made.pareto = measure::find_front_of_rows(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{1});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[0]);
     EXPECT_EQ(measure::find_ties_with_closest_row(made),
@@ -242,13 +250,13 @@ TEST(Halves, DifferencesBelowTheFloorTie) {
 }
 
 TEST(Halves, WantedFloorIsAFifthOfTheLeastFlipOfARowWithCaptures) {
-    report::Row traced = report::sample::row("raytrace", 1, .1, .01);
+    report::Row traced = report::sample::make_row("raytrace", 1, .1, .01);
     traced.rays = RayCounts{1, 1, 1};
-    const report::Row reuse = report::sample::row("reuse", 1, .1, .3),
-                      parallax = report::sample::row("parallax", 1, .1, .2);
-    EXPECT_DOUBLE_EQ(measure::choose_wanted_floor({&traced, &reuse, &parallax}), .04);
-    EXPECT_DOUBLE_EQ(measure::choose_wanted_floor({&traced}), .002);
-    EXPECT_EQ(measure::choose_wanted_floor({}), 0);
+    const report::Row reuse = report::sample::make_row("reuse", 1, .1, .3),
+                      parallax = report::sample::make_row("parallax", 1, .1, .2);
+    EXPECT_DOUBLE_EQ(measure::choose_target_noise_floor({&traced, &reuse, &parallax}), .04);
+    EXPECT_DOUBLE_EQ(measure::choose_target_noise_floor({&traced}), .002);
+    EXPECT_EQ(measure::choose_target_noise_floor({}), 0);
 }
 
 } // namespace

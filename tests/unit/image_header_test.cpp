@@ -11,7 +11,7 @@ namespace {
 
 using namespace catoptric;
 
-std::string number(std::uint32_t value, int size, bool is_big_endian) {
+std::string encode_number_bytes(std::uint32_t value, int size, bool is_big_endian) {
     std::string text;
     for (int i = 0; i < size; ++i)
         text += static_cast<char>(value >> (8 * (is_big_endian ? size - 1 - i : i)) & 0xff);
@@ -19,10 +19,10 @@ std::string number(std::uint32_t value, int size, bool is_big_endian) {
 }
 
 /// Builds a TIFF file with three channels of 8 bits and one strip of `bytes` bytes.
-std::string tiff(std::uint32_t width, std::uint32_t height, std::uint32_t compression,
-                 std::size_t bytes, bool is_big_endian = false) {
+std::string make_tiff_bytes(std::uint32_t width, std::uint32_t height, std::uint32_t compression,
+                            std::size_t bytes, bool is_big_endian = false) {
     const auto of = [&](std::uint32_t value, int size) {
-        return number(value, size, is_big_endian);
+        return encode_number_bytes(value, size, is_big_endian);
     };
     std::string entries;
     const auto entry = [&](std::uint32_t tag, bool is_short, std::uint32_t count,
@@ -39,36 +39,39 @@ std::string tiff(std::uint32_t width, std::uint32_t height, std::uint32_t compre
     return text + std::string(bytes, '\0');
 }
 
-ImageShape shape_of(const std::string& file) {
+ImageShape read_image_shape(const std::string& file) {
     return read_image_header(MemoryByteSource(file), "tiff", "a.tif").value();
 }
 
 TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {
     for (const bool is_big_endian : {false, true}) {
-        const ImageShape shape = shape_of(tiff(70000, 3, 1, 630000, is_big_endian));
+        const ImageShape shape = read_image_shape(
+            make_tiff_bytes(70000, 3, 1, 630000, is_big_endian));
         EXPECT_EQ(shape.size, uvec2(70000, 3)) << is_big_endian;
         EXPECT_EQ(shape.channel_count, 3u) << is_big_endian;
     }
 }
 
 TEST(TiffHeader, MorePixelsThanTheFileCanHoldAreRefused) {
-    constexpr std::uint32_t kNone = 1, kLzw = 5, kPackBits = 32773, kFax = 4;
+    constexpr std::uint32_t kTiffUncompressed = 1, kLzw = 5, kPackBits = 32773, kFax = 4;
     const auto refusal = [](std::uint32_t compression, std::size_t bytes) {
-        return test::error_text_of(Failure::bad_data,
-                                   [&] { shape_of(tiff(8192, 8192, compression, bytes)); });
+        return test::catch_error_text(Failure::bad_data, [&] {
+            read_image_shape(make_tiff_bytes(8192, 8192, compression, bytes));
+        });
     };
-    EXPECT_THAT(refusal(kNone, 1000),
+    EXPECT_THAT(refusal(kTiffUncompressed, 1000),
                 testing::HasSubstr("a.tif: wanted at least 201326592 bytes for 8192x8192 pixels"));
     EXPECT_THAT(refusal(kPackBits, 1000), testing::HasSubstr("wanted at least 3145728 bytes"));
     EXPECT_THAT(refusal(kLzw, 1000), testing::HasSubstr("wanted at least 49152 bytes"));
-    EXPECT_EQ(shape_of(tiff(8192, 8192, kLzw, 50000)).size, uvec2(8192));
-    EXPECT_EQ(shape_of(tiff(8192, 8192, kFax, 10)).size, uvec2(8192)) << "any size may do";
+    EXPECT_EQ(read_image_shape(make_tiff_bytes(8192, 8192, kLzw, 50000)).size, uvec2(8192));
+    EXPECT_EQ(read_image_shape(make_tiff_bytes(8192, 8192, kFax, 10)).size, uvec2(8192))
+        << "any size may do";
 }
 
 TEST(TiffHeader, TruncatedFileIsReadOrRefused) {
-    const std::string whole = tiff(4, 4, 1, 48);
+    const std::string whole = make_tiff_bytes(4, 4, 1, 48);
     for (std::size_t size = 0; size < whole.size(); ++size) try {
-            EXPECT_LE(shape_of(whole.substr(0, size)).channel_count, 3u) << size;
+            EXPECT_LE(read_image_shape(whole.substr(0, size)).channel_count, 3u) << size;
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::bad_data) << size;
         }

@@ -23,8 +23,8 @@ using testing::Not;
 const Error kLost(Failure::device_lost, "Vulkan: cannot run frame 7: \"lost\"");
 const std::string kWhy = "4 of 8 rows: Vulkan: cannot run frame 7: \"lost\"";
 
-Comparison stopped() {
-    Comparison made = usual();
+Comparison make_stopped_comparison() {
+    Comparison made = make_usual_comparison();
     made.complete = false;
     made.asked = 8;
     made.stopped = kLost;
@@ -32,22 +32,23 @@ Comparison stopped() {
 }
 
 TEST(IncompleteReport, EveryFileSaysWhyTheRunStoppedAndHowManyRowsItHas) {
-    const json document = json::parse(catoptric::report::to_json(stopped()));
+    const json document = json::parse(catoptric::report::to_json(make_stopped_comparison()));
     EXPECT_EQ(document["complete"], false);
     EXPECT_EQ(document["incomplete"], kWhy);
     EXPECT_EQ(document["rows_asked"], 8);
     EXPECT_EQ(document["rows"].size(), 4U);
-    EXPECT_THAT(catoptric::report::to_markdown(stopped()), HasSubstr("> Incomplete, " + kWhy));
-    EXPECT_THAT(catoptric::report::to_html(stopped()),
+    EXPECT_THAT(catoptric::report::to_markdown(make_stopped_comparison()),
+                HasSubstr("> Incomplete, " + kWhy));
+    EXPECT_THAT(catoptric::report::to_html(make_stopped_comparison()),
                 HasSubstr("Incomplete, 4 of 8 rows: Vulkan: cannot run frame 7: &quot;lost&quot;"));
-    const std::string csv = catoptric::report::to_csv(stopped());
+    const std::string csv = catoptric::report::to_csv(make_stopped_comparison());
     EXPECT_THAT(csv.substr(0, csv.find("\r\n")), testing::EndsWith(",incomplete"));
     EXPECT_THAT(
         csv, testing::EndsWith(",\"4 of 8 rows: Vulkan: cannot run frame 7: \"\"lost\"\"\"\r\n"));
 }
 
 TEST(IncompleteReport, ReportOfARunningRunSaysThatTheRunHasNotEnded) {
-    Comparison made = stopped();
+    Comparison made = make_stopped_comparison();
     made.stopped.reset();
     const std::string why = "4 of 8 rows: the run had not ended when this was written";
     EXPECT_EQ(json::parse(catoptric::report::to_json(made))["incomplete"], why);
@@ -58,7 +59,7 @@ TEST(IncompleteReport, ReportOfARunningRunSaysThatTheRunHasNotEnded) {
 }
 
 TEST(IncompleteReport, CompleteReportIsNotMarkedIncomplete) {
-    const Comparison made = usual();
+    const Comparison made = make_usual_comparison();
     EXPECT_FALSE(json::parse(catoptric::report::to_json(made)).contains("incomplete"));
     EXPECT_THAT(catoptric::report::to_markdown(made), Not(HasSubstr("ncomplete")));
     EXPECT_THAT(catoptric::report::to_html(made), Not(HasSubstr("ncomplete")));
@@ -66,7 +67,7 @@ TEST(IncompleteReport, CompleteReportIsNotMarkedIncomplete) {
 }
 
 TEST(IncompleteReport, ReportWithoutRowsIsMarkedIncompleteToo) {
-    Comparison made = stopped();
+    Comparison made = make_stopped_comparison();
     made.rows.clear(), made.pareto.clear();
     const std::string csv = catoptric::report::to_csv(made);
     const std::string only = csv.substr(csv.find("\r\n") + 2);
@@ -80,7 +81,7 @@ TEST(IncompleteReport, ReportWithoutRowsIsMarkedIncompleteToo) {
 
 class GrowingReport : public test::InFolder {
 protected:
-    std::vector<std::string> images() const {
+    std::vector<std::string> list_image_files() const {
         std::vector<std::string> names;
         for (const auto& entry : fs::directory_iterator(folder / "out/images"))
             names.push_back(entry.path().filename());
@@ -92,7 +93,7 @@ protected:
 /// The report is written after each row. Each time, all text files are written, but only the
 /// pictures of new rows.
 TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
-    Comparison whole = usual();
+    Comparison whole = make_usual_comparison();
     Comparison made = whole;
     made.complete = false;
     made.asked = 4;
@@ -101,26 +102,27 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     made.rows[0].causes->largest.resize(made.rows[0].display.pixels.size());
     whole.rows[0].causes = made.rows[0].causes;
     catoptric::report::ReportWriter writer(folder / "out");
-    writer.write(made);
-    EXPECT_EQ(images(), (std::vector<std::string>{"causes-naive0.png", "naive0-error.png",
-                                                  "naive0.exr", "naive0.png", "reference.png"}));
+    writer.write_comparison(made);
+    EXPECT_EQ(list_image_files(),
+              (std::vector<std::string>{"causes-naive0.png", "naive0-error.png", "naive0.exr",
+                                        "naive0.png", "reference.png"}));
     std::vector<fs::path> missing = catoptric::report::list_report_files({"naive0"});
-    EXPECT_EQ(missing.size(), 4 + images().size() + 1);
+    EXPECT_EQ(missing.size(), 4 + list_image_files().size() + 1);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
     EXPECT_EQ(missing, (std::vector<fs::path>{"images/worst-naive0.png"})); // the run drew no views
     fs::remove_all(folder / "out/images");
     made.rows.push_back(whole.rows[1]);
-    writer.write(made);
+    writer.write_comparison(made);
     const std::string second = whole.rows[1].image;
-    EXPECT_EQ(images(),
+    EXPECT_EQ(list_image_files(),
               (std::vector<std::string>{second + "-error.png", second + ".exr", second + ".png"}));
     // The causes of a row's error may arrive after the row itself.
     made.rows[1].causes = whole.rows[1].causes = made.rows[0].causes;
     fs::remove_all(folder / "out/images");
-    writer.write(made);
-    EXPECT_EQ(images(), (std::vector<std::string>{"causes-" + second + ".png"}));
+    writer.write_comparison(made);
+    EXPECT_EQ(list_image_files(), (std::vector<std::string>{"causes-" + second + ".png"}));
     EXPECT_EQ(json::parse(catoptric::read_file(folder / "out/report.json"))["rows"].size(), 2U);
-    writer.write(whole);
+    writer.write_comparison(whole);
     for (const auto& [file, text] : {std::pair("report.json", catoptric::report::to_json(whole)),
                                      std::pair("report.html", catoptric::report::to_html(whole)),
                                      std::pair("report.md", catoptric::report::to_markdown(whole)),
@@ -131,23 +133,23 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
 /// The worst view of a row may change with every drawn view. The picture of a changed worst view is
 /// written again.
 TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.complete = false;
     made.rows.resize(2);
     made.views.resize(6);
     for (auto& row : made.rows) row.views.resize(3);
     catoptric::report::ReportWriter writer(folder / "out");
-    writer.write(made);
+    writer.write_comparison(made);
     made.rows[0].worst = {0, catoptric::measure::Picture(9, 3)};
     made.rows[1].worst = {0, catoptric::measure::Picture(9, 3)};
     fs::remove_all(folder / "out/images");
-    writer.write(made);
+    writer.write_comparison(made);
     const auto of = [&](int row) { return "worst-" + made.rows[row].image + ".png"; };
-    EXPECT_EQ(images(), (std::vector<std::string>{of(0), of(1)}));
+    EXPECT_EQ(list_image_files(), (std::vector<std::string>{of(0), of(1)}));
     fs::remove_all(folder / "out/images");
     made.rows[1].worst->view = 2;
-    writer.write(made);
-    EXPECT_EQ(images(), std::vector<std::string>{of(1)});
+    writer.write_comparison(made);
+    EXPECT_EQ(list_image_files(), std::vector<std::string>{of(1)});
     EXPECT_EQ(catoptric::read_file(folder / "out/report.html"), catoptric::report::to_html(made));
 }
 
@@ -156,12 +158,12 @@ TEST_F(GrowingReport, FailedWriteIsRepeatedWithTheNextRow) {
     catoptric::report::ReportWriter writer(folder / "out");
     // A folder takes the name of a file that the writer will write.
     fs::create_directories(folder / "out/images/naive0.exr");
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.rows.resize(1);
-    EXPECT_THROW(writer.write(made), Error);
+    EXPECT_THROW(writer.write_comparison(made), Error);
     EXPECT_FALSE(fs::exists(folder / "out/report.json"));
     fs::remove(folder / "out/images/naive0.exr");
-    writer.write(made);
+    writer.write_comparison(made);
     EXPECT_TRUE(fs::exists(folder / "out/images/naive0.exr"));
     EXPECT_TRUE(fs::exists(folder / "out/report.json"));
 }
@@ -173,8 +175,8 @@ TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
     stress.asked = 27;
     stress.stopped = kLost;
     stress.rows = {{.id = "N1", .pictures = {{"N1-found", 4, 3, "a PNG"}}}};
-    StressWriter writer(folder / "out");
-    writer.write(stress);
+    StressReportWriter writer(folder / "out");
+    writer.write_stress_results(stress);
     EXPECT_EQ(catoptric::read_file(folder / "out/images/N1-found.png"), "a PNG");
     const std::string why = "1 of 27 rows: Vulkan: cannot run frame 7: ";
     const json document = json::parse(catoptric::read_file(folder / "out/stress.json"));
@@ -185,8 +187,8 @@ TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
         EXPECT_THAT(catoptric::read_file(folder / "out" / file), HasSubstr("Incomplete, " + why));
     fs::remove_all(folder / "out/images");
     stress.complete = true;
-    writer.write(stress);
-    EXPECT_EQ(images(), std::vector<std::string>{}) << "pictures are written once";
+    writer.write_stress_results(stress);
+    EXPECT_EQ(list_image_files(), std::vector<std::string>{}) << "pictures are written once";
     for (const char* file : {"stress.html", "stress.md", "stress.json"})
         EXPECT_THAT(catoptric::read_file(folder / "out" / file), Not(HasSubstr("ncomplete,")));
 }

@@ -13,14 +13,14 @@
 namespace catoptric::measure {
 namespace {
 
-std::vector<double> one_to(std::size_t n) {
+std::vector<double> list_numbers_from_one_to(std::size_t n) {
     std::vector<double> values(n);
     std::iota(values.begin(), values.end(), 1.0);
     std::ranges::reverse(values); // the order must not matter
     return values;
 }
 
-bool interval_holds(const Interval& interval, double value) {
+bool does_interval_hold(const Interval& interval, double value) {
     return interval.low <= value && value <= interval.high;
 }
 
@@ -29,7 +29,7 @@ TEST(MedianInterval, IntervalEndsAtTheRanksOfTheSignTest) {
     const std::pair<std::size_t, double> ranks[] = {
         {6, 1}, {8, 1}, {9, 2}, {11, 2}, {12, 3}, {15, 4}, {20, 6}, {30, 10}, {50, 18}, {100, 40}};
     for (const auto& [n, rank] : ranks) {
-        const Interval found = median_interval(one_to(n));
+        const Interval found = median_confidence_interval(list_numbers_from_one_to(n));
         EXPECT_EQ(found.low, rank) << n;
         EXPECT_EQ(found.high, static_cast<double>(n) + 1 - rank) << n;
     }
@@ -37,10 +37,10 @@ TEST(MedianInterval, IntervalEndsAtTheRanksOfTheSignTest) {
 
 TEST(MedianInterval, IntervalOfFewerThanSixValuesOrNanIsUnknown) {
     for (std::size_t n = 0; n < kMinIntervalSamples; ++n)
-        EXPECT_FALSE(median_interval(one_to(n)).is_known());
-    std::vector<double> values = one_to(6);
+        EXPECT_FALSE(median_confidence_interval(list_numbers_from_one_to(n)).is_known());
+    std::vector<double> values = list_numbers_from_one_to(6);
     values[3] = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(median_interval(values).is_known());
+    EXPECT_FALSE(median_confidence_interval(values).is_known());
 }
 
 /// The interval contains the true median in at least 95 % of cases, although the samples come from
@@ -53,7 +53,7 @@ TEST(MedianInterval, IntervalContainsTheTrueMedianIn95PercentOfCases) {
         for (int k = 0; k < 4000; ++k) {
             std::vector<double> values(n);
             for (double& v : values) v = value(random);
-            held += interval_holds(median_interval(values), 1);
+            held += does_interval_hold(median_confidence_interval(values), 1);
         }
         EXPECT_GE(held, 3800) << n;
         EXPECT_LT(held, 3960) << n << ": as wide as that it tells nobody apart";
@@ -64,13 +64,13 @@ TEST(MedianInterval, PairedIntervalUsesTheRatioOrDifferenceOfEachPair) {
     // The rounds have very different lengths, but each round of b is 5 % longer than the same round
     // of a.
     const std::vector<double> a{1, 10, 2, 20, 3, 30}, b{1.05, 10.5, 2.1, 21, 3.15, 31.5};
-    const Interval ratio = ratio_interval(b, a);
+    const Interval ratio = median_ratio_interval(b, a);
     EXPECT_NEAR(ratio.low, 1.05, 1e-12);
     EXPECT_NEAR(ratio.high, 1.05, 1e-12);
-    const Interval difference = difference_interval(b, a);
+    const Interval difference = median_difference_interval(b, a);
     EXPECT_NEAR(difference.low, .05, 1e-12);
     EXPECT_NEAR(difference.high, 1.5, 1e-12);
-    EXPECT_FALSE(ratio_interval(a, std::vector<double>(5, 1.0)).is_known()) << "five pairs";
+    EXPECT_FALSE(median_ratio_interval(a, std::vector<double>(5, 1.0)).is_known()) << "five pairs";
 }
 
 TEST(Summary, SummaryOfRoundsUsesTheMedianOfEachRound) {

@@ -20,8 +20,8 @@ using namespace catoptric;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string said_of(const std::string& text) {
-    return test::error_text_of(Failure::bad_data, [&] { check_json("x.json", text); });
+std::string json_error_text(const std::string& text) {
+    return test::catch_error_text(Failure::bad_data, [&] { check_json_syntax("x.json", text); });
 }
 
 TEST(Json, JsonErrorNamesPlaceExpectedAndFound) {
@@ -43,10 +43,10 @@ TEST(Json, JsonErrorNamesPlaceExpectedAndFound) {
         {"[trxe]", "line 1, column 4: wanted a value, found 'x'"},
         {std::string(64, '['), "wanted nesting below 64, found more"}};
     for (const auto& [text, message] : cases) {
-        EXPECT_THAT(said_of(text), HasSubstr("x.json: JSON: ")) << text;
-        EXPECT_THAT(said_of(text), HasSubstr(message)) << text;
+        EXPECT_THAT(json_error_text(text), HasSubstr("x.json: JSON: ")) << text;
+        EXPECT_THAT(json_error_text(text), HasSubstr(message)) << text;
     }
-    EXPECT_LT(said_of("[\"" + std::string(100000, 'x') + "\" 3").size(), 200U);
+    EXPECT_LT(json_error_text("[\"" + std::string(100000, 'x') + "\" 3").size(), 200U);
 }
 
 /// JSON text with one damaged byte, or cut off, is either read or refused with a message that our
@@ -61,7 +61,7 @@ TEST(Json, JsonErrorContainsNoTextOfTheParser) {
         text[random() % text.size()] = static_cast<char>(random() % 256);
         if (i % 3 == 0) text.resize(random() % text.size());
         try {
-            check_json("x.json", text);
+            check_json_syntax("x.json", text);
         } catch (const BadData& error) {
             ++refused;
             const std::string said = error.what();
@@ -89,10 +89,10 @@ TEST_F(JsonFiles, AllReadersGiveTheSameJsonError) {
     for (const auto& [reader, read] : std::map<std::string, std::function<void()>>{
              {"glTF", [&] { scene::load(put("scene.gltf", broken)); }},
              {"scene file", [&] { scene::read_scene_file(folder / "scene.obj", {}); }},
-             {"plan", [&] { app::read_plan("plan:" + put("plan.json", broken)); }},
+             {"plan", [&] { app::read_technique_plan("plan:" + put("plan.json", broken)); }},
              {"benchmarks", [&] { report::read_benchmarks(broken, "b.json"); }},
-             {"profile", [&] { app::read_profile(broken, "p.json", {}); }}})
-        EXPECT_THAT(test::error_text_of(Failure::bad_data, read), HasSubstr(place)) << reader;
+             {"profile", [&] { app::parse_device_profile(broken, "p.json", {}); }}})
+        EXPECT_THAT(test::catch_error_text(Failure::bad_data, read), HasSubstr(place)) << reader;
 }
 
 } // namespace

@@ -7,109 +7,145 @@
 namespace {
 
 using namespace catoptric;
-using report::sample::row;
-using report::sample::times;
+using report::sample::make_row;
+using report::sample::make_time_samples;
 
 TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
-    measure::Row a = row("a", 1, .1, .1), b = row("b", 2, .1, .2);
-    a.frame_ms = times(9), b.frame_ms = times(3);
-    EXPECT_TRUE(measure::is_faster(a, b));
-    EXPECT_TRUE(measure::is_better_choice(a, b));
+    measure::Row a = make_row("a", 1, .1, .1), b = make_row("b", 2, .1, .2);
+    a.frame_ms = make_time_samples(9), b.frame_ms = make_time_samples(3);
+    EXPECT_TRUE(measure::is_confidently_faster(a, b));
+    EXPECT_TRUE(measure::is_better_variant_choice(a, b));
     a.moves = b.moves = true;
-    EXPECT_TRUE(measure::is_faster(b, a)) << "the host's work counts";
-    EXPECT_FALSE(measure::is_better_choice(a, b)) << "it is closer, and slower";
-    EXPECT_EQ(measure::find_front({a, b}), (std::vector<std::size_t>{1, 0}));
+    EXPECT_TRUE(measure::is_confidently_faster(b, a)) << "the host's work counts";
+    EXPECT_FALSE(measure::is_better_variant_choice(a, b)) << "it is closer, and slower";
+    EXPECT_EQ(measure::find_front_of_rows({a, b}), (std::vector<std::size_t>{1, 0}));
 }
 
 using Front = std::vector<std::size_t>;
 
-/// exact() builds a row with the same time in all rounds. about() builds a row whose time varies by
-/// a tenth.
-measure::Row exact(double ms, double flip) { return row("row", ms, flip, flip); }
-measure::Row about(double ms, double flip) {
-    measure::Row made = exact(ms, flip);
-    made.gpu_ms = times(ms, .1);
+/// make_row_with_equal_times() builds a row with the same time in all rounds.
+/// make_row_with_varying_time() builds a row whose time varies by a tenth.
+measure::Row make_row_with_equal_times(double ms, double flip) {
+    return make_row("row", ms, flip, flip);
+}
+measure::Row make_row_with_varying_time(double ms, double flip) {
+    measure::Row made = make_row_with_equal_times(ms, flip);
+    made.gpu_ms = make_time_samples(ms, .1);
     return made;
 }
 
 TEST(Judge, FrontEqualsHandComputedFronts) {
-    EXPECT_EQ(
-        measure::find_front({exact(3, 1), exact(1, 3), exact(2, 2), exact(3, 3), exact(2, 2.5)}),
-        (Front{1, 2, 0}));
-    EXPECT_EQ(measure::find_front({exact(5, 5)}), Front{0});
-    EXPECT_EQ(measure::find_front({}), Front{});
+    EXPECT_EQ(measure::find_front_of_rows(
+                  {make_row_with_equal_times(3, 1), make_row_with_equal_times(1, 3),
+                   make_row_with_equal_times(2, 2), make_row_with_equal_times(3, 3),
+                   make_row_with_equal_times(2, 2.5)}),
+              (Front{1, 2, 0}));
+    EXPECT_EQ(measure::find_front_of_rows({make_row_with_equal_times(5, 5)}), Front{0});
+    EXPECT_EQ(measure::find_front_of_rows({}), Front{});
     // Of rows with equal times, the row with less error is on the front.
-    EXPECT_EQ(measure::find_front({exact(1, 2), exact(1, 1)}), Front{1});
-    EXPECT_EQ(measure::find_front({exact(2, 1), exact(1, 1)}),
+    EXPECT_EQ(measure::find_front_of_rows(
+                  {make_row_with_equal_times(1, 2), make_row_with_equal_times(1, 1)}),
+              Front{1});
+    EXPECT_EQ(measure::find_front_of_rows(
+                  {make_row_with_equal_times(2, 1), make_row_with_equal_times(1, 1)}),
               Front{1}); // of equal errors, the faster row is on the front
-    EXPECT_EQ(measure::find_front({exact(1, 1), exact(2, 2), exact(1, 1)}), (Front{0, 2}));
+    EXPECT_EQ(measure::find_front_of_rows({make_row_with_equal_times(1, 1),
+                                           make_row_with_equal_times(2, 2),
+                                           make_row_with_equal_times(1, 1)}),
+              (Front{0, 2}));
 }
 
 /// A row with black mirrors cannot be the fastest row, and cannot be on the front either.
 TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
-    measure::Row black = exact(1, .5);
-    EXPECT_EQ(measure::find_front({black, exact(2, .1), exact(3, .6)}), (Front{0, 1}));
+    measure::Row black = make_row_with_equal_times(1, .5);
+    EXPECT_EQ(measure::find_front_of_rows(
+                  {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
+              (Front{0, 1}));
     black.mirrors_black = true;
-    EXPECT_EQ(measure::find_front({black, exact(2, .1), exact(3, .6)}), Front{1});
-    EXPECT_FALSE(measure::is_better_choice(black, exact(3, .6)));
-    EXPECT_FALSE(measure::is_better_choice(exact(1, .1), black));
+    EXPECT_EQ(measure::find_front_of_rows(
+                  {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
+              Front{1});
+    EXPECT_FALSE(measure::is_better_variant_choice(black, make_row_with_equal_times(3, .6)));
+    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(1, .1), black));
     measure::Comparison made;
-    made.rows = {black, exact(2, .1)};
-    made.pareto = measure::find_front(made.rows);
+    made.rows = {black, make_row_with_equal_times(2, .1)};
+    made.pareto = measure::find_front_of_rows(made.rows);
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
     EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
-    ASSERT_EQ(measure::rank_rows(made).black.size(), 1U);
-    EXPECT_TRUE(measure::rank_rows(made).beaten_by_beaten.empty());
+    ASSERT_EQ(measure::rank_rows_by_time(made).black.size(), 1U);
+    EXPECT_TRUE(measure::rank_rows_by_time(made).beaten_by_beaten.empty());
 }
 
 /// A row whose picture is a file can be the closest row, but takes no place in the order of time.
 TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
     measure::Comparison made;
-    measure::Row file = exact(1, .01);
+    measure::Row file = make_row_with_equal_times(1, .01);
     file.label = "file";
     file.gpu_ms = {};
     file.gpu_ms.median = NAN;
-    made.rows = {exact(2, .1), file, exact(3, .05)};
-    made.pareto = measure::find_front(made.rows);
+    made.rows = {make_row_with_equal_times(2, .1), file, make_row_with_equal_times(3, .05)};
+    made.pareto = measure::find_front_of_rows(made.rows);
     EXPECT_EQ(made.pareto, (Front{0, 2}));
     EXPECT_EQ(measure::find_time_places(made, made.rows[2]).last, 2u);
     EXPECT_EQ(measure::find_time_places(made, made.rows[1]).first, 0u);
     EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[0]});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
-    const measure::Ranking ranking = measure::rank_rows(made);
+    const measure::TimeRanking ranking = measure::rank_rows_by_time(made);
     EXPECT_EQ(ranking.untimed, std::vector<const measure::Row*>{&made.rows[1]});
     EXPECT_TRUE(ranking.beaten_by_beaten.empty());
-    EXPECT_EQ(measure::judge_ray_tracing(made).others, 2u);
+    EXPECT_EQ(measure::find_ray_tracing_verdict(made).others, 2u);
 }
 
 TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
-    EXPECT_TRUE(measure::is_faster(exact(10, 1), about(12, 1))) << "10.8 at least";
-    EXPECT_FALSE(measure::is_faster(exact(10, 1), about(11, 1))) << "9.9 in three rounds";
-    EXPECT_FALSE(measure::is_faster(about(11, 1), exact(10, 1)));
-    EXPECT_TRUE(measure::is_tie(exact(10, 1), about(11, 1)));
-    EXPECT_TRUE(measure::is_tie(exact(10, 1), exact(10, 1)));
+    EXPECT_TRUE(measure::is_confidently_faster(make_row_with_equal_times(10, 1),
+                                               make_row_with_varying_time(12, 1)))
+        << "10.8 at least";
+    EXPECT_FALSE(measure::is_confidently_faster(make_row_with_equal_times(10, 1),
+                                                make_row_with_varying_time(11, 1)))
+        << "9.9 in three rounds";
+    EXPECT_FALSE(measure::is_confidently_faster(make_row_with_varying_time(11, 1),
+                                                make_row_with_equal_times(10, 1)));
+    EXPECT_TRUE(
+        measure::is_time_tie(make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1)));
+    EXPECT_TRUE(
+        measure::is_time_tie(make_row_with_equal_times(10, 1), make_row_with_equal_times(10, 1)));
     // The same rounds are slow for both rows. Rows are compared round by round, so a slow moment of
     // the machine does not hide the difference.
-    EXPECT_TRUE(measure::is_faster(about(10, 1), about(10.5, 1)));
-    EXPECT_NEAR(measure::time_ratio(about(10.5, 1), about(10, 1)).low, 1.05, 1e-12);
+    EXPECT_TRUE(measure::is_confidently_faster(make_row_with_varying_time(10, 1),
+                                               make_row_with_varying_time(10.5, 1)));
+    EXPECT_NEAR(measure::time_ratio_interval(make_row_with_varying_time(10.5, 1),
+                                             make_row_with_varying_time(10, 1))
+                    .low,
+                1.05, 1e-12);
 
-    EXPECT_TRUE(measure::is_better_choice(exact(10, 1), about(12, 1)));
-    EXPECT_FALSE(measure::is_better_choice(exact(10, 1), about(11, 1)));
-    EXPECT_TRUE(measure::is_better_choice(about(11, .9), exact(10, 1)))
+    EXPECT_TRUE(measure::is_better_variant_choice(make_row_with_equal_times(10, 1),
+                                                  make_row_with_varying_time(12, 1)));
+    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(10, 1),
+                                                   make_row_with_varying_time(11, 1)));
+    EXPECT_TRUE(measure::is_better_variant_choice(make_row_with_varying_time(11, .9),
+                                                  make_row_with_equal_times(10, 1)))
         << "closer, and not told apart in time";
-    EXPECT_FALSE(measure::is_better_choice(about(12, .9), exact(10, 1))) << "closer, but slower";
-    EXPECT_FALSE(measure::is_better_choice(exact(10, 1.1), about(12, 1)));
-    EXPECT_EQ(measure::find_front({about(11, 1), exact(10, 1)}), (Front{1, 0}));
-    EXPECT_EQ(measure::find_front({exact(10, 1), about(11, .9), exact(12, .9)}), (Front{1, 2}));
+    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_varying_time(12, .9),
+                                                   make_row_with_equal_times(10, 1)))
+        << "closer, but slower";
+    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(10, 1.1),
+                                                   make_row_with_varying_time(12, 1)));
+    EXPECT_EQ(measure::find_front_of_rows(
+                  {make_row_with_varying_time(11, 1), make_row_with_equal_times(10, 1)}),
+              (Front{1, 0}));
+    EXPECT_EQ(measure::find_front_of_rows({make_row_with_equal_times(10, 1),
+                                           make_row_with_varying_time(11, .9),
+                                           make_row_with_equal_times(12, .9)}),
+              (Front{1, 2}));
 }
 
 TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
-    measure::Row a = exact(1, .1), b = exact(1, .2);
+    measure::Row a = make_row_with_equal_times(1, .1), b = make_row_with_equal_times(1, .2);
     // Other metrics do not decide which row is closer.
     a.error.rmse = a.error_all.flip = .5;
     EXPECT_TRUE(measure::has_less_flip(a, b));
     EXPECT_FALSE(measure::has_less_flip(b, a));
-    EXPECT_TRUE(measure::is_better_choice(a, b));
+    EXPECT_TRUE(measure::is_better_variant_choice(a, b));
     // With six drawn views, b is closer in only four, so neither row counts as closer.
     for (int view = 0; view < 6; ++view) {
         a.views.push_back(a), b.views.push_back(b);
@@ -117,34 +153,39 @@ TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     }
     EXPECT_FALSE(measure::has_less_flip(a, b));
     EXPECT_FALSE(measure::has_less_flip(b, a));
-    EXPECT_EQ(measure::find_front({a, b}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_front_of_rows({a, b}), (Front{0, 1}));
     for (measure::Errors& view : a.views) view.error.flip = .3;
     EXPECT_TRUE(measure::has_less_flip(b, a)) << "in every view";
-    EXPECT_EQ(measure::find_front({a, b}), (Front{1}));
+    EXPECT_EQ(measure::find_front_of_rows({a, b}), (Front{1}));
 }
 
 TEST(Judge, RowsWithFewerThanSixRoundsTie) {
-    measure::Row a = exact(1, 1), b = exact(9, 1);
-    ASSERT_TRUE(measure::is_faster(a, b));
+    measure::Row a = make_row_with_equal_times(1, 1), b = make_row_with_equal_times(9, 1);
+    ASSERT_TRUE(measure::is_confidently_faster(a, b));
     b.gpu_ms.rounds.pop_back();
-    EXPECT_FALSE(measure::time_ratio(a, b).is_known());
-    EXPECT_TRUE(measure::is_tie(a, b));
-    EXPECT_EQ(measure::find_front({a, b}), (Front{0, 1}));
+    EXPECT_FALSE(measure::time_ratio_interval(a, b).is_known());
+    EXPECT_TRUE(measure::is_time_tie(a, b));
+    EXPECT_EQ(measure::find_front_of_rows({a, b}), (Front{0, 1}));
 }
 
 TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
-    measure::Row failed = exact(1, 0), no_time = exact(0, 0), no_error = exact(1, 0);
+    measure::Row failed = make_row_with_equal_times(1, 0),
+                 no_time = make_row_with_equal_times(0, 0),
+                 no_error = make_row_with_equal_times(1, 0);
     failed.error.nonfinite = 1;
     no_error.error.rmse = no_error.error.flip = measure::Difference::kNone;
-    EXPECT_EQ(measure::find_front({failed, no_time, no_error, exact(5, 5)}), Front{3});
-    EXPECT_FALSE(measure::is_better_choice(exact(1, 1), no_error));
+    EXPECT_EQ(
+        measure::find_front_of_rows({failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
+        Front{3});
+    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(1, 1), no_error));
 }
 
 TEST(Judge, TiedRowsShareTheirPlaces) {
-    const measure::Comparison made = report::sample::comparison(
-        {exact(10, 1), about(11, 1), exact(5, 1), exact(30, 1)});
+    const measure::Comparison made = report::sample::make_comparison(
+        {make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1),
+         make_row_with_equal_times(5, 1), make_row_with_equal_times(30, 1)});
     const auto places = [&](std::size_t i) {
-        const measure::RankRange found = measure::find_time_places(made, made.rows[i]);
+        const measure::TimeRankRange found = measure::find_time_places(made, made.rows[i]);
         return std::pair(found.first, found.last);
     };
     EXPECT_EQ(places(0), (std::pair<std::size_t, std::size_t>(2, 3)));

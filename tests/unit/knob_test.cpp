@@ -8,32 +8,32 @@ namespace {
 
 using namespace catoptric;
 
-constexpr Knob kExampleKnobs[] = {
+constexpr TechniqueKnob kExampleTechniqueKnobs[] = {
     {.name = "steps", .help = "", .low = 0, .high = 8, .value = 2},
     {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
-std::string knob_refusal(std::string_view knob, std::string_view text) {
-    KnobSettings settings(kExampleKnobs);
-    return test::error_text_of(Failure::usage, [&] { settings.set_knob("row", knob, text); });
+std::string knob_error_text(std::string_view knob, std::string_view text) {
+    KnobSettings settings(kExampleTechniqueKnobs);
+    return test::catch_error_text(Failure::usage, [&] { settings.set_knob("row", knob, text); });
 }
 
 TEST(Knob, SpecialWordReplacesANumber) {
-    KnobSettings settings(kExampleKnobs);
-    EXPECT_FALSE(settings.is_special(kExampleKnobs[1]));
+    KnobSettings settings(kExampleTechniqueKnobs);
+    EXPECT_FALSE(settings.is_special(kExampleTechniqueKnobs[1]));
     settings.set_knob("row", "face", "auto");
-    EXPECT_TRUE(settings.is_special(kExampleKnobs[1]));
-    EXPECT_EQ(settings.format_value(kExampleKnobs[1]), "auto");
-    EXPECT_FALSE(settings == KnobSettings(kExampleKnobs));
+    EXPECT_TRUE(settings.is_special(kExampleTechniqueKnobs[1]));
+    EXPECT_EQ(settings.format_value(kExampleTechniqueKnobs[1]), "auto");
+    EXPECT_FALSE(settings == KnobSettings(kExampleTechniqueKnobs));
     settings.set_knob("row", "face", "16");
-    EXPECT_EQ(settings.number_value(kExampleKnobs[1]), 16);
-    EXPECT_TRUE(settings == KnobSettings(kExampleKnobs));
+    EXPECT_EQ(settings.number_value(kExampleTechniqueKnobs[1]), 16);
+    EXPECT_TRUE(settings == KnobSettings(kExampleTechniqueKnobs));
 }
 
 TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
-    KnobSettings settings(kExampleKnobs);
+    KnobSettings settings(kExampleTechniqueKnobs);
     settings.set_knob("row", "face", "auto");
     try {
-        settings.number_value(kExampleKnobs[1]);
+        settings.number_value(kExampleTechniqueKnobs[1]);
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::internal);
@@ -43,7 +43,7 @@ TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
 }
 
 TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
-    const Knob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
+    const TechniqueKnob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
     KnobSettings settings(std::span(&range, 1));
     settings.set_knob("row", "range", "100000");
     EXPECT_EQ(settings.format_value(range), "100000");
@@ -57,14 +57,14 @@ TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
 
 TEST(Knob, RefusalNamesTheAllowedValues) {
     for (const std::string_view text : {"0", "65", "2.5", "atuo", "", "automatic", "nan"})
-        EXPECT_THAT(knob_refusal("face", text),
+        EXPECT_THAT(knob_error_text("face", text),
                     testing::AllOf(testing::HasSubstr("'face' of 'row'"),
                                    testing::HasSubstr("1 to 64 or auto"),
                                    testing::HasSubstr(std::string(text))));
-    EXPECT_THAT(knob_refusal("face", "atuo"), testing::HasSubstr("did you mean 'auto'?"));
-    EXPECT_THAT(knob_refusal("steps", "a"), testing::Not(testing::HasSubstr("did you mean")));
+    EXPECT_THAT(knob_error_text("face", "atuo"), testing::HasSubstr("did you mean 'auto'?"));
+    EXPECT_THAT(knob_error_text("steps", "a"), testing::Not(testing::HasSubstr("did you mean")));
     for (const std::string_view text : {"9", "auto"}) // this knob has no special word
-        EXPECT_THAT(knob_refusal("steps", text),
+        EXPECT_THAT(knob_error_text("steps", text),
                     testing::AllOf(testing::HasSubstr("0 to 8"),
                                    testing::Not(testing::HasSubstr("or auto"))))
             << text;

@@ -25,43 +25,44 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Returns lag figures for two instants. The first instant has no lag.
-LagAtSpeed at_speed(double speed, double flip) {
+LagAtSpeed make_lag_at_speed(double speed, double flip) {
     return {speed,
-            {error_of(0, 0), error_of(flip / 4, flip)},
-            {error_of(.01, .1), error_of(.02, .1 + flip)}};
+            {make_difference_of_errors(0, 0), make_difference_of_errors(flip / 4, flip)},
+            {make_difference_of_errors(.01, .1), make_difference_of_errors(.02, .1 + flip)}};
 }
 
-LagRow lag_row(const std::string& label) {
+LagRow make_lag_row(const std::string& label) {
     LagRow row;
     row.label = label;
     row.still_frames = 5;
-    row.still_reference_errors = {error_of(.01, .09), error_of(.02, .11)};
+    row.still_reference_errors = {make_difference_of_errors(.01, .09),
+                                  make_difference_of_errors(.02, .11)};
     row.after_black = {{0.2, 0.003, 0}, {0.9, 0.5, 0}, 2, 3};
     row.after_jump = {{0.001, 0, 0}, {0.9, 0.8, 0.7}, 1, {}};
-    row.speeds = {at_speed(1, 0.002), at_speed(2, 0.004)};
+    row.speeds = {make_lag_at_speed(1, 0.002), make_lag_at_speed(2, 0.004)};
     return row;
 }
 
-Comparison with_lag() {
-    Comparison made = usual();
+Comparison make_comparison_with_lag() {
+    Comparison made = make_usual_comparison();
     made.lag = std::make_shared<LagResults>(
         LagResults{.seconds = {0, 2},
                    .path = 4,
                    .jump_from = 2,
                    .frame_cap = 3,
-                   .rows = {lag_row("reuse"), lag_row("parallax")},
+                   .rows = {make_lag_row("reuse"), make_lag_row("parallax")},
                    .without_history = {"naive", "raytrace:depth=16"}});
     return made;
 }
 
 TEST(LagReport, ReportWithoutLagMeasurementsHasNoLagSection) {
-    EXPECT_THAT(said(usual()), Not(HasSubstr("Lag")));
-    EXPECT_THAT(catoptric::report::to_html(usual()), Not(HasSubstr("Lag")));
-    EXPECT_FALSE(json::parse(catoptric::report::to_json(usual())).contains("lag"));
+    EXPECT_THAT(report_text_of_comparison(make_usual_comparison()), Not(HasSubstr("Lag")));
+    EXPECT_THAT(catoptric::report::to_html(make_usual_comparison()), Not(HasSubstr("Lag")));
+    EXPECT_FALSE(json::parse(catoptric::report::to_json(make_usual_comparison())).contains("lag"));
 }
 
 TEST(LagReport, LagTableHasARowForEachSpeed) {
-    const std::string text = said(with_lag());
+    const std::string text = report_text_of_comparison(make_comparison_with_lag());
     EXPECT_TRUE(std::regex_search(
         text,
         std::regex(
@@ -74,32 +75,35 @@ TEST(LagReport, LagTableHasARowForEachSpeed) {
 }
 
 TEST(LagReport, ReportSaysWhereTheFrameCapWasNotEnough) {
-    Comparison made = with_lag();
-    EXPECT_TRUE(
-        std::regex_search(said(made), std::regex(R"(\| reuse +\| +2 \| +3 \| +1 \| +over 3 \|)")))
-        << said(made);
+    Comparison made = make_comparison_with_lag();
+    EXPECT_TRUE(std::regex_search(report_text_of_comparison(made),
+                                  std::regex(R"(\| reuse +\| +2 \| +3 \| +1 \| +over 3 \|)")))
+        << report_text_of_comparison(made);
     made.lag->rows[1].restless_stills = 2;
-    EXPECT_THAT(said(made), HasSubstr("parallax: 2 stills still changed after 3 frames."));
+    EXPECT_THAT(report_text_of_comparison(made),
+                HasSubstr("parallax: 2 stills still changed after 3 frames."));
 }
 
 TEST(LagReport, ReportDescribesLagInSentences) {
-    Comparison made = with_lag();
+    Comparison made = make_comparison_with_lag();
     EXPECT_THAT(
-        said(made),
+        report_text_of_comparison(made),
         HasSubstr(
             "reuse is behind its own still picture by a FLIP of 0.0010 (median 0.0010, largest "
             "0.0020) at 1x, 0.0020 (median 0.0020, largest 0.0040) at 2x; after a cut from black "
             "it is within 1/255 "
             "from frame 2 by rmse, 3 in every pixel; after a jump of half the path from "
             "frame 1 by rmse, over 3 in every pixel."));
-    EXPECT_THAT(said(made), HasSubstr("have no lag: naive, raytrace:depth=16."));
+    EXPECT_THAT(report_text_of_comparison(made),
+                HasSubstr("have no lag: naive, raytrace:depth=16."));
     made.lag->rows.clear();
-    EXPECT_THAT(said(made), HasSubstr("have no lag: naive, raytrace:depth=16."));
-    EXPECT_THAT(said(made), Not(HasSubstr("## Lag")));
+    EXPECT_THAT(report_text_of_comparison(made),
+                HasSubstr("have no lag: naive, raytrace:depth=16."));
+    EXPECT_THAT(report_text_of_comparison(made), Not(HasSubstr("## Lag")));
 }
 
 TEST(LagReport, JsonContainsEveryLagFigure) {
-    Comparison made = with_lag();
+    Comparison made = make_comparison_with_lag();
     made.lag->rows[0].speeds[0].errors[0] = {};
     const json lag = json::parse(catoptric::report::to_json(made))["lag"];
     EXPECT_EQ(lag["complete"], true);
@@ -132,24 +136,24 @@ TEST(LagReport, JsonContainsEveryLagFigure) {
 }
 
 /// Counts the matches of the regular expression `pattern` in `text`.
-std::ptrdiff_t lag_report_count(const std::string& text, const std::string& pattern) {
+std::ptrdiff_t count_pattern_matches(const std::string& text, const std::string& pattern) {
     const std::regex wanted(pattern);
     return std::distance(std::sregex_iterator(text.begin(), text.end(), wanted),
                          std::sregex_iterator());
 }
 
 TEST(LagReport, LagPlotsHaveALineForEachSpeedAndEachRow) {
-    Comparison made = with_lag();
+    Comparison made = make_comparison_with_lag();
     made.lag->rows[1].label = "<b>";
     const std::string html = catoptric::report::to_html(made);
-    EXPECT_EQ(lag_report_count(html, "class=\"line\""),
+    EXPECT_EQ(count_pattern_matches(html, "class=\"line\""),
               2 * 2 + 2 + 2); // lines along the path, against speed, and after a jump
     EXPECT_THAT(html, Not(HasSubstr("<b>")));
     EXPECT_THAT(html, Not(HasSubstr("nan")));
     EXPECT_THAT(html, HasSubstr("<h2>Lag</h2>"));
     made.lag->rows.resize(1);
     made.lag->rows[0].speeds.clear(); // stopped before the first speed
-    EXPECT_EQ(lag_report_count(catoptric::report::to_html(made), "class=\"line\""), 1);
+    EXPECT_EQ(count_pattern_matches(catoptric::report::to_html(made), "class=\"line\""), 1);
 }
 
 TEST(LinePlot, ZerosAreDrawnInTheirOwnLaneAndNanIsAGap) {

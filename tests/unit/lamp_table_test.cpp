@@ -14,7 +14,7 @@ namespace {
 using namespace catoptric;
 
 struct LampScene {
-    render::Geometry geometry;
+    render::FrameGeometry geometry;
     std::vector<shared::Surface> surfaces;
 };
 
@@ -23,7 +23,7 @@ void add_right_triangle(LampScene& scene, vec3 corner, float leg, vec3 emission)
     const auto first = static_cast<std::uint32_t>(scene.geometry.vertices.size());
     for (const vec3& p : {corner, corner + vec3(leg, 0, 0), corner + vec3(0, leg, 0)})
         scene.geometry.vertices.push_back({.position = p, .normal = {0, 0, 1}});
-    render::DrawRange range;
+    render::ObjectDrawRange range;
     range.first_index = static_cast<std::uint32_t>(scene.geometry.indices.size());
     range.index_count = 3;
     for (std::uint32_t i = 0; i < 3; ++i) scene.geometry.indices.push_back(first + i);
@@ -33,13 +33,13 @@ void add_right_triangle(LampScene& scene, vec3 corner, float leg, vec3 emission)
     scene.surfaces.push_back(surface);
 }
 
-std::uint32_t triangle_count(const std::vector<vec4>& table) {
+std::uint32_t count_table_triangles(const std::vector<vec4>& table) {
     return bvh::float_word_to_integer(table[0].y);
 }
 
 /// Returns the probability with which the alias table draws each object.
-std::map<std::uint32_t, double> probability_by_object(const std::vector<vec4>& table) {
-    const std::uint32_t count = triangle_count(table);
+std::map<std::uint32_t, double> draw_probability_by_object(const std::vector<vec4>& table) {
+    const std::uint32_t count = count_table_triangles(table);
     std::map<std::uint32_t, double> result;
     const auto object = [&](std::uint32_t i) {
         return bvh::float_word_to_integer(table[3 + 3 * i].w);
@@ -60,9 +60,9 @@ TEST(LampTable, TrianglesAreDrawnByPower) {
     add_right_triangle(scene, {9, 0, 0}, 0, {1, 1, 1});  // no area
     add_right_triangle(scene, {12, 0, 0}, 1, {0, 0, 7}); // 7 times
     const std::vector<vec4> table = render::make_lamp_table(scene.geometry, scene.surfaces);
-    ASSERT_EQ(triangle_count(table), 3u);
+    ASSERT_EQ(count_table_triangles(table), 3u);
     ASSERT_EQ(table.size(), 10u);
-    const std::map<std::uint32_t, double> found = probability_by_object(table);
+    const std::map<std::uint32_t, double> found = draw_probability_by_object(table);
     const double total = .5 + 9 + 3.5;
     ASSERT_EQ(found.size(), 3u);
     EXPECT_NEAR(found.at(0), .5 / total, 1e-6);
@@ -98,7 +98,7 @@ TEST(LampTable, NoLampsOrTooManyTrianglesGiveAnEmptyList) {
     }
     EXPECT_TRUE(render::make_lamp_table(scene.geometry, scene.surfaces).empty());
     scene.geometry.ranges.pop_back(), scene.surfaces.pop_back();
-    EXPECT_EQ(triangle_count(render::make_lamp_table(scene.geometry, scene.surfaces)),
+    EXPECT_EQ(count_table_triangles(render::make_lamp_table(scene.geometry, scene.surfaces)),
               render::kMaxSampledLampTriangles);
 }
 

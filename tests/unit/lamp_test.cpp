@@ -16,7 +16,7 @@ using namespace test::loading;
 
 /// Builds a surface of revolution with rings at the given (radius, height). A ring of radius 0
 /// closes an end. Triangles share no vertices, not even where a ring begins and ends.
-Mesh turned(const std::vector<dvec2>& profile, int around) {
+Mesh make_surface_of_revolution(const std::vector<dvec2>& profile, int around) {
     Mesh mesh{.name = "lamp"};
     const auto place = [&](std::size_t ring, int k) {
         const double turn = k == around ? 2 * test::kPi : 2 * test::kPi * k / around;
@@ -41,27 +41,28 @@ Mesh turned(const std::vector<dvec2>& profile, int around) {
 }
 
 /// Builds a sphere whose rings are closer together towards the top.
-Mesh uneven_sphere(double radius) {
+Mesh make_uneven_sphere_mesh(double radius) {
     std::vector<dvec2> profile;
-    constexpr int kRings = 40;
-    for (int i = 0; i <= kRings; ++i) {
-        const double angle = test::kPi * (1 - std::pow(double(kRings - i) / kRings, 1.6));
-        profile.emplace_back(i == 0 || i == kRings ? 0 : radius * std::sin(angle),
+    constexpr int kRingCountOfLamp = 40;
+    for (int i = 0; i <= kRingCountOfLamp; ++i) {
+        const double angle = test::kPi *
+                             (1 - std::pow(double(kRingCountOfLamp - i) / kRingCountOfLamp, 1.6));
+        profile.emplace_back(i == 0 || i == kRingCountOfLamp ? 0 : radius * std::sin(angle),
                              -radius * std::cos(angle));
     }
-    return turned(profile, 64);
+    return make_surface_of_revolution(profile, 64);
 }
 
-Mesh uneven_cylinder(double radius, double height) {
+Mesh make_uneven_cylinder_mesh(double radius, double height) {
     std::vector<dvec2> profile{{0, 0}, {radius, 0}};
     for (int i = 1; i <= 12; ++i) profile.emplace_back(radius, height * std::sqrt(i / 12.0));
     profile.emplace_back(radius / 3, height), profile.emplace_back(0, height);
-    return turned(profile, 64);
+    return make_surface_of_revolution(profile, 64);
 }
 
 /// Builds a box whose top is finely divided around a fan in the centre. Along the rim of the top,
 /// the only vertices are the four corners.
-Mesh uneven_box(const dvec3& half) {
+Mesh make_uneven_box_mesh(const dvec3& half) {
     Mesh mesh = scene::box("lamp", -half, half);
     std::erase_if(mesh.triangles, [&](const uvec3& t) { return mesh.normals[t.x].y > .5f; });
     const dvec3 rim[] = {{-half.x, half.y, -half.z},
@@ -94,13 +95,13 @@ struct ClosedLamp {
 };
 
 /// Returns unevenly divided closed lamps.
-std::vector<ClosedLamp> closed_lamps() {
-    return {{"sphere", uneven_sphere(.1), 4 * test::kPi * .01},
-            {"box", uneven_box({.1, .05, .08}), 8 * (.005 + .008 + .004)},
-            {"cylinder", uneven_cylinder(.06, .2), 2 * test::kPi * .06 * (.06 + .2)}};
+std::vector<ClosedLamp> make_closed_lamps() {
+    return {{"sphere", make_uneven_sphere_mesh(.1), 4 * test::kPi * .01},
+            {"box", make_uneven_box_mesh({.1, .05, .08}), 8 * (.005 + .008 + .004)},
+            {"cylinder", make_uneven_cylinder_mesh(.06, .2), 2 * test::kPi * .06 * (.06 + .2)}};
 }
 
-std::string obj_text(const Mesh& mesh) {
+std::string make_obj_text_of_mesh(const Mesh& mesh) {
     std::ostringstream text;
     text.precision(9);
     text << "mtllib lamp.mtl\no lamp\nusemtl lamp\n";
@@ -114,17 +115,17 @@ std::string obj_text(const Mesh& mesh) {
     return text.str();
 }
 
-std::string glb_of(const Mesh& mesh, bool double_sided) {
-    Gltf gltf;
+std::string make_glb_of_mesh(const Mesh& mesh, bool double_sided) {
+    GltfFileBuilder gltf;
     std::vector<float> positions, normals;
     for (const dvec3& p : mesh.positions)
         for (int i = 0; i < 3; ++i) positions.push_back(static_cast<float>(p[i]));
     for (const vec3& n : mesh.normals) normals.insert(normals.end(), {n.x, n.y, n.z});
     std::vector<std::uint32_t> corners;
     for (const uvec3& t : mesh.triangles) corners.insert(corners.end(), {t.x, t.y, t.z});
-    const std::size_t position = gltf.add(positions, "VEC3", 5126),
-                      normal = gltf.add(normals, "VEC3", 5126),
-                      indices = gltf.add(corners, "SCALAR", 5125);
+    const std::size_t position = gltf.add_accessor(positions, "VEC3", 5126),
+                      normal = gltf.add_accessor(normals, "VEC3", 5126),
+                      indices = gltf.add_accessor(corners, "SCALAR", 5125);
     gltf.root["nodes"] = {{{"name", "lamp"}, {"mesh", 0}}};
     gltf.root["meshes"] = {{{"primitives",
                              {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
@@ -135,21 +136,21 @@ std::string glb_of(const Mesh& mesh, bool double_sided) {
          {"doubleSided", double_sided},
          {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 30}}}}}}};
     gltf.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
-    return gltf.glb();
+    return gltf.glb_bytes();
 }
 
 /// Returns the irradiance from all lights on a surface at `place` that faces the origin.
-double irradiance(const Scene& scene, const dvec3& place) {
+double irradiance_at_place(const Scene& scene, const dvec3& place) {
     double sum = 0;
     for (const PointLight& light : list_lights(scene)) {
         const dvec3 way = place - light.position, along = glm::normalize(way);
-        sum += light.emission.x * light.area * light_share_towards(light, along) *
+        sum += light.emission.x * light.area * light_share_in_direction(light, along) *
                glm::dot(along, glm::normalize(place)) / glm::dot(way, way);
     }
     return sum;
 }
 
-double mean_of_six(const std::function<double(dvec3)>& towards) {
+double mean_over_six_axes(const std::function<double(dvec3)>& towards) {
     double sum = 0;
     for (int i = 0; i < 6; ++i) {
         dvec3 direction(0);
@@ -162,24 +163,26 @@ double mean_of_six(const std::function<double(dvec3)>& towards) {
 class Lamps : public Load {
 protected:
     /// Loads the mesh as a lamp from each kind of file: OBJ, one-sided GLB and two-sided GLB.
-    std::vector<std::pair<std::string, Scene>> scenes(const Mesh& mesh) {
-        write("lamp.mtl", "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n");
-        return {{"obj", load(write("lamp.obj", obj_text(mesh)))},
-                {"one side", load(write("one.glb", glb_of(mesh, false)))},
-                {"two sides", load(write("two.glb", glb_of(mesh, true)))}};
+    std::vector<std::pair<std::string, Scene>> load_lamp_scenes(const Mesh& mesh) {
+        write_loaded_file("lamp.mtl", "newmtl lamp\nKd 0 0 0\nKe 30 30 30\n");
+        return {{"obj", load(write_loaded_file("lamp.obj", make_obj_text_of_mesh(mesh)))},
+                {"one side", load(write_loaded_file("one.glb", make_glb_of_mesh(mesh, false)))},
+                {"two sides", load(write_loaded_file("two.glb", make_glb_of_mesh(mesh, true)))}};
     }
 };
 
 TEST_F(Lamps, ClosedLampsShineLikeAQuarterOfTheirSurface) {
-    constexpr double kAway = 2;
-    for (const auto& [name, mesh, area] : closed_lamps())
-        for (const auto& [how, scene] : scenes(mesh)) {
+    constexpr double kDistanceFromLamp = 2;
+    for (const auto& [name, mesh, area] : make_closed_lamps())
+        for (const auto& [how, scene] : load_lamp_scenes(mesh)) {
             ASSERT_EQ(list_lights(scene).size(), 1u) << name << ", " << how;
             EXPECT_TRUE(list_lights(scene)[0].closed) << name << ", " << how;
             const dvec3 centre = bounds(scene).centre();
-            const double found = mean_of_six(
-                [&](const dvec3& direction) { return irradiance(scene, kAway * direction); });
-            EXPECT_NEAR(found / (30 * area / 4 / (kAway * kAway)), 1, .02) << name << ", " << how;
+            const double found = mean_over_six_axes([&](const dvec3& direction) {
+                return irradiance_at_place(scene, kDistanceFromLamp * direction);
+            });
+            EXPECT_NEAR(found / (30 * area / 4 / (kDistanceFromLamp * kDistanceFromLamp)), 1, .02)
+                << name << ", " << how;
             EXPECT_LT(glm::length(centre), .11);
         }
 }
@@ -196,7 +199,7 @@ double corner_form_factor(double x, double z) {
 TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
     const Mesh board = scene::quad("lamp", {-.5, 1, -.5}, {.5, 1, -.5}, {.5, 1, .5}, {-.5, 1, .5});
     for (const bool two_sided : {false, true}) {
-        Scene scene = load(write("lamp.glb", glb_of(board, two_sided)));
+        Scene scene = load(write_loaded_file("lamp.glb", make_glb_of_mesh(board, two_sided)));
         const auto largest_error = [&](int samples) {
             scene.light_samples = samples;
             EXPECT_EQ(list_lights(scene).size(), static_cast<std::size_t>(samples));
@@ -211,7 +214,7 @@ TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
                     for (const PointLight& light : list_lights(scene)) {
                         const dvec3 way = dvec3(x, 0, z) - light.position,
                                     along = glm::normalize(way);
-                        found += light.area * light_share_towards(light, along) * -along.y /
+                        found += light.area * light_share_in_direction(light, along) * -along.y /
                                  glm::dot(way, way) / test::kPi;
                     }
                     most = std::max(most, std::abs(found - wanted));
@@ -225,9 +228,9 @@ TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
 
 /// Whatever the shape, the points share its area, lie on it, and shine away from it.
 TEST_F(Lamps, SampledClosedLampsShineLikeTheirClosedForms) {
-    constexpr double kAway = 2;
-    for (const auto& [name, mesh, area] : closed_lamps())
-        for (auto& [how, scene] : scenes(mesh)) {
+    constexpr double kDistanceFromLamp = 2;
+    for (const auto& [name, mesh, area] : make_closed_lamps())
+        for (auto& [how, scene] : load_lamp_scenes(mesh)) {
             scene.light_samples = 128;
             double total = 0;
             for (const PointLight& light : list_lights(scene)) {
@@ -237,57 +240,61 @@ TEST_F(Lamps, SampledClosedLampsShineLikeTheirClosedForms) {
             }
             EXPECT_NEAR(total / area, 1, .01) << name << ", " << how;
             // Over all directions, a convex body shows a quarter of its surface.
-            constexpr int kDirections = 400;
+            constexpr int kDirectionCount = 400;
             double found = 0;
-            for (int i = 0; i < kDirections; ++i) {
-                const double y = 1 - (2 * i + 1.) / kDirections, turn = 2.399963 * i,
+            for (int i = 0; i < kDirectionCount; ++i) {
+                const double y = 1 - (2 * i + 1.) / kDirectionCount, turn = 2.399963 * i,
                              flat = std::sqrt(1 - y * y);
-                found += irradiance(scene, kAway * dvec3(flat * std::cos(turn), y,
-                                                         flat * std::sin(turn))) /
-                         kDirections;
+                found += irradiance_at_place(scene,
+                                             kDistanceFromLamp * dvec3(flat * std::cos(turn), y,
+                                                                       flat * std::sin(turn))) /
+                         kDirectionCount;
             }
-            EXPECT_NEAR(found / (30 * area / 4 / (kAway * kAway)), 1, .03) << name << ", " << how;
+            EXPECT_NEAR(found / (30 * area / 4 / (kDistanceFromLamp * kDistanceFromLamp)), 1, .03)
+                << name << ", " << how;
         }
 }
 
 TEST_F(Lamps, OpenTwoSidedBoardShinesByItsVisibleArea) {
     const Mesh board = scene::quad("lamp", {-.1, .02, -.1}, {-.1, .02, .1}, {.1, .02, .1},
                                    {.1, .02, -.1});
-    const Scene scene = load(write("two.glb", glb_of(board, true)));
+    const Scene scene = load(write_loaded_file("two.glb", make_glb_of_mesh(board, true)));
     ASSERT_EQ(list_lights(scene).size(), 1u);
     const PointLight light = list_lights(scene)[0];
     EXPECT_FALSE(light.closed);
     for (const dvec3& along :
          {dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(.6, .8, 0), dvec3(0, -.6, .8), dvec3(1, 0, 0)})
-        EXPECT_NEAR(light_share_towards(light, along), std::abs(along.y), 1e-7);
-    const Scene one = load(write("one.glb", glb_of(board, false)));
-    EXPECT_NEAR(light_share_towards(list_lights(one)[0], {.6, .8, 0}), .8, 1e-7);
-    EXPECT_EQ(light_share_towards(list_lights(one)[0], {.6, -.8, 0}), 0);
+        EXPECT_NEAR(light_share_in_direction(light, along), std::abs(along.y), 1e-7);
+    const Scene one = load(write_loaded_file("one.glb", make_glb_of_mesh(board, false)));
+    EXPECT_NEAR(light_share_in_direction(list_lights(one)[0], {.6, .8, 0}), .8, 1e-7);
+    EXPECT_EQ(light_share_in_direction(list_lights(one)[0], {.6, -.8, 0}), 0);
 }
 
 TEST_F(Lamps, OpenTwoSidedTubeShinesByTheMeanCosineOfItsFacets) {
-    const Scene scene = load(write("two.glb", glb_of(turned({{.05, -.1}, {.05, .1}}, 64), true)));
+    const Scene scene = load(write_loaded_file(
+        "two.glb",
+        make_glb_of_mesh(make_surface_of_revolution({{.05, -.1}, {.05, .1}}, 64), true)));
     ASSERT_EQ(list_lights(scene).size(), 1u);
     // A facet at angle a around the tube appears |cos a| times the sine of the angle between view
     // and axis. The mean of |cos a| over a turn is 2 / pi.
     for (const double angle : {0.0, .4, .9, test::kPi / 2})
         EXPECT_NEAR(
-            light_share_towards(list_lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
+            light_share_in_direction(list_lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),
             2 / test::kPi * std::sin(angle), 1e-3);
 }
 
 TEST_F(Lamps, SphereWithAHoleIsAnOpenLamp) {
-    Mesh mesh = uneven_sphere(.1);
+    Mesh mesh = make_uneven_sphere_mesh(.1);
     mesh.triangles.pop_back();
-    for (const auto& [how, scene] : scenes(mesh)) {
+    for (const auto& [how, scene] : load_lamp_scenes(mesh)) {
         ASSERT_EQ(list_lights(scene).size(), 1u) << how;
         EXPECT_FALSE(list_lights(scene)[0].closed) << how;
     }
     // The sphere with a hole shines almost equally in all directions. Its inside shines too, so
     // half of its surface counts.
-    const Scene two = load(write("two.glb", glb_of(mesh, true)));
-    EXPECT_NEAR(mean_of_six([&](const dvec3& along) {
-                    return light_share_towards(list_lights(two)[0], along);
+    const Scene two = load(write_loaded_file("two.glb", make_glb_of_mesh(mesh, true)));
+    EXPECT_NEAR(mean_over_six_axes([&](const dvec3& along) {
+                    return light_share_in_direction(list_lights(two)[0], along);
                 }),
                 .5, .01);
 }
@@ -296,9 +303,11 @@ TEST(Topology, PositionsWithinRoundingErrorsAreMerged) {
     const std::vector<dvec3> places{{1, 0, 0},     {1, 1e-17, -1e-17}, {1 + 2e-7, 0, 0},
                                     {1.01, 0, 0},  {1, 2e-6, 0},       {0, 0, 0},
                                     {0, -1e-9, 0}, {1, 0, 0}};
-    EXPECT_THAT(first_vertex_at_place(places), testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
-    EXPECT_TRUE(first_vertex_at_place({}).empty());
-    EXPECT_THAT(first_vertex_at_place(std::vector(3, dvec3(0))), testing::ElementsAre(0, 0, 0));
+    EXPECT_THAT(find_first_vertex_of_each_place(places),
+                testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
+    EXPECT_TRUE(find_first_vertex_of_each_place({}).empty());
+    EXPECT_THAT(find_first_vertex_of_each_place(std::vector(3, dvec3(0))),
+                testing::ElementsAre(0, 0, 0));
 }
 
 TEST(Topology, TriangleWithARepeatedCornerHasNoSides) {

@@ -17,12 +17,12 @@ namespace {
 using namespace catoptric::measure;
 using catoptric::vec3;
 
-constexpr int kWidth = 8, kHeight = 5;
-const std::vector<float> kNoFlip(kWidth* kHeight, 0.0F);
+constexpr int kLightEdgePictureWidth = 8, kHeight = 5;
+const std::vector<float> kNoFlip(kLightEdgePictureWidth* kHeight, 0.0F);
 
-Picture light_edges_noise(std::uint32_t seed) {
+Picture make_noise_picture(std::uint32_t seed) {
     std::mt19937 random(seed);
-    Picture picture(kWidth, kHeight);
+    Picture picture(kLightEdgePictureWidth, kHeight);
     for (vec3& pixel : picture.pixels)
         for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(random() % 1000) / 999;
     return picture;
@@ -30,12 +30,13 @@ Picture light_edges_noise(std::uint32_t seed) {
 
 /// The rmse of mirror pixels split by a mask of light outlines, and the difference over all mirror
 /// pixels.
-struct Split {
+struct LightEdgeErrorSplit {
     LightEdgeErrors edges;
     Difference all;
 };
 
-Split light_edges_split(const Picture& a, const Picture& b, const Mask& mirrors, Mask there) {
+LightEdgeErrorSplit split_error_at_mask(const Picture& a, const Picture& b, const Mask& mirrors,
+                                        Mask there) {
     Mask elsewhere = mirrors;
     for (std::size_t i = 0; i < there.size(); ++i) {
         if (mirrors[i] == 0) there[i] = 0;
@@ -49,15 +50,16 @@ Split light_edges_split(const Picture& a, const Picture& b, const Mask& mirrors,
 TEST(LightEdges, SquaredPartsAddUpToTheSquaredRmse) {
     std::mt19937 random(7);
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-        Mask mirrors(kWidth * kHeight), there(mirrors.size());
+        Mask mirrors(kLightEdgePictureWidth * kHeight), there(mirrors.size());
         for (std::size_t i = 0; i < mirrors.size(); ++i) {
             mirrors[i] = random() % 3 > 0 ? 255 : 0;
             there[i] = random() % 4 == 0 ? 255 : 0;
         }
-        Picture a = light_edges_noise(seed);
+        Picture a = make_noise_picture(seed);
         a.pixels[seed].x =
             std::numeric_limits<float>::quiet_NaN(); // a NaN pixel counts in neither part
-        const Split found = light_edges_split(a, light_edges_noise(seed + 100), mirrors, there);
+        const LightEdgeErrorSplit found = split_error_at_mask(a, make_noise_picture(seed + 100),
+                                                              mirrors, there);
         const double whole = found.all.rmse * found.all.rmse;
         EXPECT_NEAR(found.edges.rmse * found.edges.rmse +
                         found.edges.rest_rmse * found.edges.rest_rmse,
@@ -69,14 +71,14 @@ TEST(LightEdges, SquaredPartsAddUpToTheSquaredRmse) {
 /// Four pixels show mirrors. The pixel at a light outline is wrong by .3 in each channel, another
 /// pixel by .1.
 TEST(LightEdges, ErrorsAreAssignedToLightOutlinesOrToTheRest) {
-    Picture a(kWidth, kHeight);
-    const Picture black(kWidth, kHeight);
-    Mask mirrors(kWidth * kHeight), there(mirrors.size());
+    Picture a(kLightEdgePictureWidth, kHeight);
+    const Picture black(kLightEdgePictureWidth, kHeight);
+    Mask mirrors(kLightEdgePictureWidth * kHeight), there(mirrors.size());
     for (const std::size_t i : {3U, 10U, 11U, 30U}) mirrors[i] = 255;
     a.pixels[10] = vec3(.3F), a.pixels[30] = vec3(.1F);
     a.pixels[20] = vec3(1); // this pixel shows no mirror
     there[10] = there[20] = 255;
-    const LightEdgeErrors found = light_edges_split(a, black, mirrors, there).edges;
+    const LightEdgeErrors found = split_error_at_mask(a, black, mirrors, there).edges;
     EXPECT_NEAR(found.rmse, .3 / 2, 1e-7);
     EXPECT_NEAR(found.rest_rmse, .1 / 2, 1e-7);
     EXPECT_NEAR(found.share, .9, 1e-6);
@@ -84,12 +86,12 @@ TEST(LightEdges, ErrorsAreAssignedToLightOutlinesOrToTheRest) {
 }
 
 TEST(LightEdges, FiguresAreZeroWithoutErrorAndNanWithoutPixels) {
-    const Picture black(kWidth, kHeight);
-    const Mask some(kWidth * kHeight, 255), none(some.size());
-    EXPECT_EQ(light_edges_split(black, black, some, some).edges.share, 0);
-    EXPECT_EQ(light_edges_split(black, black, some, some).edges.rest_rmse, 0);
-    EXPECT_EQ(light_edges_split(black, black, some, none).edges.pixels, 0);
-    const LightEdgeErrors nothing = light_edges_split(black, black, none, some).edges;
+    const Picture black(kLightEdgePictureWidth, kHeight);
+    const Mask some(kLightEdgePictureWidth * kHeight, 255), none(some.size());
+    EXPECT_EQ(split_error_at_mask(black, black, some, some).edges.share, 0);
+    EXPECT_EQ(split_error_at_mask(black, black, some, some).edges.rest_rmse, 0);
+    EXPECT_EQ(split_error_at_mask(black, black, some, none).edges.pixels, 0);
+    const LightEdgeErrors nothing = split_error_at_mask(black, black, none, some).edges;
     for (const double figure : {nothing.rmse, nothing.rest_rmse, nothing.share, nothing.pixels})
         EXPECT_TRUE(std::isnan(figure));
 }
@@ -97,7 +99,7 @@ TEST(LightEdges, FiguresAreZeroWithoutErrorAndNanWithoutPixels) {
 /// Rows without captures have no figures for light outlines, so the report contains null.
 TEST(LightEdges, UnmeasuredLightEdgesAreNullInTheReport) {
     using namespace catoptric::report;
-    const auto rows = nlohmann::json::parse(to_json(sample::usual()))["rows"];
+    const auto rows = nlohmann::json::parse(to_json(sample::make_usual_comparison()))["rows"];
     EXPECT_TRUE(rows[0]["light_edges"].is_null());
 }
 

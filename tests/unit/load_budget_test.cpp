@@ -11,15 +11,17 @@ using namespace test::loading;
 
 class BudgetOfLoading : public Load {
 protected:
-    std::string over(const std::string& name, const std::string& text,
-                     LoadBudget budget = {}) const {
-        const std::string message = refused(name, text, Failure::bad_data, {.budget = budget});
+    std::string budget_error_text(const std::string& name, const std::string& text,
+                                  LoadBudget budget = {}) const {
+        const std::string message = load_error_text(name, text, Failure::bad_data,
+                                                    {.budget = budget});
         EXPECT_THAT(message, HasSubstr(", the budget of a scene, found "));
         return message;
     }
     /// Builds a glTF file whose list `list` contains `count` copies of `item`.
-    static Gltf many(const char* list, std::size_t count, const Json& item) {
-        Gltf gltf = small();
+    static GltfFileBuilder make_gltf_with_copies_of_item(const char* list, std::size_t count,
+                                                         const Json& item) {
+        GltfFileBuilder gltf = make_small_gltf();
         gltf.root[list] = Json::array();
         for (std::size_t i = 0; i < count; ++i) gltf.root[list].push_back(item);
         return gltf;
@@ -29,7 +31,7 @@ protected:
 // ---- small files that expand to large scenes
 
 TEST_F(BudgetOfLoading, TooManyNodesThatShareAMeshAreRefused) {
-    Gltf gltf = small(20'000);
+    GltfFileBuilder gltf = make_small_gltf(20'000);
     gltf.root["nodes"] = Json::array(), gltf.root["scenes"][0]["nodes"] = Json::array();
     for (int i = 0; i < 105; ++i) {
         gltf.root["nodes"].push_back({{"mesh", 0}});
@@ -37,52 +39,56 @@ TEST_F(BudgetOfLoading, TooManyNodesThatShareAMeshAreRefused) {
     }
     // Each object has 60,000 vertices: without normals in the file, triangles share no vertices.
     const LoadBudget shown{.shown = 2'000'000};
-    EXPECT_THAT(over("x.glb", gltf.glb(), shown),
+    EXPECT_THAT(budget_error_text("x.glb", gltf.glb_bytes(), shown),
                 AllOf(HasSubstr("nodes[33]: wanted at most 2000000 vertices shown by objects"),
                       HasSubstr("found 2040000")));
-    gltf.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = gltf.add<float>(
+    gltf.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = gltf.add_accessor<float>(
         {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 5126);
-    EXPECT_THAT(over("x.glb", gltf.glb(), shown),
+    EXPECT_THAT(budget_error_text("x.glb", gltf.glb_bytes(), shown),
                 AllOf(HasSubstr("nodes[100]: wanted at most 2000000 triangles shown by objects"),
                       HasSubstr("found 2020000")));
 }
 
 TEST_F(BudgetOfLoading, TooManyPrimitivesThatShareAccessorsAreRefused) {
-    Gltf gltf = small(20'000);
+    GltfFileBuilder gltf = make_small_gltf(20'000);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     const Json one = primitives[0];
     for (int i = 1; i < 105; ++i) primitives.push_back(one);
-    EXPECT_THAT(over("x.glb", gltf.glb()),
+    EXPECT_THAT(budget_error_text("x.glb", gltf.glb_bytes()),
                 AllOf(HasSubstr("meshes[0] 'm': wanted at most 2000000 triangles in meshes"),
                       HasSubstr("found 2020000")));
     // Many accessors read the same bytes.
-    Gltf views = small();
-    const std::size_t positions = views.add(std::vector<float>(3 * 99'999), "VEC3", 5126);
+    GltfFileBuilder views = make_small_gltf();
+    const std::size_t positions = views.add_accessor(std::vector<float>(3 * 99'999), "VEC3", 5126);
     for (int i = 0; i < 43; ++i) {
         views.root["accessors"].push_back(views.root["accessors"][positions]);
         views.root["meshes"].push_back(
             {{"primitives", {{{"attributes", {{"POSITION", positions + 1 + i}}}}}}});
     }
-    EXPECT_THAT(over("x.glb", views.glb()), HasSubstr("wanted at most 4000000 positions"));
+    EXPECT_THAT(budget_error_text("x.glb", views.glb_bytes()),
+                HasSubstr("wanted at most 4000000 positions"));
 }
 
 TEST_F(BudgetOfLoading, PrimitivesMayShareALongListOfPositions) {
-    Gltf gltf = small();
-    const std::size_t positions = gltf.add(std::vector<float>(3 * 100'000, 1.0f), "VEC3", 5126);
+    GltfFileBuilder gltf = make_small_gltf();
+    const std::size_t positions = gltf.add_accessor(std::vector<float>(3 * 100'000, 1.0f), "VEC3",
+                                                    5126);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     // If each primitive copied all positions, there would be 10 million.
     for (int i = 0; i < 100; ++i)
         primitives.push_back({{"attributes", {{"POSITION", positions}}}, {"indices", 1}});
-    EXPECT_EQ(triangle_count(load(write("x.glb", gltf.glb()))), 1u);
+    EXPECT_EQ(triangle_count(load(write_loaded_file("x.glb", gltf.glb_bytes()))), 1u);
 }
 
 TEST_F(BudgetOfLoading, SharedAnimationKeysAreStoredAndCountedOnce) {
-    constexpr std::size_t kKeys = 40'000, kNodes = 500;
-    Gltf gltf = small();
-    std::vector<float> times(kKeys);
-    for (std::size_t i = 0; i < kKeys; ++i) times[i] = float(i);
-    const Json sampler = {{"input", gltf.add(times, "SCALAR", 5126)},
-                          {"output", gltf.add(std::vector<float>(3 * kKeys, 1.0f), "VEC3", 5126)}};
+    constexpr std::size_t kAnimationKeyCount = 40'000, kNodes = 500;
+    GltfFileBuilder gltf = make_small_gltf();
+    std::vector<float> times(kAnimationKeyCount);
+    for (std::size_t i = 0; i < kAnimationKeyCount; ++i) times[i] = float(i);
+    const Json sampler = {
+        {"input", gltf.add_accessor(times, "SCALAR", 5126)},
+        {"output",
+         gltf.add_accessor(std::vector<float>(3 * kAnimationKeyCount, 1.0f), "VEC3", 5126)}};
     Json channels = Json::array(), roots = Json::array();
     gltf.root["nodes"] = Json::array();
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -92,44 +98,44 @@ TEST_F(BudgetOfLoading, SharedAnimationKeysAreStoredAndCountedOnce) {
     }
     gltf.root["scenes"][0]["nodes"] = roots;
     gltf.root["animations"] = {{{"samplers", {sampler}}, {"channels", channels}}};
-    const Scene scene = load(write("x.glb", gltf.glb()));
+    const Scene scene = load(write_loaded_file("x.glb", gltf.glb_bytes()));
     ASSERT_EQ(scene.objects.size(), kNodes);
     const auto keys_of = [&](std::size_t i) {
         return std::get<Keyframes>(scene.objects[i].motion).keys;
     };
     EXPECT_EQ(keys_of(0), keys_of(kNodes - 1)) << "one copy";
-    EXPECT_EQ(keys_of(0)->times.size(), kKeys);
+    EXPECT_EQ(keys_of(0)->times.size(), kAnimationKeyCount);
     EXPECT_NE(hash_scene(scene), hash_scene(scene_at_time(scene, 0)));
 
     for (std::size_t i = 1; i < kNodes; ++i) {
         gltf.root["animations"][0]["samplers"].push_back(sampler);
         gltf.root["animations"][0]["channels"][i]["sampler"] = i;
     }
-    EXPECT_THAT(over("x.glb", gltf.glb()),
+    EXPECT_THAT(budget_error_text("x.glb", gltf.glb_bytes()),
                 AllOf(HasSubstr("animations[0]: samplers[25]: wanted at most 1000000 keys"),
                       HasSubstr("found 1040000")));
 }
 
 TEST_F(BudgetOfLoading, KeysOfAMovingParentAreSharedByItsChildren) {
-    Gltf gltf = small();
-    const Json sampler = {{"input", gltf.add<float>({0, 1}, "SCALAR", 5126)},
-                          {"output", gltf.add<float>({0, 0, 0, 0, 0, 8}, "VEC3", 5126)}};
+    GltfFileBuilder gltf = make_small_gltf();
+    const Json sampler = {{"input", gltf.add_accessor<float>({0, 1}, "SCALAR", 5126)},
+                          {"output", gltf.add_accessor<float>({0, 0, 0, 0, 0, 8}, "VEC3", 5126)}};
     gltf.root["nodes"] = {
         {{"children", {1, 2}}}, {{"mesh", 0}}, {{"mesh", 0}, {"scale", {2, 2, 2}}}};
     gltf.root["animations"] = {
         {{"samplers", {sampler}},
          {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
-    const Scene scene = load(write("x.glb", gltf.glb()));
+    const Scene scene = load(write_loaded_file("x.glb", gltf.glb_bytes()));
     EXPECT_EQ(std::get<Keyframes>(scene.objects[0].motion).keys,
               std::get<Keyframes>(scene.objects[1].motion).keys);
     EXPECT_EQ(scene_at_time(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
 }
 
 TEST_F(BudgetOfLoading, TooManyBytesOfNamesAreRefused) {
-    Gltf gltf = many("nodes", 1000, {{"mesh", 0}});
+    GltfFileBuilder gltf = make_gltf_with_copies_of_item("nodes", 1000, {{"mesh", 0}});
     gltf.root["meshes"][0]["name"] = std::string(100'000, 'n');
     gltf.root.erase("scenes"), gltf.root.erase("scene");
-    const std::string message = over("x.glb", gltf.glb());
+    const std::string message = budget_error_text("x.glb", gltf.glb_bytes());
     EXPECT_THAT(message, HasSubstr("wanted at most 67108864 bytes of names"));
     EXPECT_LT(message.size(), 400u);
 
@@ -139,25 +145,27 @@ TEST_F(BudgetOfLoading, TooManyBytesOfNamesAreRefused) {
         materials += "newmtl " + std::to_string(i) + "\n";
         text += "usemtl " + std::to_string(i) + "\nf 1 2 3\n";
     }
-    write("m.mtl", materials);
-    EXPECT_THAT(over("x.obj", text), HasSubstr("bytes of names"));
+    write_loaded_file("m.mtl", materials);
+    EXPECT_THAT(budget_error_text("x.obj", text), HasSubstr("bytes of names"));
 }
 
 TEST_F(BudgetOfLoading, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string materials;
     for (int i = 0; i < 1000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
-    write("m.mtl", materials);
+    write_loaded_file("m.mtl", materials);
     fs::create_symlink("m.mtl", folder / "n.mtl");
     std::string text;
     for (int i = 0; i < 300; ++i) text += "mtllib m.mtl n.mtl ./m.mtl\n";
-    const Scene scene = load(write("x.obj", text + kTriangle + "usemtl 999\nf 1 2 3\n"));
+    const Scene scene = load(
+        write_loaded_file("x.obj", text + kTriangle + "usemtl 999\nf 1 2 3\n"));
     EXPECT_EQ(scene.materials.size(), 1000u);
     EXPECT_EQ(scene.materials[scene.objects[0].material].name, "999");
-    EXPECT_THAT(over("y.obj",
-                     [&] {
-                         for (int i = 0; i < 1000; ++i) text += "mtllib m.mtl n.mtl ./m.mtl\n";
-                         return text;
-                     }()),
+    EXPECT_THAT(budget_error_text("y.obj",
+                                  [&] {
+                                      for (int i = 0; i < 1000; ++i)
+                                          text += "mtllib m.mtl n.mtl ./m.mtl\n";
+                                      return text;
+                                  }()),
                 HasSubstr("wanted at most 4000 names of files"));
 }
 
@@ -169,21 +177,21 @@ TEST_F(BudgetOfLoading, PolygonsThatNeedTooManyComparisonsAreRefused) {
                 std::to_string(radius * std::sin(angle)) + " 0\n";
         face += " " + std::to_string(i + 1);
     }
-    EXPECT_THAT(over("x.obj", text + face + "\n"),
+    EXPECT_THAT(budget_error_text("x.obj", text + face + "\n"),
                 HasSubstr("x.obj:20001: wanted at most 100000000 comparisons to cut concave "
                           "polygons"));
 }
 
 TEST_F(BudgetOfLoading, FilesLongerThanTheBudgetAreRefused) {
-    write("x.bin", "");
+    write_loaded_file("x.bin", "");
     fs::resize_file(folder / "x.bin", 200ull << 30); // a sparse file without disk blocks
-    Gltf gltf = small();
+    GltfFileBuilder gltf = make_small_gltf();
     gltf.root["buffers"] = {{{"byteLength", 36}, {"uri", "x.bin"}}};
     EXPECT_THAT(
-        over("x.gltf", gltf.root.dump()),
+        budget_error_text("x.gltf", gltf.root.dump()),
         AllOf(HasSubstr("buffers[0]: 'x.bin': wanted at most 268435456 bytes in its files")));
     for (const char* name : {"y.obj", "y.gltf", "y.glb"}) {
-        write(name, "");
+        write_loaded_file(name, "");
         fs::resize_file(folder / name, 200ull << 30);
         EXPECT_THAT([&] { load((folder / name).string()); },
                     testing::ThrowsMessage<Error>(HasSubstr("268435456 bytes in its files")));
@@ -194,10 +202,12 @@ TEST_F(BudgetOfLoading, FilesLongerThanTheBudgetAreRefused) {
 
 TEST_F(BudgetOfLoading, TooLongGltfListsAreRefused) {
     EXPECT_THAT(
-        over("x.glb", many("nodes", 125'001, Json::object()).glb()),
+        budget_error_text(
+            "x.glb", make_gltf_with_copies_of_item("nodes", 125'001, Json::object()).glb_bytes()),
         AllOf(HasSubstr("nodes[125000]: wanted at most 125000 nodes"), HasSubstr("found 125001")));
     const auto of = [&](const char* list, const Json& item) {
-        return over("x.glb", many(list, 101, item).glb(), {.objects = 100});
+        return budget_error_text(
+            "x.glb", make_gltf_with_copies_of_item(list, 101, item).glb_bytes(), {.objects = 100});
     };
     EXPECT_THAT(of("meshes", Json::object()), HasSubstr("meshes[100]: wanted at most 100 meshes"));
     EXPECT_THAT(of("materials", Json::object()), HasSubstr("wanted at most 100 materials"));
@@ -205,7 +215,7 @@ TEST_F(BudgetOfLoading, TooLongGltfListsAreRefused) {
     EXPECT_THAT(of("animations", {{"samplers", {Json::object()}},
                                   {"channels", {{{"sampler", 0}, {"target", Json::object()}}}}}),
                 HasSubstr("wanted at most 100 animation channels"));
-    const Json one = small().root["meshes"][0]["primitives"][0];
+    const Json one = make_small_gltf().root["meshes"][0]["primitives"][0];
     Json primitives = Json::array();
     for (int i = 0; i < 101; ++i) primitives.push_back(one);
     EXPECT_THAT(of("meshes", {{"primitives", primitives}}),
@@ -218,78 +228,83 @@ TEST_F(BudgetOfLoading, EachBudgetCanBeLowered) {
         budget.*member = value;
         return budget;
     };
-    const std::string glb = small(3).glb(),
+    const std::string glb = make_small_gltf(3).glb_bytes(),
                       obj = kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 3 2\no b\nf 1 2 3\n";
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::triangles, 2)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::triangles, 2)),
                 HasSubstr("2 triangles in meshes"));
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::vertices, 3)), HasSubstr("3 positions"));
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::vertices, 12)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::vertices, 3)),
+                HasSubstr("3 positions"));
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::vertices, 12)),
                 HasSubstr("12 vertices in meshes"));
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::json_bytes, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::json_bytes, 99)),
                 HasSubstr("99 bytes of JSON"));
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::json_memory, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::json_memory, 99)),
                 HasSubstr("99 bytes of memory for its JSON"));
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::file_bytes, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::file_bytes, 99)),
                 HasSubstr("99 bytes in its files"));
-    EXPECT_THAT(over("x.glb", glb, with(&LoadBudget::objects, 0)), HasSubstr("0 meshes"));
-    EXPECT_THAT(over("x.obj", obj, with(&LoadBudget::triangles, 2)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::objects, 0)),
+                HasSubstr("0 meshes"));
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::triangles, 2)),
                 HasSubstr("x.obj:8: wanted at most 2 triangles"));
-    EXPECT_THAT(over("x.obj", obj, with(&LoadBudget::vertices, 2)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::vertices, 2)),
                 HasSubstr("x.obj:3: wanted at most 2 positions"));
-    EXPECT_THAT(over("x.obj", obj, with(&LoadBudget::objects, 1)), HasSubstr("1 objects"));
-    EXPECT_THAT(over("x.obj", kTriangle + "# catoptric motion a step 2 0 0 0 0 1 0 0 0\n",
-                     with(&LoadBudget::keys, 1)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::objects, 1)),
+                HasSubstr("1 objects"));
+    EXPECT_THAT(budget_error_text("x.obj",
+                                  kTriangle + "# catoptric motion a step 2 0 0 0 0 1 0 0 0\n",
+                                  with(&LoadBudget::keys, 1)),
                 HasSubstr("x.obj:4: wanted at most 1 keys"));
 }
 
 // ---- large, valid files
 
 TEST_F(BudgetOfLoading, MillionTrianglesFitTheBudget) {
-    constexpr std::uint32_t kSide = 708;
-    Gltf gltf = small();
+    constexpr std::uint32_t kTextureSideTexels = 708;
+    GltfFileBuilder gltf = make_small_gltf();
     std::vector<float> positions;
     std::vector<std::uint32_t> corners;
-    for (std::uint32_t y = 0; y <= kSide; ++y)
-        for (std::uint32_t x = 0; x <= kSide; ++x) {
+    for (std::uint32_t y = 0; y <= kTextureSideTexels; ++y)
+        for (std::uint32_t x = 0; x <= kTextureSideTexels; ++x) {
             positions.insert(positions.end(), {float(x), float(y), float(x * y % 7)});
-            const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
-            if (x < kSide && y < kSide)
+            const std::uint32_t a = y * (kTextureSideTexels + 1) + x,
+                                b = a + kTextureSideTexels + 1;
+            if (x < kTextureSideTexels && y < kTextureSideTexels)
                 corners.insert(corners.end(), {a, a + 1, b + 1, a, b + 1, b});
         }
     Json& primitive = gltf.root["meshes"][0]["primitives"][0];
-    primitive["attributes"]["POSITION"] = gltf.add(positions, "VEC3", 5126);
-    primitive["indices"] = gltf.add(corners, "SCALAR", 5125);
-    const Scene scene = load(write("x.glb", gltf.glb()));
-    EXPECT_EQ(triangle_count(scene), 2 * kSide * kSide);
-    EXPECT_EQ(scene.meshes[0].positions.size(), 6 * kSide * kSide)
+    primitive["attributes"]["POSITION"] = gltf.add_accessor(positions, "VEC3", 5126);
+    primitive["indices"] = gltf.add_accessor(corners, "SCALAR", 5125);
+    const Scene scene = load(write_loaded_file("x.glb", gltf.glb_bytes()));
+    EXPECT_EQ(triangle_count(scene), 2 * kTextureSideTexels * kTextureSideTexels);
+    EXPECT_EQ(scene.meshes[0].positions.size(), 6 * kTextureSideTexels * kTextureSideTexels)
         << "each triangle has its normal";
 }
 
 TEST_F(BudgetOfLoading, HundredThousandNamesFitTheBudget) {
-    constexpr std::size_t kCount = 100'000;
+    constexpr std::size_t kItemCount = 100'000;
     std::string text = "mtllib m.mtl\n" + kTriangle, materials;
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < kItemCount; ++i) {
         const std::string name = "a rather long name, as exporters make them " + std::to_string(i);
         materials += "newmtl " + name + "\n";
         text += "o " + name + "\nusemtl " + name + "\nf 1 2 3\n";
     }
-    write("m.mtl", materials);
-    const Scene scene = load(write("x.obj", text));
-    ASSERT_EQ(scene.objects.size(), kCount);
-    EXPECT_EQ(scene.objects.back().material, kCount - 1);
+    write_loaded_file("m.mtl", materials);
+    const Scene scene = load(write_loaded_file("x.obj", text));
+    ASSERT_EQ(scene.objects.size(), kItemCount);
+    EXPECT_EQ(scene.objects.back().material, kItemCount - 1);
 
-    Gltf gltf = many("nodes", kCount, {{"mesh", 0}});
+    GltfFileBuilder gltf = make_gltf_with_copies_of_item("nodes", kItemCount, {{"mesh", 0}});
     gltf.root.erase("scenes"), gltf.root.erase("scene");
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     const Json one = primitives[0];
     primitives = Json::array();
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < kItemCount; ++i) {
         gltf.root["materials"].push_back({{"name", std::to_string(i)}});
         primitives.push_back(one);
         primitives.back()["material"] = i;
     }
     gltf.root["nodes"] = {{{"mesh", 0}}};
-    EXPECT_EQ(load(write("x.glb", gltf.glb())).objects.size(), kCount);
+    EXPECT_EQ(load(write_loaded_file("x.glb", gltf.glb_bytes())).objects.size(), kItemCount);
 }
 
 } // namespace

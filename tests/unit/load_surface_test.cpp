@@ -14,7 +14,7 @@ namespace {
 using namespace test::loading;
 using testing::ElementsAre;
 
-std::string base64(const std::string& bytes) {
+std::string encode_as_base64(const std::string& bytes) {
     const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -37,21 +37,24 @@ class LoadSurface : public Load {
 protected:
     /// Builds a glTF file with a triangle of the given material, and two textures that show
     /// kLoadSurfacePicture.
-    static Gltf with(const Json& material) {
-        Gltf gltf = small();
+    static GltfFileBuilder make_gltf_with_material(const Json& material) {
+        GltfFileBuilder gltf = make_small_gltf();
         gltf.root["materials"] = {material};
         gltf.root["meshes"][0]["primitives"][0]["material"] = 0;
         gltf.root["images"] = {
-            {{"uri", "data:image/png;base64," + base64(encode_image_png(kLoadSurfacePicture))}}};
+            {{"uri",
+              "data:image/png;base64," + encode_as_base64(encode_image_png(kLoadSurfacePicture))}}};
         gltf.root["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
         gltf.root["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}}};
         return gltf;
     }
-    Scene scene_of(const Gltf& gltf) const { return load_gltf(write("x.glb", gltf.glb())); }
-    Material material_of(const Json& material) const {
-        return scene_of(with(material)).materials.at(0);
+    Scene load_surface_gltf(const GltfFileBuilder& gltf) const {
+        return load_gltf(write_loaded_file("x.glb", gltf.glb_bytes()));
     }
-    static std::vector<std::string> ids(const Scene& scene) {
+    Material load_gltf_material(const Json& material) const {
+        return load_surface_gltf(make_gltf_with_material(material)).materials.at(0);
+    }
+    static std::vector<std::string> list_unsupported_feature_ids(const Scene& scene) {
         std::vector<std::string> list;
         for (const UnsupportedFeature& gap : scene.unsupported) list.push_back(gap.id);
         return list;
@@ -59,17 +62,17 @@ protected:
 };
 
 TEST_F(LoadSurface, MaterialFactorsAndSidesAreRead) {
-    const Material plain = material_of(Json::object());
+    const Material plain = load_gltf_material(Json::object());
     EXPECT_EQ(plain.albedo, vec3(1));
     EXPECT_EQ(plain.metallic, 1);
     EXPECT_EQ(plain.roughness, 1);
     EXPECT_TRUE(plain.front_only);
     EXPECT_FALSE(plain.two_sided || plain.mirror || has_alpha_mask(plain));
-    const Material gold = material_of({{"doubleSided", true},
-                                       {"pbrMetallicRoughness",
-                                        {{"baseColorFactor", {1, .5, .25, .75}},
-                                         {"metallicFactor", 1},
-                                         {"roughnessFactor", 0}}}});
+    const Material gold = load_gltf_material({{"doubleSided", true},
+                                              {"pbrMetallicRoughness",
+                                               {{"baseColorFactor", {1, .5, .25, .75}},
+                                                {"metallicFactor", 1},
+                                                {"roughnessFactor", 0}}}});
     EXPECT_EQ(gold.albedo, vec3(1, .5f, .25f));
     EXPECT_EQ(gold.alpha, .75f);
     EXPECT_EQ(gold.metallic, 1);
@@ -77,21 +80,24 @@ TEST_F(LoadSurface, MaterialFactorsAndSidesAreRead) {
     EXPECT_FALSE(gold.mirror) << "by its angle, as Schlick has it";
     EXPECT_TRUE(gold.two_sided);
     EXPECT_FALSE(gold.front_only);
-    const Material perfect = material_of({{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}});
+    const Material perfect = load_gltf_material(
+        {{"pbrMetallicRoughness", {{"roughnessFactor", 0}}}});
     EXPECT_TRUE(perfect.mirror);
     EXPECT_EQ(perfect.reflectance, vec3(1));
-    const Material out_of_range = material_of(
+    const Material out_of_range = load_gltf_material(
         {{"pbrMetallicRoughness", {{"metallicFactor", 7}, {"baseColorFactor", {2, -1, 0, 9}}}}});
     EXPECT_EQ(out_of_range.metallic, 1);
     EXPECT_EQ(out_of_range.albedo, vec3(1, 0, 0));
 }
 
 TEST_F(LoadSurface, PerfectMetalKeepsVertexColours) {
-    Gltf gltf = with({{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
-    EXPECT_TRUE(scene_of(gltf).materials[0].mirror);
-    const std::size_t colours = gltf.add<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, "VEC3", 5126);
+    GltfFileBuilder gltf = make_gltf_with_material(
+        {{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
+    EXPECT_TRUE(load_surface_gltf(gltf).materials[0].mirror);
+    const std::size_t colours = gltf.add_accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1},
+                                                         "VEC3", 5126);
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = colours;
-    const Scene scene = scene_of(gltf);
+    const Scene scene = load_surface_gltf(gltf);
     EXPECT_FALSE(scene.materials[0].mirror);
     EXPECT_EQ(scene.materials[0].metallic, 1);
     EXPECT_EQ(scene.meshes[0].colours.size(), 3u);
@@ -99,9 +105,9 @@ TEST_F(LoadSurface, PerfectMetalKeepsVertexColours) {
 
 TEST_F(LoadSurface, DielectricReflectanceFollowsExtensions) {
     const auto with_extension = [&](const char* name, const Json& is) {
-        return material_of({{"extensions", {{name, is}}}});
+        return load_gltf_material({{"extensions", {{name, is}}}});
     };
-    EXPECT_EQ(material_of(Json::object()).dielectric_f0, vec3(.04f));
+    EXPECT_EQ(load_gltf_material(Json::object()).dielectric_f0, vec3(.04f));
     const Material diamond = with_extension("KHR_materials_ior", {{"ior", 2.4}});
     EXPECT_NEAR(diamond.dielectric_f0.x, std::pow(1.4 / 3.4, 2), 1e-6);
     EXPECT_EQ(with_extension("KHR_materials_ior", {{"ior", 0}}).dielectric_f0, vec3(1));
@@ -128,10 +134,11 @@ TEST_F(LoadSurface, DielectricReflectanceFollowsExtensions) {
 
 TEST_F(LoadSurface, OnlyEmissionWithoutATextureLightsTheScene) {
     const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}};
-    const Material lamp = material_of({{"emissiveFactor", {1, .5, 0}}, {"extensions", strong}});
+    const Material lamp = load_gltf_material(
+        {{"emissiveFactor", {1, .5, 0}}, {"extensions", strong}});
     EXPECT_EQ(lamp.emission, vec3(4, 2, 0));
     EXPECT_EQ(emitted_radiance(lamp), vec3(4, 2, 0));
-    const Material screen = material_of(
+    const Material screen = load_gltf_material(
         {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 1}}}});
     ASSERT_TRUE(screen.emission_texture);
     EXPECT_TRUE(screen.emission_texture->srgb);
@@ -139,20 +146,21 @@ TEST_F(LoadSurface, OnlyEmissionWithoutATextureLightsTheScene) {
 }
 
 TEST_F(LoadSurface, AlphaModeDecidesTheCutoff) {
-    EXPECT_EQ(material_of({{"alphaMode", "MASK"}}).alpha_cutoff, .5f);
-    EXPECT_EQ(material_of({{"alphaMode", "MASK"}, {"alphaCutoff", .25}}).alpha_cutoff, .25f);
-    EXPECT_EQ(material_of({{"alphaMode", "OPAQUE"}, {"alphaCutoff", .25}}).alpha_cutoff, 0);
-    const Scene blended = scene_of(with({{"alphaMode", "BLEND"}}));
+    EXPECT_EQ(load_gltf_material({{"alphaMode", "MASK"}}).alpha_cutoff, .5f);
+    EXPECT_EQ(load_gltf_material({{"alphaMode", "MASK"}, {"alphaCutoff", .25}}).alpha_cutoff, .25f);
+    EXPECT_EQ(load_gltf_material({{"alphaMode", "OPAQUE"}, {"alphaCutoff", .25}}).alpha_cutoff, 0);
+    const Scene blended = load_surface_gltf(make_gltf_with_material({{"alphaMode", "BLEND"}}));
     EXPECT_EQ(blended.materials[0].alpha_cutoff, .5f);
-    ASSERT_THAT(ids(blended), ElementsAre("blend-as-mask"));
+    ASSERT_THAT(list_unsupported_feature_ids(blended), ElementsAre("blend-as-mask"));
     EXPECT_EQ(blended.unsupported[0].first, "materials[0]");
     EXPECT_THAT(blended.unsupported[0].materials, ElementsAre(0));
 }
 
 TEST_F(LoadSurface, TexturesAndSamplersAreRead) {
-    const Scene scene = scene_of(with({{"pbrMetallicRoughness",
-                                        {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
-                                         {"metallicRoughnessTexture", {{"index", 1}}}}}}));
+    const Scene scene = load_surface_gltf(
+        make_gltf_with_material({{"pbrMetallicRoughness",
+                                  {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
+                                   {"metallicRoughnessTexture", {{"index", 1}}}}}}));
     const Material& material = scene.materials[0];
     ASSERT_TRUE(material.albedo_texture && material.roughness_texture);
     const Texture &colour = *material.albedo_texture, &rough = *material.roughness_texture;
@@ -173,11 +181,11 @@ TEST_F(LoadSurface, TexturesAndSamplersAreRead) {
 
 TEST_F(LoadSurface, TextureTransformsAreRead) {
     const auto transformed = [&](const Json& transform) {
-        return *material_of({{"pbrMetallicRoughness",
-                              {{"baseColorTexture",
-                                {{"index", 0},
-                                 {"texCoord", 0},
-                                 {"extensions", {{"KHR_texture_transform", transform}}}}}}}})
+        return *load_gltf_material({{"pbrMetallicRoughness",
+                                     {{"baseColorTexture",
+                                       {{"index", 0},
+                                        {"texCoord", 0},
+                                        {"extensions", {{"KHR_texture_transform", transform}}}}}}}})
                     .albedo_texture;
     };
     const auto at = [](const Texture& texture, double u, double v) {
@@ -197,13 +205,16 @@ TEST_F(LoadSurface, TextureTransformsAreRead) {
 
 TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
     const std::string png = encode_image_png(kLoadSurfacePicture);
-    Gltf gltf = with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
-    const auto texels = [&] { return scene_of(gltf).materials[0].albedo_texture->image->texels; };
+    GltfFileBuilder gltf = make_gltf_with_material(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
+    const auto texels = [&] {
+        return load_surface_gltf(gltf).materials[0].albedo_texture->image->texels;
+    };
     EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a data URI";
-    write("a b.png", png);
+    write_loaded_file("a b.png", png);
     gltf.root["images"] = {{{"uri", "a%20b.png"}}};
     EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a file";
-    EXPECT_EQ(scene_of(gltf).files.size(), 2u);
+    EXPECT_EQ(load_surface_gltf(gltf).files.size(), 2u);
     gltf.root["images"] = {
         {{"bufferView", gltf.root["bufferViews"].size()}, {"mimeType", "image/png"}}};
     gltf.root["bufferViews"].push_back(
@@ -214,7 +225,7 @@ TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
 
 TEST_F(LoadSurface, GreyImagesWithAndWithoutAlphaAreDecoded) {
     const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
-    BudgetAccount account({});
+    LoadBudgetUsage account({});
     const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
         return decode_image(encode_png(shape, values), "", "x", account)->texels;
     };
@@ -224,8 +235,8 @@ TEST_F(LoadSurface, GreyImagesWithAndWithoutAlphaAreDecoded) {
 }
 
 /// Returns a JPEG of two texels of the colour (200, 40, 10).
-std::string two_texel_jpeg() {
-    static constexpr char kBytes[] =
+std::string make_two_texel_jpeg() {
+    static constexpr char kJpegBytes[] =
         "\xff\xd8\xff\xe0\x00\x10\x4a\x46\x49\x46\x00\x01\x01\x00\x00\x01\x00\x01\x00\x00"
         "\xff\xdb\x00\x43\x00\x03\x02\x02\x03\x02\x02\x03\x03\x03\x03\x04\x03\x03\x04\x05"
         "\x08\x05\x05\x04\x04\x05\x0a\x07\x07\x06\x08\x0c\x0a\x0c\x0c\x0b\x0a\x0b\x0b\x0d"
@@ -241,12 +252,13 @@ std::string two_texel_jpeg() {
         "\x00\x00\x07\x08\xff\xc4\x00\x14\x11\x01\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00"
         "\x00\x00\x00\x00\x00\x00\xff\xda\x00\x0c\x03\x01\x00\x02\x11\x03\x11\x00\x3f\x00"
         "\x0a\x07\xad\xb7\xff\xd9";
-    return {kBytes, sizeof kBytes - 1};
+    return {kJpegBytes, sizeof kJpegBytes - 1};
 }
 
 TEST_F(LoadSurface, JpegImagesAreDecoded) {
-    BudgetAccount account({});
-    const std::shared_ptr<const Image> image = decode_image(two_texel_jpeg(), "", "x", account);
+    LoadBudgetUsage account({});
+    const std::shared_ptr<const Image> image = decode_image(make_two_texel_jpeg(), "", "x",
+                                                            account);
     ASSERT_TRUE(image);
     EXPECT_EQ(image->size, uvec2(2, 1));
     for (const std::uint32_t texel : image->texels) {
@@ -255,51 +267,53 @@ TEST_F(LoadSurface, JpegImagesAreDecoded) {
         EXPECT_NEAR(texel >> 16 & 255, 10, 3);
         EXPECT_EQ(texel >> 24, 255u);
     }
-    std::string cut = two_texel_jpeg();
+    std::string cut = make_two_texel_jpeg();
     cut.resize(cut.size() / 2);
-    EXPECT_THAT(
-        test::error_text_of(Failure::bad_data, [&] { decode_image(cut, "cut.jpg", "x", account); }),
-        HasSubstr("wanted a flat picture"));
+    EXPECT_THAT(test::catch_error_text(Failure::bad_data,
+                                       [&] { decode_image(cut, "cut.jpg", "x", account); }),
+                HasSubstr("wanted a flat picture"));
 }
 
 TEST_F(LoadSurface, NormalTexturesAreReadWithTheirScale) {
-    const Material plain = material_of(Json::object());
+    const Material plain = load_gltf_material(Json::object());
     EXPECT_FALSE(plain.normal_texture);
     EXPECT_EQ(plain.normal_scale, 1);
-    Gltf gltf = with({{"normalTexture", {{"index", 0}, {"texCoord", 1}, {"scale", -2.5}}}});
-    const Scene scene = scene_of(gltf);
+    GltfFileBuilder gltf = make_gltf_with_material(
+        {{"normalTexture", {{"index", 0}, {"texCoord", 1}, {"scale", -2.5}}}});
+    const Scene scene = load_surface_gltf(gltf);
     ASSERT_TRUE(scene.materials[0].normal_texture);
     EXPECT_FALSE(scene.materials[0].normal_texture->srgb);
     EXPECT_EQ(scene.materials[0].normal_texture->uv_set, 1u);
     EXPECT_EQ(scene.materials[0].normal_scale, -2.5f);
-    EXPECT_THAT(ids(scene), testing::Not(testing::Contains("normal-texture")));
+    EXPECT_THAT(list_unsupported_feature_ids(scene),
+                testing::Not(testing::Contains("normal-texture")));
 }
 
 TEST_F(LoadSurface, ImagesWithSidesOver65535TexelsAreRefused) {
-    BudgetAccount account({});
+    LoadBudgetUsage account({});
     const auto decode = [&](uvec2 size) {
         const Image image{.size = size, .texels = std::vector<std::uint32_t>(size.x * size.y)};
         return decode_image(encode_image_png(image), "", "x", account)->size;
     };
     EXPECT_EQ(decode({65535, 1}), uvec2(65535, 1));
-    EXPECT_THAT(test::error_text_of(Failure::bad_data,
-                                    [&] {
-                                        decode({1, 65536});
-                                    }),
+    EXPECT_THAT(test::catch_error_text(Failure::bad_data,
+                                       [&] {
+                                           decode({1, 65536});
+                                       }),
                 HasSubstr("x: wanted sides of at most 65535 texels, found 1x65536"));
 }
 
 TEST_F(LoadSurface, MissingImageIsListedAndTheColourFactorStays) {
-    Gltf gltf = with(
+    GltfFileBuilder gltf = make_gltf_with_material(
         {{"pbrMetallicRoughness",
           {{"baseColorFactor", {.5, .5, .5, 1}}, {"baseColorTexture", {{"index", 0}}}}},
          {"emissiveTexture", {{"index", 0}}},
          {"emissiveFactor", {1, 1, 1}}});
     gltf.root["images"] = {{{"uri", "gone.png"}}};
-    const Scene scene = scene_of(gltf);
+    const Scene scene = load_surface_gltf(gltf);
     EXPECT_FALSE(scene.materials[0].albedo_texture);
     EXPECT_EQ(scene.materials[0].albedo, vec3(.5f));
-    EXPECT_THAT(ids(scene), ElementsAre("missing-image"));
+    EXPECT_THAT(list_unsupported_feature_ids(scene), ElementsAre("missing-image"));
     EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("'gone.png' is not there")));
 }
 
@@ -318,33 +332,35 @@ TEST_F(LoadSurface, TexelBudgetIsCheckedBeforeDecoding) {
     };
     const std::uint32_t sum = crc(std::string_view(huge).substr(12, 17));
     for (int i = 0; i < 4; ++i) huge[29 + std::size_t(i)] = static_cast<char>(sum >> (24 - 8 * i));
-    Gltf gltf = with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
-    gltf.root["images"] = {{{"uri", "data:image/png;base64," + base64(huge)}}};
-    EXPECT_THAT(refused("x.glb", gltf.glb()),
+    GltfFileBuilder gltf = make_gltf_with_material(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    gltf.root["images"] = {{{"uri", "data:image/png;base64," + encode_as_base64(huge)}}};
+    EXPECT_THAT(load_error_text("x.glb", gltf.glb_bytes()),
                 HasSubstr("images[0]: wanted at most 67108864 texels in pictures, the budget of a "
                           "scene, found 3600000000"));
-    EXPECT_THAT(
-        refused("x.glb",
-                with({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}).glb(),
-                Failure::bad_data, {.budget = {.texels = 5}}),
-        HasSubstr("wanted at most 5 texels in pictures"));
+    EXPECT_THAT(load_error_text("x.glb",
+                                make_gltf_with_material({{"pbrMetallicRoughness",
+                                                          {{"baseColorTexture", {{"index", 0}}}}}})
+                                    .glb_bytes(),
+                                Failure::bad_data, {.budget = {.texels = 5}}),
+                HasSubstr("wanted at most 5 texels in pictures"));
 }
 
 TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
-    const Scene scene = scene_of(
-        with({{"name", "all"},
-              {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
-              {"normalTexture", {{"index", 0}}},
-              {"occlusionTexture", {{"index", 0}}},
-              {"extensions",
-               {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}},
-                {"KHR_materials_sheen", Json::object()},
-                {"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}},
-                {"KHR_materials_iridescence", {{"iridescenceFactor", 0}}},
-                {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
-                {"KHR_materials_volume", Json::object()},
-                {"KHR_materials_dispersion", Json::object()}}}}));
-    EXPECT_THAT(ids(scene),
+    const Scene scene = load_surface_gltf(
+        make_gltf_with_material({{"name", "all"},
+                                 {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                                 {"normalTexture", {{"index", 0}}},
+                                 {"occlusionTexture", {{"index", 0}}},
+                                 {"extensions",
+                                  {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}},
+                                   {"KHR_materials_sheen", Json::object()},
+                                   {"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}},
+                                   {"KHR_materials_iridescence", {{"iridescenceFactor", 0}}},
+                                   {"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                   {"KHR_materials_volume", Json::object()},
+                                   {"KHR_materials_dispersion", Json::object()}}}}));
+    EXPECT_THAT(list_unsupported_feature_ids(scene),
                 testing::UnorderedElementsAre("occlusion-texture", "clearcoat", "sheen",
                                               "anisotropy", "rough-glass", "material-extension"));
     for (const UnsupportedFeature& gap : scene.unsupported) {
@@ -355,11 +371,11 @@ TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
 
 TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
     const auto gaps = [&](const Json& pbr) {
-        const Scene scene = scene_of(
-            with({{"pbrMetallicRoughness", pbr},
-                  {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}));
-        EXPECT_EQ(is_glass(scene.materials[0]), ids(scene).size() == 2);
-        return ids(scene);
+        const Scene scene = load_surface_gltf(make_gltf_with_material(
+            {{"pbrMetallicRoughness", pbr},
+             {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}));
+        EXPECT_EQ(is_glass(scene.materials[0]), list_unsupported_feature_ids(scene).size() == 2);
+        return list_unsupported_feature_ids(scene);
     };
     using testing::ElementsAre, testing::IsEmpty;
     EXPECT_THAT(gaps({{"metallicFactor", 1}}), IsEmpty());
@@ -375,12 +391,13 @@ TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
 
 TEST_F(LoadSurface, GlassIsReadAsAnIndexOfRefractionAndAnAbsorption) {
     const auto read = [&](const Json& volume) {
-        return scene_of(
-                   with({{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
-                         {"extensions",
-                          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
-                           {"KHR_materials_ior", {{"ior", 1.33}}},
-                           {"KHR_materials_volume", volume}}}}))
+        return load_surface_gltf(
+                   make_gltf_with_material(
+                       {{"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+                        {"extensions",
+                         {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                          {"KHR_materials_ior", {{"ior", 1.33}}},
+                          {"KHR_materials_volume", volume}}}}))
             .materials[0];
     };
     const Material body = read(

@@ -18,17 +18,17 @@ using namespace test::loading;
 
 const fs::path kSamples = test::source_folder() / "samples" / "scenes";
 
-void load_expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
+void expect_near_loaded_positions(const dvec3& found, const dvec3& wanted, double tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << "component " << i;
 }
 
-dvec3 world_position(const Scene& scene, const Object& object, std::size_t vertex) {
+dvec3 world_position_of_vertex(const Scene& scene, const Object& object, std::size_t vertex) {
     return dvec3(object.world_from_object * dvec4(scene.meshes[object.mesh].positions[vertex], 1));
 }
 
 /// Returns the largest distance between corresponding vertices in world space. Expects all other
 /// properties of the objects to be equal.
-double compare_objects(const Scene& found, const Scene& wanted) {
+double compare_objects_of_scenes(const Scene& found, const Scene& wanted) {
     double difference = 0;
     EXPECT_EQ(found.objects.size(), wanted.objects.size());
     for (std::size_t i = 0; i < std::min(found.objects.size(), wanted.objects.size()); ++i) {
@@ -40,14 +40,15 @@ double compare_objects(const Scene& found, const Scene& wanted) {
         EXPECT_EQ(mesh.positions.size(), other.positions.size()) << a.name;
         if (mesh.positions.size() != other.positions.size()) continue;
         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-            difference = std::max(difference, glm::distance(world_position(found, a, v),
-                                                            world_position(wanted, b, v)));
+            difference = std::max(difference,
+                                  glm::distance(world_position_of_vertex(found, a, v),
+                                                world_position_of_vertex(wanted, b, v)));
             EXPECT_LT(glm::distance(mesh.normals[v], other.normals[v]),
                       3e-7f); // tolerance: two float ulps
         }
         EXPECT_EQ(a.sphere.has_value(), b.sphere.has_value()) << a.name;
         if (!a.sphere || !b.sphere) continue;
-        load_expect_near(a.sphere->centre, b.sphere->centre, 1e-12);
+        expect_near_loaded_positions(a.sphere->centre, b.sphere->centre, 1e-12);
         EXPECT_NEAR(a.sphere->radius, b.sphere->radius, 1e-12);
     }
     return difference;
@@ -71,9 +72,9 @@ void expect_same_cameras(const Scene& found, const Scene& wanted) {
     for (std::size_t i = 0; i < found.cameras.size(); ++i) {
         const Camera &a = found.cameras[i], &b = wanted.cameras[i];
         EXPECT_EQ(a.name, b.name);
-        load_expect_near(a.eye, b.eye, 1e-12);
-        load_expect_near(a.target, b.target, 1e-10);
-        load_expect_near(a.up, b.up, 1e-12);
+        expect_near_loaded_positions(a.eye, b.eye, 1e-12);
+        expect_near_loaded_positions(a.target, b.target, 1e-10);
+        expect_near_loaded_positions(a.up, b.up, 1e-12);
         EXPECT_NEAR(a.vertical_fov_degrees, b.vertical_fov_degrees, 1e-12);
     }
 }
@@ -117,7 +118,7 @@ TEST_F(Load, ShippedFilesEqualTheOutputOfTheWriters) {
 TEST_F(Load, ShippedObjEqualsTheBuiltInScene) {
     const Scene scene = load((kSamples / "cornell-mirrors.obj").string());
     const Scene wanted = make_cornell_mirrors();
-    EXPECT_EQ(compare_objects(scene, wanted),
+    EXPECT_EQ(compare_objects_of_scenes(scene, wanted),
               0); // doubles written in shortest form read back exactly
     expect_same_materials(scene, wanted);
     expect_same_cameras(scene, wanted);
@@ -135,7 +136,7 @@ TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
     const Scene wanted = make_cornell_mirrors();
     // Half an ulp of a float below 1024 is 2^-15 for each component. Coordinates of the Cornell box
     // reach 559.2.
-    EXPECT_LT(compare_objects(scene, wanted), std::sqrt(3.0) * std::ldexp(1.0, -15));
+    EXPECT_LT(compare_objects_of_scenes(scene, wanted), std::sqrt(3.0) * std::ldexp(1.0, -15));
     expect_same_materials(scene, wanted);
     expect_same_cameras(scene, wanted);
     EXPECT_EQ(scene.meshes.size(), 7u) << "the balls share one mesh";
@@ -145,7 +146,8 @@ TEST_F(Load, ShippedGlbEqualsTheBuiltInSceneWithinFloatRounding) {
         const dvec3 found = scene_at_time(scene, t).objects.back().sphere->centre;
         // The tolerance covers the Hermite error of 2.5e-7 times 50, and the rounding of floats
         // below 256.
-        load_expect_near(found, scene_at_time(wanted, t).objects.back().sphere->centre, 4e-5);
+        expect_near_loaded_positions(found, scene_at_time(wanted, t).objects.back().sphere->centre,
+                                     4e-5);
     }
 }
 
@@ -171,13 +173,13 @@ TEST_F(Load, HiddenFrontWallSurvivesBothFormats) {
     const Scene wanted = make_closed_cornell_mirrors();
     save_glb(wanted, folder / "x.glb");
     save_obj(wanted, folder / "x.obj");
-    EXPECT_LT(compare_objects(load((folder / "x.glb").string()), wanted), 1e-4);
-    EXPECT_EQ(compare_objects(load((folder / "x.obj").string()), wanted), 0);
+    EXPECT_LT(compare_objects_of_scenes(load((folder / "x.glb").string()), wanted), 1e-4);
+    EXPECT_EQ(compare_objects_of_scenes(load((folder / "x.obj").string()), wanted), 0);
 }
 
 /// Builds a scene with features that the built-in scene lacks: rotated, scaled and mirrored
 /// objects, keyframes, and names that clash.
-Scene load_awkward() {
+Scene build_scene_with_rare_features() {
     Scene scene{.name = "awkward"};
     scene.materials = {{.name = "a b", .albedo = {0.1f, 0.2f, 0.3f}},
                        {.name = "a b", .mirror = true, .reflectance = {0.5f, 1, 0.25f}},
@@ -202,7 +204,7 @@ Scene load_awkward() {
 }
 
 TEST_F(Load, TransformsKeyframesAndClashingNamesSurviveBothFormats) {
-    const Scene wanted = load_awkward();
+    const Scene wanted = build_scene_with_rare_features();
     save_glb(wanted, folder / "awkward.glb");
     save_obj(wanted, folder / "awkward.obj");
     for (const char* name : {"awkward.glb", "awkward.obj"}) {
@@ -217,26 +219,29 @@ TEST_F(Load, TransformsKeyframesAndClashingNamesSurviveBothFormats) {
             const Scene found = scene_at_time(scene, t), still = scene_at_time(wanted, t);
             for (std::size_t i = 0; i < 3; ++i) {
                 const auto a = bounds(found, found.objects[i]), b = bounds(still, still.objects[i]);
-                load_expect_near(a.lo, b.lo, 1e-6);
-                load_expect_near(a.hi, b.hi, 1e-6);
+                expect_near_loaded_positions(a.lo, b.lo, 1e-6);
+                expect_near_loaded_positions(a.hi, b.hi, 1e-6);
             }
-            load_expect_near(found.objects[0].sphere->centre, still.objects[0].sphere->centre,
-                             1e-6);
+            expect_near_loaded_positions(found.objects[0].sphere->centre,
+                                         still.objects[0].sphere->centre, 1e-6);
         }
-        load_expect_near(scene.cameras.at(0).up, {1, 0, 0}, 1e-12);
-        load_expect_near(scene.cameras.at(0).target, {0, 1, 0}, 1e-12);
+        expect_near_loaded_positions(scene.cameras.at(0).up, {1, 0, 0}, 1e-12);
+        expect_near_loaded_positions(scene.cameras.at(0).target, {0, 1, 0}, 1e-12);
         const auto found = list_lights(scene), still = list_lights(wanted);
         ASSERT_EQ(found.size(), 1u);
-        load_expect_near(found[0].normal, still[0].normal, 1e-6);
+        expect_near_loaded_positions(found[0].normal, still[0].normal, 1e-6);
         const Mesh& flipped = scene.meshes[scene.objects[1].mesh];
         const uvec3 t = flipped.triangles[0];
-        const auto p = [&](unsigned i) { return world_position(scene, scene.objects[1], i); };
+        const auto p = [&](unsigned i) {
+            return world_position_of_vertex(scene, scene.objects[1], i);
+        };
         EXPECT_GT(glm::cross(p(t.y) - p(t.x), p(t.z) - p(t.x)).z, 0) << "faces +z as its normals";
     }
 }
 
 TEST_F(Load, WritingASceneTwiceGivesTheSameBytes) {
-    for (const char* name : {"1.glb", "2.glb"}) save_glb(load_awkward(), folder / name);
+    for (const char* name : {"1.glb", "2.glb"})
+        save_glb(build_scene_with_rare_features(), folder / name);
     EXPECT_TRUE(read_file(folder / "1.glb") == read_file(folder / "2.glb"));
     // A scene of floats is read back unchanged, but with the file's name.
     fs::create_directories(folder / "again");
@@ -246,15 +251,15 @@ TEST_F(Load, WritingASceneTwiceGivesTheSameBytes) {
 }
 
 TEST_F(Load, WritingASceneIntoAMissingFolderIsAnError) {
-    EXPECT_THROW(save_glb(load_awkward(), folder / "no" / "x.glb"), Error);
-    EXPECT_THROW(save_obj(load_awkward(), folder / "no" / "x.obj"), Error);
+    EXPECT_THROW(save_glb(build_scene_with_rare_features(), folder / "no" / "x.glb"), Error);
+    EXPECT_THROW(save_obj(build_scene_with_rare_features(), folder / "no" / "x.obj"), Error);
 }
 
 // ---- rules of .obj files
 
 TEST_F(Load, ObjTrianglesWithoutAreaAreDroppedAndNormalsAdded) {
     const Scene scene = load(
-        write("x.obj", kTriangle + "v 0 0 1\no a\nf 1 2 3\nf 1 3 4\nf 1 1 2\n"));
+        write_loaded_file("x.obj", kTriangle + "v 0 0 1\no a\nf 1 2 3\nf 1 3 4\nf 1 1 2\n"));
     const Mesh& mesh = scene.meshes[scene.objects.at(0).mesh];
     EXPECT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.positions.size(), 6u) << "flat shading shares no vertex";
@@ -266,7 +271,8 @@ TEST_F(Load, ObjTrianglesWithoutAreaAreDroppedAndNormalsAdded) {
 }
 
 TEST_F(Load, ObjNormalWithoutLengthBecomesTheFacetNormal) {
-    const Scene scene = load(write("x.obj", kTriangle + "vn 0 0 0\nvn 0 0 -5\nf 1//1 2//2 3//2\n"));
+    const Scene scene = load(
+        write_loaded_file("x.obj", kTriangle + "vn 0 0 0\nvn 0 0 -5\nf 1//1 2//2 3//2\n"));
     const Mesh& mesh = scene.meshes[scene.objects.at(0).mesh];
     const uvec3 t = mesh.triangles[0];
     EXPECT_EQ(mesh.normals[t.x], vec3(0, 0, 1));
@@ -274,12 +280,12 @@ TEST_F(Load, ObjNormalWithoutLengthBecomesTheFacetNormal) {
 }
 
 TEST_F(Load, ObjMirrorsAreObjectsWithAMirrorMaterial) {
-    write("x.mtl", "newmtl dull grey\nKd 2 .5 -1\nnewmtl shiny\nillum 3\nKs 1 2 .5\n");
-    const Scene scene = load(
-        write("x.obj",
-              "mtllib x.mtl\n" + kTriangle +
-                  "o a\nusemtl shiny\nf 1 2 3\nusemtl dull grey\nf 1 3 2\nusemtl shiny\nf 3 2 1\n"
-                  "g b\nf -1 -2 -3\n"));
+    write_loaded_file("x.mtl", "newmtl dull grey\nKd 2 .5 -1\nnewmtl shiny\nillum 3\nKs 1 2 .5\n");
+    const Scene scene = load(write_loaded_file(
+        "x.obj",
+        "mtllib x.mtl\n" + kTriangle +
+            "o a\nusemtl shiny\nf 1 2 3\nusemtl dull grey\nf 1 3 2\nusemtl shiny\nf 3 2 1\n"
+            "g b\nf -1 -2 -3\n"));
     ASSERT_EQ(scene.objects.size(), 3u);
     EXPECT_EQ(scene.objects[0].name, "a/shiny");
     EXPECT_EQ(scene.objects[1].name, "a/dull grey");
@@ -291,43 +297,50 @@ TEST_F(Load, ObjMirrorsAreObjectsWithAMirrorMaterial) {
 }
 
 TEST_F(Load, ObjErrorsNameLineExpectedAndFound) {
-    EXPECT_THAT(refused("a.obj", kTriangle + "f 1 2 4\n"),
+    EXPECT_THAT(load_error_text("a.obj", kTriangle + "f 1 2 4\n"),
                 AllOf(HasSubstr("a.obj:4"), HasSubstr("one of 3 positions"), HasSubstr("found 4")));
-    EXPECT_THAT(refused("b.obj", kTriangle + "f 1 2 -4\n"), HasSubstr("found -4"));
-    EXPECT_THAT(refused("c.obj", kTriangle + "f 0 1 2\n"), HasSubstr("found '0'"));
-    EXPECT_THAT(refused("d.obj", kTriangle + "f 1//1 2//1 3//1\n"), HasSubstr("0 normals"));
-    EXPECT_THAT(refused("e.obj", "v 0 nan 0\n"), AllOf(HasSubstr("e.obj:1"), HasSubstr("'nan'")));
-    EXPECT_THAT(refused("f.obj", "v 0 1e999 0\n"), HasSubstr("'1e999'"));
-    EXPECT_THAT(refused("g.obj", "v 0 0\n"), HasSubstr("found 2"));
-    EXPECT_THAT(refused("h.obj", kTriangle + "f 1 2\n"), HasSubstr("found none"));
-    EXPECT_THAT(refused("i.obj", kTriangle + "vt 0 0\nf 1/2 2/1 3/1\n"),
+    EXPECT_THAT(load_error_text("b.obj", kTriangle + "f 1 2 -4\n"), HasSubstr("found -4"));
+    EXPECT_THAT(load_error_text("c.obj", kTriangle + "f 0 1 2\n"), HasSubstr("found '0'"));
+    EXPECT_THAT(load_error_text("d.obj", kTriangle + "f 1//1 2//1 3//1\n"), HasSubstr("0 normals"));
+    EXPECT_THAT(load_error_text("e.obj", "v 0 nan 0\n"),
+                AllOf(HasSubstr("e.obj:1"), HasSubstr("'nan'")));
+    EXPECT_THAT(load_error_text("f.obj", "v 0 1e999 0\n"), HasSubstr("'1e999'"));
+    EXPECT_THAT(load_error_text("g.obj", "v 0 0\n"), HasSubstr("found 2"));
+    EXPECT_THAT(load_error_text("h.obj", kTriangle + "f 1 2\n"), HasSubstr("found none"));
+    EXPECT_THAT(load_error_text("i.obj", kTriangle + "vt 0 0\nf 1/2 2/1 3/1\n"),
                 HasSubstr("one of 1 texture coordinates, found 2"));
-    EXPECT_THAT(refused("j.obj", kTriangle), HasSubstr("found none"));
-    EXPECT_THAT(refused("k.obj", ""), HasSubstr("found none"));
-    EXPECT_THAT(refused("l.obj", kTriangle + "f 1 1 2\n"), HasSubstr("found none"));
-    EXPECT_THAT(refused("m.obj", kTriangle + "f 99999999999999999999 1 2\n"), HasSubstr("9999"));
-    EXPECT_THAT(refused("n.obj", "mtllib ../x.mtl\n"), HasSubstr("'../x.mtl'"));
+    EXPECT_THAT(load_error_text("j.obj", kTriangle), HasSubstr("found none"));
+    EXPECT_THAT(load_error_text("k.obj", ""), HasSubstr("found none"));
+    EXPECT_THAT(load_error_text("l.obj", kTriangle + "f 1 1 2\n"), HasSubstr("found none"));
+    EXPECT_THAT(load_error_text("m.obj", kTriangle + "f 99999999999999999999 1 2\n"),
+                HasSubstr("9999"));
+    EXPECT_THAT(load_error_text("n.obj", "mtllib ../x.mtl\n"), HasSubstr("'../x.mtl'"));
 }
 
 TEST_F(Load, ObjCatoptricCommentsAreChecked) {
     const std::string head = kTriangle + "o ball\nf 1 2 3\n# catoptric ";
-    EXPECT_THAT(refused("a.obj", head + "sphere bull 0 0 0 1"), HasSubstr("did you mean 'ball'"));
-    EXPECT_THAT(refused("b.obj", head + "sphere ball 0 0 0 0"), HasSubstr("radius above 0"));
-    EXPECT_THAT(refused("c.obj", head + "motion ball harmonic 0 1 0 0"), HasSubstr("period"));
-    EXPECT_THAT(refused("d.obj", head + "motion ball linear 2 0 0 0 0"), HasSubstr("each of 2"));
-    EXPECT_THAT(refused("e.obj", head + "motion ball waltz"), HasSubstr("'waltz'"));
-    EXPECT_THAT(refused("f.obj", head + "camera c 0 0 0 0 0 1 0 1 0 180"), HasSubstr("180"));
-    EXPECT_THAT(refused("g.obj", head + "camera c 0 0 0 0 1 0 0 1 0 45"), HasSubstr("up"));
-    EXPECT_THAT(refused("h.obj", head + "light"), HasSubstr("wants a name"));
-    EXPECT_THAT(refused("i.obj", head + "light ball"), HasSubstr("found 'light'"));
-    write("x.mtl", "newmtl a\nKd 1 x 1\n");
-    EXPECT_THAT([&] { load(write("j.obj", "mtllib x.mtl\n" + head)); },
+    EXPECT_THAT(load_error_text("a.obj", head + "sphere bull 0 0 0 1"),
+                HasSubstr("did you mean 'ball'"));
+    EXPECT_THAT(load_error_text("b.obj", head + "sphere ball 0 0 0 0"),
+                HasSubstr("radius above 0"));
+    EXPECT_THAT(load_error_text("c.obj", head + "motion ball harmonic 0 1 0 0"),
+                HasSubstr("period"));
+    EXPECT_THAT(load_error_text("d.obj", head + "motion ball linear 2 0 0 0 0"),
+                HasSubstr("each of 2"));
+    EXPECT_THAT(load_error_text("e.obj", head + "motion ball waltz"), HasSubstr("'waltz'"));
+    EXPECT_THAT(load_error_text("f.obj", head + "camera c 0 0 0 0 0 1 0 1 0 180"),
+                HasSubstr("180"));
+    EXPECT_THAT(load_error_text("g.obj", head + "camera c 0 0 0 0 1 0 0 1 0 45"), HasSubstr("up"));
+    EXPECT_THAT(load_error_text("h.obj", head + "light"), HasSubstr("wants a name"));
+    EXPECT_THAT(load_error_text("i.obj", head + "light ball"), HasSubstr("found 'light'"));
+    write_loaded_file("x.mtl", "newmtl a\nKd 1 x 1\n");
+    EXPECT_THAT([&] { load(write_loaded_file("j.obj", "mtllib x.mtl\n" + head)); },
                 testing::ThrowsMessage<Error>(AllOf(HasSubstr("x.mtl:2"), HasSubstr("'x'"))));
 }
 
 TEST_F(Load, ObjPolygonsAndContinuedLinesAreRead) {
-    const Scene scene = load(write("x.obj",
-                                   "v 0 0 0\r\nv 1 \\\n0 0\nv 1 1 0 # corner\nv 0 1 0\nvt 0 0\n"
+    const Scene scene = load(
+        write_loaded_file("x.obj", "v 0 0 0\r\nv 1 \\\n0 0\nv 1 1 0 # corner\nv 0 1 0\nvt 0 0\n"
                                    "f 1/1 2/1 3/1 4/1\ns 1\nl 1 2\nvp 1 2\n"));
     EXPECT_EQ(triangle_count(scene), 2u);
 }
@@ -335,7 +348,7 @@ TEST_F(Load, ObjPolygonsAndContinuedLinesAreRead) {
 // ---- rules of glTF files
 
 TEST_F(Load, GltfTriangleGetsDefaultNormalsAndMaterial) {
-    const Scene scene = load(write("x.gltf", gltf_text()));
+    const Scene scene = load(write_loaded_file("x.gltf", make_gltf_text()));
     ASSERT_EQ(scene.objects.size(), 1u);
     EXPECT_EQ(scene.objects[0].name, "n");
     EXPECT_EQ(scene.meshes[0].normals, std::vector<vec3>(3, vec3(0, 0, 1)));
@@ -345,7 +358,7 @@ TEST_F(Load, GltfTriangleGetsDefaultNormalsAndMaterial) {
 TEST_F(Load, GltfErrorsNamePlaceExpectedAndFound) {
     int n = 0;
     const auto broken = [&](const std::string& from, const std::string& to) {
-        return refused(std::to_string(++n) + ".gltf", gltf_text(from, to));
+        return load_error_text(std::to_string(++n) + ".gltf", make_gltf_text(from, to));
     };
     EXPECT_THAT(broken("2.0", "1.0"), AllOf(HasSubstr("asset.version"), HasSubstr("\"1.0\"")));
     EXPECT_THAT(broken("\"asset\"", "\"ass\""), HasSubstr("found null"));
@@ -375,7 +388,7 @@ TEST_F(Load, GltfErrorsNamePlaceExpectedAndFound) {
 
 TEST_F(Load, GltfSphereMarkOnAnotherShapeIsIgnored) {
     const std::string mark = "\"mesh\":0,\"extras\":{\"catoptric\":{\"sphere\":true}}";
-    const Scene scene = load(write("x.gltf", gltf_text("\"mesh\":0", mark)));
+    const Scene scene = load(write_loaded_file("x.gltf", make_gltf_text("\"mesh\":0", mark)));
     EXPECT_FALSE(scene.objects[0].sphere);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0], HasSubstr("marked as a sphere"));
@@ -392,20 +405,21 @@ TEST_F(Load, GltfParentTransformsApplyToTheMotionOfChildren) {
     const std::string bytes = read_file(folder / "inner.glb");
     std::uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, 4);
-    Gltf outer{.root = Json::parse(bytes.substr(20, length)), .data = bytes.substr(28 + length)};
+    GltfFileBuilder outer{.root = Json::parse(bytes.substr(20, length)),
+                          .data = bytes.substr(28 + length)};
     outer.root["scenes"][0]["nodes"] = {1};
     outer.root["nodes"].push_back({{"children", {0}},
                                    {"scale", {2, 2, 2}},
                                    {"rotation", {0, 0, std::sqrt(.5), std::sqrt(.5)}}});
-    const Scene scene = load(write("outer.glb", outer.glb()));
+    const Scene scene = load(write_loaded_file("outer.glb", outer.glb_bytes()));
     const Scene moved = scene_at_time(scene, 1);
-    load_expect_near(dvec3(moved.objects[0].world_from_object[3]), {0, 4, 0}, 1e-6);
-    load_expect_near(bounds(moved).lo, {-2, 4, 0}, 1e-6);
+    expect_near_loaded_positions(dvec3(moved.objects[0].world_from_object[3]), {0, 4, 0}, 1e-6);
+    expect_near_loaded_positions(bounds(moved).lo, {-2, 4, 0}, 1e-6);
 }
 
 // ---- damaged files cause no crash and no exception of another kind
 
-void try_to_load(const std::string& path) {
+void load_and_ignore_errors(const std::string& path) {
     try {
         load(path);
     } catch (const Error& error) {
@@ -415,25 +429,25 @@ void try_to_load(const std::string& path) {
 }
 
 TEST_F(Load, TruncatedFilesAreRefused) {
-    save_glb(load_awkward(), folder / "x.glb");
+    save_glb(build_scene_with_rare_features(), folder / "x.glb");
     const std::string glb = read_file(folder / "x.glb");
     for (std::size_t size = 0; size < glb.size(); size += size < 64 ? 1 : 17)
-        refused("y.glb", glb.substr(0, size));
-    const std::string gltf = gltf_text();
+        load_error_text("y.glb", glb.substr(0, size));
+    const std::string gltf = make_gltf_text();
     for (std::size_t size = 0; size + 1 < gltf.size(); size += 3)
-        refused("y.gltf", gltf.substr(0, size));
-    save_obj(load_awkward(), folder / "x.obj");
+        load_error_text("y.gltf", gltf.substr(0, size));
+    save_obj(build_scene_with_rare_features(), folder / "x.obj");
     const std::string obj = read_file(folder / "x.obj");
     for (std::size_t size = 0; size < obj.size(); size += 7)
-        try_to_load(write("y.obj", obj.substr(0, size)));
+        load_and_ignore_errors(write_loaded_file("y.obj", obj.substr(0, size)));
 }
 
 TEST_F(Load, LoadingDamagedFilesNeverCrashes) {
-    save_glb(load_awkward(), folder / "x.glb");
-    save_obj(load_awkward(), folder / "x.obj");
+    save_glb(build_scene_with_rare_features(), folder / "x.glb");
+    save_obj(build_scene_with_rare_features(), folder / "x.obj");
     std::mt19937 random(1);
     for (const char* name : {"x.glb", "x.obj", "x.mtl", "x.gltf"}) {
-        const std::string whole = name == std::string("x.gltf") ? gltf_text()
+        const std::string whole = name == std::string("x.gltf") ? make_gltf_text()
                                                                 : read_file(folder / name);
         const std::string target = name == std::string("x.mtl") ? "x.obj" : name;
         const std::string digits = "0123456789-{}[],:\"./e# \n";
@@ -444,10 +458,10 @@ TEST_F(Load, LoadingDamagedFilesNeverCrashes) {
                 byte = random() % 2 ? digits[random() % digits.size()]
                                     : static_cast<char>(random());
             }
-            write(name, damaged);
-            try_to_load((folder / target).string());
+            write_loaded_file(name, damaged);
+            load_and_ignore_errors((folder / target).string());
         }
-        write(name, whole);
+        write_loaded_file(name, whole);
     }
 }
 
@@ -458,7 +472,7 @@ TEST(Number, NumbersWrittenAsTextReadBackExactly) {
         EXPECT_EQ(parse_number(format_shortest_number(x)), x);
     EXPECT_EQ(format_shortest_number(-0.0), "0");
     EXPECT_EQ(format_shortest_number(0.1f), "0.1");
-    EXPECT_EQ(float_to_typed_double(0.725f), 0.725);
+    EXPECT_EQ(float_to_shortest_double(0.725f), 0.725);
     EXPECT_EQ(parse_number("+2.5"), 2.5);
     EXPECT_EQ(parse_number("1e-999"), 0);
     for (const char* text : {"", "+", "-", "x", "1x", "nan", "inf", "1e999", "+-1", "0x10", "1,5"})

@@ -17,7 +17,8 @@ TEST(LobeAlbedo, EqualsAQuadratureOfTheTextbookFormulas) {
             const double angle = degrees * std::numbers::pi / 180;
             const dvec3 o(std::sin(angle), 0, std::cos(angle));
             const double wanted = test::integrate_over_half_vectors(
-                roughness, o, [&](const dvec3& i) { return test::textbook_lobe(roughness, o, i); });
+                roughness, o,
+                [&](const dvec3& i) { return test::textbook_lobe_reflectance(roughness, o, i); });
             EXPECT_NEAR(stress::compute_lobe_albedo(roughness, degrees), wanted, 5e-4)
                 << "roughness " << roughness << " at " << degrees;
         }

@@ -15,16 +15,17 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kRoughnesses[] = {.05, .15, .3, .5, .8, 1};
+constexpr double kTestedRoughnesses[] = {.05, .15, .3, .5, .8, 1};
 
-dvec3 direction_at(double degrees, double turn = 0) {
+dvec3 direction_at_angles(double degrees, double turn = 0) {
     const double angle = degrees * std::numbers::pi / 180;
     return {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
 }
 
-double albedo_by_quadrature(double roughness, const dvec3& o) {
-    return test::integrate_over_half_vectors(
-        roughness, o, [&](const dvec3& i) { return test::textbook_lobe(roughness, o, i); });
+double lobe_albedo_by_quadrature(double roughness, const dvec3& o) {
+    return test::integrate_over_half_vectors(roughness, o, [&](const dvec3& i) {
+        return test::textbook_lobe_reflectance(roughness, o, i);
+    });
 }
 
 TEST(Lobe, EqualsTheTextbookFormulas) {
@@ -32,8 +33,9 @@ TEST(Lobe, EqualsTheTextbookFormulas) {
     const auto draw = [&] { return double(random() >> 11) * 0x1p-53; };
     for (int k = 0; k < 2000; ++k) {
         const double roughness = .05 + .95 * draw();
-        const dvec3 o = direction_at(89 * draw()), i = direction_at(89 * draw(), 6.28 * draw());
-        const double wanted = test::textbook_lobe(roughness, o, i);
+        const dvec3 o = direction_at_angles(89 * draw()),
+                    i = direction_at_angles(89 * draw(), 6.28 * draw());
+        const double wanted = test::textbook_lobe_reflectance(roughness, o, i);
         const double alpha = f64::roughness_to_alpha(roughness);
         EXPECT_NEAR(f64::evaluate_lobe(alpha, dvec3(1), dvec3(1), o, i).x, wanted, 1e-9 * wanted);
         const float in_float = f32::evaluate_lobe(float(alpha), f32::vec3(1), f32::vec3(1),
@@ -49,8 +51,8 @@ TEST(Lobe, DensityAtTheNormalIsKnown) {
 }
 
 TEST(Lobe, IsReciprocal) {
-    const dvec3 a = direction_at(70), b = direction_at(20, 2);
-    for (const double roughness : kRoughnesses) {
+    const dvec3 a = direction_at_angles(70), b = direction_at_angles(20, 2);
+    for (const double roughness : kTestedRoughnesses) {
         const double alpha = f64::roughness_to_alpha(roughness);
         const double there = f64::evaluate_lobe(alpha, dvec3(.9), dvec3(1), a, b).x / b.z;
         const double back = f64::evaluate_lobe(alpha, dvec3(.9), dvec3(1), b, a).x / a.z;
@@ -62,21 +64,21 @@ TEST(Lobe, FresnelReflectanceGoesFromF0ToF90) {
     const dvec3 up(0, 0, 1);
     const double white = f64::evaluate_lobe(.1, dvec3(1), dvec3(1), up, up).x;
     EXPECT_NEAR(f64::evaluate_lobe(.1, dvec3(.04), dvec3(1), up, up).x, .04 * white, 1e-12 * white);
-    const dvec3 o = direction_at(89.9), i = direction_at(89.9, std::numbers::pi);
+    const dvec3 o = direction_at_angles(89.9), i = direction_at_angles(89.9, std::numbers::pi);
     const double grazing = f64::evaluate_lobe(.1, dvec3(1), dvec3(1), o, i).x;
     EXPECT_NEAR(f64::evaluate_lobe(.1, dvec3(.04), dvec3(1), o, i).x, grazing, .02 * grazing);
 }
 
 TEST(Lobe, LightBelowTheSurfaceGivesNothing) {
-    const dvec3 below = direction_at(100);
-    EXPECT_EQ(f64::evaluate_lobe(.2, dvec3(1), dvec3(1), direction_at(30), below).x, 0);
-    EXPECT_EQ(f64::evaluate_lobe(.2, dvec3(1), dvec3(1), below, direction_at(30)).x, 0);
-    EXPECT_EQ(f64::lobe_sample_weight(.2, dvec3(1), dvec3(1), direction_at(30), below).x, 0);
+    const dvec3 below = direction_at_angles(100);
+    EXPECT_EQ(f64::evaluate_lobe(.2, dvec3(1), dvec3(1), direction_at_angles(30), below).x, 0);
+    EXPECT_EQ(f64::evaluate_lobe(.2, dvec3(1), dvec3(1), below, direction_at_angles(30)).x, 0);
+    EXPECT_EQ(f64::lobe_sample_weight(.2, dvec3(1), dvec3(1), direction_at_angles(30), below).x, 0);
 }
 
 /// Sums over stratified samples of the lobe.
 template <typename Function>
-void for_each_sample(double alpha, const dvec3& o, int across, Function&& function) {
+void sum_over_lobe_samples(double alpha, const dvec3& o, int across, Function&& function) {
     for (int a = 0; a < across; ++a)
         for (int b = 0; b < across; ++b)
             function(f64::sample_lobe(alpha, o, (a + .5) / across, (b + .5) / across));
@@ -86,25 +88,26 @@ void for_each_sample(double alpha, const dvec3& o, int across, Function&& functi
 /// furnace. A density without the factor of the bound, a missing masking term or a squared
 /// roughness too many fails here.
 TEST(Lobe, MeanWeightOfSamplesIsTheAlbedoByQuadrature) {
-    constexpr int kAcross = 512;
-    for (const double roughness : kRoughnesses)
+    constexpr int kSamplesAcrossLobe = 512;
+    for (const double roughness : kTestedRoughnesses)
         for (const double degrees : {0., 30., 60., 80., 88.}) {
-            const dvec3 o = direction_at(degrees);
+            const dvec3 o = direction_at_angles(degrees);
             const double alpha = f64::roughness_to_alpha(roughness);
             double sum = 0;
-            for_each_sample(alpha, o, kAcross, [&](const dvec3& i) {
+            sum_over_lobe_samples(alpha, o, kSamplesAcrossLobe, [&](const dvec3& i) {
                 sum += f64::lobe_sample_weight(alpha, dvec3(1), dvec3(1), o, i).x;
             });
-            EXPECT_NEAR(sum / (kAcross * kAcross), albedo_by_quadrature(roughness, o), .002)
+            EXPECT_NEAR(sum / (kSamplesAcrossLobe * kSamplesAcrossLobe),
+                        lobe_albedo_by_quadrature(roughness, o), .002)
                 << roughness << " at " << degrees;
         }
 }
 
 TEST(Lobe, WeightIsTheLobeDividedByTheDensity) {
-    for (const double roughness : kRoughnesses) {
-        const dvec3 o = direction_at(65);
+    for (const double roughness : kTestedRoughnesses) {
+        const dvec3 o = direction_at_angles(65);
         const double alpha = f64::roughness_to_alpha(roughness);
-        for_each_sample(alpha, o, 32, [&](const dvec3& i) {
+        sum_over_lobe_samples(alpha, o, 32, [&](const dvec3& i) {
             if (i.z <= 0) return;
             const double weight = f64::lobe_sample_weight(alpha, dvec3(.5), dvec3(1), o, i).x;
             EXPECT_NEAR(weight * f64::lobe_pdf(alpha, o, i),
@@ -117,10 +120,10 @@ TEST(Lobe, WeightIsTheLobeDividedByTheDensity) {
 /// Half of the hemisphere beside the plane of reflection, and a cone around the mirror direction,
 /// get as many samples as the density says.
 TEST(Lobe, SamplesFallWhereTheDensitySaysSo) {
-    constexpr int kAcross = 512;
+    constexpr int kSamplesAcrossLobe = 512;
     for (const double roughness : {.15, .5, 1.})
         for (const double degrees : {10., 60., 85.}) {
-            const dvec3 o = direction_at(degrees);
+            const dvec3 o = direction_at_angles(degrees);
             const dvec3 mirror(-o.x, -o.y, o.z);
             const double alpha = f64::roughness_to_alpha(roughness);
             for (const double cosine : {.999, .95, .7}) {
@@ -128,11 +131,12 @@ TEST(Lobe, SamplesFallWhereTheDensitySaysSo) {
                     return i.z > 0 && glm::dot(i, mirror) > cosine;
                 };
                 double found = 0;
-                for_each_sample(alpha, o, kAcross, [&](const dvec3& i) { found += is_inside(i); });
+                sum_over_lobe_samples(alpha, o, kSamplesAcrossLobe,
+                                      [&](const dvec3& i) { found += is_inside(i); });
                 const double wanted = test::integrate_over_half_vectors(
                     roughness, o,
                     [&](const dvec3& i) { return is_inside(i) ? f64::lobe_pdf(alpha, o, i) : 0; });
-                EXPECT_NEAR(found / (kAcross * kAcross), wanted, .004)
+                EXPECT_NEAR(found / (kSamplesAcrossLobe * kSamplesAcrossLobe), wanted, .004)
                     << roughness << " at " << degrees << ", cone " << cosine;
             }
         }
@@ -141,14 +145,15 @@ TEST(Lobe, SamplesFallWhereTheDensitySaysSo) {
 /// Most samples of the bounded distribution lie above the surface, which is its purpose.
 TEST(Lobe, FewSamplesLieBelowTheSurface) {
     int below = 0;
-    for_each_sample(1, direction_at(80), 128, [&](const dvec3& i) { below += i.z <= 0; });
+    sum_over_lobe_samples(1, direction_at_angles(80), 128,
+                          [&](const dvec3& i) { below += i.z <= 0; });
     EXPECT_LT(below, 128 * 128 * .05);
 }
 
 TEST(Lobe, RoughnessZeroIsAPerfectMirror) {
     for (const double degrees : {0., 45., 89.9})
         for (const float roughness : {0.f, 1e-8f, 1e-4f}) {
-            const f32::vec3 o(direction_at(degrees));
+            const f32::vec3 o(direction_at_angles(degrees));
             const float alpha = f32::roughness_to_alpha(roughness);
             for (const float u : {0.f, .3f, .999f})
                 for (const float v : {0.f, .5f, .99f}) {
@@ -166,7 +171,7 @@ TEST(Lobe, ExtremesGiveFiniteNumbers) {
         for (const float roughness : {0.f, 1e-8f, .04f, 1.f})
             for (const float u : {0.f, .25f, .9999999f})
                 for (const float v : {0.f, .5f, .9999999f}) {
-                    const f32::vec3 o(direction_at(degrees));
+                    const f32::vec3 o(direction_at_angles(degrees));
                     const float alpha = f32::roughness_to_alpha(roughness);
                     const f32::vec3 i = f32::sample_lobe(alpha, o, u, v);
                     EXPECT_TRUE(f32::is_finite(i));

@@ -8,48 +8,52 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr std::uint32_t masks_hit(std::uint32_t first, std::uint32_t second) {
+constexpr std::uint32_t make_two_hit_word(std::uint32_t first, std::uint32_t second) {
     return first | second << 16;
 }
 
 // The first two hits of six pixels: a wall; mirror 1 that reflects a wall; mirror 2 that reflects
 // mirror 1; a concave mirror 1 that reflects itself; a mirror with the largest possible number; a
 // smooth dielectric and a rough one, which are no mirrors.
-constexpr std::array<std::uint32_t, 7> kMasksHits = {
-    masks_hit(0, 0),     masks_hit(1, 0),     masks_hit(2, 1),    masks_hit(1, 1),
-    masks_hit(65535, 0), masks_hit(0, 32767), masks_hit(0, 32766)};
+constexpr std::array<std::uint32_t, 7> kTwoHitsOfPixels = {
+    make_two_hit_word(0, 0),    make_two_hit_word(1, 0),     make_two_hit_word(2, 1),
+    make_two_hit_word(1, 1),    make_two_hit_word(65535, 0), make_two_hit_word(0, 32767),
+    make_two_hit_word(0, 32766)};
 
 TEST(Masks, MasksSelectPixelsByTheirFirstTwoHits) {
-    EXPECT_EQ(mask_all_pixels(kMasksHits), (Mask{255, 255, 255, 255, 255, 255, 255}));
-    EXPECT_EQ(mask_mirror_pixels(kMasksHits), (Mask{0, 255, 255, 255, 255, 0, 0}));
-    EXPECT_EQ(mask_first_order_pixels(kMasksHits), (Mask{0, 255, 0, 0, 255, 0, 0}));
-    EXPECT_EQ(mask_mirror_in_mirror(kMasksHits), (Mask{0, 0, 255, 255, 0, 0, 0}));
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(1)), (Mask{0, 255, 0, 255, 0, 0, 0}));
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(65535)),
+    EXPECT_EQ(mask_all_pixels(kTwoHitsOfPixels), (Mask{255, 255, 255, 255, 255, 255, 255}));
+    EXPECT_EQ(mask_mirror_pixels(kTwoHitsOfPixels), (Mask{0, 255, 255, 255, 255, 0, 0}));
+    EXPECT_EQ(mask_first_order_pixels(kTwoHitsOfPixels), (Mask{0, 255, 0, 0, 255, 0, 0}));
+    EXPECT_EQ(mask_mirror_in_mirror(kTwoHitsOfPixels), (Mask{0, 0, 255, 255, 0, 0, 0}));
+    EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(1)),
+              (Mask{0, 255, 0, 255, 0, 0, 0}));
+    EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(65535)),
               (Mask{0, 0, 0, 0, 255, 0, 0}));
-    EXPECT_EQ(mask_non_mirror_pixels(kMasksHits), (Mask{255, 0, 0, 0, 0, 255, 255}));
-    EXPECT_EQ(mask_smooth_dielectrics(kMasksHits), (Mask{0, 0, 0, 0, 0, 255, 0}));
-    EXPECT_EQ(mask_rough_surfaces(kMasksHits), (Mask{0, 0, 0, 0, 0, 0, 255}));
+    EXPECT_EQ(mask_non_mirror_pixels(kTwoHitsOfPixels), (Mask{255, 0, 0, 0, 0, 255, 255}));
+    EXPECT_EQ(mask_smooth_dielectrics(kTwoHitsOfPixels), (Mask{0, 0, 0, 0, 0, 255, 0}));
+    EXPECT_EQ(mask_rough_surfaces(kTwoHitsOfPixels), (Mask{0, 0, 0, 0, 0, 0, 255}));
 }
 
 TEST(Masks, MasksPartitionThePicture) {
-    EXPECT_EQ(count_mask_pixels(mask_mirror_pixels(kMasksHits)) +
-                  count_mask_pixels(mask_non_mirror_pixels(kMasksHits)),
-              kMasksHits.size());
-    EXPECT_EQ(count_mask_pixels(mask_first_order_pixels(kMasksHits)) +
-                  count_mask_pixels(mask_mirror_in_mirror(kMasksHits)),
-              count_mask_pixels(mask_mirror_pixels(kMasksHits)));
-    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(1))) +
-                  count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(2))) +
-                  count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(65535))),
-              count_mask_pixels(mask_mirror_pixels(kMasksHits)));
+    EXPECT_EQ(count_mask_pixels(mask_mirror_pixels(kTwoHitsOfPixels)) +
+                  count_mask_pixels(mask_non_mirror_pixels(kTwoHitsOfPixels)),
+              kTwoHitsOfPixels.size());
+    EXPECT_EQ(count_mask_pixels(mask_first_order_pixels(kTwoHitsOfPixels)) +
+                  count_mask_pixels(mask_mirror_in_mirror(kTwoHitsOfPixels)),
+              count_mask_pixels(mask_mirror_pixels(kTwoHitsOfPixels)));
+    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(1))) +
+                  count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(2))) +
+                  count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(65535))),
+              count_mask_pixels(mask_mirror_pixels(kTwoHitsOfPixels)));
 }
 
 TEST(Masks, MaskOfAnAbsentMirrorIsAllZero) {
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(9)), Mask(kMasksHits.size(), 0));
+    EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(9)),
+              Mask(kTwoHitsOfPixels.size(), 0));
     // Mirror numbers start at 1, so 0 is no mirror.
-    EXPECT_EQ(mask_one_mirror(kMasksHits, catoptric::MirrorId(0)), Mask(kMasksHits.size(), 0));
-    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kMasksHits, catoptric::MirrorId(9))), 0U);
+    EXPECT_EQ(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(0)),
+              Mask(kTwoHitsOfPixels.size(), 0));
+    EXPECT_EQ(count_mask_pixels(mask_one_mirror(kTwoHitsOfPixels, catoptric::MirrorId(9))), 0U);
 }
 
 } // namespace

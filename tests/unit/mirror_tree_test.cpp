@@ -12,12 +12,12 @@ namespace {
 
 using namespace catoptric;
 
-struct Node {
-    explicit Node(const std::vector<vec4>& tree, std::size_t i)
+struct MirrorTreeNode {
+    explicit MirrorTreeNode(const std::vector<vec4>& tree, std::size_t i)
         : lowest(tree[2 * i]), highest(tree[2 * i + 1]),
           mirror(bvh::float_word_to_integer(tree[2 * i].w)),
           past(bvh::float_word_to_integer(tree[2 * i + 1].w)) {}
-    bool holds(const vec3& lo, const vec3& hi) const {
+    bool does_node_enclose_box(const vec3& lo, const vec3& hi) const {
         return all(lessThanEqual(lowest, lo)) && all(lessThanEqual(hi, highest));
     }
     vec3 lowest, highest;
@@ -26,36 +26,37 @@ struct Node {
 
 /// Returns random mirrors. Two of three are exact spheres, the others are boxes. The `lowest` and
 /// `highest` of a sphere lie elsewhere, because the tree must not use them for spheres.
-std::vector<shared::Probe> probes(std::size_t count) {
+std::vector<shared::Probe> make_random_probes(std::size_t count) {
     test::RandomNumbers numbers(3);
     std::vector<shared::Probe> probes(count);
     for (std::size_t i = 0; i < count; ++i) {
-        probes[i].sphere = numbers.point_in_cube();
-        probes[i].radius = i % 3 == 0 ? 0 : numbers.number_between(.01f, .3f);
-        probes[i].lowest = numbers.point_in_cube() + 4.0f;
-        probes[i].highest = probes[i].lowest + numbers.unit_fraction();
+        probes[i].sphere = numbers.random_point_in_cube();
+        probes[i].radius = i % 3 == 0 ? 0 : numbers.random_number_between(.01f, .3f);
+        probes[i].lowest = numbers.random_point_in_cube() + 4.0f;
+        probes[i].highest = probes[i].lowest + numbers.random_unit_fraction();
     }
     return probes;
 }
 
 TEST(MirrorTree, TreeHoldsEachMirrorOnceWithinTheBoxesOfItsNodes) {
     for (const std::size_t count : {1, 2, 3, 9, 64, 500}) {
-        const std::vector<shared::Probe> mirrors = probes(count);
+        const std::vector<shared::Probe> mirrors = make_random_probes(count);
         const std::vector<vec4> tree = render::build_mirror_tree(mirrors);
         ASSERT_EQ(tree.size(), 2 * (2 * count - 1));
         std::vector<int> met(count);
         for (std::size_t i = 0; i < tree.size() / 2; ++i) {
-            const Node node(tree, i);
+            const MirrorTreeNode node(tree, i);
             ASSERT_GT(node.past, i);
             ASSERT_LE(node.past, tree.size() / 2);
             for (std::size_t below = i; below < node.past; ++below) {
-                const Node leaf(tree, below);
+                const MirrorTreeNode leaf(tree, below);
                 if (leaf.mirror == 0) continue;
                 const shared::Probe& mirror = mirrors[leaf.mirror - 1];
                 const vec3 reach(mirror.radius);
                 const bool is_sphere = mirror.radius > 0;
-                EXPECT_TRUE(node.holds(is_sphere ? mirror.sphere - reach : mirror.lowest,
-                                       is_sphere ? mirror.sphere + reach : mirror.highest))
+                EXPECT_TRUE(
+                    node.does_node_enclose_box(is_sphere ? mirror.sphere - reach : mirror.lowest,
+                                               is_sphere ? mirror.sphere + reach : mirror.highest))
                     << "mirror " << leaf.mirror << " of " << count << " below node " << i;
             }
             if (node.mirror == 0) continue;

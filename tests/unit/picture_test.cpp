@@ -11,38 +11,40 @@
 namespace catoptric::measure {
 namespace {
 
-float picture_shown(float linear, double stops = 0) {
+float display_value_of_linear(float linear, double stops = 0) {
     Picture picture(1, 1);
     picture.at(0, 0) = vec3(linear);
     return to_display(picture, stops).at(0, 0).x;
 }
 
 TEST(ToDisplay, DisplayValuesFollowTheSrgbCurve) {
-    EXPECT_EQ(picture_shown(0), 0.0F);
-    EXPECT_EQ(picture_shown(1), 1.0F);
-    EXPECT_EQ(picture_shown(0.5F), 188.0F / 255);  // sRGB: 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354
-    EXPECT_EQ(picture_shown(0.18F), 118.0F / 255); // sRGB: 1.055 * 0.18^(1/2.4) - 0.055 = 0.4614
-    EXPECT_EQ(picture_shown(0.002F), 7.0F / 255);  // sRGB: 12.92 * 0.002 = 0.0258
+    EXPECT_EQ(display_value_of_linear(0), 0.0F);
+    EXPECT_EQ(display_value_of_linear(1), 1.0F);
+    EXPECT_EQ(display_value_of_linear(0.5F),
+              188.0F / 255); // sRGB: 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354
+    EXPECT_EQ(display_value_of_linear(0.18F),
+              118.0F / 255); // sRGB: 1.055 * 0.18^(1/2.4) - 0.055 = 0.4614
+    EXPECT_EQ(display_value_of_linear(0.002F), 7.0F / 255); // sRGB: 12.92 * 0.002 = 0.0258
 }
 
 TEST(ToDisplay, ValuesOutOfRangeAreClampedAndNanBecomesBlack) {
-    EXPECT_EQ(picture_shown(-3), 0.0F);
-    EXPECT_EQ(picture_shown(17), 1.0F);
-    EXPECT_EQ(picture_shown(test::kInfinity), 1.0F);
-    EXPECT_EQ(picture_shown(-test::kInfinity), 0.0F);
-    EXPECT_EQ(picture_shown(test::kNan), 0.0F);
+    EXPECT_EQ(display_value_of_linear(-3), 0.0F);
+    EXPECT_EQ(display_value_of_linear(17), 1.0F);
+    EXPECT_EQ(display_value_of_linear(test::kInfinity), 1.0F);
+    EXPECT_EQ(display_value_of_linear(-test::kInfinity), 0.0F);
+    EXPECT_EQ(display_value_of_linear(test::kNan), 0.0F);
 }
 
 TEST(ToDisplay, ExposureOfOneStopDoublesTheLight) {
-    EXPECT_EQ(picture_shown(0.25F, 1), picture_shown(0.5F));
-    EXPECT_EQ(picture_shown(0.5F, -1), picture_shown(0.25F));
-    EXPECT_EQ(picture_shown(0.25F, 3), 1.0F);
+    EXPECT_EQ(display_value_of_linear(0.25F, 1), display_value_of_linear(0.5F));
+    EXPECT_EQ(display_value_of_linear(0.5F, -1), display_value_of_linear(0.25F));
+    EXPECT_EQ(display_value_of_linear(0.25F, 3), 1.0F);
 }
 
 TEST(ToDisplay, EveryByteSurvivesSrgbDecodingAndEncoding) {
     for (int byte = 0; byte < 256; ++byte) {
         const auto linear = static_cast<float>(linear_from_srgb(byte / 255.0));
-        EXPECT_EQ(picture_shown(linear), static_cast<float>(byte) / 255.0F);
+        EXPECT_EQ(display_value_of_linear(linear), static_cast<float>(byte) / 255.0F);
     }
 }
 

@@ -15,13 +15,14 @@ namespace {
 using namespace catoptric;
 using testing::ElementsAre;
 
-const std::vector<std::string> kMirrors{"left ball", "front", "back", "far ball"};
+const std::vector<std::string> kMirrorNames{"left ball", "front", "back", "far ball"};
 
 /// Returns the technique that a plan assigns to each mirror, as written in the plan.
-std::vector<std::string> labels(const std::string& text,
-                                const std::vector<std::string>& names = kMirrors) {
-    const reflect::MirrorAssignment assignment = reflect::assign_mirrors(reflect::parse_plan(text),
-                                                                         names);
+std::vector<std::string>
+list_technique_labels(const std::string& text,
+                      const std::vector<std::string>& names = kMirrorNames) {
+    const reflect::MirrorAssignment assignment = reflect::assign_techniques_to_mirrors(
+        reflect::parse_plan(text), names);
     std::vector<std::string> result;
     for (const std::uint32_t choice : assignment.of_mirror)
         result.push_back(assignment.choices[choice].label);
@@ -29,68 +30,75 @@ std::vector<std::string> labels(const std::string& text,
 }
 
 TEST(PlanText, SingleTechniqueAppliesToAnyNumberOfMirrors) {
-    EXPECT_THAT(labels("secant:face=64"), ElementsAre("secant:face=64", "secant:face=64",
-                                                      "secant:face=64", "secant:face=64"));
-    EXPECT_EQ(reflect::assign_mirrors(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
+    EXPECT_THAT(
+        list_technique_labels("secant:face=64"),
+        ElementsAre("secant:face=64", "secant:face=64", "secant:face=64", "secant:face=64"));
+    EXPECT_EQ(
+        reflect::assign_techniques_to_mirrors(reflect::parse_plan("reuse"), {}).choices.size(), 1u);
 }
 
 TEST(PlanText, NumberWinsOverNameAndNameOverStar) {
-    EXPECT_THAT(labels("*=reuse *ball=secant 4=march"),
+    EXPECT_THAT(list_technique_labels("*=reuse *ball=secant 4=march"),
                 ElementsAre("secant", "reuse", "reuse", "march"));
-    EXPECT_THAT(labels("4=march *ball=secant *=reuse"),
+    EXPECT_THAT(list_technique_labels("4=march *ball=secant *=reuse"),
                 ElementsAre("secant", "reuse", "reuse", "march"));
     // A pattern with a wildcard, such as `?*`, ranks as a name even if it matches all mirrors. Only
     // `*` alone ranks below names.
-    EXPECT_THAT(labels("*=reuse ?*=secant"), ElementsAre("secant", "secant", "secant", "secant"));
+    EXPECT_THAT(list_technique_labels("*=reuse ?*=secant"),
+                ElementsAre("secant", "secant", "secant", "secant"));
 }
 
 TEST(PlanText, FirstRuleWinsBetweenRulesOfEqualRank) {
-    EXPECT_THAT(labels("2=march 2=secant *=reuse *=parallax"),
+    EXPECT_THAT(list_technique_labels("2=march 2=secant *=reuse *=parallax"),
                 ElementsAre("reuse", "march", "reuse", "reuse"));
-    EXPECT_THAT(labels("b*=march *k=secant *=reuse"),
+    EXPECT_THAT(list_technique_labels("b*=march *k=secant *=reuse"),
                 ElementsAre("reuse", "reuse", "march", "reuse"));
 }
 
 TEST(PlanText, RuleListsMixNumbersAndNames) {
-    EXPECT_THAT(labels("3,front=secant:steps=1 *=reuse"),
+    EXPECT_THAT(list_technique_labels("3,front=secant:steps=1 *=reuse"),
                 ElementsAre("reuse", "secant:steps=1", "secant:steps=1", "reuse"));
     // Each item of a list is ranked separately: number 2 wins over the name `front`, but number 4
     // wins over the name `far*`.
-    EXPECT_THAT(labels("front=march 2,far*=secant 4=layered *=reuse"),
+    EXPECT_THAT(list_technique_labels("front=march 2,far*=secant 4=layered *=reuse"),
                 ElementsAre("reuse", "secant", "reuse", "layered"));
 }
 
 TEST(PlanText, NumberSelectsAMirrorByPositionNotByName) {
-    EXPECT_THAT(labels("2=march *=reuse", {"2", "1"}), ElementsAre("reuse", "march"));
+    EXPECT_THAT(list_technique_labels("2=march *=reuse", {"2", "1"}),
+                ElementsAre("reuse", "march"));
 }
 
 TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
-    const reflect::MirrorAssignment assignment = reflect::assign_mirrors(
-        reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrors);
+    const reflect::MirrorAssignment assignment = reflect::assign_techniques_to_mirrors(
+        reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrorNames);
     EXPECT_EQ(assignment.choices.size(), 2u);
     EXPECT_THAT(assignment.of_mirror, ElementsAre(0, 1, 0, 0));
     EXPECT_THAT(assignment.patterns, ElementsAre("1", "2", "*", "*"));
 }
 
-void expect_refused(const std::string& text, const std::vector<std::string>& words,
-                    Failure failure = Failure::usage) {
-    test::expect_error([&] { reflect::assign_mirrors(app::read_plan(text), kMirrors); }, failure,
-                       words);
+void expect_plan_refused(const std::string& text, const std::vector<std::string>& words,
+                         Failure failure = Failure::usage) {
+    test::expect_error(
+        [&] {
+            reflect::assign_techniques_to_mirrors(app::read_technique_plan(text), kMirrorNames);
+        },
+        failure, words);
 }
 
 TEST(PlanText, InvalidPlansAreRefusedWithTheReason) {
-    expect_refused("9=reuse *=march", {"pattern '9'", "matches no mirror", "4 mirrors",
-                                       "1 'left ball'", "4 'far ball'"});
-    expect_refused("0=reuse *=march", {"pattern '0'"});
-    expect_refused("auto:face=64", {"'auto:face=64'", "auto alone", "found ':face=64'"});
-    expect_refused("2,frnt=reuse *=march", {"pattern 'frnt'", "did you mean 'front'"});
-    expect_refused("1=reuse 2=march 4=secant", {"no rule for mirror 3 'back'"});
-    expect_refused("1=rouse *=march", {"no technique 'rouse'", "did you mean 'reuse'"});
-    expect_refused("1=reuse:fase=3 *=march", {"fase"});
-    expect_refused("1=reuse secant", {"wanted PATTERN=TECHNIQUE, found 'secant'"});
-    expect_refused("=reuse *=march", {"found '=reuse'"});
-    expect_refused("1,,2=reuse *=march", {"pattern '1,,2' has an empty entry"});
-    expect_refused("1= *=march", {"no technique ''"});
+    expect_plan_refused("9=reuse *=march", {"pattern '9'", "matches no mirror", "4 mirrors",
+                                            "1 'left ball'", "4 'far ball'"});
+    expect_plan_refused("0=reuse *=march", {"pattern '0'"});
+    expect_plan_refused("auto:face=64", {"'auto:face=64'", "auto alone", "found ':face=64'"});
+    expect_plan_refused("2,frnt=reuse *=march", {"pattern 'frnt'", "did you mean 'front'"});
+    expect_plan_refused("1=reuse 2=march 4=secant", {"no rule for mirror 3 'back'"});
+    expect_plan_refused("1=rouse *=march", {"no technique 'rouse'", "did you mean 'reuse'"});
+    expect_plan_refused("1=reuse:fase=3 *=march", {"fase"});
+    expect_plan_refused("1=reuse secant", {"wanted PATTERN=TECHNIQUE, found 'secant'"});
+    expect_plan_refused("=reuse *=march", {"found '=reuse'"});
+    expect_plan_refused("1,,2=reuse *=march", {"pattern '1,,2' has an empty entry"});
+    expect_plan_refused("1= *=march", {"no technique ''"});
 }
 
 TEST(PlanText, PlanHasAShortUniqueFileName) {
@@ -106,7 +114,7 @@ TEST(PlanText, PlanHasAShortUniqueFileName) {
 
 class PlanFile : public test::InFolder {
 protected:
-    std::string file(const std::string& content) {
+    std::string write_plan_file(const std::string& content) {
         const std::string path = (folder / "plan.json").string();
         write_file(path, content);
         return "plan:" + path;
@@ -116,27 +124,28 @@ protected:
 TEST_F(PlanFile, PlanFileMeansTheSameAsThePlanText) {
     const reflect::TechniquePlan text = reflect::parse_plan(
         "1=reuse:face=64 2,back=hybrid *=march");
-    EXPECT_TRUE(app::read_plan(file(R"([{"mirror": 1, "technique": "reuse:face=64"},
+    EXPECT_TRUE(
+        app::read_technique_plan(write_plan_file(R"([{"mirror": 1, "technique": "reuse:face=64"},
                                         {"mirror": "2,back", "technique": "hybrid"},
                                         {"mirror": "*", "technique": "march"}])"))
-                    .same_as(text));
+            .is_same_plan_as(text));
     // A row of a report stores the same plan as an object with more fields.
-    const reflect::TechniquePlan row = app::read_plan(
-        file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
+    const reflect::TechniquePlan row = app::read_technique_plan(
+        write_plan_file(R"({"plan": [{"mirror": 1, "name": "left ball", "technique": "reuse",
                            "settings": {"face": 64, "colour": "half"}, "why": "rule '1'"},
                           {"mirror": "2,back", "technique": "hybrid", "settings": {}},
                           {"mirror": "*", "technique": "march"}]})"));
-    EXPECT_TRUE(row.same_as(text));
+    EXPECT_TRUE(row.is_same_plan_as(text));
     EXPECT_TRUE(row.label.starts_with("plan:"));
-    EXPECT_TRUE(app::read_plan(file(R"([{"mirror": "*", "technique": "reuse",
+    EXPECT_TRUE(app::read_technique_plan(write_plan_file(R"([{"mirror": "*", "technique": "reuse",
                                          "settings": {"face": "auto"}}])"))
-                    .same_as(reflect::parse_plan("*=reuse:face=auto")));
+                    .is_same_plan_as(reflect::parse_plan("*=reuse:face=auto")));
 }
 
 TEST_F(PlanFile, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {
     const auto bad = [&](const std::string& content, const std::vector<std::string>& words,
                          Failure failure = Failure::bad_data) {
-        expect_refused(file(content), words, failure);
+        expect_plan_refused(write_plan_file(content), words, failure);
     };
     bad("{", {"plan.json: JSON: line 1, column 2: wanted a key"});
     bad("[]", {"wanted a list of rules"});
@@ -153,9 +162,10 @@ TEST_F(PlanFile, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {
     bad(R"([{"mirror": 1, "technique": "rouse"}])", {"did you mean 'reuse'"}, Failure::usage);
     bad(R"([{"mirror": 9, "technique": "reuse"}])", {"pattern '9' matches no mirror"},
         Failure::usage);
-    expect_refused("plan:" + (folder / "none.json").string(), {"none.json"},
-                   Failure::missing_input);
-    expect_refused("plan:" + folder.string(), {"wanted a file with a plan"}, Failure::bad_data);
+    expect_plan_refused("plan:" + (folder / "none.json").string(), {"none.json"},
+                        Failure::missing_input);
+    expect_plan_refused("plan:" + folder.string(), {"wanted a file with a plan"},
+                        Failure::bad_data);
 }
 
 } // namespace

@@ -18,14 +18,14 @@ namespace {
 
 using namespace catoptric::app;
 
-void work_for(double seconds) {
+void burn_processor_time(double seconds) {
     std::atomic<int> sink{0};
     for (const double end = read_process_seconds() + seconds; read_process_seconds() < end;) ++sink;
 }
 
 TEST(Processor, ProcessSecondsCountAllThreads) {
     const double before = read_process_seconds();
-    std::jthread beside([] { work_for(.05); });
+    std::jthread beside([] { burn_processor_time(.05); });
     beside.join();
     EXPECT_GE(read_process_seconds() - before, .05);
 }
@@ -33,7 +33,7 @@ TEST(Processor, ProcessSecondsCountAllThreads) {
 TEST(Processor, ProcessorUseReportsHowLongThreadsRan) {
     const auto before = read_processor_use();
     ASSERT_TRUE(before) << "Linux tells";
-    work_for(.05);
+    burn_processor_time(.05);
     const auto after = read_processor_use();
     ASSERT_TRUE(after);
     EXPECT_NEAR(compute_waiting_times(*before, *after).ran, .05, .02);
@@ -56,14 +56,14 @@ TEST(Processor, OverloadedProcessorsShowAsWaiting) {
     const auto after = read_processor_use();
     stop = true;
     ASSERT_TRUE(before && after);
-    const WaitingTimes waiting = compute_waiting_times(*before, *after);
+    const ProcessorWaitingTimes waiting = compute_waiting_times(*before, *after);
     EXPECT_GT(waiting.waited, waiting.ran);
 }
 
 TEST(Processor, WaitingCountsNewThreadsButNotEndedOnes) {
-    const ProcessorUse before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
+    const ProcessorUsageSoFar before{{{1, {10, 1}}, {2, {20, 2}}}, 100},
         after{{{1, {11, 1.25}}, {3, {.5, .125}}}, 104};
-    WaitingTimes waiting = compute_waiting_times(before, after);
+    ProcessorWaitingTimes waiting = compute_waiting_times(before, after);
     EXPECT_EQ(waiting.ran, 1.5) << "2 has ended: nobody knows what it did; 3 is new";
     EXPECT_EQ(waiting.waited, .375);
     EXPECT_EQ(waiting.others, 2.5);
@@ -105,7 +105,7 @@ TEST(Processor, LoadOfOtherProcessesDecidesIfWaitingIsUnknown) {
 }
 
 /// Returns the number of processors on which a thread of this process may run.
-int processors_of(int thread) {
+int count_processors_of_thread(int thread) {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
     EXPECT_EQ(::sched_getaffinity(thread, sizeof allowed, &allowed), 0);
@@ -115,7 +115,7 @@ int processors_of(int thread) {
 /// PinnedThreads finds a driver's drawing threads by their names. Threads with such names must be
 /// bound to one processor each while the object exists, and to none afterwards.
 TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
-    const int all = processors_of(0);
+    const int all = count_processors_of_thread(0);
     if (all < 2) GTEST_SKIP() << "one processor: nothing to be held from";
     std::atomic<int> numbers[2] = {0, 0};
     std::atomic<bool> stop{false};
@@ -129,7 +129,7 @@ TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
     while (numbers[0] == 0 || numbers[1] == 0) std::this_thread::yield();
     {
         const PinnedThreads held;
-        EXPECT_EQ(held.count(), 2u);
+        EXPECT_EQ(held.pinned_thread_count(), 2u);
         cpu_set_t first, second, both;
         ::sched_getaffinity(numbers[0], sizeof first, &first);
         ::sched_getaffinity(numbers[1], sizeof second, &second);
@@ -137,9 +137,9 @@ TEST(Processor, HeldThreadsBindsDrawingThreadsToOneProcessorEach) {
         EXPECT_EQ(CPU_COUNT(&first), 1);
         EXPECT_EQ(CPU_COUNT(&second), 1);
         EXPECT_EQ(CPU_COUNT(&both), 0) << "not the same one";
-        EXPECT_EQ(processors_of(0), all) << "others go where they like";
+        EXPECT_EQ(count_processors_of_thread(0), all) << "others go where they like";
     }
-    for (const auto& thread : numbers) EXPECT_EQ(processors_of(thread), all);
+    for (const auto& thread : numbers) EXPECT_EQ(count_processors_of_thread(thread), all);
     stop = true;
 }
 

@@ -16,7 +16,7 @@ using namespace catoptric;
 using nlohmann::json;
 using testing::Pair;
 
-app::DeviceInfo device_of(const std::string& driver = "driver 1.2 (build 3)") {
+app::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (build 3)") {
     app::DeviceInfo device;
     device.name = "A device";
     device.driver = driver;
@@ -27,12 +27,13 @@ app::DeviceInfo device_of(const std::string& driver = "driver 1.2 (build 3)") {
 
 /// Returns a measurement of a variant's second choice. In round i this choice takes `ratios[i]`
 /// times as long as the default.
-measure::TriedVariant tried(std::size_t variant, const std::vector<double>& ratios) {
+measure::ShaderVariantTrial make_variant_trial(std::size_t variant,
+                                               const std::vector<double>& ratios) {
     const gpu::ShaderVariant& row = gpu::list_shader_variants()[variant];
-    measure::TriedVariant one{.variant = std::string(row.name),
-                              .choice = std::string(row.choices[1]),
-                              .standard = std::string(row.choices[0]),
-                              .benchmark = "frame/x"};
+    measure::ShaderVariantTrial one{.variant = std::string(row.name),
+                                    .choice = std::string(row.choices[1]),
+                                    .standard = std::string(row.choices[0]),
+                                    .benchmark = "frame/x"};
     for (const double ratio : ratios) one.ms.push_back(10 * ratio), one.standard_ms.push_back(10);
     return one;
 }
@@ -42,8 +43,10 @@ const std::vector<double> kFaster{.9, .91, .92, .93, .94, .95},
 
 TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
     const std::string text = app::make_profile_text(
-        device_of(), {tried(0, kFaster), tried(1, kSlower), tried(2, kBoth)});
-    EXPECT_EQ(app::read_profile(text, "p.json", device_of()), (gpu::VariantChoices{1, 0, 0}));
+        make_device_info(), {make_variant_trial(0, kFaster), make_variant_trial(1, kSlower),
+                             make_variant_trial(2, kBoth)});
+    EXPECT_EQ(app::parse_device_profile(text, "p.json", make_device_info()),
+              (gpu::VariantChoices{1, 0, 0}));
     const json document = json::parse(text);
     EXPECT_EQ(document["variants"],
               (json{{"groups", "in order"}, {"hierarchy", "texel"}, {"pixels", "blocks"}}));
@@ -51,30 +54,34 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
     EXPECT_DOUBLE_EQ(document["measured"][0]["ratio"], .925);
     EXPECT_DOUBLE_EQ(document["measured"][0]["ci95"][1], .95);
     EXPECT_EQ(document["measured"][2]["taken"], false) << "its interval holds 1";
-    EXPECT_FALSE(tried(0, {.5, .5, .5, .5, .5}).is_taken()) << "too few rounds";
-    EXPECT_FALSE(tried(0, {1, 1, 1, 1, 1, 1}).is_taken());
+    EXPECT_FALSE(make_variant_trial(0, {.5, .5, .5, .5, .5}).is_faster_than_default())
+        << "too few rounds";
+    EXPECT_FALSE(make_variant_trial(0, {1, 1, 1, 1, 1, 1}).is_faster_than_default());
 }
 
 TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
-    const std::string text = app::make_profile_text(device_of(), {tried(0, kFaster)});
+    const std::string text = app::make_profile_text(make_device_info(),
+                                                    {make_variant_trial(0, kFaster)});
     const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
-        test::expect_error([&] { app::read_profile(text, "p.json", device); }, Failure::bad_data,
+        test::expect_error([&] { app::parse_device_profile(text, "p.json", device); },
+                           Failure::bad_data,
                            {"p.json: is another device's or driver's profile: device." + member +
                             ": wanted '" + wanted + "', found '" + found + "'"});
     };
-    refuses(device_of("driver 1.3"), "driver", "driver 1.3", "driver 1.2 (build 3)");
-    app::DeviceInfo other = device_of();
+    refuses(make_device_info("driver 1.3"), "driver", "driver 1.3", "driver 1.2 (build 3)");
+    app::DeviceInfo other = make_device_info();
     other.name = "B";
     refuses(other, "name", "B", "A device");
-    other = device_of(), other.id = "10de-2331";
+    other = make_device_info(), other.id = "10de-2331";
     refuses(other, "id", "10de-2331", "10de-2330");
 }
 
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
-    json good = json::parse(app::make_profile_text(device_of(), {tried(0, kFaster)}));
+    json good = json::parse(
+        app::make_profile_text(make_device_info(), {make_variant_trial(0, kFaster)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
-        test::expect_error([&] { app::read_profile(text, "p.json", device_of()); },
+        test::expect_error([&] { app::parse_device_profile(text, "p.json", make_device_info()); },
                            Failure::bad_data, {"p.json: ", part});
     };
     refuses("{", "JSON: line 1, column 2: wanted a key in quotation marks, found the end");
@@ -89,26 +96,29 @@ TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     bad = good, bad["variants"]["pixels"] = "storage";
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
     good["variants"] = json::object(); // variants that are left out have their defaults
-    EXPECT_EQ(app::read_profile(good.dump(), "p.json", device_of()), gpu::VariantChoices{});
+    EXPECT_EQ(app::parse_device_profile(good.dump(), "p.json", make_device_info()),
+              gpu::VariantChoices{});
 }
 
 TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
-    EXPECT_EQ(app::make_profile_file_name(device_of("../a b:c\\d\n")),
+    EXPECT_EQ(app::make_profile_file_name(make_device_info("../a b:c\\d\n")),
               "10de-2330-.._a_b_c_d_.json");
 }
 
 class ProfilePlace : public test::InFolder {
 protected:
-    void put(const std::string& name, const std::string& text) const {
+    void write_profile_file(const std::string& name, const std::string& text) const {
         std::ofstream(folder / name) << text;
     }
-    std::string good() const { return app::make_profile_text(device_of(), {tried(0, kFaster)}); }
+    std::string make_valid_profile_text() const {
+        return app::make_profile_text(make_device_info(), {make_variant_trial(0, kFaster)});
+    }
 };
 
 TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     app::EngineOptions options;
     options.profiles = folder;
-    app::DeviceInfo device = device_of();
+    app::DeviceInfo device = make_device_info();
     EXPECT_EQ(app::choose_shader_variants(options, device), gpu::VariantChoices{})
         << "there is none";
     EXPECT_EQ(device.profile + device.warning, "");
@@ -116,14 +126,15 @@ TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
                 testing::ElementsAre(Pair("groups", "scattered"), Pair("hierarchy", "texel"),
                                      Pair("pixels", "blocks")));
     const std::string name = app::make_profile_file_name(device);
-    put(name, good());
+    write_profile_file(name, make_valid_profile_text());
     EXPECT_EQ(app::choose_shader_variants(options, device), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
-         {std::string("{"), app::make_profile_text(device_of("another"), {tried(0, kFaster)})}) {
-        put(name, text);
-        device = device_of();
+         {std::string("{"),
+          app::make_profile_text(make_device_info("another"), {make_variant_trial(0, kFaster)})}) {
+        write_profile_file(name, text);
+        device = make_device_info();
         EXPECT_EQ(app::choose_shader_variants(options, device), gpu::VariantChoices{});
         EXPECT_EQ(device.profile, "");
         EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
@@ -132,12 +143,13 @@ TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
 }
 
 TEST_F(ProfilePlace, ProfileNamedByAnOptionMustBeUsable) {
-    app::DeviceInfo device = device_of();
+    app::DeviceInfo device = make_device_info();
     const auto choose = [&](const std::string& name) {
         return app::choose_shader_variants({.profile = folder / name, .profiles = folder}, device);
     };
-    put("good.json", good()), put("bad.json", "3");
-    put("other.json", app::make_profile_text(device_of("another"), {tried(0, kFaster)}));
+    write_profile_file("good.json", make_valid_profile_text()), write_profile_file("bad.json", "3");
+    write_profile_file("other.json", app::make_profile_text(make_device_info("another"),
+                                                            {make_variant_trial(0, kFaster)}));
     EXPECT_EQ(choose("good.json"), (gpu::VariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
@@ -157,7 +169,7 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
     for (const auto& [type, groups] :
          {std::pair("cpu", "scattered"), std::pair("discrete", "in order"),
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
-        app::DeviceInfo device = device_of();
+        app::DeviceInfo device = make_device_info();
         device.type = type;
         const gpu::VariantChoices choices = app::choose_shader_variants({}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;

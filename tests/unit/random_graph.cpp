@@ -8,115 +8,119 @@ namespace {
 
 /// Declares random passes. Each pass reads only contents that an earlier pass has written, or
 /// contents of the previous frame.
-class Author {
+class RandomGraphAuthor {
 public:
-    explicit Author(std::mt19937& random) : random_(random) {}
+    explicit RandomGraphAuthor(std::mt19937& random) : random_(random) {}
 
-    Graph write() {
-        add_resources();
-        const std::uint32_t passes = below(14) + 2;
-        for (std::uint32_t p = 0; p < passes; ++p) add_pass(p);
+    Graph write_random_graph() {
+        add_random_resources();
+        const std::uint32_t passes = random_number_below(14) + 2;
+        for (std::uint32_t p = 0; p < passes; ++p) add_random_pass(p);
         for (std::uint32_t i = 0; i < images_.size(); ++i)
-            if ((graph_.lifetime(i) == ImageLifetime::previous)) write_all(i);
-        mark_output();
+            if ((graph_.image_lifetime(i) == ImageLifetime::previous))
+                add_pass_writing_whole_image(i);
+        mark_random_output();
         return std::move(graph_);
     }
 
 private:
-    std::uint32_t below(std::uint32_t count) {
+    std::uint32_t random_number_below(std::uint32_t count) {
         return static_cast<std::uint32_t>(random_()) % count;
     }
-    bool chance(std::uint32_t percent) { return below(100) < percent; }
-    bool is_depth(const ImageHandle& image) const {
-        return catoptric::is_depth(graph_.images()[image.id].format);
+    bool is_chosen_with_chance(std::uint32_t percent) { return random_number_below(100) < percent; }
+    bool is_depth_image(const ImageHandle& image) const {
+        return catoptric::is_depth_format(graph_.list_images()[image.id].format);
     }
 
-    void add_resources() {
-        const Format formats[] = {Format::rgba16f, Format::r8_unorm, Format::rgba32f, Format::d32f,
-                                  Format::r32f};
-        const std::uint32_t images = below(6) + 3;
+    void add_random_resources() {
+        const TexelFormat formats[] = {TexelFormat::rgba16f, TexelFormat::r8_unorm,
+                                       TexelFormat::rgba32f, TexelFormat::d32f, TexelFormat::r32f};
+        const std::uint32_t images = random_number_below(6) + 3;
         for (std::uint32_t i = 0; i < images; ++i) {
-            images_.push_back(graph_.add_image({.name = "i" + std::to_string(i),
-                                                .format = formats[i == 0 ? 0 : below(5)],
-                                                .width = 8,
-                                                .height = 8,
-                                                .layers = below(4) + 1}));
+            images_.push_back(
+                graph_.add_image({.name = "i" + std::to_string(i),
+                                  .format = formats[i == 0 ? 0 : random_number_below(5)],
+                                  .width = 8,
+                                  .height = 8,
+                                  .layers = random_number_below(4) + 1}));
             written_.emplace_back(images_.back().layer_count, false);
         }
-        const std::uint32_t buffers = below(3);
+        const std::uint32_t buffers = random_number_below(3);
         for (std::uint32_t b = 0; b < buffers; ++b) {
-            buffers_.push_back(
-                graph_.add_buffer({.name = "b" + std::to_string(b), .bytes = 100 + below(2000)}));
+            buffers_.push_back(graph_.add_buffer(
+                {.name = "b" + std::to_string(b), .bytes = 100 + random_number_below(2000)}));
             buffer_written_.push_back(false);
         }
     }
 
-    bool is_written(const ImageHandle& image) const {
+    bool is_image_written(const ImageHandle& image) const {
         const auto first = written_[image.id].begin() + image.first_layer;
         return std::all_of(first, first + image.layer_count, [](bool w) { return w; });
     }
 
-    ImageHandle part_of(const ImageHandle& image) {
-        const std::uint32_t first = below(image.layer_count);
-        return image.layers(first, below(image.layer_count - first) + 1);
+    ImageHandle choose_random_part_of_image(const ImageHandle& image) {
+        const std::uint32_t first = random_number_below(image.layer_count);
+        return image.select_layers(first, random_number_below(image.layer_count - first) + 1);
     }
 
-    void add_pass(std::uint32_t number) {
-        PassBuilder pass = graph_.add_pass("p" + std::to_string(number),
-                                           chance(40) ? PassTag::scene : PassTag::none);
+    void add_random_pass(std::uint32_t number) {
+        PassBuilder pass = graph_.add_pass("p" + std::to_string(number), is_chosen_with_chance(40)
+                                                                             ? PassPurpose::scene
+                                                                             : PassPurpose::none);
         touched_.assign(images_.size(), false);
-        const ImageHandle target = part_of(
-            images_[below(static_cast<std::uint32_t>(images_.size()))]);
+        const ImageHandle target = choose_random_part_of_image(
+            images_[random_number_below(static_cast<std::uint32_t>(images_.size()))]);
         touched_[target.id] = true;
-        const bool raster = is_depth(target) || chance(40);
-        const bool copy = !raster && chance(30);
+        const bool raster = is_depth_image(target) || is_chosen_with_chance(40);
+        const bool copy = !raster && is_chosen_with_chance(30);
         if (raster)
-            add_attachments(pass, target);
+            add_random_attachments(pass, target);
         else if (copy)
             pass.writes(target, ResourceUse::copy_to);
-        else if (is_written(target) && chance(40))
+        else if (is_image_written(target) && is_chosen_with_chance(40))
             pass.writes(target, ResourceUse::storage);
         else
             pass.writes(target, ResourceUse::storage_write);
-        add_reads(pass, copy);
+        add_random_reads(pass, copy);
         add_disjoint_read(pass, target, copy);
-        add_buffers(pass, copy);
+        add_random_buffers(pass, copy);
         pass.record([](PassCommands&) {});
         std::fill_n(written_[target.id].begin() + target.first_layer, target.layer_count, true);
     }
 
-    void add_attachments(PassBuilder& pass, const ImageHandle& target) {
-        const ResourceUse use = is_depth(target) ? ResourceUse::depth : ResourceUse::colour;
+    void add_random_attachments(PassBuilder& pass, const ImageHandle& target) {
+        const ResourceUse use = is_depth_image(target) ? ResourceUse::depth : ResourceUse::colour;
         std::optional<ClearValue> clear;
-        if (!is_written(target) || chance(60)) clear = ClearValue{};
+        if (!is_image_written(target) || is_chosen_with_chance(60)) clear = ClearValue{};
         pass.writes(target, use, clear).set_layer_count(target.layer_count);
-        if (use == ResourceUse::depth || chance(50)) return;
+        if (use == ResourceUse::depth || is_chosen_with_chance(50)) return;
         for (const ImageHandle& image : images_) { // attaches a depth image for the depth test
-            if (!is_depth(image) || image.layer_count < target.layer_count) continue;
-            const ImageHandle depth = image.layers(0, target.layer_count);
-            if (!is_written(depth)) continue;
+            if (!is_depth_image(image) || image.layer_count < target.layer_count) continue;
+            const ImageHandle depth = image.select_layers(0, target.layer_count);
+            if (!is_image_written(depth)) continue;
             touched_[image.id] = true;
             pass.reads(depth, ResourceUse::depth);
             return;
         }
     }
 
-    ResourceUse read_use(const ImageHandle& image, bool copy) {
+    ResourceUse random_reading_use(const ImageHandle& image, bool copy) {
         if (copy) return ResourceUse::copy_from;
-        return !is_depth(image) && chance(30) ? ResourceUse::storage_read : ResourceUse::sampled;
+        return !is_depth_image(image) && is_chosen_with_chance(30) ? ResourceUse::storage_read
+                                                                   : ResourceUse::sampled;
     }
 
-    void add_reads(PassBuilder& pass, bool copy) {
-        for (std::uint32_t n = below(7); n > 0; --n) {
-            const ImageHandle image = part_of(
-                images_[below(static_cast<std::uint32_t>(images_.size()))]);
+    void add_random_reads(PassBuilder& pass, bool copy) {
+        for (std::uint32_t n = random_number_below(7); n > 0; --n) {
+            const ImageHandle image = choose_random_part_of_image(
+                images_[random_number_below(static_cast<std::uint32_t>(images_.size()))]);
             if (touched_[image.id]) continue;
-            if (is_written(image)) {
+            if (is_image_written(image)) {
                 touched_[image.id] = true;
-                pass.reads(image, read_use(image, copy));
-            } else if (chance(6)) {
+                pass.reads(image, random_reading_use(image, copy));
+            } else if (is_chosen_with_chance(6)) {
                 touched_[image.id] = true;
-                pass.reads(graph_.previous_contents(image), read_use(image, copy));
+                pass.reads(graph_.previous_contents(image), random_reading_use(image, copy));
             }
         }
     }
@@ -125,22 +129,23 @@ private:
     /// frame.
     void add_disjoint_read(PassBuilder& pass, const ImageHandle& target, bool copy) {
         if (target.first_layer == 0) return;
-        const ImageHandle rest = images_[target.id].layers(0, target.first_layer);
-        if (is_written(rest) && chance(50))
-            pass.reads(rest, read_use(rest, copy));
-        else if (chance(10))
+        const ImageHandle rest = images_[target.id].select_layers(0, target.first_layer);
+        if (is_image_written(rest) && is_chosen_with_chance(50))
+            pass.reads(rest, random_reading_use(rest, copy));
+        else if (is_chosen_with_chance(10))
             pass.reads(graph_.previous_contents(target), ResourceUse::sampled);
     }
 
-    void add_buffers(PassBuilder& pass, bool copy) {
+    void add_random_buffers(PassBuilder& pass, bool copy) {
         for (std::uint32_t b = 0; b < buffers_.size(); ++b) {
-            if (chance(50)) continue;
-            if (buffer_written_[b] && chance(60)) {
+            if (is_chosen_with_chance(50)) continue;
+            if (buffer_written_[b] && is_chosen_with_chance(60)) {
                 pass.reads(buffers_[b], copy ? ResourceUse::copy_from : ResourceUse::storage_read);
-                if (!copy && chance(50)) pass.reads(buffers_[b], ResourceUse::indirect);
+                if (!copy && is_chosen_with_chance(50))
+                    pass.reads(buffers_[b], ResourceUse::indirect);
                 continue;
             }
-            const bool modifies = buffer_written_[b] && chance(50);
+            const bool modifies = buffer_written_[b] && is_chosen_with_chance(50);
             const ResourceUse compute = modifies ? ResourceUse::storage
                                                  : ResourceUse::storage_write;
             pass.writes(buffers_[b], copy ? ResourceUse::copy_to : compute);
@@ -150,26 +155,27 @@ private:
 
     /// Adds a pass that writes all layers of an image whose previous contents are read. Otherwise
     /// the next frame would read contents that were never written.
-    void write_all(std::uint32_t id) {
-        if (is_written(images_[id])) return;
+    void add_pass_writing_whole_image(std::uint32_t id) {
+        if (is_image_written(images_[id])) return;
         graph_.add_pass("all" + std::to_string(id))
-            .writes(images_[id], is_depth(images_[id]) ? ResourceUse::depth : ResourceUse::colour,
+            .writes(images_[id],
+                    is_depth_image(images_[id]) ? ResourceUse::depth : ResourceUse::colour,
                     ClearValue{})
             .set_layer_count(images_[id].layer_count)
             .record([](PassCommands&) {});
         written_[id].assign(images_[id].layer_count, true);
     }
 
-    void mark_output() {
+    void mark_random_output() {
         for (const ImageHandle& image : images_) {
-            const ImageHandle part = part_of(image);
-            if (is_written(part) && chance(15)) graph_.mark_output(part);
+            const ImageHandle part = choose_random_part_of_image(image);
+            if (is_image_written(part) && is_chosen_with_chance(15)) graph_.mark_output(part);
         }
         for (const ImageHandle& image : images_) // so that most graphs have an output
-            if (graph_.output_images().empty() && is_written(image.layers(0, 1)))
-                graph_.mark_output(image.layers(0, 1));
+            if (graph_.list_output_images().empty() && is_image_written(image.select_layers(0, 1)))
+                graph_.mark_output(image.select_layers(0, 1));
         for (std::uint32_t b = 0; b < buffers_.size(); ++b)
-            if (buffer_written_[b] && chance(20)) graph_.mark_output(buffers_[b]);
+            if (buffer_written_[b] && is_chosen_with_chance(20)) graph_.mark_output(buffers_[b]);
     }
 
     std::mt19937& random_;
@@ -183,6 +189,8 @@ private:
 
 } // namespace
 
-Graph random_graph(std::mt19937& random) { return Author(random).write(); }
+Graph make_random_graph(std::mt19937& random) {
+    return RandomGraphAuthor(random).write_random_graph();
+}
 
 } // namespace catoptric::graph

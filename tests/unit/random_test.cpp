@@ -13,21 +13,21 @@ namespace {
 
 using namespace catoptric;
 
-struct UnitPoint {
+struct UnitSquarePoint {
     float u, v;
 };
 
-UnitPoint point_of(std::uint32_t pixel, std::uint32_t index, std::uint32_t pair,
-                   std::uint32_t seed) {
-    UnitPoint point{};
-    f32::sample_point(pixel, index, pair, seed, point.u, point.v);
+UnitSquarePoint make_pattern_point(std::uint32_t pixel, std::uint32_t index, std::uint32_t pair,
+                                   std::uint32_t seed) {
+    UnitSquarePoint point{};
+    f32::sample_pattern_point(pixel, index, pair, seed, point.u, point.v);
     return point;
 }
 
 TEST(Random, ReversesBits) {
-    EXPECT_EQ(f32::reverse_bits(1), 0x80000000u);
-    EXPECT_EQ(f32::reverse_bits(0x12345678u), 0x1e6a2c48u);
-    EXPECT_EQ(f32::reverse_bits(f32::reverse_bits(0xdeadbeefu)), 0xdeadbeefu);
+    EXPECT_EQ(f32::reverse_bits_of_word(1), 0x80000000u);
+    EXPECT_EQ(f32::reverse_bits_of_word(0x12345678u), 0x1e6a2c48u);
+    EXPECT_EQ(f32::reverse_bits_of_word(f32::reverse_bits_of_word(0xdeadbeefu)), 0xdeadbeefu);
 }
 
 TEST(Random, SecondCoordinateIsThatOfSobolsSequence) {
@@ -47,7 +47,7 @@ TEST(Random, FirstPointsAreANet) {
                 for (std::uint32_t across = 0; across <= k; ++across) {
                     std::set<std::pair<int, int>> cells;
                     for (std::uint32_t i = 0; i < 1u << k; ++i) {
-                        const UnitPoint point = point_of(pixel, i, 3, seed);
+                        const UnitSquarePoint point = make_pattern_point(pixel, i, 3, seed);
                         cells.emplace(int(point.u * float(1u << across)),
                                       int(point.v * float(1u << (k - across))));
                     }
@@ -58,13 +58,14 @@ TEST(Random, FirstPointsAreANet) {
 
 TEST(Random, NumbersLieInTheUnitSquareAndAreEqualForEqualArguments) {
     for (std::uint32_t i = 0; i < 4096; ++i) {
-        const UnitPoint a = point_of(i, i / 3, i % 7, 5), b = point_of(i, i / 3, i % 7, 5);
+        const UnitSquarePoint a = make_pattern_point(i, i / 3, i % 7, 5),
+                              b = make_pattern_point(i, i / 3, i % 7, 5);
         EXPECT_TRUE(a.u >= 0 && a.u < 1 && a.v >= 0 && a.v < 1);
         EXPECT_TRUE(a.u == b.u && a.v == b.v);
     }
 }
 
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+double correlation_of_samples(const std::vector<double>& a, const std::vector<double>& b) {
     double ab = 0, aa = 0, bb = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         ab += (a[i] - .5) * (b[i] - .5);
@@ -75,29 +76,33 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// Pixels, dimensions and seeds have patterns of their own.
 TEST(Random, PixelsDimensionsAndSeedsAreIndependent) {
-    constexpr std::uint32_t kCount = 4096;
-    const auto series = [&](auto&& point_at) {
+    constexpr std::uint32_t kPatternPointCount = 4096;
+    const auto sample_series = [&](auto&& point_at) {
         std::vector<double> values;
-        for (std::uint32_t i = 0; i < kCount; ++i) values.push_back(point_at(i).u);
+        for (std::uint32_t i = 0; i < kPatternPointCount; ++i) values.push_back(point_at(i).u);
         return values;
     };
-    const auto base = series([](std::uint32_t i) { return point_of(i, 0, 0, 1); });
-    const double most = 4 / std::sqrt(double(kCount)); // four standard errors
-    EXPECT_LT(std::abs(correlation(
-                  base, series([](std::uint32_t i) { return point_of(i + 1, 0, 0, 1); }))),
+    const auto base = sample_series([](std::uint32_t i) { return make_pattern_point(i, 0, 0, 1); });
+    const double most = 4 / std::sqrt(double(kPatternPointCount)); // four standard errors
+    EXPECT_LT(std::abs(correlation_of_samples(base, sample_series([](std::uint32_t i) {
+                                                  return make_pattern_point(i + 1, 0, 0, 1);
+                                              }))),
               most);
-    EXPECT_LT(
-        std::abs(correlation(base, series([](std::uint32_t i) { return point_of(i, 1, 0, 1); }))),
-        1); // samples of one pixel are stratified, so they are not independent
-    EXPECT_LT(
-        std::abs(correlation(base, series([](std::uint32_t i) { return point_of(i, 0, 1, 1); }))),
-        most);
-    EXPECT_LT(
-        std::abs(correlation(base, series([](std::uint32_t i) { return point_of(i, 0, 0, 2); }))),
-        most);
+    EXPECT_LT(std::abs(correlation_of_samples(base, sample_series([](std::uint32_t i) {
+                                                  return make_pattern_point(i, 1, 0, 1);
+                                              }))),
+              1); // samples of one pixel are stratified, so they are not independent
+    EXPECT_LT(std::abs(correlation_of_samples(base, sample_series([](std::uint32_t i) {
+                                                  return make_pattern_point(i, 0, 1, 1);
+                                              }))),
+              most);
+    EXPECT_LT(std::abs(correlation_of_samples(base, sample_series([](std::uint32_t i) {
+                                                  return make_pattern_point(i, 0, 0, 2);
+                                              }))),
+              most);
     double sum = 0;
     for (const double value : base) sum += value;
-    EXPECT_NEAR(sum / kCount, .5, 4 * .2887 / std::sqrt(double(kCount)));
+    EXPECT_NEAR(sum / kPatternPointCount, .5, 4 * .2887 / std::sqrt(double(kPatternPointCount)));
 }
 
 /// The error of a mean of n stratified points falls faster than 1/sqrt(n), at which it falls for
@@ -108,7 +113,7 @@ TEST(Random, MeanOfASmoothFunctionConvergesFast) {
         for (std::uint32_t pixel = 0; pixel < 64; ++pixel) {
             double sum = 0;
             for (std::uint32_t i = 0; i < count; ++i) {
-                const UnitPoint point = point_of(pixel, i, 0, 7);
+                const UnitSquarePoint point = make_pattern_point(pixel, i, 0, 7);
                 sum += std::exp(point.u) * point.v;
             }
             const double wanted = (std::exp(1.0) - 1) / 2;

@@ -14,18 +14,18 @@ using namespace catoptric;
 using testing::AllOf;
 using testing::HasSubstr;
 
-measure::Picture draw_picture(std::uint64_t seed) {
+measure::Picture draw_random_picture(std::uint64_t seed) {
     test::RandomNumbers numbers(seed);
     measure::Picture picture(5, 3);
-    for (vec3& pixel : picture.pixels) pixel = numbers.point_in_cube() * 3.f;
+    for (vec3& pixel : picture.pixels) pixel = numbers.random_point_in_cube() * 3.f;
     return picture;
 }
 
 app::StoredReference make_stored_reference() {
     app::StoredReference stored{.seeds = {1, 2, 4, 5}, .gpu_ms = {1.5, 2.5}};
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-        stored.a.add(draw_picture(seed));
-        stored.b.add(draw_picture(seed + 10));
+        stored.a.add_picture(draw_random_picture(seed));
+        stored.b.add_picture(draw_random_picture(seed + 10));
     }
     return stored;
 }
@@ -37,16 +37,17 @@ using ReferenceFile = test::InFolder;
 
 TEST_F(ReferenceFile, KeepsHalvesVarianceSeedsAndTimes) {
     const app::StoredReference before = make_stored_reference();
-    app::write_reference(before, kKey, folder / "halves.exr");
-    app::StoredReference after = app::read_reference(kKey, folder / "halves.exr");
+    app::write_reference_file(before, kKey, folder / "halves.exr");
+    app::StoredReference after = app::read_reference_file(kKey, folder / "halves.exr");
     EXPECT_EQ(after.seeds, before.seeds);
     EXPECT_EQ(after.gpu_ms, before.gpu_ms);
-    EXPECT_EQ(after.a.count(), 2);
+    EXPECT_EQ(after.a.picture_count(), 2);
     EXPECT_EQ(after.a.mean().pixels, before.a.mean().pixels);
     EXPECT_EQ(after.b.mean().pixels, before.b.mean().pixels);
     // Further frames continue the mean and the variance.
     app::StoredReference longer = before;
-    for (measure::PictureMean* mean : {&after.b, &longer.b}) mean->add(draw_picture(30));
+    for (measure::PictureMean* mean : {&after.b, &longer.b})
+        mean->add_picture(draw_random_picture(30));
     for (std::size_t i = 0; i < 15; ++i)
         for (int channel = 0; channel < 3; ++channel) {
             EXPECT_NEAR(after.b.mean().pixels[i][channel], longer.b.mean().pixels[i][channel],
@@ -58,21 +59,23 @@ TEST_F(ReferenceFile, KeepsHalvesVarianceSeedsAndTimes) {
 
 TEST_F(ReferenceFile, NamesThePartOfTheKeyThatDiffers) {
     const std::filesystem::path file = folder / "halves.exr";
-    app::write_reference(make_stored_reference(), kKey, file);
+    app::write_reference_file(make_stored_reference(), kKey, file);
     for (const auto& [name, value] : kKey) {
         app::ReferenceKey other = kKey;
         for (auto& part : other)
             if (part.first == name) part.second = "another";
-        EXPECT_THAT(
-            test::error_text_of(Failure::bad_data, [&] { app::read_reference(other, file); }),
-            AllOf(HasSubstr("the " + name + " another"), HasSubstr(value)));
+        EXPECT_THAT(test::catch_error_text(Failure::bad_data,
+                                           [&] { app::read_reference_file(other, file); }),
+                    AllOf(HasSubstr("the " + name + " another"), HasSubstr(value)));
     }
-    measure::write_exr(draw_picture(1), file);
-    EXPECT_THAT(test::error_text_of(Failure::bad_data, [&] { app::read_reference(kKey, file); }),
-                HasSubstr("wanted the channel A.R"));
-    EXPECT_THAT(test::error_text_of(Failure::missing_input,
-                                    [&] { app::read_reference(kKey, folder / "none.exr"); }),
-                HasSubstr("none.exr"));
+    measure::write_exr(draw_random_picture(1), file);
+    EXPECT_THAT(
+        test::catch_error_text(Failure::bad_data, [&] { app::read_reference_file(kKey, file); }),
+        HasSubstr("wanted the channel A.R"));
+    EXPECT_THAT(
+        test::catch_error_text(Failure::missing_input,
+                               [&] { app::read_reference_file(kKey, folder / "none.exr"); }),
+        HasSubstr("none.exr"));
 }
 
 } // namespace

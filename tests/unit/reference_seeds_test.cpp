@@ -44,7 +44,7 @@ TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
 }
 
 /// Returns a triangle of a metal of this roughness, found to be a mirror if it is sharp.
-scene::Scene make_metal(float roughness, float limit) {
+scene::Scene make_metal_triangle_scene(float roughness, float limit) {
     scene::Scene scene{.name = "metal"};
     scene.mirror_max_roughness = limit;
     scene.materials.push_back(
@@ -62,19 +62,19 @@ scene::Scene make_metal(float roughness, float limit) {
 TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
     for (const auto& [roughness, is_rough] :
          {std::pair(.0f, false), {.04f, false}, {.05f, true}, {.3f, true}, {1.f, true}}) {
-        const scene::Scene scene = make_metal(roughness, .3f);
+        const scene::Scene scene = make_metal_triangle_scene(roughness, .3f);
         EXPECT_EQ(scene::has_rough_reflector(scene), is_rough) << roughness;
         EXPECT_EQ(app::choose_reference("", scene),
                   is_rough ? app::kRoughReference : app::kReference);
         EXPECT_EQ(app::choose_reference("raytrace:depth=2", scene), "raytrace:depth=2");
     }
-    scene::Scene perfect = make_metal(.3f, .3f);
+    scene::Scene perfect = make_metal_triangle_scene(.3f, .3f);
     perfect.materials[0].mirror = true;
     EXPECT_FALSE(scene::has_rough_reflector(perfect));
-    scene::Scene unlit = make_metal(.3f, .3f);
+    scene::Scene unlit = make_metal_triangle_scene(.3f, .3f);
     unlit.materials[0].unlit = true;
     EXPECT_FALSE(scene::has_rough_reflector(unlit));
-    scene::Scene lambertian = make_metal(.3f, .3f);
+    scene::Scene lambertian = make_metal_triangle_scene(.3f, .3f);
     lambertian.materials[0].metallic = 0;
     EXPECT_FALSE(scene::has_rough_reflector(lambertian));
     lambertian.materials[0].dielectric_f90 = vec3(1);
@@ -83,7 +83,7 @@ TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
 
 /// The texture multiplies the roughness by its green channel.
 TEST(RoughReflectors, TextureCountsByItsWholeRange) {
-    scene::Scene scene = make_metal(1, .3f);
+    scene::Scene scene = make_metal_triangle_scene(1, .3f);
     auto image = std::make_shared<scene::Image>();
     image->size = {2, 1};
     image->texels = {0xFF000800u, 0xFF004000u}; // 64 / 255 = .25
@@ -94,9 +94,11 @@ TEST(RoughReflectors, TextureCountsByItsWholeRange) {
 }
 
 TEST(PixelTruth, ConvergedReferencesAreThoseOfAllRows) {
-    EXPECT_EQ(app::choose_reference("", make_metal(0, .3f), app::PixelTruth::converged),
+    EXPECT_EQ(app::choose_reference("", make_metal_triangle_scene(0, .3f),
+                                    app::ReferencePixelKind::converged),
               app::kConvergedReference);
-    EXPECT_EQ(app::choose_reference("", make_metal(.3f, .3f), app::PixelTruth::converged),
+    EXPECT_EQ(app::choose_reference("", make_metal_triangle_scene(.3f, .3f),
+                                    app::ReferencePixelKind::converged),
               app::kConvergedRoughReference);
     EXPECT_EQ(app::set_reference_samples("raytrace:depth=16", "4"), "raytrace:depth=16,samples=4");
     for (const char* reference : {app::kConvergedReference, app::kConvergedRoughReference})
@@ -105,7 +107,8 @@ TEST(PixelTruth, ConvergedReferencesAreThoseOfAllRows) {
 
 TEST(PixelTruth, PathsAreTheReferenceOfEachScene) {
     for (const float roughness : {0.f, .3f})
-        EXPECT_EQ(app::choose_reference("", make_metal(0, roughness), app::PixelTruth::paths),
+        EXPECT_EQ(app::choose_reference("", make_metal_triangle_scene(0, roughness),
+                                        app::ReferencePixelKind::paths),
                   app::kPathReference);
     EXPECT_TRUE(app::traces_paths(app::kPathReference));
     EXPECT_FALSE(app::traces_paths(app::kRoughReference));

@@ -12,11 +12,11 @@ namespace catoptric::graph {
 /// Memory that another resource overwrites loses its contents. A touch that no barrier orders is a
 /// race. A read in another layout is an error. In the end, all outputs must hold the same contents
 /// as if each resource had its own memory and all passes had run.
-std::vector<std::string> replay(const Graph& graph, const GraphPlan& plan,
-                                const MemorySizer& sizer);
+std::vector<std::string> replay_graph_plan(const Graph& graph, const GraphPlan& plan,
+                                           const MemoryRequirementQueries& sizer);
 
 /// Returns a random valid graph. Over many graphs, passes use resources in every way that a graph
 /// allows.
-Graph random_graph(std::mt19937& random);
+Graph make_random_graph(std::mt19937& random);
 
 } // namespace catoptric::graph

@@ -26,174 +26,183 @@ using nlohmann::json;
 
 /// A figure of the test row, with its JSON pointer and its CSV column. The column "name#2" means
 /// the third number of the list in column "name".
-struct Field {
+struct ReportedFigureField {
     std::string pointer, column;
     double value;
 };
 
 /// Builds a row in which every figure has a different value.
-class Filler {
+class DistinctRowFiller {
 public:
     Row row;
-    std::vector<Field> fields;
+    std::vector<ReportedFigureField> fields;
 
-    Filler() {
+    DistinctRowFiller() {
         row.technique = "parallax";
         row.label = "parallax:face=64";
         row.image = "parallax-face64";
-        set(row.scene_passes, "/scene_passes", "scene_passes");
-        set(row.scene_draws, "/scene_draws", "scene_draws");
-        set(row.gpu_ms, "/gpu_ms", "gpu_ms");
-        set(row.cpu_record_ms, "/cpu_record_ms", "cpu_record_ms");
-        set(row.wall_ms, "/wall_ms", "wall_ms");
-        set(row.host_ms, "/host_ms", "host_ms");
-        set(row.frame_ms, "/frame_ms", "frame_ms");
-        set(row.wait_ms, "/wait_ms", "wait_ms");
-        set(row.cpu_ms, "/cpu_ms", "cpu_ms");
-        set(row.waited, "/waited", "waited");
-        set(row.host_parts.update, "/host_parts/update", "host_parts_update");
-        set(row.host_parts.hierarchy, "/host_parts/hierarchy", "host_parts_hierarchy");
-        set(row.host_parts.compile, "/host_parts/compile", "host_parts_compile");
-        set(row.host_parts.record, "/host_parts/record", "host_parts_record");
-        set(row.closure, "/closure", "closure");
+        fill_next_value(row.scene_passes, "/scene_passes", "scene_passes");
+        fill_next_value(row.scene_draws, "/scene_draws", "scene_draws");
+        fill_next_value(row.gpu_ms, "/gpu_ms", "gpu_ms");
+        fill_next_value(row.cpu_record_ms, "/cpu_record_ms", "cpu_record_ms");
+        fill_next_value(row.wall_ms, "/wall_ms", "wall_ms");
+        fill_next_value(row.host_ms, "/host_ms", "host_ms");
+        fill_next_value(row.frame_ms, "/frame_ms", "frame_ms");
+        fill_next_value(row.wait_ms, "/wait_ms", "wait_ms");
+        fill_next_value(row.cpu_ms, "/cpu_ms", "cpu_ms");
+        fill_next_value(row.waited, "/waited", "waited");
+        fill_next_value(row.host_parts.update, "/host_parts/update", "host_parts_update");
+        fill_next_value(row.host_parts.hierarchy, "/host_parts/hierarchy", "host_parts_hierarchy");
+        fill_next_value(row.host_parts.compile, "/host_parts/compile", "host_parts_compile");
+        fill_next_value(row.host_parts.record, "/host_parts/record", "host_parts_record");
+        fill_next_value(row.closure, "/closure", "closure");
         row.passes.resize(2);
         for (std::size_t i = 0; i < 2; ++i) {
             row.passes[i].name = i == 0 ? "shadow" : "view";
-            set(row.passes[i].gpu_ms, "/passes/" + std::to_string(i) + "/gpu_ms",
-                "passes_" + row.passes[i].name + "_gpu_ms");
+            fill_next_value(row.passes[i].gpu_ms, "/passes/" + std::to_string(i) + "/gpu_ms",
+                            "passes_" + row.passes[i].name + "_gpu_ms");
         }
-        set(row.error, "/error", "mirrors");
-        set(row.error_first_order, "/error_first_order", "first_order");
-        set(row.error_mirror_in_mirror, "/error_mirror_in_mirror", "mirror_in_mirror");
-        set(row.error_non_mirror, "/error_non_mirror", "non_mirror");
-        set(row.error_all, "/error_all", "all");
-        set(row.error_dielectrics, "/error_dielectrics", "dielectrics");
-        set(row.error_rough, "/error_rough", "rough");
+        fill_next_value(row.error, "/error", "mirrors");
+        fill_next_value(row.error_first_order, "/error_first_order", "first_order");
+        fill_next_value(row.error_mirror_in_mirror, "/error_mirror_in_mirror", "mirror_in_mirror");
+        fill_next_value(row.error_non_mirror, "/error_non_mirror", "non_mirror");
+        fill_next_value(row.error_all, "/error_all", "all");
+        fill_next_value(row.error_dielectrics, "/error_dielectrics", "dielectrics");
+        fill_next_value(row.error_rough, "/error_rough", "rough");
         row.error_per_mirror.resize(2);
         for (std::size_t i = 0; i < 2; ++i)
-            set(row.error_per_mirror[i], "/error_per_mirror/" + std::to_string(i),
-                "mirror_" + std::to_string(i + 1));
-        set(row.memory_bytes, "/memory_bytes", "memory_bytes");
+            fill_next_value(row.error_per_mirror[i], "/error_per_mirror/" + std::to_string(i),
+                            "mirror_" + std::to_string(i + 1));
+        fill_next_value(row.memory_bytes, "/memory_bytes", "memory_bytes");
         row.rays.emplace();
-        set(row.rays->primary, "/rays/primary", "rays_primary");
-        set(row.rays->mirror, "/rays/mirror", "rays_mirror");
-        set(row.rays->shadow, "/rays/shadow", "rays_shadow");
-        set(row.saturated_texels.emplace(), "/saturated_texels", "saturated_texels");
-        set(row.traced_fraction.emplace(), "/traced_fraction", "traced_fraction");
-        set(row.mean, "/mean", "mean");
-        set(row.mean_clamped, "/mean_clamped", "mean_clamped");
-        fill_lookup(row.lookup.emplace());
+        fill_next_value(row.rays->primary, "/rays/primary", "rays_primary");
+        fill_next_value(row.rays->mirror, "/rays/mirror", "rays_mirror");
+        fill_next_value(row.rays->shadow, "/rays/shadow", "rays_shadow");
+        fill_next_value(row.saturated_texels.emplace(), "/saturated_texels", "saturated_texels");
+        fill_next_value(row.traced_fraction.emplace(), "/traced_fraction", "traced_fraction");
+        fill_next_value(row.mean, "/mean", "mean");
+        fill_next_value(row.mean_clamped, "/mean_clamped", "mean_clamped");
+        fill_lookup_errors(row.lookup.emplace());
         fill_light_edges(row.light_edges.emplace());
         row.causes = std::make_shared<catoptric::measure::Causes>();
-        fill_causes(*row.causes);
+        fill_error_causes(*row.causes);
         row.causes->largest.resize(row.display.pixels.size());
         row.auto_face.emplace().needs.resize(2);
-        set(row.auto_face->edge, "/auto_face/edge", "auto_face_edge");
-        set(row.auto_face->needs[0], "/auto_face/needs/0", "auto_face_needs#0");
-        set(row.auto_face->needs[1], "/auto_face/needs/1", "auto_face_needs#1");
+        fill_next_value(row.auto_face->edge, "/auto_face/edge", "auto_face_edge");
+        fill_next_value(row.auto_face->needs[0], "/auto_face/needs/0", "auto_face_needs#0");
+        fill_next_value(row.auto_face->needs[1], "/auto_face/needs/1", "auto_face_needs#1");
     }
 
 private:
     /// Sets a figure to the next value. Integers count up. Other figures are multiples of 1/1024:
     /// exact in binary, and distinct when printed with four decimals.
     template <typename Number>
-    void set(Number& figure, const std::string& pointer, const std::string& column) {
+    void fill_next_value(Number& figure, const std::string& pointer, const std::string& column) {
         ++count_;
         figure = static_cast<Number>(std::is_integral_v<Number> ? count_ : count_ / 1024.0);
         fields.push_back({pointer, column, static_cast<double>(figure)});
     }
-    static std::string part(const std::string& column, const char* name) {
+    static std::string column_part_name(const std::string& column, const char* name) {
         return column + "_" + name;
     }
-    void set(SampleSummary& times, const std::string& pointer, const std::string& column) {
-        set(times.median, pointer + "/median", part(column, "median"));
-        set(times.p05, pointer + "/p05", part(column, "p05"));
-        set(times.p95, pointer + "/p95", part(column, "p95"));
-        set(times.mad, pointer + "/mad", part(column, "mad"));
-        set(times.n, pointer + "/n", part(column, "n"));
-        set(times.ci95.low, pointer + "/ci95/0", part(column, "ci95_low"));
-        set(times.ci95.high, pointer + "/ci95/1", part(column, "ci95_high"));
+    void fill_next_value(SampleSummary& times, const std::string& pointer,
+                         const std::string& column) {
+        fill_next_value(times.median, pointer + "/median", column_part_name(column, "median"));
+        fill_next_value(times.p05, pointer + "/p05", column_part_name(column, "p05"));
+        fill_next_value(times.p95, pointer + "/p95", column_part_name(column, "p95"));
+        fill_next_value(times.mad, pointer + "/mad", column_part_name(column, "mad"));
+        fill_next_value(times.n, pointer + "/n", column_part_name(column, "n"));
+        fill_next_value(times.ci95.low, pointer + "/ci95/0", column_part_name(column, "ci95_low"));
+        fill_next_value(times.ci95.high, pointer + "/ci95/1",
+                        column_part_name(column, "ci95_high"));
         times.rounds.resize(2);
-        set(times.rounds[0], pointer + "/rounds/0", part(column, "rounds#0"));
-        set(times.rounds[1], pointer + "/rounds/1", part(column, "rounds#1"));
+        fill_next_value(times.rounds[0], pointer + "/rounds/0",
+                        column_part_name(column, "rounds#0"));
+        fill_next_value(times.rounds[1], pointer + "/rounds/1",
+                        column_part_name(column, "rounds#1"));
         times.samples.resize(2);
-        set(times.samples[0], pointer + "/samples/0", part(column, "samples#0"));
-        set(times.samples[1], pointer + "/samples/1", part(column, "samples#1"));
+        fill_next_value(times.samples[0], pointer + "/samples/0",
+                        column_part_name(column, "samples#0"));
+        fill_next_value(times.samples[1], pointer + "/samples/1",
+                        column_part_name(column, "samples#1"));
     }
-    void set(Difference& error, const std::string& pointer, const std::string& column) {
-        set(error.pixels, pointer + "/pixels", part(column, "pixels"));
-        set(error.nonfinite, pointer + "/nonfinite", part(column, "nonfinite"));
-        set(error.rmse, pointer + "/rmse", part(column, "rmse"));
-        set(error.mae, pointer + "/mae", part(column, "mae"));
-        set(error.flip, pointer + "/flip", part(column, "flip"));
-        set(error.psnr.emplace(), pointer + "/psnr", part(column, "psnr"));
-        set(error.p99, pointer + "/p99", part(column, "p99"));
-        set(error.max, pointer + "/max", part(column, "max"));
-        set(error.off, pointer + "/off", part(column, "off"));
-        set(error.longest_line, pointer + "/longest_line", part(column, "longest_line"));
-        set(error.max_x, pointer + "/max_at/0", part(column, "max_at_x"));
-        set(error.max_y, pointer + "/max_at/1", part(column, "max_at_y"));
+    void fill_next_value(Difference& error, const std::string& pointer, const std::string& column) {
+        fill_next_value(error.pixels, pointer + "/pixels", column_part_name(column, "pixels"));
+        fill_next_value(error.nonfinite, pointer + "/nonfinite",
+                        column_part_name(column, "nonfinite"));
+        fill_next_value(error.rmse, pointer + "/rmse", column_part_name(column, "rmse"));
+        fill_next_value(error.mae, pointer + "/mae", column_part_name(column, "mae"));
+        fill_next_value(error.flip, pointer + "/flip", column_part_name(column, "flip"));
+        fill_next_value(error.psnr.emplace(), pointer + "/psnr", column_part_name(column, "psnr"));
+        fill_next_value(error.p99, pointer + "/p99", column_part_name(column, "p99"));
+        fill_next_value(error.max, pointer + "/max", column_part_name(column, "max"));
+        fill_next_value(error.off, pointer + "/off", column_part_name(column, "off"));
+        fill_next_value(error.longest_line, pointer + "/longest_line",
+                        column_part_name(column, "longest_line"));
+        fill_next_value(error.max_x, pointer + "/max_at/0", column_part_name(column, "max_at_x"));
+        fill_next_value(error.max_y, pointer + "/max_at/1", column_part_name(column, "max_at_y"));
     }
-    void set(Mean& mean, const std::string& pointer, const std::string& column) {
-        set(mean.rgb.x, pointer + "/0", part(column, "r"));
-        set(mean.rgb.y, pointer + "/1", part(column, "g"));
-        set(mean.rgb.z, pointer + "/2", part(column, "b"));
+    void fill_next_value(Mean& mean, const std::string& pointer, const std::string& column) {
+        fill_next_value(mean.rgb.x, pointer + "/0", column_part_name(column, "r"));
+        fill_next_value(mean.rgb.y, pointer + "/1", column_part_name(column, "g"));
+        fill_next_value(mean.rgb.z, pointer + "/2", column_part_name(column, "b"));
     }
-    void fill_lookup(LookupErrorSummary& lookup) {
-        set(lookup.pixels, "/lookup/pixels", "lookup_pixels");
-        set(lookup.mean_degrees, "/lookup/mean_degrees", "lookup_mean_degrees");
-        set(lookup.p95_degrees, "/lookup/p95_degrees", "lookup_p95_degrees");
-        set(lookup.p99_degrees, "/lookup/p99_degrees", "lookup_p99_degrees");
-        set(lookup.wrong_object, "/lookup/wrong_object", "lookup_wrong_object");
-        set(lookup.unknown, "/lookup/unknown", "lookup_unknown");
-        set(lookup.miss, "/lookup/miss", "lookup_miss");
-        set(lookup.p95_residual, "/lookup/p95_residual", "lookup_p95_residual");
+    void fill_lookup_errors(LookupErrorSummary& lookup) {
+        fill_next_value(lookup.pixels, "/lookup/pixels", "lookup_pixels");
+        fill_next_value(lookup.mean_degrees, "/lookup/mean_degrees", "lookup_mean_degrees");
+        fill_next_value(lookup.p95_degrees, "/lookup/p95_degrees", "lookup_p95_degrees");
+        fill_next_value(lookup.p99_degrees, "/lookup/p99_degrees", "lookup_p99_degrees");
+        fill_next_value(lookup.wrong_object, "/lookup/wrong_object", "lookup_wrong_object");
+        fill_next_value(lookup.unknown, "/lookup/unknown", "lookup_unknown");
+        fill_next_value(lookup.miss, "/lookup/miss", "lookup_miss");
+        fill_next_value(lookup.p95_residual, "/lookup/p95_residual", "lookup_p95_residual");
     }
     void fill_light_edges(LightEdgeErrors& edges) {
-        set(edges.rmse, "/light_edges/rmse", "light_edges_rmse");
-        set(edges.rest_rmse, "/light_edges/rest_rmse", "light_edges_rest_rmse");
-        set(edges.share, "/light_edges/share", "light_edges_share");
-        set(edges.pixels, "/light_edges/pixels", "light_edges_pixels");
+        fill_next_value(edges.rmse, "/light_edges/rmse", "light_edges_rmse");
+        fill_next_value(edges.rest_rmse, "/light_edges/rest_rmse", "light_edges_rest_rmse");
+        fill_next_value(edges.share, "/light_edges/share", "light_edges_share");
+        fill_next_value(edges.pixels, "/light_edges/pixels", "light_edges_pixels");
     }
-    void fill_causes(Causes& causes) {
-        set(causes.squared_error, "/causes/squared_error", "causes_squared_error");
-        set(causes.rest_rmse, "/causes/rest_rmse", "causes_rest_rmse");
+    void fill_error_causes(Causes& causes) {
+        fill_next_value(causes.squared_error, "/causes/squared_error", "causes_squared_error");
+        fill_next_value(causes.rest_rmse, "/causes/rest_rmse", "causes_rest_rmse");
         // This share is also a figure of the row itself, in `light_edges`.
         fields.push_back(
             {"/causes/at_light_edges", "causes_at_light_edges", row.light_edges.value().share});
-        set(causes.squared_error_per_mirror.emplace_back(), "/causes/squared_error_per_mirror/0",
-            "causes_squared_error_per_mirror#0");
+        fill_next_value(causes.squared_error_per_mirror.emplace_back(),
+                        "/causes/squared_error_per_mirror/0", "causes_squared_error_per_mirror#0");
         causes.list.resize(2);
         for (std::size_t i = 0; i < 2; ++i) {
-            Cause& cause = causes.list[i];
+            ErrorCauseShare& cause = causes.list[i];
             const std::string at = "/causes/list/" + std::to_string(i);
             cause.name = i == 0 ? "one" : "other";
             const std::string column = "causes_list_" + cause.name;
-            set(cause.share, at + "/share", column + "_share");
-            set(cause.share_first_order, at + "/share_first_order", column + "_share_first_order");
-            set(cause.share_mirror_in_mirror, at + "/share_mirror_in_mirror",
-                column + "_share_mirror_in_mirror");
-            set(cause.share_per_mirror.emplace_back(), at + "/share_per_mirror/0",
-                column + "_share_per_mirror#0");
-            set(cause.squared_error, at + "/squared_error", column + "_squared_error");
-            set(cause.alone, at + "/alone", column + "_alone");
-            set(cause.alone_per_mirror.emplace_back(), at + "/alone_per_mirror/0",
-                column + "_alone_per_mirror#0");
+            fill_next_value(cause.share, at + "/share", column + "_share");
+            fill_next_value(cause.share_first_order, at + "/share_first_order",
+                            column + "_share_first_order");
+            fill_next_value(cause.share_mirror_in_mirror, at + "/share_mirror_in_mirror",
+                            column + "_share_mirror_in_mirror");
+            fill_next_value(cause.share_per_mirror.emplace_back(), at + "/share_per_mirror/0",
+                            column + "_share_per_mirror#0");
+            fill_next_value(cause.squared_error, at + "/squared_error", column + "_squared_error");
+            fill_next_value(cause.alone, at + "/alone", column + "_alone");
+            fill_next_value(cause.alone_per_mirror.emplace_back(), at + "/alone_per_mirror/0",
+                            column + "_alone_per_mirror#0");
         }
     }
 
     int count_ = 0;
 };
 
-Comparison distinct(const Filler& filler) {
-    Comparison made = sample::comparison({filler.row});
+Comparison make_comparison_of_distinct_figures(const DistinctRowFiller& filler) {
+    Comparison made = sample::make_comparison({filler.row});
     made.scene.camera = {"eye level", {1, 2, 3}, {4, 5, 6}, {0, 0, 1}, 37.5};
     made.time = 0.25, made.exposure = -1, made.device.threads = 2;
     return made;
 }
 
-/// Returns the CSV cells that identify the run of `distinct`, by column.
-std::map<std::string, std::string> identity() {
+/// Returns the CSV cells that identify the run of `make_comparison_of_distinct_figures`, by column.
+std::map<std::string, std::string> list_identity_cells() {
     return {{"plan", "parallax:face=64"},
             {"scene", "cornell-mirrors"},
             {"scene_hash", "deadbeef"},
@@ -234,7 +243,8 @@ std::map<std::string, std::string> identity() {
 }
 
 TEST(ReportFields, JsonReportHoldsTheCamera) {
-    const json document = json::parse(to_json(distinct(Filler())));
+    const json document = json::parse(
+        to_json(make_comparison_of_distinct_figures(DistinctRowFiller())));
     EXPECT_EQ(document["scene"]["camera"],
               json::parse(R"({"name": "eye level", "eye": [1, 2, 3], "target": [4, 5, 6],
                               "up": [0, 0, 1], "vertical_fov_degrees": 37.5,
@@ -242,11 +252,12 @@ TEST(ReportFields, JsonReportHoldsTheCamera) {
 }
 
 TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
-    const json document = json::parse(to_json(distinct(Filler())));
+    const json document = json::parse(
+        to_json(make_comparison_of_distinct_figures(DistinctRowFiller())));
     EXPECT_EQ(document["rounds"], 6);
     EXPECT_EQ(document["load"], json::parse("[0.25, 1.5]"));
     EXPECT_EQ(document["rows"][0]["noisy"], false);
-    Comparison made = sample::usual();
+    Comparison made = sample::make_usual_comparison();
     made.load_start = std::nan("");
     made.rows[0].gpu_ms = catoptric::measure::summarise_samples(std::vector<double>{1, 2});
     const json without = json::parse(to_json(made));
@@ -256,7 +267,7 @@ TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
 }
 
 TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
-    Comparison made = distinct(Filler());
+    Comparison made = make_comparison_of_distinct_figures(DistinctRowFiller());
     made.setup = {1.5, 2.25, 33.5, 444.5, 6, "used"};
     EXPECT_EQ(json::parse(to_json(made))["setup"],
               json::parse(R"({"load_ms": 1.5, "upload_ms": 2.25, "hierarchy_ms": 33.5,
@@ -289,10 +300,10 @@ void collect_numbers(const json& document, const std::string& at, std::vector<st
 }
 
 TEST(ReportFields, JsonReportHoldsEachFigureUnderItsName) {
-    const Filler filler;
-    const json row = json::parse(to_json(distinct(filler)))["rows"][0];
+    const DistinctRowFiller filler;
+    const json row = json::parse(to_json(make_comparison_of_distinct_figures(filler)))["rows"][0];
     std::vector<std::string> wanted{"/error_per_mirror/0/mirror", "/error_per_mirror/1/mirror"};
-    for (const Field& field : filler.fields) {
+    for (const ReportedFigureField& field : filler.fields) {
         ASSERT_TRUE(row.contains(json::json_pointer(field.pointer))) << field.pointer;
         EXPECT_EQ(row.at(json::json_pointer(field.pointer)), field.value) << field.pointer;
         wanted.push_back(field.pointer);
@@ -303,7 +314,7 @@ TEST(ReportFields, JsonReportHoldsEachFigureUnderItsName) {
 }
 
 /// Returns the fields of the first line of a CSV text that has no quotes.
-std::vector<std::string> report_fields_split(const std::string& line) {
+std::vector<std::string> split_csv_fields(const std::string& line) {
     std::vector<std::string> fields(1);
     for (const char c : line) {
         if (c == '\r') break;
@@ -316,7 +327,8 @@ std::vector<std::string> report_fields_split(const std::string& line) {
 }
 
 /// Returns the number in a CSV column. "name#i" means entry i of the list in column "name".
-double number_in(const std::map<std::string, std::string>& line, const std::string& column) {
+double find_number_in_csv_column(const std::map<std::string, std::string>& line,
+                                 const std::string& column) {
     const std::size_t hash = column.find('#');
     std::istringstream list(line.at(column.substr(0, hash)));
     double number = 0;
@@ -327,33 +339,33 @@ double number_in(const std::map<std::string, std::string>& line, const std::stri
 }
 
 /// Returns whether a test of this program has registered this metric.
-bool is_of_a_test(const std::string& name) {
+bool is_row_of_some_test(const std::string& name) {
     return name.find("test_only") != name.npos || name.starts_with("(test)");
 }
 
 TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
-    const Filler filler;
-    const std::string csv = to_csv(distinct(filler), CsvColumns::all);
-    const std::vector<std::string> names = report_fields_split(csv),
-                                   cells = report_fields_split(csv.substr(csv.find('\n') + 1));
+    const DistinctRowFiller filler;
+    const std::string csv = to_csv(make_comparison_of_distinct_figures(filler), CsvColumnSet::all);
+    const std::vector<std::string> names = split_csv_fields(csv),
+                                   cells = split_csv_fields(csv.substr(csv.find('\n') + 1));
     ASSERT_EQ(names.size(), cells.size());
     std::map<std::string, std::string> found;
     for (std::size_t i = 0; i < names.size(); ++i)
         EXPECT_TRUE(found.emplace(names[i], cells[i]).second) << names[i] << " is there twice";
     std::set<std::string> wanted;
-    for (const Field& field : filler.fields) {
+    for (const ReportedFigureField& field : filler.fields) {
         wanted.insert(field.column.substr(0, field.column.find('#')));
-        EXPECT_EQ(number_in(found, field.column), field.value) << field.column;
+        EXPECT_EQ(find_number_in_csv_column(found, field.column), field.value) << field.column;
     }
     for (const char* name :
          {"technique", "label", "settings", "model", "place_first", "place_last", "moves", "noisy",
           "failed", "image", "on_front", "is_reference", "incomplete"})
         wanted.insert(name);
-    for (const auto& [name, field] : identity()) {
+    for (const auto& [name, field] : list_identity_cells()) {
         wanted.insert(name);
         EXPECT_EQ(found[name], field) << name;
     }
-    std::erase_if(found, [](const auto& one) { return is_of_a_test(one.first); });
+    std::erase_if(found, [](const auto& one) { return is_row_of_some_test(one.first); });
     std::set<std::string> there;
     for (const auto& [name, field] : found) there.insert(name);
     EXPECT_EQ(there, wanted);
@@ -364,31 +376,31 @@ TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
 }
 
 /// Returns the cells of a table's row, by column name.
-std::map<std::string, std::string> report_fields_cells_of(const ReportTable& table,
-                                                          std::size_t row) {
+std::map<std::string, std::string> cells_of_table_row_by_column(const ReportTable& table,
+                                                                std::size_t row) {
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
         cells[table.columns[i].name] = table.rows.at(row).at(i);
     return cells;
 }
 
-std::string with_decimals(double value, int decimals) {
+std::string format_with_decimals(double value, int decimals) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", decimals, value);
     return text;
 }
 
 TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
-    Filler filler;
+    DistinctRowFiller filler;
     filler.row.memory_bytes = 5 << 20;
     const Row& row = filler.row;
-    const auto error = [](double value) { return with_decimals(value, 4); };
-    const auto ms = [](double value) { return with_decimals(value, 4); };
-    const auto degrees = [](double value) { return with_decimals(value, 2); };
-    const auto percent = [](double share) { return with_decimals(100 * share, 2); };
+    const auto error = [](double value) { return format_with_decimals(value, 4); };
+    const auto ms = [](double value) { return format_with_decimals(value, 4); };
+    const auto degrees = [](double value) { return format_with_decimals(value, 2); };
+    const auto percent = [](double share) { return format_with_decimals(100 * share, 2); };
 
-    std::map<std::string, std::string> cells = report_fields_cells_of(
-        make_rows_table(distinct(filler)), 0);
+    std::map<std::string, std::string> cells = cells_of_table_row_by_column(
+        make_rows_table(make_comparison_of_distinct_figures(filler)), 0);
     const std::map<std::string, std::string> wanted{
         {"Row", row.label},
         {"R", std::to_string(row.scene_passes)},
@@ -404,8 +416,8 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
         {"rmse", error(row.error.rmse)},
         {"rmse, light edges", error(row.light_edges->rmse)},
         {"rmse, rest", error(row.light_edges->rest_rmse)},
-        {"Longest line", with_decimals(row.error.longest_line, 0)},
-        {"PSNR dB", with_decimals(*row.error.psnr, 1)},
+        {"Longest line", format_with_decimals(row.error.longest_line, 0)},
+        {"PSNR dB", format_with_decimals(*row.error.psnr, 1)},
         {"p99", error(row.error.p99)},
         {"FLIP, first order", error(row.error_first_order.flip)},
         {"FLIP, mirror in mirror", error(row.error_mirror_in_mirror.flip)},
@@ -428,21 +440,23 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
         EXPECT_NEAR(std::stod(cells[title]), value, 1e-3) << title;
         cells.erase(title);
     }
-    std::erase_if(cells, [](const auto& one) { return is_of_a_test(one.first); });
+    std::erase_if(cells, [](const auto& one) { return is_row_of_some_test(one.first); });
     EXPECT_EQ(cells, wanted);
 
     EXPECT_EQ(
-        report_fields_cells_of(make_mirror_table(distinct(filler)), 0),
+        cells_of_table_row_by_column(make_mirror_table(make_comparison_of_distinct_figures(filler)),
+                                     0),
         (std::map<std::string, std::string>{{"Row", row.label},
                                             {"Mirror 1", error(row.error_per_mirror[0].flip)},
                                             {"Mirror 2", error(row.error_per_mirror[1].flip)}}));
 
     const LookupErrorSummary& lookup = *row.lookup;
-    EXPECT_EQ(report_fields_cells_of(make_lookup_table(distinct(filler)), 0),
+    EXPECT_EQ(cells_of_table_row_by_column(
+                  make_lookup_table(make_comparison_of_distinct_figures(filler)), 0),
               (std::map<std::string, std::string>{
                   {"Row", row.label},
                   {"Pixels", std::to_string(lookup.pixels)},
-                  {"Mean, degrees", with_decimals(lookup.mean_degrees, 3)},
+                  {"Mean, degrees", format_with_decimals(lookup.mean_degrees, 3)},
                   {"95 %", degrees(lookup.p95_degrees)},
                   {"99 %", degrees(lookup.p99_degrees)},
                   {"Wrong object, %", percent(lookup.wrong_object)},
@@ -453,7 +467,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
 
 /// The errors by which rows are ranked come first, in the same order in tables and in JSON.
 TEST(ReportFields, ErrorsThatRankRowsComeFirst) {
-    const Comparison made = distinct(Filler());
+    const Comparison made = make_comparison_of_distinct_figures(DistinctRowFiller());
     std::vector<std::string> titles;
     for (const TableColumn& column : make_rows_table(made).columns) titles.push_back(column.name);
     const auto first = std::ranges::find(titles, "FLIP");
@@ -474,18 +488,22 @@ TEST(ReportFields, ErrorsThatRankRowsComeFirst) {
 /// plans.
 TEST(ReportFields, ReportNamesTheTechniqueOfEachMirrorOfAPlan) {
     using namespace catoptric::report::sample;
-    Row one = row("reuse", 5, .1, .2), plan = row("1=reuse 2=secant:face=64", 7, .1, .1);
+    Row one = make_row("reuse", 5, .1, .2), plan = make_row("1=reuse 2=secant:face=64", 7, .1, .1);
     plan.technique = "plan";
-    one.plan = {{1, "left", "reuse", {number("face", 256)}, "one technique was asked for"}};
-    plan.plan = {
-        {1, "left", "reuse", {number("face", 256)}, "rule '1'"},
-        {2, "right", "secant", {number("face", 64, true), choice("colour", "half")}, "rule '2'"}};
-    const Comparison both = comparison({one, plan});
+    one.plan = {
+        {1, "left", "reuse", {make_number_setting("face", 256)}, "one technique was asked for"}};
+    plan.plan = {{1, "left", "reuse", {make_number_setting("face", 256)}, "rule '1'"},
+                 {2,
+                  "right",
+                  "secant",
+                  {make_number_setting("face", 64, true), make_choice_setting("colour", "half")},
+                  "rule '2'"}};
+    const Comparison both = make_comparison({one, plan});
     const ReportTable table = make_plan_table(both);
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_EQ(table.rows[1],
               (std::vector<std::string>{plan.label, "2", "right", "secant:face=64", "rule '2'"}));
-    EXPECT_TRUE(make_plan_table(comparison({one})).rows.empty());
+    EXPECT_TRUE(make_plan_table(make_comparison({one})).rows.empty());
     const auto rows = json::parse(to_json(both))["rows"];
     EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
     EXPECT_EQ(rows[1]["plan"][1],

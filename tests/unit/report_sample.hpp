@@ -14,7 +14,7 @@ using measure::SampleSummary;
 
 /// Returns the times of six rounds: half are `ms` times 1 + jitter, half are `ms` times 1 - jitter.
 /// Without jitter, two summaries tie only if they are equal.
-inline SampleSummary times(double ms, double jitter = 0) {
+inline SampleSummary make_time_samples(double ms, double jitter = 0) {
     const double more = ms * (1 + jitter), less = ms * (1 - jitter);
     SampleSummary made{ms, ms * 0.9, ms * 1.1, ms * 0.05, 3, {ms * 0.9, ms, ms * 1.1}};
     made.rounds = {less, more, less, more, less, more};
@@ -22,7 +22,7 @@ inline SampleSummary times(double ms, double jitter = 0) {
     return made;
 }
 
-inline Difference error_of(double rmse, double flip) {
+inline Difference make_difference_of_errors(double rmse, double flip) {
     Difference error;
     error.pixels = 6;
     error.rmse = rmse;
@@ -36,18 +36,19 @@ inline Difference error_of(double rmse, double flip) {
     return error;
 }
 
-inline Row row(const std::string& label, double ms, double rmse, double flip,
-               std::vector<Setting> more = {}) {
+inline Row make_row(const std::string& label, double ms, double rmse, double flip,
+                    std::vector<Setting> more = {}) {
     Row made;
     made.label = label;
     made.technique = label.substr(0, label.find(':'));
     made.settings = std::move(more);
     made.scene_passes = 6;
     made.scene_draws = 26;
-    made.gpu_ms = made.cpu_record_ms = made.wall_ms = times(ms);
-    made.passes = {{"shadow", times(ms / 2)}, {"view", times(ms / 2)}};
-    made.error = made.error_first_order = made.error_all = error_of(rmse, flip);
-    made.error_per_mirror = {error_of(rmse, flip), error_of(rmse / 2, flip)};
+    made.gpu_ms = made.cpu_record_ms = made.wall_ms = make_time_samples(ms);
+    made.passes = {{"shadow", make_time_samples(ms / 2)}, {"view", make_time_samples(ms / 2)}};
+    made.error = made.error_first_order = made.error_all = make_difference_of_errors(rmse, flip);
+    made.error_per_mirror = {make_difference_of_errors(rmse, flip),
+                             make_difference_of_errors(rmse / 2, flip)};
     made.memory_bytes = 1 << 20;
     made.hdr = made.display = Picture(4, 3);
     made.flip_map.assign(12, 0.25F);
@@ -55,29 +56,32 @@ inline Row row(const std::string& label, double ms, double rmse, double flip,
     return made;
 }
 
-inline Setting number(const std::string& name, int value, bool changed = false) {
+inline Setting make_number_setting(const std::string& name, int value, bool changed = false) {
     return {name, std::to_string(value), double(value), changed};
 }
 
-inline Setting choice(const std::string& name, const std::string& value, bool changed = false) {
+inline Setting make_choice_setting(const std::string& name, const std::string& value,
+                                   bool changed = false) {
     return {name, value, {}, changed};
 }
 
-inline Row naive(int bounces, double ms, double rmse, double flip) {
-    Row made = row(bounces == 3 ? "naive" : "naive:bounces=" + std::to_string(bounces), ms, rmse,
-                   flip, {number("bounces", bounces, bounces != 3), number("face", 256)});
+inline Row make_naive_row(int bounces, double ms, double rmse, double flip) {
+    Row made = make_row(
+        bounces == 3 ? "naive" : "naive:bounces=" + std::to_string(bounces), ms, rmse, flip,
+        {make_number_setting("bounces", bounces, bounces != 3), make_number_setting("face", 256)});
     made.image += std::to_string(bounces);
     return made;
 }
 
-inline Row unorm8(int range, double rmse) {
+inline Row make_unorm8_row(int range, double rmse) {
     const std::string label = "parallax:distance=unorm8";
-    return row(range == 200 ? label : label + ",range=" + std::to_string(range), 8, rmse, 0.2,
-               {number("face", 256), choice("distance", "unorm8", true),
-                number("range", range, range != 200)});
+    return make_row(range == 200 ? label : label + ",range=" + std::to_string(range), 8, rmse, 0.2,
+                    {make_number_setting("face", 256),
+                     make_choice_setting("distance", "unorm8", true),
+                     make_number_setting("range", range, range != 200)});
 }
 
-inline Comparison comparison(std::vector<Row> rows) {
+inline Comparison make_comparison(std::vector<Row> rows) {
     Comparison made;
     made.version = "0.1.0";
     made.commit = "abc1234";
@@ -90,8 +94,9 @@ inline Comparison comparison(std::vector<Row> rows) {
     made.load_start = .25, made.load_end = 1.5;
     made.reference_technique = "raytrace";
     made.reference_label = "raytrace:depth=16";
-    made.reference_settings = {number("depth", 16), choice("shadow", "ray")};
-    made.reference_gpu_ms = times(12);
+    made.reference_settings = {make_number_setting("depth", 16),
+                               make_choice_setting("shadow", "ray")};
+    made.reference_gpu_ms = make_time_samples(12);
     made.reference_display = Picture(4, 3);
     made.rows = std::move(rows);
     return made;
@@ -99,19 +104,21 @@ inline Comparison comparison(std::vector<Row> rows) {
 
 /// Returns a comparison of four rows. `parallax` beats `reuse`, and the last row is the reference
 /// itself.
-inline Comparison usual() {
-    Row exact = row("raytrace:depth=16", 12, 0, 0,
-                    {number("depth", 16, true), choice("sphere", "mesh")});
+inline Comparison make_usual_comparison() {
+    Row exact = make_row(
+        "raytrace:depth=16", 12, 0, 0,
+        {make_number_setting("depth", 16, true), make_choice_setting("sphere", "mesh")});
     exact.is_reference = true;
     exact.rays = RayCounts{12, 6, 18};
-    Comparison made = comparison(
-        {naive(0, 2, 0.3, 0.5), row("reuse", 7, 0.09, 0.2, {number("face", 256)}),
-         row("parallax", 6, 0.03, 0.1, {choice("distance", "r32f")}), exact});
+    Comparison made = make_comparison(
+        {make_naive_row(0, 2, 0.3, 0.5),
+         make_row("reuse", 7, 0.09, 0.2, {make_number_setting("face", 256)}),
+         make_row("parallax", 6, 0.03, 0.1, {make_choice_setting("distance", "r32f")}), exact});
     made.pareto = {0, 2, 3};
     return made;
 }
 
 /// Returns the text of report.md.
-inline std::string said(const Comparison& made) { return to_markdown(made); }
+inline std::string report_text_of_comparison(const Comparison& made) { return to_markdown(made); }
 
 } // namespace catoptric::report::sample

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(ReportJson, JsonReportHasTheDocumentedFieldsInOrder) {
-    const std::string text = catoptric::report::to_json(usual());
+    const std::string text = catoptric::report::to_json(make_usual_comparison());
     const auto document = nlohmann::ordered_json::parse(text);
     std::vector<std::string> names;
     for (const auto& [name, value] : document.items()) names.push_back(name);
@@ -44,7 +44,7 @@ TEST(ReportJson, JsonReportHasTheDocumentedFieldsInOrder) {
 }
 
 TEST(ReportJson, JsonRowHasTheDocumentedFields) {
-    const json document = json::parse(catoptric::report::to_json(usual()));
+    const json document = json::parse(catoptric::report::to_json(make_usual_comparison()));
     const json& first = document["rows"][0];
     for (const char* name : {"technique",
                              "settings",
@@ -85,7 +85,7 @@ TEST(ReportJson, JsonRowHasTheDocumentedFields) {
 }
 
 TEST(ReportJson, JsonReportWritesNullForMissingNumbers) {
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.rows[0].error.rmse = test::kDoubleNan;
     made.rows[0].gpu_ms.p95 = std::numeric_limits<double>::infinity();
     made.reference_gpu_ms = {};
@@ -106,8 +106,8 @@ TEST(ReportJson, JsonReportWritesNullForMissingNumbers) {
 }
 
 TEST(ReportJson, JsonReportStoresTheEdgeThatAnAutomaticFaceChose) {
-    Comparison made = usual();
-    made.rows[1].settings = {choice("face", "auto", true)};
+    Comparison made = make_usual_comparison();
+    made.rows[1].settings = {make_choice_setting("face", "auto", true)};
     made.rows[1].auto_face = {.edge = 64, .needs = {39.5, 0}};
     const json document = json::parse(catoptric::report::to_json(made));
     EXPECT_EQ(document["rows"][1]["settings"]["face"], "auto");
@@ -116,9 +116,9 @@ TEST(ReportJson, JsonReportStoresTheEdgeThatAnAutomaticFaceChose) {
 }
 
 TEST(ReportJson, JsonReportMarksFailedRowsAndAcceptsInvalidUtf8) {
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.rows[1].error.nonfinite = 2;
-    made.clear_ms = times(0.5);
+    made.clear_ms = make_time_samples(0.5);
     made.scene.name = "bytes that are no UTF-8: \xff\xfe";
     const json document = json::parse(catoptric::report::to_json(made));
     EXPECT_EQ(document["rows"][1]["failed"], true);
@@ -132,15 +132,15 @@ TEST(ReportJson, ReportOfARunWithoutRowsIsValid) {
     EXPECT_EQ(document["rows"], json::array());
     EXPECT_EQ(document["command"], json::array());
     EXPECT_EQ(document["reference"]["settings"], json::object());
-    EXPECT_THAT(said(nothing), HasSubstr("no front"));
+    EXPECT_THAT(report_text_of_comparison(nothing), HasSubstr("no front"));
     EXPECT_THAT(catoptric::report::to_html(nothing), HasSubstr("</html>"));
 }
 
 TEST(ReportCsv, CsvReportQuotesFieldsAndEndsLinesByTheStandard) {
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.rows[0].label = "naive:bounces=0,face=512";
     made.rows[1].model = "say \"everything\"\nor not";
-    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
+    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumnSet::all);
     EXPECT_THAT(csv, HasSubstr("\"naive:bounces=0,face=512\",\"bounces=0, face=256\","));
     EXPECT_THAT(csv, HasSubstr("\"say \"\"everything\"\"\nor not\""));
     EXPECT_TRUE(
@@ -150,9 +150,9 @@ TEST(ReportCsv, CsvReportQuotesFieldsAndEndsLinesByTheStandard) {
 }
 
 TEST(ReportCsv, EveryCsvLineHasTheSameNumberOfFields) {
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.rows[2].error_per_mirror.clear();
-    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumns::all);
+    const std::string csv = catoptric::report::to_csv(made, catoptric::report::CsvColumnSet::all);
     std::vector<std::ptrdiff_t> commas;
     bool quoted = false;
     commas.push_back(0);
@@ -166,7 +166,7 @@ TEST(ReportCsv, EveryCsvLineHasTheSameNumberOfFields) {
 }
 
 TEST(ReportHtml, HtmlReportEscapesTextAndLoadsNothingFromOutside) {
-    Comparison made = usual();
+    Comparison made = make_usual_comparison();
     made.scene.name = "<script>alert('x')</script>\" onload=\"&";
     made.warnings = {"<img src=x>"};
     made.rows[0].label = "naive:<b>";
@@ -182,7 +182,7 @@ TEST(ReportHtml, HtmlReportEscapesTextAndLoadsNothingFromOutside) {
 }
 
 TEST(ReportHtml, HtmlReportEmbedsThePlotAndEveryPicture) {
-    const std::string html = catoptric::report::to_html(usual());
+    const std::string html = catoptric::report::to_html(make_usual_comparison());
     const std::regex pictures(
         "<img [^>]*alt=\"[^\"]+\" src=\"data:image/png;base64,iVBORw0KGgo[A-Za-z0-9+/]*=*\">");
     EXPECT_EQ(std::distance(std::sregex_iterator(html.begin(), html.end(), pictures),
@@ -198,8 +198,8 @@ TEST(ReportHtml, HtmlReportEmbedsThePlotAndEveryPicture) {
 /// has no bar.
 TEST(ReportHtml, HtmlPlotDrawsIntervalsOfTimes) {
     using catoptric::report::to_html;
-    Comparison made = usual();
-    made.rows[1].gpu_ms = times(7, .2);
+    Comparison made = make_usual_comparison();
+    made.rows[1].gpu_ms = make_time_samples(7, .2);
     made.rows[3].gpu_ms.ci95 = {};
     const std::string html = to_html(made);
     const std::regex bar("class=\"interval\" d=\"M([0-9.]+) [0-9.]+H([0-9.]+)\"");
@@ -214,9 +214,9 @@ TEST(ReportHtml, HtmlPlotDrawsIntervalsOfTimes) {
 
 class ReportWrite : public test::InFolder {
 protected:
-    Error error_of_writing_to(const fs::path& path) const {
+    Error catch_error_of_writing_report(const fs::path& path) const {
         try {
-            catoptric::report::write(usual(), path);
+            catoptric::report::write(make_usual_comparison(), path);
         } catch (const Error& error) {
             return error;
         }
@@ -229,11 +229,15 @@ TEST_F(ReportWrite, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
     fs::create_directories(out / "images");
     catoptric::write_file(out / "report.json", std::string(1 << 20, 'x'));
     catoptric::write_file(out / "notes.txt", "stays");
-    catoptric::report::write(usual(), out / "");
-    EXPECT_EQ(catoptric::read_file(out / "report.json"), catoptric::report::to_json(usual()));
-    EXPECT_EQ(catoptric::read_file(out / "report.md"), said(usual()));
-    EXPECT_EQ(catoptric::read_file(out / "report.html"), catoptric::report::to_html(usual()));
-    EXPECT_EQ(catoptric::read_file(out / "rows.csv"), catoptric::report::to_csv(usual()));
+    catoptric::report::write(make_usual_comparison(), out / "");
+    EXPECT_EQ(catoptric::read_file(out / "report.json"),
+              catoptric::report::to_json(make_usual_comparison()));
+    EXPECT_EQ(catoptric::read_file(out / "report.md"),
+              report_text_of_comparison(make_usual_comparison()));
+    EXPECT_EQ(catoptric::read_file(out / "report.html"),
+              catoptric::report::to_html(make_usual_comparison()));
+    EXPECT_EQ(catoptric::read_file(out / "rows.csv"),
+              catoptric::report::to_csv(make_usual_comparison()));
     EXPECT_EQ(catoptric::read_file(out / "notes.txt"), "stays");
     for (const char* name :
          {"reference.png", "naive0.png", "naive0.exr", "naive0-error.png", "raytrace.png"})
@@ -244,13 +248,14 @@ TEST_F(ReportWrite, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
 
 TEST_F(ReportWrite, WritingAReportCreatesTheFolderAndItsParents) {
     const fs::path out = folder / "missing" / "too" / "out";
-    catoptric::report::write(usual(), out);
-    EXPECT_EQ(catoptric::read_file(out / "report.json"), catoptric::report::to_json(usual()));
+    catoptric::report::write(make_usual_comparison(), out);
+    EXPECT_EQ(catoptric::read_file(out / "report.json"),
+              catoptric::report::to_json(make_usual_comparison()));
 }
 
 TEST_F(ReportWrite, WritingAReportFailsIfTheFolderIsAFile) {
     catoptric::write_file(folder / "out", "a file");
-    const Error error = error_of_writing_to(folder / "out");
+    const Error error = catch_error_of_writing_report(folder / "out");
     EXPECT_EQ(error.failure, Failure::cannot_create);
     EXPECT_THAT(error.what(),
                 HasSubstr("out/images: the folder cannot be created: Not a directory"));

@@ -21,8 +21,8 @@ using testing::Not;
 
 TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
     scene::Scene scene = scene::make_flat_mirror_room();
-    const Model model = make_required_model({scene, scene.cameras[0]});
-    EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4)); // the mirror faces -z
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
+    EXPECT_EQ(model.mirrors[0].faces, kAllFaceBits & ~(1 << 4)); // the mirror faces -z
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the capture of mirror 1 'mirror'");
     EXPECT_EQ(model.left_out[0].saves, "1 of six faces, each time that they would be drawn again");
@@ -34,7 +34,7 @@ TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {
     const std::size_t mirror = scene.objects[6].material;
     scene.objects[4].world_from_object[3].z = 5;
     test::add_ball(scene, "ball", mirror, {1.7, 1, 4}, .2, 2);
-    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
+    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaceBits);
 }
 
 TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
@@ -42,9 +42,9 @@ TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
     const std::size_t mirror = scene.objects[6].material;
     test::add_quad(scene, "beside", mirror, {1.9, .5, 2.98}, {1.5, .5, 2.98}, {1.5, 2.1, 2.98},
                    {1.9, 2.1, 2.98});
-    const Model model = make_required_model({scene, scene.cameras[0]});
-    EXPECT_EQ(model.mirrors[0].faces, kAllFaces & ~(1 << 4));
-    EXPECT_EQ(model.mirrors[1].faces, kAllFaces & ~(1 << 4));
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
+    EXPECT_EQ(model.mirrors[0].faces, kAllFaceBits & ~(1 << 4));
+    EXPECT_EQ(model.mirrors[1].faces, kAllFaceBits & ~(1 << 4));
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the captures of mirrors 1-2");
 }
@@ -52,10 +52,10 @@ TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
 TEST(RequireFaces, CurvedMirrorsAndOrthographicCamerasNeedAllFaces) {
     scene::Scene scene = scene::make_flat_mirror_room();
     scene.cameras[0].orthographic_height = 3;
-    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaces);
-    EXPECT_EQ(normal_of_flat_mesh(scene::ball("", 2)), dvec3(0));
-    EXPECT_EQ(normal_of_flat_mesh(scene::box("", dvec3(0), dvec3(1))), dvec3(0));
-    EXPECT_EQ(normal_of_flat_mesh(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
+    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaceBits);
+    EXPECT_EQ(find_normal_of_flat_mesh(scene::ball("", 2)), dvec3(0));
+    EXPECT_EQ(find_normal_of_flat_mesh(scene::box("", dvec3(0), dvec3(1))), dvec3(0));
+    EXPECT_EQ(find_normal_of_flat_mesh(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
 }
 
 TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
@@ -65,7 +65,7 @@ TEST(RequireLights, LightThatReachesNothingVisibleNeedsNoShadowMap) {
         scene.punctual.back().world_from_light[3] = dvec4(at, 1);
     };
     bare("near", {0, 5, 0}, 2.9), bare("far", {0, 5, 0}, 3.1);
-    const Model model = make_required_model({scene, scene.cameras[0]});
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.lights.size(), 3u);
     EXPECT_TRUE(model.lights[0].has_map);
     EXPECT_FALSE(model.lights[1].has_map); // the ceiling is 3 away, the range is 2.9
@@ -83,7 +83,7 @@ TEST(RequireLights, LightShiningAwayFromVisibleSurfacesNeedsNoShadowMap) {
     // back.
     test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {0, 3, 1}, {1, 3, 1}, {1, 3, 0});
     test::add_quad(scene, "lamp", lamp, {0, 3, 0}, {1, 3, 0}, {1, 3, 1}, {0, 3, 1});
-    const Model model = make_required_model({scene, scene.cameras[0]});
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.lights.size(), 2u);
     EXPECT_GT(scene::list_lights(scene)[0].normal.y, .9);
     EXPECT_FALSE(model.lights[0].has_map);
@@ -98,30 +98,31 @@ TEST(RequireLeftOut, CulledWorkOfManyMirrorsIsListedOnce) {
     const std::size_t mirror = add_material(scene, {.mirror = true});
     for (int i = 0; i < 50; ++i)
         test::add_ball(scene, "ball" + std::to_string(i), mirror, {.03 * i, 0, -5}, .2, 1);
-    const Model model = make_required_model({scene, scene.cameras[0]});
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-50");
-    EXPECT_THAT(to_text(model, scene), HasSubstr("  mirrors 1-50: not seen\n"));
-    EXPECT_THAT(to_text(model, scene), HasSubstr("    changes: no pixel\n"));
-    const Model all = make_everything_model({scene, scene.cameras[0]});
-    EXPECT_THAT(to_text(all, scene), HasSubstr("everything is required\n"));
-    EXPECT_THAT(to_text(all, scene), HasSubstr("nothing is left out\n"));
-    EXPECT_THAT(to_text(all, scene), Not(HasSubstr("kept")));
-    EXPECT_THAT(to_text(model, scene), HasSubstr("kept: 0 faces of captures, 1 shadow map\n"));
+    EXPECT_THAT(describe_model(model, scene), HasSubstr("  mirrors 1-50: not seen\n"));
+    EXPECT_THAT(describe_model(model, scene), HasSubstr("    changes: no pixel\n"));
+    const RequiredWorkModel all = make_everything_model({scene, scene.cameras[0]});
+    EXPECT_THAT(describe_model(all, scene), HasSubstr("everything is required\n"));
+    EXPECT_THAT(describe_model(all, scene), HasSubstr("nothing is left out\n"));
+    EXPECT_THAT(describe_model(all, scene), Not(HasSubstr("kept")));
+    EXPECT_THAT(describe_model(model, scene),
+                HasSubstr("kept: 0 faces of captures, 1 shadow map\n"));
     const scene::Scene balls = scene::make_cornell_mirrors();
-    EXPECT_THAT(to_text(make_required_model({balls, balls.cameras[0]}), balls),
+    EXPECT_THAT(describe_model(make_required_model({balls, balls.cameras[0]}), balls),
                 HasSubstr("kept: 24 faces of captures, 1 shadow map\n    why: "));
 }
 
 TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     const auto plan = [](const scene::Scene& rest) {
         const scene::Scene now = scene::scene_at_time(rest, 0);
-        return suggest_plan({now, now.cameras[0], {96, 96}}).plan;
+        return suggest_technique_plan({now, now.cameras[0], {96, 96}}).plan;
     };
     EXPECT_EQ(plan(scene::make_cornell_mirrors()), "hybrid");
     EXPECT_EQ(plan(scene::make_closed_cornell_mirrors()), "4=march *=hybrid");
     EXPECT_EQ(plan(scene::make_flat_mirror_room()), "planar");
-    EXPECT_EQ(plan(scene::furnished_room()), "planar");
+    EXPECT_EQ(plan(scene::make_furnished_room()), "planar");
     EXPECT_EQ(plan(scene::make_gallery()),
               "1,4=march 3,12,13,14,15=planar 10=reuse:face=64 *=hybrid");
     EXPECT_EQ(plan(scene::make_courtyard()), "hybrid");
@@ -137,7 +138,7 @@ TEST(RequireSuggest, PathsCountThePixelsThatShowAMirror) {
     test::add_quad(scene, "hidden", mirror, {-1.6, .5, -.5}, {-1.4, .5, -.5}, {-1.4, .7, -.5},
                    {-1.6, .7, -.5});
     scene.cameras[0].eye = {-1.5, .6, -2.9}, scene.cameras[0].target = {-.5, -.2, 0};
-    const ModelInput question{scene, scene.cameras[0], {64, 64}};
+    const RequiredWorkModelInput question{scene, scene.cameras[0], {64, 64}};
     const MirrorPathCounts paths = trace_mirror_paths(question);
     EXPECT_EQ(paths.count, 64u * 64);
     EXPECT_GT(paths.first[2], 100u);
@@ -164,14 +165,14 @@ TEST(RequireSuggest, PlanarIsNotSuggestedIfMirroredViewsShowWrongCaptures) {
         if (is_walled_in)
             add_mesh(scene, scene::box("core", {.8, 1, -2.1}, {1, 1.2, -1.9}),
                      test::add_material(scene, {.name = "grey", .albedo = vec3(.5f)}));
-        const ModelInput question{scene, scene.cameras[0], {64, 64}};
+        const RequiredWorkModelInput question{scene, scene.cameras[0], {64, 64}};
         MirrorPathCounts paths = trace_mirror_paths(question);
         const std::size_t through = paths.through[{0, 1}], hidden = paths.hidden_after[{0, 1}];
         EXPECT_EQ(paths.first[1], 0u) << "the ball is seen in the flat mirror alone";
         EXPECT_GT(through, 60u);
         EXPECT_LE(hidden, is_walled_in ? through : through / 4);
         EXPECT_GE(hidden, is_walled_in ? through : 0);
-        const PlanSuggestion suggestion = suggest_plan(question);
+        const PlanSuggestion suggestion = suggest_technique_plan(question);
         EXPECT_EQ(suggestion.candidates.front().techniques.front(),
                   is_walled_in ? "hybrid" : "planar");
     }
@@ -185,7 +186,7 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     test::add_mesh(scene, bent, mirror);
     for (vec3& normal : scene.meshes.back().normals) normal = normalize(vec3(.005f, 0, -1));
     test::add_ball(scene, "outside", mirror, {0, 0, 9}, .5, 2);
-    const PlanSuggestion suggestion = suggest_plan({scene, scene.cameras[0], {96, 96}});
+    const PlanSuggestion suggestion = suggest_technique_plan({scene, scene.cameras[0], {96, 96}});
     EXPECT_THAT(suggestion.reasons,
                 ElementsAre(HasSubstr(": a sphere, "), HasSubstr("planar: flat faces, "),
                             HasSubstr("planar: flat, "), HasSubstr("march: curved, "),
@@ -194,7 +195,7 @@ TEST(RequireSuggest, SuggestionGivesAReasonForEachMirror) {
     ASSERT_EQ(suggestion.candidates.size(), 2u);
     EXPECT_THAT(suggestion.candidates[0].name, HasSubstr("planar, "));
     EXPECT_LT(suggestion.candidates[0].error, suggestion.candidates[1].error);
-    EXPECT_EQ(suggest_plan({test::make_lit_room(0, 1), scene.cameras[0]}).plan, "hybrid");
+    EXPECT_EQ(suggest_technique_plan({test::make_lit_room(0, 1), scene.cameras[0]}).plan, "hybrid");
 }
 
 /// Tests drawn views of the four balls of the built-in scene. In some views, the capture of a ball
@@ -206,9 +207,9 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         const scene::Scene scene = scene::scene_at_time(scene::make_cornell_mirrors(), 0);
         const scene::Camera camera = app::make_seeded_camera(scene, 0, seed);
-        const ModelInput question{scene, camera, {96, 96}};
+        const RequiredWorkModelInput question{scene, camera, {96, 96}};
         const MirrorPathCounts paths = trace_mirror_paths(question);
-        const PlanSuggestion suggestion = suggest_plan(question);
+        const PlanSuggestion suggestion = suggest_technique_plan(question);
         for (std::size_t i = 0; i < 4; ++i) {
             const std::string& technique = suggestion.candidates.front().techniques[i];
             if (technique.starts_with("reuse")) continue;
@@ -226,12 +227,13 @@ TEST(RequireSuggest, HybridIsSuggestedOnlyIfItSavesATenthOfTheError) {
 /// If all visible mirrors are flat, `planar` draws them, and small captures suffice.
 TEST(RequireSuggest, PlanarPlansUseSmallCaptures) {
     scene::Scene scene = test::make_mirror_hall();
-    EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan, "1=march 2,3=planar");
+    EXPECT_EQ(suggest_technique_plan({scene, scene.cameras[0], {96, 96}}).plan,
+              "1=march 2,3=planar");
     scene.objects.erase(scene.objects.begin() +
                         static_cast<std::ptrdiff_t>(scene::mirrors(scene).front()));
-    EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan, "planar");
+    EXPECT_EQ(suggest_technique_plan({scene, scene.cameras[0], {96, 96}}).plan, "planar");
     test::add_ball(scene, "outside", scene.objects.back().material, {0, 0, 9}, .5, 2);
-    EXPECT_EQ(suggest_plan({scene, scene.cameras[0], {96, 96}}).plan,
+    EXPECT_EQ(suggest_technique_plan({scene, scene.cameras[0], {96, 96}}).plan,
               "1,2=planar:capture=64 3=reuse:face=64");
 }
 

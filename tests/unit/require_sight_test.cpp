@@ -19,59 +19,71 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Wall square() { return make_wall({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0); }
+OccluderWall make_square_wall() {
+    return make_occluder_wall({{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0);
+}
 
-Bounds<double> around(dvec3 middle, double half) { return {middle - half, middle + half}; }
+Bounds<double> bounds_around_point(dvec3 middle, double half) {
+    return {middle - half, middle + half};
+}
 
 TEST(RequireWall, WallHidesBoxesThatItCoversFromTheEye) {
-    const Bounds<double> eye = around({0, 0, 2}, 0);
+    const Bounds<double> eye = bounds_around_point({0, 0, 2}, 0);
     // The wall is 2 in front of the eye. At 3.9 in front of the eye, it hides everything from -1.95
     // to 1.95.
-    EXPECT_TRUE(wall_hides_box(square(), eye, around({0, 0, -2}, 1.3), 0));
-    EXPECT_TRUE(wall_hides_box(square(), eye, around({1.84, 0, -2}, .1), 0));
-    EXPECT_FALSE(wall_hides_box(square(), eye, around({1.86, 0, -2}, .1), 0));
+    EXPECT_TRUE(wall_hides_box(make_square_wall(), eye, bounds_around_point({0, 0, -2}, 1.3), 0));
+    EXPECT_TRUE(wall_hides_box(make_square_wall(), eye, bounds_around_point({1.84, 0, -2}, .1), 0));
+    EXPECT_FALSE(
+        wall_hides_box(make_square_wall(), eye, bounds_around_point({1.86, 0, -2}, .1), 0));
     // The line of sight passes .005 from the wall's edge.
-    EXPECT_FALSE(wall_hides_box(square(), eye, around({1.84, 0, -2}, .1), .01));
+    EXPECT_FALSE(
+        wall_hides_box(make_square_wall(), eye, bounds_around_point({1.84, 0, -2}, .1), .01));
     // The box reaches through the wall.
-    EXPECT_FALSE(wall_hides_box(square(), eye, around({0, 0, -2}, 2.1), 0));
+    EXPECT_FALSE(wall_hides_box(make_square_wall(), eye, bounds_around_point({0, 0, -2}, 2.1), 0));
     // The box is in front of the wall.
-    EXPECT_FALSE(wall_hides_box(square(), eye, around({0, 0, 1}, .1), 0));
+    EXPECT_FALSE(wall_hides_box(make_square_wall(), eye, bounds_around_point({0, 0, 1}, .1), 0));
 }
 
 TEST(RequireWall, WallHidesABoxFromARegionIfHiddenFromEveryPoint) {
-    const Bounds<double> target = around({0, 0, -2}, .5);
+    const Bounds<double> target = bounds_around_point({0, 0, -2}, .5);
     // Lines of sight cross the wall up to .8 from its middle.
-    EXPECT_TRUE(wall_hides_box(square(), around({0, 0, 2}, 1), target, 0));
-    EXPECT_FALSE(wall_hides_box(square(), around({2.2, 0, 2}, .1), target, 0));
+    EXPECT_TRUE(wall_hides_box(make_square_wall(), bounds_around_point({0, 0, 2}, 1), target, 0));
+    EXPECT_FALSE(
+        wall_hides_box(make_square_wall(), bounds_around_point({2.2, 0, 2}, .1), target, 0));
     // The region's far corner sees past the wall.
-    EXPECT_FALSE(wall_hides_box(square(), around({1, 0, 2}, 1), target, 0));
+    EXPECT_FALSE(wall_hides_box(make_square_wall(), bounds_around_point({1, 0, 2}, 1), target, 0));
     // The region reaches through the wall.
-    EXPECT_FALSE(wall_hides_box(square(), around({0, 0, .5}, 1), target, 0));
+    EXPECT_FALSE(wall_hides_box(make_square_wall(), bounds_around_point({0, 0, .5}, 1), target, 0));
 }
 
 TEST(RequireWall, OneSidedWallHidesOnlyFromTheFront) {
-    Wall wall = square();
+    OccluderWall wall = make_square_wall();
     wall.front_only = true;
-    const Bounds<double> front = around({0, 0, 2}, 0), behind = around({0, 0, -2}, 0);
-    EXPECT_TRUE(wall_hides_box(wall, front, around({0, 0, -1}, .2), 0));
-    EXPECT_FALSE(wall_hides_box(wall, behind, around({0, 0, 1}, .2), 0));
-    EXPECT_TRUE(
-        wall_hides_from_orthographic(wall, {0, 0, 2}, {0, 0, -1}, around({0, 0, -1}, .9), 0));
-    EXPECT_FALSE(
-        wall_hides_from_orthographic(wall, {0, 0, -2}, {0, 0, 1}, around({0, 0, 1}, .9), 0));
+    const Bounds<double> front = bounds_around_point({0, 0, 2}, 0),
+                         behind = bounds_around_point({0, 0, -2}, 0);
+    EXPECT_TRUE(wall_hides_box(wall, front, bounds_around_point({0, 0, -1}, .2), 0));
+    EXPECT_FALSE(wall_hides_box(wall, behind, bounds_around_point({0, 0, 1}, .2), 0));
+    EXPECT_TRUE(wall_hides_from_orthographic(wall, {0, 0, 2}, {0, 0, -1},
+                                             bounds_around_point({0, 0, -1}, .9), 0));
+    EXPECT_FALSE(wall_hides_from_orthographic(wall, {0, 0, -2}, {0, 0, 1},
+                                              bounds_around_point({0, 0, 1}, .9), 0));
 }
 
 TEST(RequireWall, WallHidesBoxesAlongParallelLinesOfSight) {
     const dvec3 eye(0, 0, 5), down(0, 0, -1);
-    EXPECT_TRUE(wall_hides_from_orthographic(square(), eye, down, around({0, 0, -3}, .99), 0));
-    EXPECT_FALSE(wall_hides_from_orthographic(square(), eye, down, around({0, 0, -3}, 1.01), 0));
+    EXPECT_TRUE(wall_hides_from_orthographic(make_square_wall(), eye, down,
+                                             bounds_around_point({0, 0, -3}, .99), 0));
+    EXPECT_FALSE(wall_hides_from_orthographic(make_square_wall(), eye, down,
+                                              bounds_around_point({0, 0, -3}, 1.01), 0));
     // The eye is behind the wall.
-    EXPECT_FALSE(
-        wall_hides_from_orthographic(square(), {0, 0, -.5}, down, around({0, 0, -3}, .5), 0));
+    EXPECT_FALSE(wall_hides_from_orthographic(make_square_wall(), {0, 0, -.5}, down,
+                                              bounds_around_point({0, 0, -3}, .5), 0));
     // At 45 degrees, the wall hides a box that is as far to the side as it is behind the wall.
     const dvec3 slanting = glm::normalize(dvec3(1, 0, -1));
-    EXPECT_TRUE(wall_hides_from_orthographic(square(), eye, slanting, around({3, 0, -3}, .4), 0));
-    EXPECT_FALSE(wall_hides_from_orthographic(square(), eye, slanting, around({0, 0, -3}, .4), 0));
+    EXPECT_TRUE(wall_hides_from_orthographic(make_square_wall(), eye, slanting,
+                                             bounds_around_point({3, 0, -3}, .4), 0));
+    EXPECT_FALSE(wall_hides_from_orthographic(make_square_wall(), eye, slanting,
+                                              bounds_around_point({0, 0, -3}, .4), 0));
 }
 
 TEST(RequireWall, WallsAreMadeOfFlatConvexQuadrilaterals) {
@@ -87,40 +99,43 @@ TEST(RequireWall, WallsAreMadeOfFlatConvexQuadrilaterals) {
 }
 
 TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
-    EXPECT_EQ(faces_that_may_show_box(around({3, 0, 0}, 1)), 1);       // only face +X shows the box
-    EXPECT_EQ(faces_that_may_show_box(around({0, -3, 0}, 1)), 1 << 3); // only face -Y shows the box
-    EXPECT_EQ(faces_that_may_show_box(around({3, 3, 0}, .5)),
+    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({3, 0, 0}, 1)),
+              1); // only face +X shows the box
+    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({0, -3, 0}, 1)),
+              1 << 3); // only face -Y shows the box
+    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({3, 3, 0}, .5)),
               1 | 1 << 2); // faces +X and +Y show the box
-    EXPECT_EQ(faces_that_may_show_box(around({-2, 2, -2}, .1)),
+    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({-2, 2, -2}, .1)),
               2 | 4 | 32); // faces -X, +Y and -Z show the box
-    EXPECT_EQ(faces_that_may_show_box(around({0, 0, 0}, .1)), kAllFaces);
-    EXPECT_EQ(faces_in_front_of_plane({0, 0, 1}, .1), kAllFaces & ~(1 << 5)); // all faces except -Z
-    EXPECT_EQ(faces_in_front_of_plane(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaces);
+    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({0, 0, 0}, .1)), kAllFaceBits);
+    EXPECT_EQ(faces_in_front_of_plane({0, 0, 1}, .1),
+              kAllFaceBits & ~(1 << 5)); // all faces except -Z
+    EXPECT_EQ(faces_in_front_of_plane(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaceBits);
 }
 
 TEST(RequireFrustum, FrustumHoldsBoxesInThePicture) {
     scene::Camera camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .vertical_fov_degrees = 90};
     const PictureFrustum wide(camera, {200, 100});
-    EXPECT_TRUE(wide.may_contain_box(around({0, 9, 10}, .1)));
-    EXPECT_FALSE(wide.may_contain_box(around({0, 11, 10}, .1)));
-    EXPECT_TRUE(wide.may_contain_box(around({19, 0, 10}, .1)));
-    EXPECT_FALSE(wide.may_contain_box(around({21, 0, 10}, .1)));
-    EXPECT_FALSE(wide.may_contain_box(around({0, 0, -1}, .5)));
+    EXPECT_TRUE(wide.may_contain_box(bounds_around_point({0, 9, 10}, .1)));
+    EXPECT_FALSE(wide.may_contain_box(bounds_around_point({0, 11, 10}, .1)));
+    EXPECT_TRUE(wide.may_contain_box(bounds_around_point({19, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_contain_box(bounds_around_point({21, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_contain_box(bounds_around_point({0, 0, -1}, .5)));
     camera.orthographic_height = 4;
     const PictureFrustum parallel(camera, {200, 100});
-    EXPECT_TRUE(parallel.may_contain_box(around({0, 1.8, 100}, .1)));
-    EXPECT_FALSE(parallel.may_contain_box(around({0, 2.2, 100}, .1)));
-    EXPECT_TRUE(parallel.may_contain_box(around({3.8, 0, 100}, .1)));
-    EXPECT_FALSE(parallel.may_contain_box(around({4.2, 0, 100}, .1)));
+    EXPECT_TRUE(parallel.may_contain_box(bounds_around_point({0, 1.8, 100}, .1)));
+    EXPECT_FALSE(parallel.may_contain_box(bounds_around_point({0, 2.2, 100}, .1)));
+    EXPECT_TRUE(parallel.may_contain_box(bounds_around_point({3.8, 0, 100}, .1)));
+    EXPECT_FALSE(parallel.may_contain_box(bounds_around_point({4.2, 0, 100}, .1)));
 }
 
 /// Returns a hall with three mirrors in front of a partition and one mirror behind the partition.
-scene::Scene parted() {
+scene::Scene make_hall_with_partition() {
     scene::Scene scene{.name = "parted"};
     const std::size_t white = add_material(scene, {.albedo = vec3(.7f)}),
                       mirror = add_material(scene, {.mirror = true});
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::wall(face, {-4, -4, -4}, {4, 4, 8}), white);
+        test::add_mesh(scene, test::make_box_wall(face, {-4, -4, -4}, {4, 4, 8}), white);
     test::add_quad(scene, "partition", white, {-4, -4, 2}, {4, -4, 2}, {4, 4, 2}, {-4, 4, 2});
     const std::array<dvec3, 4> places{{{0, 0, 0}, {-2, 0, 1}, {0, 1, -3.4}, {0, 0, 5}}};
     for (const dvec3& place : places) test::add_ball(scene, "ball", mirror, place, .4, 2);
@@ -129,8 +144,8 @@ scene::Scene parted() {
 }
 
 TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
-    const scene::Scene scene = parted();
-    const Model model = make_required_model({scene, scene.cameras[0]});
+    const scene::Scene scene = make_hall_with_partition();
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
     ASSERT_EQ(model.mirrors.size(), 4u);
     for (const std::size_t seen : {0, 1, 2}) EXPECT_TRUE(model.mirrors[seen].is_captured) << seen;
     EXPECT_FALSE(model.mirrors[3].is_seen);
@@ -147,11 +162,11 @@ TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
 }
 
 TEST(RequireSight, SightFollowsAMovingWall) {
-    scene::Scene scene = parted();
-    ModelBuilder requirements(scene);
+    scene::Scene scene = make_hall_with_partition();
+    RequiredWorkModelBuilder requirements(scene);
     EXPECT_FALSE(requirements.model_for({scene, scene.cameras[0]}).mirrors[3].is_captured);
     scene.objects[6].world_from_object[3] = {0, 6, 0, 1};
-    const Model& model = requirements.model_for({scene, scene.cameras[0]});
+    const RequiredWorkModel& model = requirements.model_for({scene, scene.cameras[0]});
     EXPECT_TRUE(model.mirrors[3].is_captured);
     EXPECT_THAT(model.mirrors[0].sees, ElementsAre(1, 2, 3));
     EXPECT_THAT(model.left_out, IsEmpty());
@@ -159,13 +174,13 @@ TEST(RequireSight, SightFollowsAMovingWall) {
 
 TEST(RequireSight, MaskedAndCameraHiddenWallsHideNoMirror) {
     for (const bool is_masked : {true, false}) {
-        scene::Scene scene = parted();
+        scene::Scene scene = make_hall_with_partition();
         if (is_masked) {
             scene.objects[6].material = add_material(scene, {.alpha = 1, .alpha_cutoff = .5f});
         } else {
             scene.objects[6].seen_by_camera = false;
         }
-        const Model model = make_required_model({scene, scene.cameras[0]});
+        const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
         EXPECT_TRUE(model.mirrors[3].is_captured);
         // An object that is hidden from cameras still shows in captures, so it blocks their view.
         EXPECT_EQ(model.mirrors[0].sees.size(), is_masked ? 3u : 2u);
@@ -173,11 +188,11 @@ TEST(RequireSight, MaskedAndCameraHiddenWallsHideNoMirror) {
 }
 
 TEST(RequireSight, NoMirrorIsCapturedIfNoneIsSeen) {
-    scene::Scene scene = parted();
+    scene::Scene scene = make_hall_with_partition();
     scene.cameras[0].target = {0, -1, -2.01}; // the camera looks at the floor
     scene.cameras[0].vertical_fov_degrees = 10;
-    const Model model = make_required_model({scene, scene.cameras[0]});
-    for (const MirrorNeeds& needs : model.mirrors) EXPECT_FALSE(needs.is_captured);
+    const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
+    for (const MirrorRequirements& needs : model.mirrors) EXPECT_FALSE(needs.is_captured);
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "the captures of mirrors 1-4");
     EXPECT_EQ(model.left_out[0].why, "they are not in the camera's picture, and no mirror is seen "
@@ -207,8 +222,9 @@ TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
 TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     const scene::Scene gallery = scene::load("gallery", {});
     const scene::Scene now = scene::scene_at_time(gallery, 0);
-    const Model model = make_required_model({now, scene::camera_at(gallery.cameras[0], 0)});
-    const std::string text = to_text(model, now);
+    const RequiredWorkModel model = make_required_model(
+        {now, scene::camera_at_time(gallery.cameras[0], 0)});
+    const std::string text = describe_model(model, now);
     EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
     const PictureFrustum picture(gallery.cameras[0], {512, 512});
     const scene::Object& ball = now.objects[scene::mirrors(now)[0]];
@@ -217,30 +233,32 @@ TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
 
 /// Number of mirrors called unseen, of mirrors that a capture was said not to show, and of traced
 /// rays.
-struct Found {
+struct SightTestCounts {
     int unseen = 0, not_shown = 0, rays = 0;
 };
 
 /// Traces rays from the camera to random points of all mirrors. The model must call every mirror
 /// that such a ray meets seen, captured and directly seen.
-void look_from_camera(const test::ObjectRayCaster& tree, const scene::Scene& scene,
-                      const Model& model, test::RandomNumbers& numbers, Found& found) {
+void check_mirrors_seen_from_camera(const test::ObjectRayCaster& tree, const scene::Scene& scene,
+                                    const RequiredWorkModel& model, test::RandomNumbers& numbers,
+                                    SightTestCounts& found) {
     const PictureFrustum picture(scene.cameras[0], {64, 64});
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         for (int k = 0; k < 60; ++k) {
             const dvec3 to = tree.random_point_on_object(mirrors[i], numbers);
             if (!picture.may_contain_box({to, to})) continue;
-            const dvec3 from = picture.is_parallel()
-                                   ? to - dot(to - picture.eye(), picture.forward()) *
-                                              picture.forward()
-                                   : picture.eye();
+            const dvec3 from = picture.is_orthographic() ? to - dot(to - picture.eye_position(),
+                                                                    picture.view_direction()) *
+                                                                    picture.view_direction()
+                                                         : picture.eye_position();
             const auto met = tree.find_first_object(from, to - from, scene.objects.size(),
-                                                    bvh::kHiddenFromCamera | bvh::kOneSided);
+                                                    bvh::kHiddenFromCameraFlag |
+                                                        bvh::kOneSidedFlag);
             const auto mirror = met ? std::ranges::find(mirrors, met->object) : mirrors.end();
             ++found.rays;
             if (mirror == mirrors.end()) continue;
-            const MirrorNeeds& needs =
+            const MirrorRequirements& needs =
                 model.mirrors[static_cast<std::size_t>(mirror - mirrors.begin())];
             EXPECT_TRUE(needs.is_seen && needs.is_captured && !needs.seen_in);
         }
@@ -249,9 +267,9 @@ void look_from_camera(const test::ObjectRayCaster& tree, const scene::Scene& sce
 /// Traces rays from the centre and the surface of mirror `viewer` to all other mirrors. The model
 /// must capture every mirror that such a ray meets. If the ray starts at the centre, the model must
 /// also say that the capture of `viewer` shows the mirror.
-void look_from_mirror(const test::ObjectRayCaster& tree, const scene::Scene& scene,
-                      const Model& model, std::size_t viewer, test::RandomNumbers& numbers,
-                      Found& found) {
+void check_mirrors_seen_from_mirror(const test::ObjectRayCaster& tree, const scene::Scene& scene,
+                                    const RequiredWorkModel& model, std::size_t viewer,
+                                    test::RandomNumbers& numbers, SightTestCounts& found) {
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const dvec3 centre = scene::bounds(scene, scene.objects[mirrors[viewer]]).centre();
     for (std::size_t i = 0; i < mirrors.size(); ++i)
@@ -261,7 +279,7 @@ void look_from_mirror(const test::ObjectRayCaster& tree, const scene::Scene& sce
                                            : tree.random_point_on_object(mirrors[viewer], numbers);
             const dvec3 to = tree.random_point_on_object(mirrors[i], numbers);
             const auto met = tree.find_first_object(from, to - from, mirrors[viewer],
-                                                    bvh::kOneSided);
+                                                    bvh::kOneSidedFlag);
             const auto mirror = met ? std::ranges::find(mirrors, met->object) : mirrors.end();
             ++found.rays;
             if (mirror == mirrors.end()) continue;
@@ -274,14 +292,14 @@ void look_from_mirror(const test::ObjectRayCaster& tree, const scene::Scene& sce
 }
 
 TEST(RequireSight, RandomRaysMeetNoMirrorThatIsCalledUnseen) {
-    Found found;
+    SightTestCounts found;
     for (std::uint64_t seed = 0; seed < 150; ++seed) {
         const scene::Scene scene = test::make_random_hall(seed, 6);
-        const Model model = make_required_model({scene, scene.cameras[0], {64, 64}});
+        const RequiredWorkModel model = make_required_model({scene, scene.cameras[0], {64, 64}});
         const test::ObjectRayCaster tree(scene);
         test::RandomNumbers numbers(seed);
         SCOPED_TRACE(seed);
-        look_from_camera(tree, scene, model, numbers, found);
+        check_mirrors_seen_from_camera(tree, scene, model, numbers, found);
         for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
             if (!model.mirrors[i].is_captured) {
                 ++found.unseen;
@@ -289,7 +307,7 @@ TEST(RequireSight, RandomRaysMeetNoMirrorThatIsCalledUnseen) {
             }
             found.not_shown += static_cast<int>(model.mirrors.size() - 1 -
                                                 model.mirrors[i].sees.size());
-            look_from_mirror(tree, scene, model, i, numbers, found);
+            check_mirrors_seen_from_mirror(tree, scene, model, i, numbers, found);
         }
         if (testing::Test::HasFailure()) break;
     }

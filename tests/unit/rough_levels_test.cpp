@@ -67,7 +67,7 @@ TEST(RoughLevels, BoxesAreAsWideAsTheLobe) {
 TEST(RoughLevels, LawsAgreeForDistantSurfaces) {
     for (const double roughness : {.05, .3, .6})
         for (std::uint32_t law = f64::kLawNone; law <= f64::kLawExact; ++law)
-            EXPECT_DOUBLE_EQ(f64::alpha_by_distance_law(law, roughness, 1., 1.),
+            EXPECT_DOUBLE_EQ(f64::lookup_alpha_by_distance_law(law, roughness, 1., 1.),
                              roughness * roughness)
                 << law;
 }
@@ -75,7 +75,7 @@ TEST(RoughLevels, LawsAgreeForDistantSurfaces) {
 TEST(RoughLevels, LawsOfNearAndFarSurfaces) {
     const double r = .5;
     const auto alpha = [&](std::uint32_t law, double ratio, double foreshortening = 1) {
-        return f64::alpha_by_distance_law(law, r, ratio, foreshortening);
+        return f64::lookup_alpha_by_distance_law(law, r, ratio, foreshortening);
     };
     EXPECT_DOUBLE_EQ(alpha(f64::kLawNone, .1), .25);
     EXPECT_DOUBLE_EQ(alpha(f64::kLawFrostbite, 0), std::pow(.25, 2)); // mix(0, r, r) = r^2
@@ -103,16 +103,17 @@ TEST(RoughLevels, ExactLawIsTheSolidAngleSeenFromTheCentre) {
     for (const dvec3& normal : {dvec3(0, 0, -1), dvec3(.6, 0, -.8), dvec3(0, .9, -.436)})
         for (const dvec3& centre : {dvec3(1, 0, 1), dvec3(-.5, .7, -2), dvec3(0, 0, 1.5)}) {
             const dvec3 n = glm::normalize(normal);
-            constexpr double kHalfAngle = .01;
-            constexpr int kAround = 64;
+            constexpr double kHalfAngleOfLobe = .01;
+            constexpr int kStepsAroundNormal = 64;
             double from_surface = 0, from_centre = 0;
             const auto corner = [&](int k) {
-                const double turn = 2 * std::numbers::pi * k / kAround;
-                const dvec3 ray(std::sin(kHalfAngle) * std::cos(turn),
-                                std::sin(kHalfAngle) * std::sin(turn), std::cos(kHalfAngle));
+                const double turn = 2 * std::numbers::pi * k / kStepsAroundNormal;
+                const dvec3 ray(std::sin(kHalfAngleOfLobe) * std::cos(turn),
+                                std::sin(kHalfAngleOfLobe) * std::sin(turn),
+                                std::cos(kHalfAngleOfLobe));
                 return surface + ray * (glm::dot(end - surface, n) / glm::dot(ray, n));
             };
-            for (int k = 0; k < kAround; ++k) {
+            for (int k = 0; k < kStepsAroundNormal; ++k) {
                 from_surface += solid_angle(surface, end, corner(k), corner(k + 1));
                 from_centre += solid_angle(centre, end, corner(k), corner(k + 1));
             }
@@ -120,8 +121,8 @@ TEST(RoughLevels, ExactLawIsTheSolidAngleSeenFromTheCentre) {
             const double ratio = glm::length(end - surface) / glm::length(end - centre);
             const double foreshortening = std::abs(glm::dot(n, seen)) /
                                           std::abs(glm::dot(n, direction));
-            const double alpha = f64::alpha_by_distance_law(f64::kLawExact, .1, ratio,
-                                                            foreshortening);
+            const double alpha = f64::lookup_alpha_by_distance_law(f64::kLawExact, .1, ratio,
+                                                                   foreshortening);
             EXPECT_NEAR(alpha * alpha / 1e-4, from_centre / from_surface,
                         .02 * from_centre / from_surface);
         }
@@ -138,12 +139,12 @@ TEST(RoughLevels, DirectionsSeenHeadOnFollowTheLobe) {
                 const dvec3 h = glm::normalize(o + i);
                 return shape(i) * f64::ggx_density(alpha, h) / 4;
             });
-        constexpr std::uint32_t kCount = 1 << 14;
+        constexpr std::uint32_t kLobeSampleCount = 1 << 14;
         double mean = 0;
-        for (std::uint32_t k = 0; k < kCount; ++k) {
+        for (std::uint32_t k = 0; k < kLobeSampleCount; ++k) {
             double u, v;
-            f64::hammersley_point(k, kCount, u, v);
-            mean += shape(f64::sample_lobe_seen_head_on(alpha, u, v)) / kCount;
+            f64::hammersley_point(k, kLobeSampleCount, u, v);
+            mean += shape(f64::sample_lobe_seen_head_on(alpha, u, v)) / kLobeSampleCount;
         }
         EXPECT_NEAR(mean, wanted, .003 * wanted) << roughness;
     }
@@ -169,7 +170,7 @@ TEST(RoughLevels, LobeAlbedoEqualsTheQuadrature) {
                     if (i.z <= 0) return 0.0;
                     const double away = 1 - glm::dot(o, glm::normalize(o + i));
                     return (f0 + (1 - f0) * std::pow(away, 5)) *
-                           test::textbook_lobe(roughness, o, i);
+                           test::textbook_lobe_reflectance(roughness, o, i);
                 });
             double head_on, grazing;
             f64::lobe_albedo_terms(f64::roughness_to_alpha(roughness), cosine, 32, head_on,

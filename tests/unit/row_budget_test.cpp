@@ -10,80 +10,82 @@
 namespace {
 
 using namespace catoptric;
-using report::sample::row;
-using report::sample::times;
+using report::sample::make_row;
+using report::sample::make_time_samples;
 using testing::HasSubstr;
 
 /// Returns rows from fast and far to slow and close, and a row with black mirrors.
-measure::Comparison make_rows() {
+measure::Comparison make_rows_of_rising_quality() {
     measure::Comparison made;
     made.device.name = "card";
-    made.rows = {row("black", 1, .5, .4), row("fast", 3, .2, .2), row("middle", 5, .1, .1),
-                 row("slow", 9, .01, .01)};
+    made.rows = {make_row("black", 1, .5, .4), make_row("fast", 3, .2, .2),
+                 make_row("middle", 5, .1, .1), make_row("slow", 9, .01, .01)};
     made.rows[0].mirrors_black = true;
     return made;
 }
 
-std::string label_of(const measure::Row* found) { return found == nullptr ? "" : found->label; }
+std::string label_of_row_or_none(const measure::Row* found) {
+    return found == nullptr ? "" : found->label;
+}
 
-std::string choose(double max_ms, double max_flip) {
-    measure::Comparison made = make_rows();
+std::string choose_row_label_in_budget(double max_ms, double max_flip) {
+    measure::Comparison made = make_rows_of_rising_quality();
     made.max_ms = max_ms, made.max_flip = max_flip;
-    return label_of(measure::find_row_within_budget(made).row);
+    return label_of_row_or_none(measure::find_row_within_budget(made).row);
 }
 
 TEST(RowBudget, TimeBudgetChoosesTheClosestRowInTime) {
-    EXPECT_EQ(choose(4, NAN), "fast");
-    EXPECT_EQ(choose(5, NAN), "middle");
-    EXPECT_EQ(choose(100, NAN), "slow");
-    EXPECT_EQ(choose(2, NAN), "") << "rows with black mirrors do not count";
+    EXPECT_EQ(choose_row_label_in_budget(4, NAN), "fast");
+    EXPECT_EQ(choose_row_label_in_budget(5, NAN), "middle");
+    EXPECT_EQ(choose_row_label_in_budget(100, NAN), "slow");
+    EXPECT_EQ(choose_row_label_in_budget(2, NAN), "") << "rows with black mirrors do not count";
 }
 
 TEST(RowBudget, ErrorBudgetChoosesTheFastestRowThatIsCloseEnough) {
-    EXPECT_EQ(choose(NAN, .15), "middle");
-    EXPECT_EQ(choose(NAN, .1), "middle");
-    EXPECT_EQ(choose(NAN, .3), "fast");
-    EXPECT_EQ(choose(NAN, .001), "");
+    EXPECT_EQ(choose_row_label_in_budget(NAN, .15), "middle");
+    EXPECT_EQ(choose_row_label_in_budget(NAN, .1), "middle");
+    EXPECT_EQ(choose_row_label_in_budget(NAN, .3), "fast");
+    EXPECT_EQ(choose_row_label_in_budget(NAN, .001), "");
 }
 
 TEST(RowBudget, BothBudgetsChooseTheFastestRowThatKeepsBoth) {
-    EXPECT_EQ(choose(10, .15), "middle");
-    EXPECT_EQ(choose(4, .15), "");
-    EXPECT_EQ(choose(10, .01), "slow");
+    EXPECT_EQ(choose_row_label_in_budget(10, .15), "middle");
+    EXPECT_EQ(choose_row_label_in_budget(4, .15), "");
+    EXPECT_EQ(choose_row_label_in_budget(10, .01), "slow");
 }
 
 TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {
-    measure::Comparison made = make_rows();
-    made.rows[2].gpu_ms = times(5, .1); // 4.5 to 5.5
+    measure::Comparison made = make_rows_of_rising_quality();
+    made.rows[2].gpu_ms = make_time_samples(5, .1); // 4.5 to 5.5
     made.max_ms = 5.2;
-    const measure::BudgetAnswer found = measure::find_row_within_budget(made);
-    EXPECT_EQ(label_of(found.row), "fast");
+    const measure::BudgetedRows found = measure::find_row_within_budget(made);
+    EXPECT_EQ(label_of_row_or_none(found.row), "fast");
     ASSERT_EQ(found.undecided.size(), 1u);
-    EXPECT_EQ(label_of(found.undecided[0]), "middle");
+    EXPECT_EQ(label_of_row_or_none(found.undecided[0]), "middle");
     made.max_flip = .05;
     EXPECT_TRUE(measure::find_row_within_budget(made).undecided.empty()) << "too far off";
 }
 
 TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
-    measure::Comparison made = make_rows();
-    made.rows.push_back(row("other", 5, .1, .1)); // in every second round the faster
-    made.rows[2].gpu_ms = times(5, .1), made.rows[4].gpu_ms = times(5, -.1);
+    measure::Comparison made = make_rows_of_rising_quality();
+    made.rows.push_back(make_row("other", 5, .1, .1)); // in every second round the faster
+    made.rows[2].gpu_ms = make_time_samples(5, .1), made.rows[4].gpu_ms = make_time_samples(5, -.1);
     made.max_flip = .15;
-    const measure::BudgetAnswer found = measure::find_row_within_budget(made);
-    EXPECT_EQ(label_of(found.row), "middle");
+    const measure::BudgetedRows found = measure::find_row_within_budget(made);
+    EXPECT_EQ(label_of_row_or_none(found.row), "middle");
     ASSERT_EQ(found.ties.size(), 1u);
-    EXPECT_EQ(label_of(found.ties[0]), "other");
+    EXPECT_EQ(label_of_row_or_none(found.ties[0]), "other");
 }
 
 TEST(RowBudget, FailedRowsAreNeverChosen) {
-    measure::Comparison made = make_rows();
+    measure::Comparison made = make_rows_of_rising_quality();
     made.rows[3].error.nonfinite = 1;
     made.max_flip = .05;
     EXPECT_EQ(measure::find_row_within_budget(made).row, nullptr);
 }
 
 TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {
-    measure::Comparison made = make_rows();
+    measure::Comparison made = make_rows_of_rising_quality();
     EXPECT_EQ(report::describe_budget_answer(made), "");
     made.max_ms = 6;
     EXPECT_EQ(report::describe_budget_answer(made),

@@ -13,12 +13,12 @@ using namespace test::loading;
 
 class Save : public Load {
 protected:
-    Scene again(const Scene& scene) const {
+    Scene save_and_load_scene(const Scene& scene) const {
         save_glb(scene, folder / "x.glb");
         return load((folder / "x.glb").string());
     }
     /// Returns a scene of one square without lights.
-    static Scene square() {
+    static Scene make_square_scene() {
         Scene scene{.name = "x"};
         scene.materials.push_back({.name = "m", .albedo = vec3(.5f), .front_only = true});
         scene.meshes.push_back(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
@@ -28,7 +28,7 @@ protected:
 };
 
 TEST_F(Save, SavedMaterialsLoadUnchanged) {
-    Scene scene = square();
+    Scene scene = make_square_scene();
     const auto image = std::make_shared<const Image>(
         Image{.name = "p", .size = {2, 2}, .texels = {0xff0000ff, 0x8000ff00, 0, 0x12345678}});
     Material& material = scene.materials[0];
@@ -53,7 +53,7 @@ TEST_F(Save, SavedMaterialsLoadUnchanged) {
     scene.materials.push_back(
         {.name = "constant", .albedo = vec3(.5f), .mirror = true, .reflectance = vec3(.25f)});
     scene.materials.push_back({.name = "fixed", .albedo = vec3(1)});
-    const Scene found = again(scene);
+    const Scene found = save_and_load_scene(scene);
     ASSERT_EQ(found.materials.size(), scene.materials.size());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material wanted = scene.materials[i], its = found.materials[i];
@@ -80,20 +80,20 @@ TEST_F(Save, SavedMaterialsLoadUnchanged) {
 }
 
 TEST_F(Save, SavedTextureCoordinatesAndColoursLoadUnchanged) {
-    Scene scene = square();
+    Scene scene = make_square_scene();
     Mesh& mesh = scene.meshes[0];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         mesh.uv[0].emplace_back(i, .5f), mesh.uv[1].emplace_back(-1.f, i);
         mesh.colours.emplace_back(1, 0, .25f * static_cast<float>(i), .5f);
     }
-    const Scene found = again(scene);
+    const Scene found = save_and_load_scene(scene);
     EXPECT_EQ(found.meshes[0].uv, mesh.uv);
     EXPECT_EQ(found.meshes[0].colours, mesh.colours);
 }
 
 TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
     using enum PunctualLight::Kind;
-    Scene scene = square();
+    Scene scene = make_square_scene();
     dmat4 turned(1);
     turned[0] = dvec4(0, 1, 0, 0), turned[1] = dvec4(-1, 0, 0, 0), turned[3] = dvec4(1, 2, 3, 1);
     scene.punctual = {{.name = "p", .kind = point, .intensity = {8, 4, 2}, .range = 5},
@@ -111,7 +111,7 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
                       .up = {0, 0, -1},
                       .orthographic_height = 3}};
     scene.exposure = -.5;
-    const Scene found = again(scene);
+    const Scene found = save_and_load_scene(scene);
     ASSERT_EQ(found.punctual.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) {
         const PunctualLight &a = found.punctual[i], &b = scene.punctual[i];
@@ -127,11 +127,11 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
         << "goes on and on";
     EXPECT_EQ(found.cameras.at(0).orthographic_height, 3);
     EXPECT_EQ(found.exposure, -.5);
-    EXPECT_FALSE(again(square()).exposure);
+    EXPECT_FALSE(save_and_load_scene(make_square_scene()).exposure);
 }
 
 TEST_F(Save, SavedRigsLoadUnchanged) {
-    Scene scene = square();
+    Scene scene = make_square_scene();
     const auto turns = std::make_shared<const RotationTrack>(
         RotationTrack{.times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}});
     NodeRig rig;
@@ -142,7 +142,7 @@ TEST_F(Save, SavedRigsLoadUnchanged) {
     follows.node_from_object[3] = dvec4(0, 0, 1, 1);
     scene.objects[0].motion = follows;
     scene.cameras = {{.name = "c", .eye = {0, 0, 5}, .target = {0, 0, 4}, .follows = follows}};
-    const Scene found = again(scene);
+    const Scene found = save_and_load_scene(scene);
     for (const double t : {0., .25, .75, 1., 2.}) {
         const Scene now = scene_at_time(found, t), wanted = scene_at_time(scene, t);
         for (int column = 0; column < 4; ++column)

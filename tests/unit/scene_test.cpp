@@ -23,27 +23,27 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::scene;
 
-dvec3 face_normal(const Mesh& mesh, const uvec3& t) {
+dvec3 triangle_face_normal(const Mesh& mesh, const uvec3& t) {
     const auto& p = mesh.positions;
     return glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
 }
 
-const Object& object_named(const Scene& scene, const std::string& name) {
+const Object& find_object_by_name(const Scene& scene, const std::string& name) {
     const auto at = std::ranges::find(scene.objects, name, &Object::name);
     if (at == scene.objects.end()) throw std::out_of_range(name);
     return *at;
 }
 
-const Mesh& mesh_named(const Scene& scene, const std::string& name) {
-    return scene.meshes[object_named(scene, name).mesh];
+const Mesh& find_mesh_by_name(const Scene& scene, const std::string& name) {
+    return scene.meshes[find_object_by_name(scene, name).mesh];
 }
 
-void scene_expect_near(const dvec3& found, const dvec3& wanted, double tolerance) {
+void expect_near_vectors(const dvec3& found, const dvec3& wanted, double tolerance) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(found[i], wanted[i], tolerance) << "component " << i;
 }
 
 /// Returns a scene of one lamp with this mesh, which emits white light.
-Scene glowing(Mesh mesh, const dmat4& world_from_object = dmat4(1)) {
+Scene make_scene_of_glowing_mesh(Mesh mesh, const dmat4& world_from_object = dmat4(1)) {
     Scene scene{.name = "glow"};
     scene.materials.push_back({.name = "light", .emission = vec3(1)});
     scene.objects.push_back({.name = "light", .world_from_object = world_from_object});
@@ -73,7 +73,7 @@ TEST(Ball, BallIsAClosedUnitSphereFacingOutwards) {
     }
     std::map<std::pair<unsigned, unsigned>, int> edges; // count of each directed edge
     for (const uvec3& t : mesh.triangles) {
-        EXPECT_GT(glm::dot(face_normal(mesh, t), mesh.positions[t.x]), 0);
+        EXPECT_GT(glm::dot(triangle_face_normal(mesh, t), mesh.positions[t.x]), 0);
         for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
     }
     for (const auto& [edge, count] : edges) {
@@ -101,8 +101,8 @@ TEST(CornellMirrors, SceneHasTheDocumentedObjectsAndMaterials) {
     EXPECT_THAT(objects, testing::ElementsAre("floor", "ceiling", "back", "right", "left", "light",
                                               "ball1", "ball2", "ball3", "ball4"));
     EXPECT_THAT(materials, testing::ElementsAre("white", "green", "red", "light", "mirror"));
-    EXPECT_EQ(scene.materials[object_named(scene, "right").material].name, "green");
-    EXPECT_EQ(scene.materials[object_named(scene, "left").material].name, "red");
+    EXPECT_EQ(scene.materials[find_object_by_name(scene, "right").material].name, "green");
+    EXPECT_EQ(scene.materials[find_object_by_name(scene, "left").material].name, "red");
     EXPECT_EQ(triangle_count(scene), 6 * 2 + 4 * 4096u);
     EXPECT_THAT(mirrors(scene), testing::ElementsAre(6, 7, 8, 9));
     ASSERT_EQ(scene.cameras.size(), 1u);
@@ -115,9 +115,10 @@ TEST(CornellMirrors, EveryWallFacesIntoTheBox) {
     const Scene scene = make_closed_cornell_mirrors();
     const dvec3 middle(278, 274, 280);
     for (const char* name : {"floor", "ceiling", "back", "right", "left", "light", "front"}) {
-        const Mesh& mesh = mesh_named(scene, name);
+        const Mesh& mesh = find_mesh_by_name(scene, name);
         for (const uvec3& t : mesh.triangles) {
-            EXPECT_GT(glm::dot(face_normal(mesh, t), middle - mesh.positions[t.x]), 0) << name;
+            EXPECT_GT(glm::dot(triangle_face_normal(mesh, t), middle - mesh.positions[t.x]), 0)
+                << name;
             EXPECT_GT(glm::dot(dvec3(mesh.normals[t.x]), middle - mesh.positions[t.x]), 0) << name;
         }
     }
@@ -127,7 +128,7 @@ TEST(CornellMirrors, LampShinesDown) {
     const std::vector<PointLight> found = list_lights(make_cornell_mirrors());
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].normal, dvec3(0, -1, 0));
-    scene_expect_near(found[0].position, {278, 548.7, 279.5}, 1e-12);
+    expect_near_vectors(found[0].position, {278, 548.7, 279.5}, 1e-12);
     EXPECT_NEAR(found[0].area, 130 * 105, 1e-9);
     EXPECT_EQ(found[0].emission, vec3(17, 12, 4));
 }
@@ -139,19 +140,19 @@ TEST(CornellMirrors, BallsHaveThePlacesOfTheSeedReport) {
                                                   {"ball3", {{190, 113, 410}, 110}},
                                                   {"ball4", {{500, 80, 210}, 36}}};
     for (const auto& [name, sphere] : wanted) {
-        const Object& object = object_named(scene, name);
+        const Object& object = find_object_by_name(scene, name);
         EXPECT_EQ(object.sphere->centre, sphere.centre);
         EXPECT_EQ(object.sphere->radius, sphere.radius);
-        scene_expect_near(bounds(scene, object).centre(), sphere.centre, 0.01 * sphere.radius);
+        expect_near_vectors(bounds(scene, object).centre(), sphere.centre, 0.01 * sphere.radius);
     }
 }
 
 TEST(CornellMirrors, ClosedSceneHasAFrontWallThatOnlyTheCameraIgnores) {
     const Scene scene = make_closed_cornell_mirrors();
-    const Object& front = object_named(scene, "front");
+    const Object& front = find_object_by_name(scene, "front");
     EXPECT_FALSE(front.seen_by_camera);
-    EXPECT_EQ(mesh_named(scene, "front").normals[0], vec3(0, 0, 1));
-    for (const dvec3& p : mesh_named(scene, "front").positions) EXPECT_EQ(p.z, 0);
+    EXPECT_EQ(find_mesh_by_name(scene, "front").normals[0], vec3(0, 0, 1));
+    for (const dvec3& p : find_mesh_by_name(scene, "front").positions) EXPECT_EQ(p.z, 0);
     EXPECT_EQ(mirrors(scene), mirrors(make_cornell_mirrors()));
     EXPECT_EQ(std::ranges::count(scene.objects, false, &Object::seen_by_camera), 1);
 }
@@ -164,44 +165,46 @@ TEST(Motion, BallFourMovesUpAndDown) {
     for (const double t : {0.0, 0.3, 1.0, 2.0, 3.7, 4.0, 1e6, -0.25}) {
         const Scene still = scene_at_time(scene, t);
         const double y = 80 + 50 * (1 - std::cos(2 * M_PI * t / 4));
-        const Object& ball4 = object_named(still, "ball4");
+        const Object& ball4 = find_object_by_name(still, "ball4");
         EXPECT_NEAR(ball4.world_from_object[3].y, y, std::abs(t) > 100 ? 1e-7 : 1e-12) << t;
         EXPECT_EQ(ball4.sphere->centre.y, ball4.world_from_object[3].y);
         EXPECT_EQ(ball4.world_from_object[3].x, 500);
-        EXPECT_EQ(object_named(still, "ball1").sphere->centre, dvec3(445, 73, 320));
+        EXPECT_EQ(find_object_by_name(still, "ball1").sphere->centre, dvec3(445, 73, 320));
         EXPECT_FALSE(is_animated(still));
     }
-    EXPECT_EQ(object_named(scene_at_time(scene, 0), "ball4").sphere->centre, dvec3(500, 80, 210));
-    EXPECT_EQ(object_named(scene_at_time(scene, 2), "ball4").sphere->centre, dvec3(500, 180, 210));
+    EXPECT_EQ(find_object_by_name(scene_at_time(scene, 0), "ball4").sphere->centre,
+              dvec3(500, 80, 210));
+    EXPECT_EQ(find_object_by_name(scene_at_time(scene, 2), "ball4").sphere->centre,
+              dvec3(500, 180, 210));
 }
 
 TEST(Motion, PeriodOfASceneIsThatOfItsLongestMotion) {
     Scene scene = make_cornell_mirrors();
-    EXPECT_EQ(period(scene), 4);
+    EXPECT_EQ(compute_scene_period(scene), 4);
     const TranslationTrack keys{.times = {1, 5.5}, .values = {{0, 0, 0}, {1, 0, 0}}};
     scene.objects[0].motion = Keyframes{std::make_shared<const TranslationTrack>(keys)};
-    EXPECT_EQ(period(scene), 5.5);
+    EXPECT_EQ(compute_scene_period(scene), 5.5);
     scene.objects[1].motion = Keyframes{};
-    EXPECT_EQ(period(scene), 5.5);
-    EXPECT_EQ(period(scene_at_time(scene, 1)), 0) << "nothing moves any more";
+    EXPECT_EQ(compute_scene_period(scene), 5.5);
+    EXPECT_EQ(compute_scene_period(scene_at_time(scene, 1)), 0) << "nothing moves any more";
 }
 
-dvec3 moved(const TranslationTrack& keys, double seconds) {
-    Scene scene = glowing(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
+dvec3 position_on_track(const TranslationTrack& keys, double seconds) {
+    Scene scene = make_scene_of_glowing_mesh(quad("q", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}));
     scene.objects[0].motion = Keyframes{std::make_shared<const TranslationTrack>(keys)};
     return dvec3(scene_at_time(scene, seconds).objects[0].world_from_object[3]);
 }
 
 TEST(Motion, KeyframesInterpolateByStepsOrLinearlyAndRepeat) {
     TranslationTrack keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
-    EXPECT_EQ(moved(keys, 0.5), dvec3(0)); // before the first key
-    EXPECT_EQ(moved(keys, 1.5), dvec3(1, 0, 0));
-    EXPECT_EQ(moved(keys, 3), dvec3(4, 0.5, 0));
-    EXPECT_EQ(moved(keys, 4), dvec3(6, 1, 0));   // at the time of the last key
-    EXPECT_EQ(moved(keys, 5.5), dvec3(1, 0, 0)); // 4 s after t = 1.5, so the same place
+    EXPECT_EQ(position_on_track(keys, 0.5), dvec3(0)); // before the first key
+    EXPECT_EQ(position_on_track(keys, 1.5), dvec3(1, 0, 0));
+    EXPECT_EQ(position_on_track(keys, 3), dvec3(4, 0.5, 0));
+    EXPECT_EQ(position_on_track(keys, 4), dvec3(6, 1, 0));   // at the time of the last key
+    EXPECT_EQ(position_on_track(keys, 5.5), dvec3(1, 0, 0)); // 4 s after t = 1.5, so the same place
     keys.interpolation = TranslationTrack::Interpolation::step;
-    EXPECT_EQ(moved(keys, 1.99), dvec3(0));
-    EXPECT_EQ(moved(keys, 2), dvec3(2, 0, 0));
+    EXPECT_EQ(position_on_track(keys, 1.99), dvec3(0));
+    EXPECT_EQ(position_on_track(keys, 2), dvec3(2, 0, 0));
 }
 
 TEST(Motion, CubicKeysReproduceACubic) {
@@ -214,7 +217,8 @@ TEST(Motion, CubicKeysReproduceACubic) {
         keys.in_tangents.emplace_back(3 * t * t - 2, 0, 0);
     }
     keys.out_tangents = keys.in_tangents;
-    for (const double t : {0.1, 0.5, 0.9, 1.7}) scene_expect_near(moved(keys, t), p(t), 1e-14);
+    for (const double t : {0.1, 0.5, 0.9, 1.7})
+        expect_near_vectors(position_on_track(keys, t), p(t), 1e-14);
 }
 
 TEST(Motion, LightsWithoutASurfaceMoveToo) {
@@ -223,7 +227,7 @@ TEST(Motion, LightsWithoutASurfaceMoveToo) {
         {.world_from_light = dmat4(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1),
          .motion = HarmonicMotion{{0, 4, 0}, 2}});
     EXPECT_TRUE(is_animated(scene));
-    EXPECT_EQ(period(scene), 2);
+    EXPECT_EQ(compute_scene_period(scene), 2);
     const Scene still = scene_at_time(scene, 1);
     EXPECT_EQ(list_lights(still).at(0).position, dvec3(1, 10, 3));
     EXPECT_FALSE(is_animated(still));
@@ -243,7 +247,7 @@ TEST(Lights, EachConnectedPieceOfALampIsOneLight) {
     two.positions.insert(two.positions.end(), other.positions.begin(), other.positions.end());
     two.normals.insert(two.normals.end(), other.normals.begin(), other.normals.end());
     for (const uvec3& t : other.triangles) two.triangles.push_back(t + 4u);
-    const auto found = list_lights(glowing(two));
+    const auto found = list_lights(make_scene_of_glowing_mesh(two));
     ASSERT_EQ(found.size(), 2u);
     EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
     EXPECT_EQ(found[0].area, 1);
@@ -255,7 +259,7 @@ TEST(Lights, LampTrianglesWithEqualPositionsAreConnected) {
     Mesh unshared{.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {0, 0, 0}, {1, 0, 1}, {1, 0, 0}},
                   .normals = std::vector<vec3>(6, vec3(0, 1, 0)),
                   .triangles = {{0, 1, 2}, {3, 4, 5}}};
-    const auto found = list_lights(glowing(unshared));
+    const auto found = list_lights(make_scene_of_glowing_mesh(unshared));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
     EXPECT_EQ(found[0].area, 1);
@@ -264,25 +268,25 @@ TEST(Lights, LampTrianglesWithEqualPositionsAreConnected) {
 TEST(Lights, LightOfAClosedLampHasNoDirection) {
     dmat4 world(3);
     world[3] = dvec4(1, 2, 3, 1);
-    const auto found = list_lights(glowing(ball("ball", 4), world));
+    const auto found = list_lights(make_scene_of_glowing_mesh(ball("ball", 4), world));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].normal, dvec3(0));
-    scene_expect_near(found[0].position, {1, 2, 3}, 1e-12);
+    expect_near_vectors(found[0].position, {1, 2, 3}, 1e-12);
     EXPECT_NEAR(found[0].area, 4 * M_PI * 9, 1);
     EXPECT_TRUE(found[0].closed);
-    EXPECT_EQ(light_share_towards(found[0], {0, 1, 0}), .25);
+    EXPECT_EQ(light_share_in_direction(found[0], {0, 1, 0}), .25);
 }
 
 TEST(Lights, TwoSidedLampShinesBothWays) {
-    Scene scene = glowing(quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}));
+    Scene scene = make_scene_of_glowing_mesh(quad("a", {0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}));
     EXPECT_TRUE(is_one_sided(scene.materials[0]));
     EXPECT_EQ(list_lights(scene).at(0).normal, dvec3(0, 1, 0));
     const std::string before = hash_scene(scene);
     scene.materials[0].two_sided = true;
     EXPECT_FALSE(is_one_sided(scene.materials[0]));
     EXPECT_EQ(list_lights(scene).at(0).normal, dvec3(0));
-    EXPECT_NEAR(light_share_towards(list_lights(scene).at(0), {0, .6, .8}), .6, 1e-12);
-    EXPECT_NEAR(light_share_towards(list_lights(scene).at(0), {0, -.6, .8}), .6, 1e-12);
+    EXPECT_NEAR(light_share_in_direction(list_lights(scene).at(0), {0, .6, .8}), .6, 1e-12);
+    EXPECT_NEAR(light_share_in_direction(list_lights(scene).at(0), {0, -.6, .8}), .6, 1e-12);
     EXPECT_NE(hash_scene(scene), before);
 }
 
@@ -298,7 +302,7 @@ TEST(Lights, LampTrianglesWithoutAreaContributeNothing) {
     mesh.normals.resize(6, vec3(1, 0, 0));
     mesh.triangles.emplace_back(0, 4, 4);
     mesh.triangles.emplace_back(5, 5, 5);
-    const auto found = list_lights(glowing(mesh));
+    const auto found = list_lights(make_scene_of_glowing_mesh(mesh));
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].position, dvec3(0.5, 0, 0.5));
     EXPECT_EQ(found[0].normal, dvec3(0, 1, 0));
@@ -311,11 +315,11 @@ TEST(Lights, LampNormalAndAreaFollowTheTransform) {
     world[1] = dvec4(0, 0, 3, 0);
     world[2] = dvec4(0, -1, 0, 0);
     const auto found = list_lights(
-        glowing(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
+        make_scene_of_glowing_mesh(quad("a", {0, 0, 0}, {1, 1, 0}, {1, 1, 1}, {0, 0, 1}), world));
     ASSERT_EQ(found.size(), 1u);
     // The edges of the square become (2,0,3) and (0,-1,0). The normal is along (b-a) x (c-a).
     const dvec3 normal = glm::normalize(glm::cross(dvec3(2, 0, 3), dvec3(2, -1, 3)));
-    scene_expect_near(found[0].normal, normal, 1e-6);
+    expect_near_vectors(found[0].normal, normal, 1e-6);
     EXPECT_NEAR(found[0].area, std::sqrt(13.0), 1e-12);
 }
 
@@ -323,7 +327,7 @@ TEST(Lights, LampNormalAndAreaFollowTheTransform) {
 
 /// Returns the largest distance of a corner of the scene's bounds from the middle of the picture. 1
 /// is the distance of the picture's edge.
-double reach_of(const Scene& scene, const Camera& camera, double aspect) {
+double max_corner_distance_in_picture(const Scene& scene, const Camera& camera, double aspect) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const dvec3 up = glm::cross(right, forward);
@@ -350,11 +354,11 @@ TEST(DefaultCamera, DefaultCameraIsAThreeQuarterViewOfTheBounds) {
                        std::cos(M_PI / 6) * std::cos(M_PI / 9));
     for (const double aspect : {.25, 1.0, 16.0 / 9}) {
         const Camera camera = make_default_camera(scene, aspect);
-        scene_expect_near(camera.target, bounds(scene).centre(), 1e-3);
+        expect_near_vectors(camera.target, bounds(scene).centre(), 1e-3);
         EXPECT_EQ(camera.vertical_fov_degrees, 40);
         EXPECT_EQ(camera.up, dvec3(0, 1, 0));
-        scene_expect_near(glm::normalize(camera.eye - camera.target), to_eye, 1e-5);
-        EXPECT_NEAR(reach_of(scene, camera, aspect), .9, 1e-5) << aspect;
+        expect_near_vectors(glm::normalize(camera.eye - camera.target), to_eye, 1e-5);
+        EXPECT_NEAR(max_corner_distance_in_picture(scene, camera, aspect), .9, 1e-5) << aspect;
     }
 }
 
@@ -379,26 +383,29 @@ protected:
         hashes_ = {hash_scene(scene_)};
     }
 
-    static Keyframes& motion(Scene& scene) { return std::get<Keyframes>(scene.objects[7].motion); }
+    static Keyframes& motion_of_scene(Scene& scene) {
+        return std::get<Keyframes>(scene.objects[7].motion);
+    }
 
     /// Changes a copy of the scene with `change`. Expects a hash that no earlier scene had.
     template <typename Change>
-    void changed(const char* what, Change&& change) {
+    void expect_new_hash(const char* what, Change&& change) {
         Scene other = scene_;
         change(other);
         EXPECT_TRUE(hashes_.insert(hash_scene(other)).second) << what;
     }
     /// Changes each component of the vector that `get` returns, one at a time.
     template <typename Get>
-    void changed_vector(const char* what, Get&& get) {
-        for (int i = 0; i < 3; ++i) changed(what, [&](Scene& scene) { get(scene)[i] += .125f; });
+    void expect_new_hash_of_components(const char* what, Get&& get) {
+        for (int i = 0; i < 3; ++i)
+            expect_new_hash(what, [&](Scene& scene) { get(scene)[i] += .125f; });
     }
     template <typename Change>
-    void changed_keys(const char* what, Change&& change) {
-        changed(what, [&](Scene& scene) {
-            TranslationTrack keys = *motion(scene).keys;
+    void expect_new_hash_of_keys(const char* what, Change&& change) {
+        expect_new_hash(what, [&](Scene& scene) {
+            TranslationTrack keys = *motion_of_scene(scene).keys;
             change(keys);
-            motion(scene).keys = std::make_shared<const TranslationTrack>(keys);
+            motion_of_scene(scene).keys = std::make_shared<const TranslationTrack>(keys);
         });
     }
 
@@ -407,84 +414,91 @@ protected:
 };
 
 TEST_F(HashOf, SceneHashChangesWithMeshes) {
-    changed("a bit", [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
-    changed_vector(
+    expect_new_hash("a bit",
+                    [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
+    expect_new_hash_of_components(
         "position", [](Scene & s) -> auto& { return s.meshes.back().positions.back(); });
-    changed_vector(
+    expect_new_hash_of_components(
         "normal", [](Scene & s) -> auto& { return s.meshes[0].normals.back(); });
-    changed("order",
-            [](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); });
+    expect_new_hash(
+        "order", [](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); });
     for (int i = 0; i < 3; ++i)
-        changed("index", [&](Scene& s) { s.meshes.back().triangles.back()[i] ^= 1; });
-    changed("name", [](Scene& s) { s.meshes[1].name += "'"; });
-    changed("count", [](Scene& s) { s.meshes.push_back(s.meshes[0]); });
-    changed("text that runs over", [](Scene& s) {
+        expect_new_hash("index", [&](Scene& s) { s.meshes.back().triangles.back()[i] ^= 1; });
+    expect_new_hash("name", [](Scene& s) { s.meshes[1].name += "'"; });
+    expect_new_hash("count", [](Scene& s) { s.meshes.push_back(s.meshes[0]); });
+    expect_new_hash("text that runs over", [](Scene& s) {
         s.meshes[0].name += "a", s.materials[0].name = "b" + s.materials[0].name;
     });
 }
 
 TEST_F(HashOf, SceneHashChangesWithMaterials) {
-    changed_vector(
+    expect_new_hash_of_components(
         "albedo", [](Scene & s) -> auto& { return s.materials.back().albedo; });
-    changed_vector(
+    expect_new_hash_of_components(
         "emission", [](Scene & s) -> auto& { return s.materials.back().emission; });
-    changed_vector(
+    expect_new_hash_of_components(
         "reflectance", [](Scene & s) -> auto& { return s.materials.back().reflectance; });
-    changed("mirror", [](Scene& s) { s.materials.back().mirror = !s.materials.back().mirror; });
-    changed("sides", [](Scene& s) { s.materials[0].two_sided = !s.materials[0].two_sided; });
-    changed("name", [](Scene& s) { s.materials.back().name += "'"; });
+    expect_new_hash("mirror",
+                    [](Scene& s) { s.materials.back().mirror = !s.materials.back().mirror; });
+    expect_new_hash("sides",
+                    [](Scene& s) { s.materials[0].two_sided = !s.materials[0].two_sided; });
+    expect_new_hash("name", [](Scene& s) { s.materials.back().name += "'"; });
 }
 
 TEST_F(HashOf, SceneHashChangesWithObjects) {
-    changed("name", [](Scene& s) { s.objects[6].name = "other"; });
-    changed("mesh", [](Scene& s) { s.objects[6].mesh = 0; });
-    changed("material", [](Scene& s) { s.objects[6].material = 0; });
+    expect_new_hash("name", [](Scene& s) { s.objects[6].name = "other"; });
+    expect_new_hash("mesh", [](Scene& s) { s.objects[6].mesh = 0; });
+    expect_new_hash("material", [](Scene& s) { s.objects[6].material = 0; });
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            changed("place",
-                    [&](Scene& s) { s.objects.back().world_from_object[column][row] += .5; });
-    changed("no sphere", [](Scene& s) { s.objects[6].sphere.reset(); });
-    changed_vector(
+            expect_new_hash(
+                "place", [&](Scene& s) { s.objects.back().world_from_object[column][row] += .5; });
+    expect_new_hash("no sphere", [](Scene& s) { s.objects[6].sphere.reset(); });
+    expect_new_hash_of_components(
         "centre", [](Scene & s) -> auto& { return s.objects[6].sphere->centre; });
-    changed("radius", [](Scene& s) { s.objects[6].sphere->radius += 1; });
-    changed("seen", [](Scene& s) { s.objects[6].seen_by_camera = false; });
+    expect_new_hash("radius", [](Scene& s) { s.objects[6].sphere->radius += 1; });
+    expect_new_hash("seen", [](Scene& s) { s.objects[6].seen_by_camera = false; });
     EXPECT_TRUE(hashes_.insert(hash_scene(make_closed_cornell_mirrors())).second);
 }
 
 TEST_F(HashOf, SceneHashChangesWithMotions) {
-    changed("none", [](Scene& s) { s.objects[7].motion = {}; });
-    changed("harmonic", [](Scene& s) { s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 5}; });
-    changed("period", [](Scene& s) { s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 6}; });
+    expect_new_hash("none", [](Scene& s) { s.objects[7].motion = {}; });
+    expect_new_hash("harmonic", [](Scene& s) {
+        s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 5};
+    });
+    expect_new_hash("period", [](Scene& s) {
+        s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 6};
+    });
     for (int i = 0; i < 3; ++i)
-        changed("amplitude", [&](Scene& s) {
+        expect_new_hash("amplitude", [&](Scene& s) {
             HarmonicMotion motion{{1, 50, 1}, 5};
             motion.amplitude[i] = 9;
             s.objects[7].motion = motion;
         });
-    changed_keys("kind", [](TranslationTrack& keys) {
+    expect_new_hash_of_keys("kind", [](TranslationTrack& keys) {
         keys.interpolation = TranslationTrack::Interpolation::linear;
     });
-    changed_keys("time", [](TranslationTrack& keys) { keys.times[1] = 2; });
-    changed_keys("value", [](TranslationTrack& keys) { keys.values[1].z = 9; });
-    changed_keys("in", [](TranslationTrack& keys) { keys.in_tangents[1].z = 9; });
-    changed_keys("out", [](TranslationTrack& keys) { keys.out_tangents[1].z = 9; });
-    changed_vector(
-        "rest", [](Scene & s) -> auto& { return motion(s).rest; });
+    expect_new_hash_of_keys("time", [](TranslationTrack& keys) { keys.times[1] = 2; });
+    expect_new_hash_of_keys("value", [](TranslationTrack& keys) { keys.values[1].z = 9; });
+    expect_new_hash_of_keys("in", [](TranslationTrack& keys) { keys.in_tangents[1].z = 9; });
+    expect_new_hash_of_keys("out", [](TranslationTrack& keys) { keys.out_tangents[1].z = 9; });
+    expect_new_hash_of_components(
+        "rest", [](Scene & s) -> auto& { return motion_of_scene(s).rest; });
     for (int column = 0; column < 3; ++column)
-        changed_vector(
-            "turn", [&](Scene & s) -> auto& { return motion(s).world_from_keys[column]; });
+        expect_new_hash_of_components(
+            "turn", [&](Scene & s) -> auto& { return motion_of_scene(s).world_from_keys[column]; });
 }
 
 TEST_F(HashOf, SceneHashChangesWithCameras) {
-    changed_vector(
+    expect_new_hash_of_components(
         "eye", [](Scene & s) -> auto& { return s.cameras[0].eye; });
-    changed_vector(
+    expect_new_hash_of_components(
         "target", [](Scene & s) -> auto& { return s.cameras[0].target; });
-    changed_vector(
+    expect_new_hash_of_components(
         "up", [](Scene & s) -> auto& { return s.cameras[0].up; });
-    changed("angle", [](Scene& s) { s.cameras[0].vertical_fov_degrees = 38; });
-    changed("name", [](Scene& s) { s.cameras[0].name += "'"; });
-    changed("another", [](Scene& s) { s.cameras.push_back(s.cameras[0]); });
+    expect_new_hash("angle", [](Scene& s) { s.cameras[0].vertical_fov_degrees = 38; });
+    expect_new_hash("name", [](Scene& s) { s.cameras[0].name += "'"; });
+    expect_new_hash("another", [](Scene& s) { s.cameras.push_back(s.cameras[0]); });
 }
 
 /// The hash uses the values of animation keys, not their address, so a copied file has the same
@@ -497,9 +511,9 @@ TEST_F(HashOf, SceneHashIgnoresNameFilesAndWarnings) {
     copy.warnings = {"a warning"};
     copy.files = {"/elsewhere/copy.glb"};
     copy.objects[7].motion = Keyframes{
-        .keys = std::make_shared<const TranslationTrack>(*motion(scene_).keys),
-        .world_from_keys = motion(scene_).world_from_keys,
-        .rest = motion(scene_).rest};
+        .keys = std::make_shared<const TranslationTrack>(*motion_of_scene(scene_).keys),
+        .world_from_keys = motion_of_scene(scene_).world_from_keys,
+        .rest = motion_of_scene(scene_).rest};
     EXPECT_EQ(hash_scene(copy), whole);
 }
 

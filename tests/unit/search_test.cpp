@@ -27,7 +27,7 @@ const app::RegisteredSearch kFound{
      .continues = true,
      .compared = {"test_search", "test_search:much=2"}}};
 
-std::string refused(app::Search search) {
+std::string search_error_text(app::Search search) {
     try {
         app::add_search(std::move(search));
     } catch (const UsageError& error) {
@@ -36,7 +36,7 @@ std::string refused(app::Search search) {
     return "nothing was thrown";
 }
 
-std::string refused_text(const std::string& technique) {
+std::string technique_error_text(const std::string& technique) {
     try {
         static_cast<void>(app::parse_technique(technique));
     } catch (const UsageError& error) {
@@ -63,50 +63,53 @@ TEST(Search, AddedSearchIsInTheTableOfTechniques) {
 TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
     app::add_search({.name = "test_short", .shader = "test_short.frag"});
     for (const char* knob : {"continue=0", "captures=own", "mirrors=captured"})
-        EXPECT_THAT(refused_text("test_short:" + std::string(knob)),
+        EXPECT_THAT(technique_error_text("test_short:" + std::string(knob)),
                     HasSubstr("technique 'test_short' has no knob '"));
     const app::TechniqueChoice choice = app::parse_technique("test_short:face=64,show=state");
     EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
 }
 
 /// Returns what a picture of the built-in room by the technique demands.
-bool asks_all_captures(const std::string& technique) {
+bool does_technique_read_all_captures(const std::string& technique) {
     const scene::Scene room = scene::make_cornell_mirrors();
-    require::ModelInput question{.now = room, .camera = room.cameras.front()};
-    reflect::add_plan_demands(question, {reflect::parse_plan(technique)});
+    require::RequiredWorkModelInput question{.now = room, .camera = room.cameras.front()};
+    reflect::add_demands_of_plan(question, {reflect::parse_plan(technique)});
     return question.asks_all;
 }
 
 TEST(Search, AddedSearchMayAskTheCapturesOfAllMirrors) {
-    EXPECT_FALSE(asks_all_captures("test_search"));
-    EXPECT_TRUE(asks_all_captures("test_search:captures=all"));
+    EXPECT_FALSE(does_technique_read_all_captures("test_search"));
+    EXPECT_TRUE(does_technique_read_all_captures("test_search:captures=all"));
 }
 
 TEST(Search, OwnKnobsMayHaveNamesOfKnobsThatOtherTechniquesHave) {
     app::add_search({.name = "test_names",
                      .shader = "test_names.frag",
                      .knobs = {{.name = "rest"}, {.name = "without"}, {.name = "capture"}}});
-    EXPECT_FALSE(asks_all_captures("test_names:rest=1,without=1,capture=0"));
+    EXPECT_FALSE(does_technique_read_all_captures("test_names:rest=1,without=1,capture=0"));
 }
 
 TEST(Search, InvalidSearchIsRefusedWithTheReason) {
-    EXPECT_THAT(refused({.name = "Two words"}),
+    EXPECT_THAT(search_error_text({.name = "Two words"}),
                 HasSubstr("'Two words': wanted a name of small letters, digits and '_'"));
-    EXPECT_THAT(refused({.name = "secant"}), HasSubstr("there is a technique 'secant' already"));
-    EXPECT_THAT(refused({.name = "twice", .knobs = {{.name = "face"}}}),
+    EXPECT_THAT(search_error_text({.name = "secant"}),
+                HasSubstr("there is a technique 'secant' already"));
+    EXPECT_THAT(search_error_text({.name = "twice", .knobs = {{.name = "face"}}}),
                 HasSubstr("technique 'twice' has two knobs 'face'"));
-    EXPECT_THAT(refused({.name = "short", .knobs = {{.name = "mirrors"}}}),
+    EXPECT_THAT(search_error_text({.name = "short", .knobs = {{.name = "mirrors"}}}),
                 HasSubstr("technique 'short' has two knobs 'mirrors'"));
-    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .high = 1, .value = 2}}}),
-                HasSubstr("knob 'a': wanted a value from 0 to 1, found 2"));
-    EXPECT_THAT(refused({.name = "auto"}), HasSubstr("'auto' is what the requirements suggest"));
-    EXPECT_THAT(refused({.name = "outside", .compared = {"outsid:face=4"}}),
+    EXPECT_THAT(
+        search_error_text({.name = "outside", .knobs = {{.name = "a", .high = 1, .value = 2}}}),
+        HasSubstr("knob 'a': wanted a value from 0 to 1, found 2"));
+    EXPECT_THAT(search_error_text({.name = "auto"}),
+                HasSubstr("'auto' is what the requirements suggest"));
+    EXPECT_THAT(search_error_text({.name = "outside", .compared = {"outsid:face=4"}}),
                 HasSubstr("wanted rows of its own to compare, found 'outsid:face=4'"));
-    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a=b"}}}),
+    EXPECT_THAT(search_error_text({.name = "outside", .knobs = {{.name = "a=b"}}}),
                 HasSubstr("knob 'a=b': wanted a name of small letters, digits and '_'"));
-    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .value = .5}}}),
+    EXPECT_THAT(search_error_text({.name = "outside", .knobs = {{.name = "a", .value = .5}}}),
                 HasSubstr("wanted whole numbers from 0 to 4294967295, found 0 to 1 and 0.5"));
-    EXPECT_THAT(refused({.name = "outside", .knobs = {{.name = "a", .low = -1}}}),
+    EXPECT_THAT(search_error_text({.name = "outside", .knobs = {{.name = "a", .low = -1}}}),
                 HasSubstr("found -1 to 1 and 0; is_real allows others"));
     EXPECT_THROW(app::parse_technique("twice"), UsageError) << "refused ones are not added";
 }

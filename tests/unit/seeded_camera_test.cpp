@@ -16,22 +16,22 @@ namespace {
 
 using namespace catoptric;
 
-constexpr std::uint64_t kSeeds = 25;
+constexpr std::uint64_t kSeedCount = 25;
 
 /// Returns the share of pixels that show a mirror. Mirrors are drawn black, and in a closed room
 /// with ambient light everything else is lit.
-double mirror_share(const scene::Scene& scene, const scene::Camera& camera) {
-    constexpr uvec2 kSize{64, 64};
-    const stress::DoubleTracer tracer(scene, 1);
+double compute_mirror_pixel_share(const scene::Scene& scene, const scene::Camera& camera) {
+    constexpr uvec2 kSeededPictureSize{64, 64};
+    const stress::DoublePrecisionTracer tracer(scene, 1);
     std::size_t black = 0;
-    for (std::uint32_t y = 0; y < kSize.y; ++y)
-        for (std::uint32_t x = 0; x < kSize.x; ++x)
-            black += tracer.trace_pixel(camera, kSize, x, y, 0) == dvec3(0);
-    return static_cast<double>(black) / (kSize.x * kSize.y);
+    for (std::uint32_t y = 0; y < kSeededPictureSize.y; ++y)
+        for (std::uint32_t x = 0; x < kSeededPictureSize.x; ++x)
+            black += tracer.trace_pixel(camera, kSeededPictureSize, x, y, 0) == dvec3(0);
+    return static_cast<double>(black) / (kSeededPictureSize.x * kSeededPictureSize.y);
 }
 
 /// Returns test::make_lit_room, scaled by `scale` and moved by `by`.
-scene::Scene moved_room(int mirrors, double scale, dvec3 by) {
+scene::Scene make_moved_lit_room(int mirrors, double scale, dvec3 by) {
     scene::Scene scene = test::make_lit_room(mirrors, 1);
     dmat4 moved(scale);
     moved[3] = dvec4(by, 1);
@@ -49,14 +49,14 @@ TEST(SeededCamera, SeededCameraSeesTheFrontOfAMirrorAtAnySceneScale) {
                                              {3, 1.0, dvec3(0)},
                                              {2, 1e4, dvec3(3e6, -2e6, 1e6)},
                                              {2, 1e-3, dvec3(1, 2, 3)}}) {
-        const scene::Scene scene = moved_room(mirrors, scale, by);
+        const scene::Scene scene = make_moved_lit_room(mirrors, scale, by);
         std::set<std::string> drawn;
-        for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+        for (std::uint64_t seed = 0; seed < kSeedCount; ++seed) {
             const scene::Camera camera = app::make_seeded_camera(scene, 0, seed);
             drawn.insert(camera.name);
             // A seeded camera sees a mirror with at least 11 of its 1024 rays, a share of .011. The
             // grid of rays can overestimate the share, so the bound is lower.
-            EXPECT_GE(mirror_share(scene, camera), .005) << camera.name;
+            EXPECT_GE(compute_mirror_pixel_share(scene, camera), .005) << camera.name;
             for (const std::size_t mirror : scene::mirrors(scene)) {
                 const scene::Sphere& sphere = *scene.objects[mirror].sphere;
                 EXPECT_GT(glm::distance(sphere.centre, camera.eye), sphere.radius) << camera.name;
@@ -64,13 +64,13 @@ TEST(SeededCamera, SeededCameraSeesTheFrontOfAMirrorAtAnySceneScale) {
             EXPECT_GE(camera.vertical_fov_degrees, 25);
             EXPECT_LE(camera.vertical_fov_degrees, 60);
         }
-        EXPECT_EQ(drawn.size(), kSeeds) << "each seed its own";
+        EXPECT_EQ(drawn.size(), kSeedCount) << "each seed its own";
     }
 }
 
 TEST(SeededCamera, EqualSeedsAndInstantsGiveEqualCameras) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    for (std::uint64_t seed = 0; seed < kSeedCount; ++seed) {
         const scene::Camera a = app::make_seeded_camera(scene, 1.5, seed),
                             b = app::make_seeded_camera(scene, 1.5, seed);
         EXPECT_EQ(a.eye, b.eye);
@@ -84,7 +84,7 @@ TEST(SeededCamera, SeededCameraIsInFrontOfAFlatMirror) {
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     test::add_quad(scene, "pane", mirror, {-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0},
                    {-.5, .5, 0}); // the mirror faces +z
-    for (std::uint64_t seed = 0; seed < kSeeds; ++seed)
+    for (std::uint64_t seed = 0; seed < kSeedCount; ++seed)
         EXPECT_GT(app::make_seeded_camera(scene, 0, seed).eye.z, 0) << seed;
 }
 
@@ -99,7 +99,7 @@ TEST(SeededCamera, SeedingFailsIfNoMirrorCanBeSeen) {
     const std::size_t white = test::add_material(hidden, {.name = "white", .albedo = vec3(.7f)});
     test::add_ball(hidden, "ball", mirror, {0, 0, 0}, 1);
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(hidden, test::wall(face, dvec3(-1.01), dvec3(1.01)), white);
+        test::add_mesh(hidden, test::make_box_wall(face, dvec3(-1.01), dvec3(1.01)), white);
     for (const scene::Scene& scene : {hidden, scene::Scene{.name = "empty"}}) try {
             app::make_seeded_camera(scene, 0, 5);
             ADD_FAILURE() << scene.name;

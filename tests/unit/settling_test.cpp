@@ -9,23 +9,23 @@
 namespace catoptric::measure {
 namespace {
 
-std::optional<int> settled(const std::vector<double>& errors) {
+std::optional<int> find_settled_frame_of_errors(const std::vector<double>& errors) {
     return find_settled_frame(errors, 0.5);
 }
 
 TEST(Settling, SettledFrameIsTheFirstAfterWhichErrorsStayInBounds) {
-    EXPECT_EQ(settled({3, 2, 0.4, 0.1}), 3);
-    EXPECT_EQ(settled({0, 0, 0}), 1);
-    EXPECT_EQ(settled({2, 0.5}), 2) << "at the bound is within";
-    EXPECT_EQ(settled({2, 0.1, 0.6, 0.1}), 4) << "once within is not enough";
+    EXPECT_EQ(find_settled_frame_of_errors({3, 2, 0.4, 0.1}), 3);
+    EXPECT_EQ(find_settled_frame_of_errors({0, 0, 0}), 1);
+    EXPECT_EQ(find_settled_frame_of_errors({2, 0.5}), 2) << "at the bound is within";
+    EXPECT_EQ(find_settled_frame_of_errors({2, 0.1, 0.6, 0.1}), 4) << "once within is not enough";
 }
 
 TEST(Settling, SettledFrameIsUnknownIfTheLastErrorIsOutOfBounds) {
-    EXPECT_EQ(settled({0.1, 0.1, 2}), std::nullopt);
-    EXPECT_EQ(settled({}), std::nullopt);
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(settled({0.1, kNaN}), std::nullopt);
-    EXPECT_EQ(settled({kNaN, 0.1}), 2);
+    EXPECT_EQ(find_settled_frame_of_errors({0.1, 0.1, 2}), std::nullopt);
+    EXPECT_EQ(find_settled_frame_of_errors({}), std::nullopt);
+    constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(find_settled_frame_of_errors({0.1, kNotANumber}), std::nullopt);
+    EXPECT_EQ(find_settled_frame_of_errors({kNotANumber, 0.1}), 2);
 }
 
 } // namespace

@@ -10,22 +10,22 @@
 namespace catoptric {
 namespace {
 
-::testing::AssertionResult near(const vec3& a, const vec3& b, float tolerance) {
+::testing::AssertionResult are_vectors_near(const vec3& a, const vec3& b, float tolerance) {
     if (glm::length(a - b) <= tolerance) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure()
            << a.x << ' ' << a.y << ' ' << a.z << " is not " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
-struct TriangleHit {
+struct TriangleTestHit {
     bool hit;
     float t;
     vec3 weights;
 };
 
-TriangleHit hit_triangle(vec3 a, vec3 b, vec3 c, vec3 origin, vec3 direction) {
-    TriangleHit result{};
-    result.hit = f32::triangle_test(a, b, c, origin, f32::make_ray_shear(direction), result.t,
-                                    result.weights);
+TriangleTestHit intersect_test_triangle(vec3 a, vec3 b, vec3 c, vec3 origin, vec3 direction) {
+    TriangleTestHit result{};
+    result.hit = f32::intersect_triangle_watertight(a, b, c, origin, f32::make_ray_shear(direction),
+                                                    result.t, result.weights);
     return result;
 }
 
@@ -40,10 +40,11 @@ TEST(Light, LightTermMatchesAHandComputedPoint) {
                                                 vec3(0, -1, 0), direction, distance, factor));
     EXPECT_FLOAT_EQ(distance, std::sqrt(8.0f));
     EXPECT_FLOAT_EQ(factor, 1.0f / 16);
-    EXPECT_TRUE(near(direction, vec3(std::sqrt(0.5f), std::sqrt(0.5f), 0), 1e-7f));
+    EXPECT_TRUE(are_vectors_near(direction, vec3(std::sqrt(0.5f), std::sqrt(0.5f), 0), 1e-7f));
     // Radiance: emission + albedo / pi * intensity / 16 + albedo * ambient.
     const vec3 direct = vec3(32) * factor;
-    const vec3 radiance = f32::lambert(vec3(1, 0, 0), vec3(0.5f, 0.25f, 0), direct, 0.05f);
+    const vec3 radiance = f32::lambertian_radiance(vec3(1, 0, 0), vec3(0.5f, 0.25f, 0), direct,
+                                                   0.05f);
     EXPECT_FLOAT_EQ(radiance.x, 1 + 1 / f32::kPi + 0.025f);
     EXPECT_FLOAT_EQ(radiance.y, 0.5f / f32::kPi + 0.0125f);
     EXPECT_EQ(radiance.z, 0);
@@ -78,9 +79,9 @@ TEST(Light, LightNeedsNoShadowRayIfACosineIsNotPositive) {
 TEST(Light, MeanCosineIsTheSameForOppositeDirections) {
     const vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const vec3 direction = glm::normalize(vec3(.3f, -.5f, .2f));
-    EXPECT_FLOAT_EQ(f32::mean_cosine(direction, x, y, z, vec3(0, 0, 1)), direction.z);
-    EXPECT_FLOAT_EQ(f32::mean_cosine(-direction, x, y, z, vec3(0, 0, 1)), direction.z);
-    EXPECT_FLOAT_EQ(f32::mean_cosine(direction, x, y, z, vec3(.5f)), .5f);
+    EXPECT_FLOAT_EQ(f32::mean_lamp_facet_cosine(direction, x, y, z, vec3(0, 0, 1)), direction.z);
+    EXPECT_FLOAT_EQ(f32::mean_lamp_facet_cosine(-direction, x, y, z, vec3(0, 0, 1)), direction.z);
+    EXPECT_FLOAT_EQ(f32::mean_lamp_facet_cosine(direction, x, y, z, vec3(.5f)), .5f);
 }
 
 TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
@@ -105,16 +106,18 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
 TEST(Mirror, MirrorDirectionIgnoresTheSignOfTheNormal) {
     const vec3 d = glm::normalize(vec3(1, -1, 0));
     const vec3 expected = glm::normalize(vec3(1, 1, 0));
-    EXPECT_TRUE(near(f32::mirror_direction(d, vec3(0, 1, 0), vec3(0, 1, 0)), expected, 1e-6f));
-    EXPECT_TRUE(near(f32::mirror_direction(d, vec3(0, -1, 0), vec3(0, -1, 0)), expected, 1e-6f));
+    EXPECT_TRUE(are_vectors_near(f32::reflect_above_facet(d, vec3(0, 1, 0), vec3(0, 1, 0)),
+                                 expected, 1e-6f));
+    EXPECT_TRUE(are_vectors_near(f32::reflect_above_facet(d, vec3(0, -1, 0), vec3(0, -1, 0)),
+                                 expected, 1e-6f));
 }
 
 TEST(Mirror, MirrorDirectionNeverPointsBelowTheFacet) {
     test::RandomNumbers random(1);
     for (int i = 0; i < 10000; ++i) {
-        const vec3 d = random.unit_direction(), n_geometric = random.unit_direction();
-        const vec3 n_shading = glm::normalize(n_geometric + 0.9f * random.unit_direction());
-        const vec3 r = f32::mirror_direction(d, n_shading, n_geometric);
+        const vec3 d = random.random_unit_direction(), n_geometric = random.random_unit_direction();
+        const vec3 n_shading = glm::normalize(n_geometric + 0.9f * random.random_unit_direction());
+        const vec3 r = f32::reflect_above_facet(d, n_shading, n_geometric);
         ASSERT_GE(glm::dot(r, n_geometric) * -glm::dot(d, n_geometric), -1e-6f);
         ASSERT_NEAR(glm::length(r), 1, 1e-6f);
     }
@@ -123,21 +126,22 @@ TEST(Mirror, MirrorDirectionNeverPointsBelowTheFacet) {
 // ---- Triangles
 
 TEST(TriangleTest, TriangleTestMatchesAKnownHit) {
-    const auto [hit, t, weights] = hit_triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2}, {1, 2, 0},
-                                                {0, 0, 0.5f});
+    const auto [hit, t, weights] = intersect_test_triangle({0, 0, 2}, {4, 0, 2}, {0, 4, 2},
+                                                           {1, 2, 0}, {0, 0, 0.5f});
     ASSERT_TRUE(hit);
     EXPECT_EQ(t, 4);
-    EXPECT_TRUE(near(f32::barycentric(weights), vec3(0.25f, 0.25f, 0.5f), 1e-7f));
+    EXPECT_TRUE(
+        are_vectors_near(f32::normalise_barycentric(weights), vec3(0.25f, 0.25f, 0.5f), 1e-7f));
 }
 
 TEST(TriangleTest, TriangleTestMissesTrianglesBehindBesideOrWithoutArea) {
     const vec3 a(0, 0, 2), b(4, 0, 2), c(0, 4, 2);
-    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, {0, 0, -1}).hit) << "behind";
-    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 2}, {0, 0, 1}).hit) << "starts on it";
-    EXPECT_FALSE(hit_triangle(a, b, c, {3, 3, 0}, {0, 0, 1}).hit) << "beside";
-    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 2}, {1, 0, 0}).hit) << "in its plane";
-    EXPECT_FALSE(hit_triangle(a, b, b, {1, 0, 0}, {0, 0, 1}).hit) << "no area";
-    EXPECT_FALSE(hit_triangle(a, a, a, {0, 0, 0}, {0, 0, 1}).hit) << "a point";
+    EXPECT_FALSE(intersect_test_triangle(a, b, c, {1, 1, 0}, {0, 0, -1}).hit) << "behind";
+    EXPECT_FALSE(intersect_test_triangle(a, b, c, {1, 1, 2}, {0, 0, 1}).hit) << "starts on it";
+    EXPECT_FALSE(intersect_test_triangle(a, b, c, {3, 3, 0}, {0, 0, 1}).hit) << "beside";
+    EXPECT_FALSE(intersect_test_triangle(a, b, c, {1, 1, 2}, {1, 0, 0}).hit) << "in its plane";
+    EXPECT_FALSE(intersect_test_triangle(a, b, b, {1, 0, 0}, {0, 0, 1}).hit) << "no area";
+    EXPECT_FALSE(intersect_test_triangle(a, a, a, {0, 0, 0}, {0, 0, 1}).hit) << "a point";
 }
 
 TEST(TriangleTest, TriangleTestMissesIfACoordinateIsNan) {
@@ -145,31 +149,32 @@ TEST(TriangleTest, TriangleTestMissesIfACoordinateIsNan) {
     for (int i = 0; i < 3; ++i) {
         vec3 bad(0.5f);
         bad[i] = test::kNan;
-        EXPECT_FALSE(hit_triangle(bad, b, c, {1, 1, 0}, {0, 0, 1}).hit);
-        EXPECT_FALSE(hit_triangle(a, b, bad, {1, 1, 0}, {0, 0, 1}).hit);
-        EXPECT_FALSE(hit_triangle(a, b, c, bad, {0, 0, 1}).hit);
-        EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, bad).hit);
+        EXPECT_FALSE(intersect_test_triangle(bad, b, c, {1, 1, 0}, {0, 0, 1}).hit);
+        EXPECT_FALSE(intersect_test_triangle(a, b, bad, {1, 1, 0}, {0, 0, 1}).hit);
+        EXPECT_FALSE(intersect_test_triangle(a, b, c, bad, {0, 0, 1}).hit);
+        EXPECT_FALSE(intersect_test_triangle(a, b, c, {1, 1, 0}, bad).hit);
     }
-    EXPECT_FALSE(hit_triangle(a, b, c, {1, 1, 0}, vec3(0)).hit);
+    EXPECT_FALSE(intersect_test_triangle(a, b, c, {1, 1, 0}, vec3(0)).hit);
 }
 
 TEST(TriangleTest, FloatTriangleTestAgreesWithDouble) {
     test::RandomNumbers random(2);
     int hits = 0, disagreements = 0;
     for (int i = 0; i < 100000; ++i) {
-        const vec3 a = random.point_in_cube(), b = random.point_in_cube(),
-                   c = random.point_in_cube();
-        const vec3 origin = 3.0f * random.unit_direction();
-        const vec3 direction = glm::normalize(0.5f * random.point_in_cube() - origin);
-        const TriangleHit single = hit_triangle(a, b, c, origin, direction);
+        const vec3 a = random.random_point_in_cube(), b = random.random_point_in_cube(),
+                   c = random.random_point_in_cube();
+        const vec3 origin = 3.0f * random.random_unit_direction();
+        const vec3 direction = glm::normalize(0.5f * random.random_point_in_cube() - origin);
+        const TriangleTestHit single = intersect_test_triangle(a, b, c, origin, direction);
         double t;
         dvec3 weights;
-        const bool hit = f64::triangle_test(dvec3(a), dvec3(b), dvec3(c), dvec3(origin),
-                                            f64::make_ray_shear(dvec3(direction)), t, weights);
+        const bool hit = f64::intersect_triangle_watertight(
+            dvec3(a), dvec3(b), dvec3(c), dvec3(origin), f64::make_ray_shear(dvec3(direction)), t,
+            weights);
         if (hit != single.hit) {
             // Float and double may disagree only where the ray passes within rounding errors of an
             // edge.
-            const dvec3 size = glm::abs(f64::barycentric(weights));
+            const dvec3 size = glm::abs(f64::normalise_barycentric(weights));
             EXPECT_LT(std::min({size.x, size.y, size.z}), 1e-3);
             ++disagreements;
         } else if (hit) {
@@ -190,14 +195,16 @@ TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
     test::RandomNumbers random(3);
     int fallbacks = 0;
     for (int i = 0; i < 200000; ++i) {
-        const float a = random.number_between(0.5f, 1), b = random.number_between(0.5f, 1);
-        const float c = std::nextafter(a, random.number_between(0, 2));
+        const float a = random.random_number_between(0.5f, 1),
+                    b = random.random_number_between(0.5f, 1);
+        const float c = std::nextafter(a, random.random_number_between(0, 2));
         const float d = static_cast<float>(static_cast<long double>(a) * b / c);
         const long double exact = static_cast<long double>(a) * b - static_cast<long double>(c) * d;
-        const float found = f32::edge_function(a, b, c, d);
+        const float found = f32::exact_product_difference(a, b, c, d);
         ASSERT_EQ(found > 0, exact > 0);
         ASSERT_EQ(found < 0, exact < 0);
-        ASSERT_EQ(f32::edge_function(c, d, a, b), -found) << "the neighbour sees the opposite";
+        ASSERT_EQ(f32::exact_product_difference(c, d, a, b), -found)
+            << "the neighbour sees the opposite";
         const volatile float ab = a * b, cd = c * d;
         if (ab == cd && exact != 0) ++fallbacks;
     }
@@ -207,14 +214,15 @@ TEST(TriangleTest, EdgeFunctionHasTheExactSign) {
 TEST(TriangleTest, TriangleTestIsUnchangedByScalingWithPowersOfTwo) {
     test::RandomNumbers random(4);
     for (int i = 0; i < 2000; ++i) {
-        const vec3 a = random.point_in_cube(), b = random.point_in_cube(),
-                   c = random.point_in_cube();
-        const vec3 origin = 3.0f * random.unit_direction(),
-                   direction = 0.5f * random.point_in_cube() - origin;
-        const TriangleHit one = hit_triangle(a, b, c, origin, direction);
+        const vec3 a = random.random_point_in_cube(), b = random.random_point_in_cube(),
+                   c = random.random_point_in_cube();
+        const vec3 origin = 3.0f * random.random_unit_direction(),
+                   direction = 0.5f * random.random_point_in_cube() - origin;
+        const TriangleTestHit one = intersect_test_triangle(a, b, c, origin, direction);
         for (int k = -20; k <= 20; k += 5) {
             const float s = std::ldexp(1.0f, k);
-            const TriangleHit scaled = hit_triangle(s * a, s * b, s * c, s * origin, direction);
+            const TriangleTestHit scaled = intersect_test_triangle(s * a, s * b, s * c, s * origin,
+                                                                   direction);
             ASSERT_EQ(one.hit, scaled.hit);
             ASSERT_TRUE(!one.hit || one.t * s == scaled.t);
         }
@@ -223,57 +231,63 @@ TEST(TriangleTest, TriangleTestIsUnchangedByScalingWithPowersOfTwo) {
 
 // ---- Boxes and spheres
 
-bool hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction, float t_max = test::kInfinity) {
+bool does_ray_hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction,
+                      float t_max = test::kInfinity) {
     float t;
-    const f32::BoxRay ray = f32::make_box_ray({origin, direction}, vec3(-1), vec3(1), 1);
-    return f32::slab_test(lo, hi, ray, t_max, t);
+    const f32::BoxTestRay ray = f32::make_box_ray({origin, direction}, vec3(-1), vec3(1), 1);
+    return f32::intersect_box_slabs(lo, hi, ray, t_max, t);
 }
 
 TEST(SlabTest, SlabTestHitsAndMissesKnownBoxes) {
     const vec3 lo(-1), hi(1);
-    EXPECT_TRUE(hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}));
-    EXPECT_TRUE(hit_box(lo, hi, {0, 0, 0}, {0, -1, 0})) << "from inside";
-    EXPECT_FALSE(hit_box(lo, hi, {-5, 0, 0}, {-1, 0, 0})) << "behind";
-    EXPECT_FALSE(hit_box(lo, hi, {-5, 2, 0}, {1, 0, 0})) << "beside, parallel to two slabs";
-    EXPECT_FALSE(hit_box(lo, hi, {-5, 2, 0}, {1, -0.0f, -0.0f}));
-    EXPECT_FALSE(hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}, 3.9f)) << "beyond t_max";
-    EXPECT_TRUE(hit_box(lo, hi, {-5, 1, -1}, {1, 0, -0.0f})) << "along an edge: 0 * inf";
-    EXPECT_TRUE(hit_box({-1, 0, -1}, {1, 0, 1}, {0, 5, 0}, {0, -1, 0})) << "flat box";
-    EXPECT_FALSE(hit_box(vec3(test::kInfinity), vec3(-test::kInfinity), vec3(0), {1, 0, 0}))
+    EXPECT_TRUE(does_ray_hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}));
+    EXPECT_TRUE(does_ray_hit_box(lo, hi, {0, 0, 0}, {0, -1, 0})) << "from inside";
+    EXPECT_FALSE(does_ray_hit_box(lo, hi, {-5, 0, 0}, {-1, 0, 0})) << "behind";
+    EXPECT_FALSE(does_ray_hit_box(lo, hi, {-5, 2, 0}, {1, 0, 0}))
+        << "beside, parallel to two slabs";
+    EXPECT_FALSE(does_ray_hit_box(lo, hi, {-5, 2, 0}, {1, -0.0f, -0.0f}));
+    EXPECT_FALSE(does_ray_hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}, 3.9f)) << "beyond t_max";
+    EXPECT_TRUE(does_ray_hit_box(lo, hi, {-5, 1, -1}, {1, 0, -0.0f})) << "along an edge: 0 * inf";
+    EXPECT_TRUE(does_ray_hit_box({-1, 0, -1}, {1, 0, 1}, {0, 5, 0}, {0, -1, 0})) << "flat box";
+    EXPECT_FALSE(
+        does_ray_hit_box(vec3(test::kInfinity), vec3(-test::kInfinity), vec3(0), {1, 0, 0}))
         << "empty box";
 }
 
 TEST(SlabTest, SlabTestHitsASmallBoxFarAway) {
     for (float distance : {10.0f, 100.0f, 1000.0f})
-        EXPECT_TRUE(hit_box(vec3(-5e-4f), vec3(5e-4f), {-distance, 0, 0}, {1, 0, 0}));
+        EXPECT_TRUE(does_ray_hit_box(vec3(-5e-4f), vec3(5e-4f), {-distance, 0, 0}, {1, 0, 0}));
 }
 
 TEST(SphereTest, SphereTestWorksFromOutsideInsideAndBehind) {
     float t;
-    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_TRUE(f32::intersect_sphere_robustly(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 10, t));
     EXPECT_FLOAT_EQ(t, 2);
-    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {2, 0, 0}}, 10, t));
+    EXPECT_TRUE(f32::intersect_sphere_robustly(vec3(0), 1, {{-3, 0, 0}, {2, 0, 0}}, 10, t));
     EXPECT_FLOAT_EQ(t, 1);
-    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{0.5f, 0, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_TRUE(f32::intersect_sphere_robustly(vec3(0), 1, {{0.5f, 0, 0}, {1, 0, 0}}, 10, t));
     EXPECT_FLOAT_EQ(t, 0.5f);
-    EXPECT_TRUE(f32::sphere_test(vec3(0), 1, {{0, 0, 0}, {0, 1, 0}}, 10, t));
+    EXPECT_TRUE(f32::intersect_sphere_robustly(vec3(0), 1, {{0, 0, 0}, {0, 1, 0}}, 10, t));
     EXPECT_FLOAT_EQ(t, 1);
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{3, 0, 0}, {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 2, t)) << "t_max excluded";
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {{-3, 1.001f, 0}, {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(test::kNan), {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::sphere_test(vec3(0), 1, {vec3(0), vec3(test::kNan)}, 10, t));
+    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {{3, 0, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 2, t))
+        << "t_max excluded";
+    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {{-3, 1.001f, 0}, {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {vec3(test::kNan), {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {vec3(0), vec3(test::kNan)}, 10, t));
 }
 
 TEST(SphereTest, SphereTestStaysPreciseFarAway) {
     test::RandomNumbers random(5);
     for (int i = 0; i < 10000; ++i) {
-        const vec3 origin = 1e4f * random.unit_direction();
-        const vec3 direction = glm::normalize(0.5f * random.unit_direction() - origin);
+        const vec3 origin = 1e4f * random.random_unit_direction();
+        const vec3 direction = glm::normalize(0.5f * random.random_unit_direction() - origin);
         float t;
         double exact;
-        ASSERT_TRUE(f32::sphere_test(vec3(0), 1, {origin, direction}, test::kInfinity, t));
-        ASSERT_TRUE(f64::sphere_test(dvec3(0), 1, {dvec3(origin), dvec3(direction)}, 1e30, exact));
+        ASSERT_TRUE(
+            f32::intersect_sphere_robustly(vec3(0), 1, {origin, direction}, test::kInfinity, t));
+        ASSERT_TRUE(f64::intersect_sphere_robustly(dvec3(0), 1, {dvec3(origin), dvec3(direction)},
+                                                   1e30, exact));
         // The textbook formula for spheres is off by about 1 here. The ray's origin is known only
         // to u * 1e4 = 6e-4, where u is the unit roundoff.
         ASSERT_NEAR(t, exact, 4e-3);
@@ -288,17 +302,20 @@ TEST(Spawn, SpawnedRayNeverMeetsItsOwnTriangle) {
     test::RandomNumbers random(6);
     for (int i = 0; i < 1000; ++i) {
         const auto corner = [&] {
-            return vec3(random.log_uniform_number(-1, 1), random.log_uniform_number(-1, 1),
-                        random.log_uniform_number(-1, 1));
+            return vec3(random.random_log_uniform_number(-1, 1),
+                        random.random_log_uniform_number(-1, 1),
+                        random.random_log_uniform_number(-1, 1));
         };
         const vec3 a = corner(), b = corner(), c = corner();
         for (int k = 0; k < 100; ++k) {
-            const float s = std::sqrt(random.number_between(0, 1)), r = random.number_between(0, 1);
+            const float s = std::sqrt(random.random_number_between(0, 1)),
+                        r = random.random_number_between(0, 1);
             vec3 error;
-            const vec3 p = f32::triangle_point(a, b, c, {1 - s, s * (1 - r), s * r}, error);
-            const vec3 direction = random.unit_direction();
-            const vec3 origin = f32::spawn_origin(p, error, f32::facet_normal(a, b, c), direction);
-            ASSERT_FALSE(hit_triangle(a, b, c, origin, direction).hit) << i << ' ' << k;
+            const vec3 p = f32::triangle_hit_point(a, b, c, {1 - s, s * (1 - r), s * r}, error);
+            const vec3 direction = random.random_unit_direction();
+            const vec3 origin = f32::ray_spawn_origin(p, error, f32::facet_normal(a, b, c),
+                                                      direction);
+            ASSERT_FALSE(intersect_test_triangle(a, b, c, origin, direction).hit) << i << ' ' << k;
         }
     }
 }
@@ -306,8 +323,8 @@ TEST(Spawn, SpawnedRayNeverMeetsItsOwnTriangle) {
 TEST(Spawn, SpawnOffsetStaysWithinRoundingErrors) {
     const vec3 a(10, 10, 10), b(11, 10, 10), c(10, 11, 10);
     vec3 error;
-    const vec3 p = f32::triangle_point(a, b, c, vec3(1.0f / 3), error);
-    const vec3 origin = f32::spawn_origin(p, error, vec3(0, 0, 1), vec3(0, 0, 1));
+    const vec3 p = f32::triangle_hit_point(a, b, c, vec3(1.0f / 3), error);
+    const vec3 origin = f32::ray_spawn_origin(p, error, vec3(0, 0, 1), vec3(0, 0, 1));
     EXPECT_GT(origin.z, 10);
     EXPECT_LT(origin.z, 10 + 16 * 9.6e-7f) << "16 floats at 10";
 }
@@ -315,20 +332,24 @@ TEST(Spawn, SpawnOffsetStaysWithinRoundingErrors) {
 TEST(Spawn, SpawnedRayNeverMeetsItsOwnSphereFromOutside) {
     test::RandomNumbers random(7);
     for (int i = 0; i < 50000; ++i) {
-        const vec3 centre = 10.0f * random.point_in_cube();
-        const float radius = std::abs(random.log_uniform_number(-2, 1));
-        const f32::Ray ray{centre + 3 * radius * random.unit_direction(), random.unit_direction()};
+        const vec3 centre = 10.0f * random.random_point_in_cube();
+        const float radius = std::abs(random.random_log_uniform_number(-2, 1));
+        const f32::Ray ray{centre + 3 * radius * random.random_unit_direction(),
+                           random.random_unit_direction()};
         const f32::Ray aimed{ray.origin,
-                             centre + 0.99f * radius * random.point_in_cube() * 0.57f - ray.origin};
+                             centre + 0.99f * radius * random.random_point_in_cube() * 0.57f -
+                                 ray.origin};
         float t;
-        ASSERT_TRUE(f32::sphere_test(centre, radius, aimed, test::kInfinity, t));
+        ASSERT_TRUE(f32::intersect_sphere_robustly(centre, radius, aimed, test::kInfinity, t));
         vec3 error;
-        const vec3 p = f32::sphere_point(centre, radius, aimed, t, error);
+        const vec3 p = f32::sphere_hit_point(centre, radius, aimed, t, error);
         const vec3 n = glm::normalize(p - centre);
         vec3 out = ray.direction;
         if (glm::dot(out, n) < 0) out = -out;
-        const vec3 origin = f32::spawn_origin(p, error, n, out);
-        ASSERT_FALSE(f32::sphere_test(centre, radius, {origin, out}, test::kInfinity, t)) << i;
+        const vec3 origin = f32::ray_spawn_origin(p, error, n, out);
+        ASSERT_FALSE(
+            f32::intersect_sphere_robustly(centre, radius, {origin, out}, test::kInfinity, t))
+            << i;
     }
 }
 
@@ -341,13 +362,14 @@ TEST(Parallax, ParallaxFindsThePointAtTheCapturedDistance) {
     for (int i = 0; i < 10000; ++i) {
         // Parallax correction is exact if the captured distance is `way + dot(offset, dir)`, where
         // `way` is the distance along the ray. This holds for a plane perpendicular to the ray.
-        const vec3 offset = 0.3f * random.point_in_cube(), dir = random.unit_direction();
-        const float way = random.number_between(0.5f, 5);
+        const vec3 offset = 0.3f * random.random_point_in_cube(),
+                   dir = random.random_unit_direction();
+        const float way = random.random_number_between(0.5f, 5);
         const vec3 expected = glm::normalize(offset + way * dir);
         const vec3 found = f32::parallax_direction(offset, dir, way + glm::dot(offset, dir));
-        ASSERT_TRUE(near(found, expected, 1e-6f));
+        ASSERT_TRUE(are_vectors_near(found, expected, 1e-6f));
         const vec3 far = f32::parallax_direction(offset, dir, 1e30f);
-        ASSERT_TRUE(near(far, dir, 1e-6f));
+        ASSERT_TRUE(are_vectors_near(far, dir, 1e-6f));
     }
 }
 
@@ -376,7 +398,7 @@ TEST(CubeFace, CubeFaceCentresAreInVulkansOrder) {
 TEST(CubeFace, CubeCoordinatesConvertBackToTheSameDirection) {
     test::RandomNumbers random(9);
     for (int i = 0; i < 10000; ++i) {
-        const vec3 dir = random.unit_direction();
+        const vec3 dir = random.random_unit_direction();
         const int face = f32::cube_face(dir);
         const vec3 coordinates = f32::cube_coordinates(face, dir);
         ASSERT_GT(coordinates.z, 0);

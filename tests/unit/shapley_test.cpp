@@ -18,42 +18,44 @@ namespace {
 using catoptric::Failure;
 using catoptric::measure::ShapleyValues;
 
-constexpr std::size_t kPlayers = 5;
-constexpr std::uint32_t kAll = 31;
+constexpr std::size_t kPlayerCount = 5;
+constexpr std::uint32_t kAllPlayersCoalition = 31;
 
 /// Returns the worth of each player in a game in which coalition c has the value `value(c)`.
-std::vector<double> worths(const std::function<double(std::uint32_t)>& value) {
-    ShapleyValues shapley(kPlayers, 1);
-    for (std::uint32_t c = kAll + 1; c-- > 0;) shapley.add(c, std::vector{value(c)});
+std::vector<double> list_worths_of_players(const std::function<double(std::uint32_t)>& value) {
+    ShapleyValues shapley(kPlayerCount, 1);
+    for (std::uint32_t c = kAllPlayersCoalition + 1; c-- > 0;)
+        shapley.add_coalition(c, std::vector{value(c)});
     std::vector<double> worths;
-    for (std::size_t i = 0; i < kPlayers; ++i) worths.push_back(shapley.shapley_values_of(i)[0]);
+    for (std::size_t i = 0; i < kPlayerCount; ++i)
+        worths.push_back(shapley.shapley_values_of(i)[0]);
     return worths;
 }
 
 /// An amount that a coalition's value gains if the coalition holds all `members`.
-struct Bonus {
+struct CoalitionBonus {
     std::uint32_t members;
     double amount;
 };
 
 // Every game is a sum of such bonuses, and each bonus is shared equally by its members. Here are
 // single players, pairs, a triple with a loss, and all five players. Player 3 is only in the last.
-const std::vector<Bonus> kBonuses = {{0b00000, 7}, {0b00001, 1},   {0b00010, 2},
-                                     {0b00011, 4}, {0b10110, -6},  {0b10001, .5},
-                                     {0b00100, 3}, {0b11111, 2.5}, {0b00111, .75}};
+const std::vector<CoalitionBonus> kBonuses = {{0b00000, 7}, {0b00001, 1},   {0b00010, 2},
+                                              {0b00011, 4}, {0b10110, -6},  {0b10001, .5},
+                                              {0b00100, 3}, {0b11111, 2.5}, {0b00111, .75}};
 
-double with_bonuses(std::uint32_t coalition) {
+double value_of_coalition_with_bonuses(std::uint32_t coalition) {
     double value = 0;
-    for (const Bonus& bonus : kBonuses)
+    for (const CoalitionBonus& bonus : kBonuses)
         if ((coalition & bonus.members) == bonus.members) value += bonus.amount;
     return value;
 }
 
 TEST(Shapley, ShapleySharesEachBonusEquallyAmongItsMembers) {
-    const std::vector<double> found = worths(with_bonuses);
-    for (std::size_t i = 0; i < kPlayers; ++i) {
+    const std::vector<double> found = list_worths_of_players(value_of_coalition_with_bonuses);
+    for (std::size_t i = 0; i < kPlayerCount; ++i) {
         double wanted = 0;
-        for (const Bonus& bonus : kBonuses)
+        for (const CoalitionBonus& bonus : kBonuses)
             if ((bonus.members >> i & 1U) != 0)
                 wanted += bonus.amount / std::popcount(bonus.members);
         EXPECT_NEAR(found[i], wanted, 1e-14) << "player " << i;
@@ -62,17 +64,21 @@ TEST(Shapley, ShapleySharesEachBonusEquallyAmongItsMembers) {
     EXPECT_NEAR(found[0], 4, 1e-14);
     EXPECT_NEAR(found[3], .5, 1e-14);
     EXPECT_NEAR(std::accumulate(found.begin(), found.end(), 0.0),
-                with_bonuses(kAll) - with_bonuses(0), 1e-14)
+                value_of_coalition_with_bonuses(kAllPlayersCoalition) -
+                    value_of_coalition_with_bonuses(0),
+                1e-14)
         << "efficient";
 }
 
 TEST(Shapley, PlayerWithoutEffectIsWorthNothing) {
-    const auto without_two = [](std::uint32_t c) { return std::sqrt(with_bonuses(c & ~4U) + 20); };
-    EXPECT_NEAR(worths(without_two)[2], 0, 1e-14);
+    const auto without_two = [](std::uint32_t c) {
+        return std::sqrt(value_of_coalition_with_bonuses(c & ~4U) + 20);
+    };
+    EXPECT_NEAR(list_worths_of_players(without_two)[2], 0, 1e-14);
 }
 
 TEST(Shapley, PlayersWithEqualEffectAreWorthTheSame) {
-    const std::vector<double> found = worths(
+    const std::vector<double> found = list_worths_of_players(
         [](std::uint32_t c) { return std::exp(.3 * std::popcount(c & 0b01011)) * ((c & 4U) + 1); });
     EXPECT_NEAR(found[0], found[1], 1e-13);
     EXPECT_NEAR(found[0], found[3], 1e-13);
@@ -85,7 +91,7 @@ TEST(Shapley, PlayersWithEqualEffectAreWorthTheSame) {
 TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
     ShapleyValues market(3, 1);
     for (std::uint32_t c = 0; c < 8; ++c)
-        market.add(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
+        market.add_coalition(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
     EXPECT_NEAR(market.shapley_values_of(0)[0], 1.0 / 6, 1e-15);
     EXPECT_NEAR(market.shapley_values_of(1)[0], 1.0 / 6, 1e-15);
     EXPECT_NEAR(market.shapley_values_of(2)[0], 2.0 / 3, 1e-15);
@@ -93,10 +99,10 @@ TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
 
 TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
     ShapleyValues games(2, 2);
-    games.add(0b11, std::vector{5.0, 1.0});
-    games.add(0b00, std::vector{0.0, 1.0});
-    games.add(0b10, std::vector{1.0, 1.0});
-    games.add(0b01, std::vector{2.0, 3.0});
+    games.add_coalition(0b11, std::vector{5.0, 1.0});
+    games.add_coalition(0b00, std::vector{0.0, 1.0});
+    games.add_coalition(0b10, std::vector{1.0, 1.0});
+    games.add_coalition(0b01, std::vector{2.0, 3.0});
     EXPECT_EQ(games.shapley_values_of(0), (std::vector{3.0, 1.0}));
     EXPECT_EQ(games.shapley_values_of(1), (std::vector{2.0, -1.0}));
 }
@@ -104,12 +110,15 @@ TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
 TEST(Shapley, InvalidCoalitionsAndPlayerCountsAreRefused) {
     ShapleyValues shapley(2, 1);
     const std::vector<double> value{1};
-    shapley.add(0, value), shapley.add(1, value), shapley.add(3, value);
+    shapley.add_coalition(0, value), shapley.add_coalition(1, value),
+        shapley.add_coalition(3, value);
     for (const auto& [action, words] : std::vector<std::pair<std::function<void()>, std::string>>{
              {[&] { shapley.shapley_values_of(0); }, "coalition 2 of 2 players is missing"},
-             {[&] { shapley.add(3, value); }, "coalition 3 came twice"},
-             {[&] { shapley.add(4, value); }, "coalition 4 of 2 players: wanted a number below 4"},
-             {[&] { shapley.add(2, {}); }, "coalition 2: wanted values of 1 games, found 0"},
+             {[&] { shapley.add_coalition(3, value); }, "coalition 3 came twice"},
+             {[&] { shapley.add_coalition(4, value); },
+              "coalition 4 of 2 players: wanted a number below 4"},
+             {[&] { shapley.add_coalition(2, {}); },
+              "coalition 2: wanted values of 1 games, found 0"},
              {[] { ShapleyValues(17, 1); }, "wanted 1 to 16 players, found 17"}})
         test::expect_error(action, Failure::internal, {words});
 }

@@ -10,7 +10,7 @@
 namespace catoptric::measure {
 namespace {
 
-float by_formula(double linear) {
+float srgb_code_by_exact_formula(double linear) {
     return static_cast<float>(std::round(srgb_from_linear(linear) * 255) / 255);
 }
 
@@ -19,9 +19,9 @@ TEST(Srgb, EightBitTableAgreesWithTheFormula) {
     std::uniform_real_distribution<double> even(0, 1), exponent(-40, 0);
     for (int i = 0; i < 200'000; ++i)
         for (const double linear : {even(random), std::exp2(exponent(random))})
-            ASSERT_EQ(srgb_in_8_bits(linear), by_formula(linear)) << linear;
-    EXPECT_EQ(srgb_in_8_bits(0), 0.F);
-    EXPECT_EQ(srgb_in_8_bits(1), 1.F);
+            ASSERT_EQ(srgb_rounded_to_8_bits(linear), srgb_code_by_exact_formula(linear)) << linear;
+    EXPECT_EQ(srgb_rounded_to_8_bits(0), 0.F);
+    EXPECT_EQ(srgb_rounded_to_8_bits(1), 1.F);
 }
 
 // Tests the values at which the 8-bit code changes, and the doubles just below and above.
@@ -30,16 +30,16 @@ TEST(Srgb, EightBitTableChangesCodeWhereTheFormulaDoes) {
         const double middle = linear_from_srgb((code + .5) / 255);
         for (double linear : {middle, std::nextafter(middle, 0.0), std::nextafter(middle, 1.0),
                               middle * (1 - 1e-9), middle * (1 + 1e-9)})
-            EXPECT_EQ(srgb_in_8_bits(linear), by_formula(linear)) << code;
+            EXPECT_EQ(srgb_rounded_to_8_bits(linear), srgb_code_by_exact_formula(linear)) << code;
     }
 }
 
 TEST(Srgb, LinearTableAgreesWithTheFormula) {
-    constexpr LinearTable kLinear;
+    constexpr SrgbDecodeTable kSrgbDecodeTable;
     for (int code = 0; code < 256; ++code)
         for (const float srgb : {static_cast<float>(code / 255.0),
                                  std::min(1.F, static_cast<float>((code + .3) / 255))})
-            EXPECT_EQ(kLinear(srgb), linear_from_srgb(static_cast<double>(srgb))) << code;
+            EXPECT_EQ(kSrgbDecodeTable(srgb), linear_from_srgb(static_cast<double>(srgb))) << code;
 }
 
 } // namespace

@@ -56,15 +56,16 @@ TEST(Summary, SummaryIgnoresOrderAndScalesWithTheSamples) {
     EXPECT_EQ(t.mad, 2 * s.mad);
 }
 
-std::string statistics_refusal(const std::vector<double>& samples) {
-    return test::error_text_of(catoptric::Failure::internal, [&] { summarise_samples(samples); });
+std::string statistics_error_text(const std::vector<double>& samples) {
+    return test::catch_error_text(catoptric::Failure::internal,
+                                  [&] { summarise_samples(samples); });
 }
 
 TEST(Summary, SummaryRefusesEmptyAndNonfiniteSamples) {
-    EXPECT_EQ(statistics_refusal({}), "a summary wants at least one sample, found none");
-    EXPECT_EQ(statistics_refusal({1, std::numeric_limits<double>::quiet_NaN()}),
+    EXPECT_EQ(statistics_error_text({}), "a summary wants at least one sample, found none");
+    EXPECT_EQ(statistics_error_text({1, std::numeric_limits<double>::quiet_NaN()}),
               "a summary wants finite samples, found nan at index 1");
-    EXPECT_EQ(statistics_refusal({std::numeric_limits<double>::infinity()}),
+    EXPECT_EQ(statistics_error_text({std::numeric_limits<double>::infinity()}),
               "a summary wants finite samples, found inf at index 0");
     EXPECT_THROW(compute_percentile({}, 0.5), Error);
     EXPECT_THROW(compute_percentile({1}, 1.5), Error);

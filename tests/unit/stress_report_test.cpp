@@ -11,20 +11,24 @@ namespace {
 
 using namespace catoptric::report;
 
-StressRow row(std::vector<StressCase> cases) {
+StressRow make_stress_row(std::vector<StressCase> cases) {
     return {"N1", "a <stimulus>", "a property", StressVerdict::pass, "", std::move(cases), {}, 1};
 }
 
 TEST(StressRow, WorstCaseIsTheOneFurthestBeyondItsLimit) {
-    EXPECT_EQ(row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst_case()->what, "all");
-    EXPECT_EQ(row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst_case()->what,
+    EXPECT_EQ(
+        make_stress_row({{"half", .5, 1}, {"all", 4, 4}, {"little", 9, 100}}).worst_case()->what,
+        "all");
+    EXPECT_EQ(make_stress_row({{"over nothing", 1e-9, 0}, {"ten times", 10, 1}}).worst_case()->what,
               "over nothing");
-    EXPECT_EQ(row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst_case()->what,
+    EXPECT_EQ(make_stress_row({{"no number", std::nan(""), 1}, {"fine", 0, 0}}).worst_case()->what,
               "no number");
-    EXPECT_EQ(row({{"ugly", 100, 1, true}, {"wrong", 1.1, 1}, {"fine", 1, 1}}).worst_case()->what,
+    EXPECT_EQ(make_stress_row({{"ugly", 100, 1, true}, {"wrong", 1.1, 1}, {"fine", 1, 1}})
+                  .worst_case()
+                  ->what,
               "wrong");
-    EXPECT_EQ(row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst_case()->what, "ugly");
-    EXPECT_EQ(row({}).worst_case(), nullptr);
+    EXPECT_EQ(make_stress_row({{"ugly", 2, 1, true}, {"fine", 1, 1}}).worst_case()->what, "ugly");
+    EXPECT_EQ(make_stress_row({}).worst_case(), nullptr);
 }
 
 TEST(StressCase, StressCaseThatMeasuresNanFails) {
@@ -35,12 +39,12 @@ TEST(StressCase, StressCaseThatMeasuresNanFails) {
 
 TEST(Stress, StressFailsIfOneOfItsRowsFails) {
     StressResults stress;
-    stress.rows = {row({}), row({})};
+    stress.rows = {make_stress_row({}), make_stress_row({})};
     EXPECT_FALSE(stress.has_failed_row());
     for (const StressVerdict verdict :
          {StressVerdict::quality_warning, StressVerdict::unsupported, StressVerdict::waived}) {
         stress.rows[1].verdict = verdict;
-        EXPECT_FALSE(stress.has_failed_row()) << name_of(verdict);
+        EXPECT_FALSE(stress.has_failed_row()) << stress_verdict_name(verdict);
     }
     stress.rows[1].verdict = StressVerdict::fail;
     EXPECT_TRUE(stress.has_failed_row());
@@ -49,7 +53,7 @@ TEST(Stress, StressFailsIfOneOfItsRowsFails) {
 /// A case that the device's limits do not allow has no figure and does not count as passed.
 TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
     StressResults stress;
-    stress.rows = {row({}), row({{"the rest", .5, 1}})};
+    stress.rows = {make_stress_row({}), make_stress_row({{"the rest", .5, 1}})};
     stress.rows[0].verdict = StressVerdict::unsupported;
     stress.rows[0].remark = "the device allows max_memory = 5";
     stress.rows[1].not_run = {{"edge 16384", "allows max_size = 8192"}};
@@ -71,7 +75,7 @@ TEST(Stress, CaseThatCouldNotRunHasAReasonAndNoFigure) {
 
 TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
     StressResults stress;
-    stress.rows = {row({{"a", 0, 1}})};
+    stress.rows = {make_stress_row({{"a", 0, 1}})};
     stress.rows[0].turned_red_by = "upside-down";
     EXPECT_EQ(nlohmann::json::parse(to_json(stress))["rows"][0]["turned_red_by"], "upside-down");
     EXPECT_THAT(to_html(stress), testing::HasSubstr("upside-down"));
@@ -80,7 +84,7 @@ TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
 
 TEST(Stress, StressJsonHasEveryCaseAndHtmlEscapesTexts) {
     StressResults stress;
-    stress.rows = {row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
+    stress.rows = {make_stress_row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
     const nlohmann::json json = nlohmann::json::parse(to_json(stress));
     EXPECT_EQ(json["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"},
                                                            {"measured", .25},

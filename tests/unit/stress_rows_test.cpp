@@ -14,7 +14,7 @@ namespace {
 using namespace catoptric;
 
 /// Returns the names of the mutation rules, by the stress row that must detect each.
-std::multimap<std::string, std::string> rules_by_row() {
+std::multimap<std::string, std::string> list_mutation_rules_by_row() {
     std::multimap<std::string, std::string> rules;
     std::ifstream file(test::source_folder() / "tests/mutations/rules.toml");
     const std::regex entry(R"re((name|row) = "(\w+)")re");
@@ -32,10 +32,10 @@ std::multimap<std::string, std::string> rules_by_row() {
 
 TEST(StressRows, EachStressRowNamesTheMutationThatItDetects) {
     std::multimap<std::string, std::string> named;
-    for (const stress::StressProperty* row : stress::list_properties())
+    for (const stress::StressProperty* row : stress::list_stress_properties())
         named.emplace(row->id, row->turned_red_by);
     EXPECT_FALSE(named.empty());
-    EXPECT_EQ(rules_by_row(), named);
+    EXPECT_EQ(list_mutation_rules_by_row(), named);
 }
 
 } // namespace

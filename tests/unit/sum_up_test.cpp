@@ -15,20 +15,22 @@ namespace {
 
 using namespace catoptric;
 using measure::Causes;
-using measure::PixelCause;
+using measure::PixelErrorCause;
 
-constexpr std::uint32_t sum_up_hit(std::uint32_t first, std::uint32_t second) {
+constexpr std::uint32_t make_first_and_second_hit_word(std::uint32_t first, std::uint32_t second) {
     return first | second << 16;
 }
 
 // The hits of five pixels: a wall; mirror 1; mirror 2 that reflects mirror 1; mirror 3; mirror 3
 // that reflects itself.
-const std::array<std::uint32_t, 5> kSumUpHits{sum_up_hit(0, 0), sum_up_hit(1, 0), sum_up_hit(2, 1),
-                                              sum_up_hit(3, 0), sum_up_hit(3, 3)};
+const std::array<std::uint32_t, 5> kSumUpHits{
+    make_first_and_second_hit_word(0, 0), make_first_and_second_hit_word(1, 0),
+    make_first_and_second_hit_word(2, 1), make_first_and_second_hit_word(3, 0),
+    make_first_and_second_hit_word(3, 3)};
 const std::vector<double> kWhole{.5, .25, 0, .25};
-const std::vector<PixelCause> kCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, .25}},
-                                      {"other", {-.25, .25, -.25, 0}, {0, 0, 0, -1}},
-                                      {"rest", {0, 0, 0, .125}, {}}};
+const std::vector<PixelErrorCause> kCauses{{"one", {.75, 0, .25, .125}, {.5, .25, 0, .25}},
+                                           {"other", {-.25, .25, -.25, 0}, {0, 0, 0, -1}},
+                                           {"rest", {0, 0, 0, .125}, {}}};
 const measure::Mask kOff{1, 1, 1, 0, 1};
 
 TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
@@ -36,7 +38,7 @@ TEST(SumUp, SharesOfClassesAndMirrorsAddUpToTheWhole) {
     EXPECT_EQ(causes.squared_error, .25);
     EXPECT_EQ(causes.squared_error_per_mirror, (std::vector{.5, .25, .125}));
     ASSERT_EQ(causes.list.size(), 3U);
-    const measure::Cause& one = causes.list[0];
+    const measure::ErrorCauseShare& one = causes.list[0];
     EXPECT_EQ(one.name, "one");
     EXPECT_EQ(one.squared_error, 1.125 / 4);
     EXPECT_EQ(one.share, 1.125);
@@ -60,7 +62,7 @@ TEST(SumUp, LargestCauseIsNamedForPixelsThatAreOff) {
 }
 
 TEST(SumUp, PixelsThatAreNotFiniteAreLeftOut) {
-    std::vector<PixelCause> causes = kCauses;
+    std::vector<PixelErrorCause> causes = kCauses;
     causes[1].alone[0] = INFINITY;
     const Causes found = measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, causes);
     EXPECT_EQ(found.squared_error, .5 / 3);
@@ -81,7 +83,7 @@ TEST(SumUp, RowWithoutErrorHasNoShares) {
 
 TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
     for (const auto& [causes, words] :
-         {std::pair(std::vector<PixelCause>{{"one", {1, 2}, {}}},
+         {std::pair(std::vector<PixelErrorCause>{{"one", {1, 2}, {}}},
                     "one: wanted values of 4 mirror pixels, found 2"),
           {{{"one", {1, 2, 3, 4}, {1}}}, "one alone: wanted values of 4 mirror pixels, found 1"}})
         test::expect_error([&] { measure::sum_up_error_causes(kSumUpHits, kOff, kWhole, causes); },
@@ -89,9 +91,9 @@ TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
 }
 
 /// Returns one cause for each of list_cause_colours(). The first cause has the whole error.
-Causes some_causes() {
+Causes make_causes_with_first_whole() {
     Causes causes{.squared_error = .25, .squared_error_per_mirror = {.25}};
-    for (const report::CauseColour& colour : report::list_cause_colours()) {
+    for (const report::CausePictureColour& colour : report::list_cause_colours()) {
         const double share = causes.list.empty() ? 1 : 0;
         causes.list.push_back({.name = std::string(colour.cause),
                                .squared_error = share / 4,
@@ -105,11 +107,11 @@ Causes some_causes() {
 }
 
 TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
-    report::Row row = report::sample::row("parallax", 6, .5, .1);
-    row.causes = std::make_shared<measure::Causes>(some_causes());
+    report::Row row = report::sample::make_row("parallax", 6, .5, .1);
+    row.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
     row.light_edges.emplace().share = .5;
     const report::ReportTable table = report::make_cause_table(
-        report::sample::comparison({report::sample::row("raytrace", 6, 0, 0), row}));
+        report::sample::make_comparison({report::sample::make_row("raytrace", 6, 0, 0), row}));
     using Cells = std::vector<std::string>;
     ASSERT_EQ(table.columns.size(), 13U);
     EXPECT_EQ(table.columns[4].name, "direction (blue)");
@@ -125,9 +127,9 @@ TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
 }
 
 TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
-    report::Row row = report::sample::row("parallax", 6, .5, .1);
+    report::Row row = report::sample::make_row("parallax", 6, .5, .1);
     row.display.pixels[0] = vec3(1);
-    row.causes = std::make_shared<measure::Causes>(some_causes());
+    row.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
     const measure::Picture picture = report::make_cause_picture(row);
     EXPECT_EQ(picture.pixels[0], vec3(.35F)) << "dark";
     EXPECT_EQ(picture.pixels[1], vec3(86, 180, 233) / 255.0F);
@@ -136,8 +138,8 @@ TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     row.causes->largest.pop_back();
     test::expect_error([&] { report::make_cause_picture(row); }, Failure::internal,
                        {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
-    for (const report::CauseColour& a : report::list_cause_colours())
-        for (const report::CauseColour& b : report::list_cause_colours())
+    for (const report::CausePictureColour& a : report::list_cause_colours())
+        for (const report::CausePictureColour& b : report::list_cause_colours())
             if (&a != &b) {
                 EXPECT_GT(glm::distance(a.colour, b.colour), .25F) << a.name << ", " << b.name;
             }

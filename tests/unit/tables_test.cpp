@@ -39,7 +39,7 @@ const measure::RegisteredMetric kRedness{
      .unit = "parts",
      .help = "red of the first pixel",
      .better = measure::BetterDirection::more,
-     .columns = {{"(test) redness", measure::ValueFormat::fixed, 2}},
+     .columns = {{"(test) redness", measure::MetricValueFormat::fixed, 2}},
      .get = [](const measure::Row& row) -> MetricValue {
          return row.hdr.pixels.empty() ? measure::Difference::kNone : row.hdr.pixels[0].x;
      }}};
@@ -47,7 +47,7 @@ const measure::RegisteredMetric kRedness{
 const measure::RegisteredMetric kGreener{
     {.name = "test_only_greener",
      .help = "pixels of the mask in which a is greener than b",
-     .columns = {{"(test) greener", measure::ValueFormat::fixed}},
+     .columns = {{"(test) greener", measure::MetricValueFormat::fixed}},
      .get = [](const measure::PicturePair& compared) {
          double count = 0;
          for (std::size_t i = 0; i < compared.a.pixels.size(); ++i)
@@ -56,26 +56,26 @@ const measure::RegisteredMetric kGreener{
          return count;
      }}};
 
-scene::Scene make_nothing() { return {.name = "test-only"}; }
-const scene::RegisteredScene kScene{{"test-only", "nothing at all", make_nothing}};
+scene::Scene make_empty_scene() { return {.name = "test-only"}; }
+const scene::RegisteredBuiltInScene kScene{{"test-only", "nothing at all", make_empty_scene}};
 
-constexpr scene::PunctualLight::Kind kTestOnlyKind{200};
+constexpr scene::PunctualLight::Kind kTestOnlyLightKind{200};
 const scene::RegisteredLightKind kLightKind{
-    {.id = kTestOnlyKind,
+    {.id = kTestOnlyLightKind,
      .name = "test-only",
      .gltf_type = "spot",
      .share = [](const scene::PointLight&, double cosine) { return cosine / 2; },
      .read = scene::read_spot_cone}};
 
-constexpr std::string_view kRows[] = {"testonly", "testonly:much=2"};
-constexpr Knob kTablesKnobs[] = {
+constexpr std::string_view kReportTableRows[] = {"testonly", "testonly:much=2"};
+constexpr TechniqueKnob kTestOnlyKnobs[] = {
     {.name = "much", .help = "how much", .low = 1, .high = 3, .value = 1}};
-constexpr reflect::Technique kTechnique{.name = "testonly",
-                                        .summary = "For a test.",
-                                        .order = 1000,
-                                        .knobs = kTablesKnobs,
-                                        .compared = kRows};
-const reflect::RegisteredTechnique kTestOnly{kTechnique};
+constexpr reflect::Technique kTestOnlyTechnique{.name = "testonly",
+                                                .summary = "For a test.",
+                                                .order = 1000,
+                                                .knobs = kTestOnlyKnobs,
+                                                .compared = kReportTableRows};
+const reflect::RegisteredTechnique kTestOnly{kTestOnlyTechnique};
 
 const app::RegisteredStudy kStudied{
     {.name = "test-only",
@@ -90,11 +90,11 @@ const app::RegisteredStudy kStudied{
      .run =
          [](const app::StudyInput& input) {
              for (measure::Row& row : input.comparison.rows)
-                 measure::set_studied(row, "test_only_half", input.count / 2.0);
+                 measure::set_study_metric(row, "test_only_half", input.count / 2.0);
          },
      .metrics = {{.name = "test_only_half",
                   .help = "half of the number",
-                  .columns = {{"(test) half", measure::ValueFormat::fixed, 3}}}},
+                  .columns = {{"(test) half", measure::MetricValueFormat::fixed, 3}}}},
      .part = {.tables = [](const measure::Comparison& comparison) {
          report::ReportTable table{"(test) studied", {"(test) rows"}};
          if (std::ranges::count(comparison.studies, "test-only") > 0)
@@ -104,8 +104,8 @@ const app::RegisteredStudy kStudied{
 
 /// Returns a row whose picture has the same colour everywhere, with its difference from a black
 /// picture.
-measure::Row tables_row_of(const vec3& colour) {
-    measure::Row row = report::sample::row("reuse", 7, .1, .2);
+measure::Row make_row_of_colour(const vec3& colour) {
+    measure::Row row = report::sample::make_row("reuse", 7, .1, .2);
     std::ranges::fill(row.hdr.pixels, colour);
     const measure::Picture black(row.hdr.width, row.hdr.height);
     row.error = measure::difference(row.hdr, black, {}, row.flip_map);
@@ -113,12 +113,13 @@ measure::Row tables_row_of(const vec3& colour) {
 }
 
 TEST(Tables, RegisteredMetricIsInEveryReportFile) {
-    const measure::Comparison made = report::sample::comparison({tables_row_of({.25F, .5F, 0})});
+    const measure::Comparison made = report::sample::make_comparison(
+        {make_row_of_colour({.25F, .5F, 0})});
     const json row = json::parse(report::to_json(made))["rows"][0];
     EXPECT_EQ(row["test_only"]["redness"], .25);
     EXPECT_EQ(row["error"]["test_only_greener"], 12);
     EXPECT_TRUE(row["error_all"]["test_only_greener"].is_null()) << "nobody computed it there";
-    const std::string csv = report::to_csv(made, report::CsvColumns::all);
+    const std::string csv = report::to_csv(made, report::CsvColumnSet::all);
     for (const char* name : {",test_only_redness,", ",mirrors_test_only_greener,",
                              ",first_order_test_only_greener,", ",mirror_1_test_only_greener,"})
         EXPECT_THAT(csv, HasSubstr(name));
@@ -132,7 +133,7 @@ TEST(Tables, RegisteredMetricIsInEveryReportFile) {
 }
 
 TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
-    measure::Comparison made = report::sample::comparison({tables_row_of({0, 0, 0})});
+    measure::Comparison made = report::sample::make_comparison({make_row_of_colour({0, 0, 0})});
     for (const std::string& text : {report::to_json(made), report::to_markdown(made),
                                     report::to_html(made), report::to_csv(made)}) {
         EXPECT_THAT(text, Not(HasSubstr("test_only_half")));
@@ -142,7 +143,7 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
     made.studies = {"test-only"};
     EXPECT_TRUE(json::parse(report::to_json(made))["rows"][0]["test_only_half"].is_null())
         << "the study has not run yet";
-    measure::set_studied(made.rows[0], "test_only_half", 1.5);
+    measure::set_study_metric(made.rows[0], "test_only_half", 1.5);
     EXPECT_EQ(json::parse(report::to_json(made))["rows"][0]["test_only_half"], 1.5);
     EXPECT_THAT(report::to_csv(made), HasSubstr(",test_only_half,"));
     for (const std::string& text : {report::to_markdown(made), report::to_html(made)}) {
@@ -221,7 +222,7 @@ struct TableOfLightKinds : test::InFolder {};
 TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
     scene::Scene scene = scene::make_cornell_mirrors();
     scene.punctual.push_back({.name = "lamp",
-                              .kind = kTestOnlyKind,
+                              .kind = kTestOnlyLightKind,
                               .intensity = vec3(1, 2, 3),
                               .cos_inner = std::cos(.2),
                               .cos_outer = std::cos(.4)});
@@ -229,7 +230,7 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
     scene::save_glb(scene, file);
     const scene::Scene read = scene::load(file.string());
     ASSERT_EQ(read.punctual.size(), 1u);
-    EXPECT_EQ(read.punctual[0].kind, kTestOnlyKind);
+    EXPECT_EQ(read.punctual[0].kind, kTestOnlyLightKind);
     EXPECT_NEAR(read.punctual[0].cos_outer, std::cos(.4), 1e-12);
     EXPECT_EQ(app::list_light_facts(read).back().kind, "test-only");
     EXPECT_FALSE(scene::list_lights(read).back().directional);
@@ -237,17 +238,17 @@ TEST_F(TableOfLightKinds, RegisteredKindIsSavedLoadedHashedAndNamed) {
 
     scene::Scene spot = scene;
     spot.punctual[0].kind = scene::PunctualLight::Kind::spot;
-    EXPECT_FALSE(scene::emit_alike(scene.punctual[0], spot.punctual[0]));
+    EXPECT_FALSE(scene::have_equal_emission(scene.punctual[0], spot.punctual[0]));
     EXPECT_NE(scene::hash_scene(scene), scene::hash_scene(spot));
-    EXPECT_NE(require::hash_mesh(scene::list_lights(scene).back()),
-              require::hash_mesh(scene::list_lights(spot).back()));
+    EXPECT_NE(require::hash_point_light(scene::list_lights(scene).back()),
+              require::hash_point_light(scene::list_lights(spot).back()));
 }
 
 TEST_F(TableOfLightKinds, KindsHaveTheirOwnNumbers) {
     std::vector<std::string_view> names;
     for (const scene::LightKind& kind : scene::list_light_kinds()) names.push_back(kind.name);
     EXPECT_THAT(names, testing::ElementsAre("point", "spot", "directional", "test-only"));
-    EXPECT_THROW(scene::light_kind_of(scene::PunctualLight::Kind{199}), Error);
+    EXPECT_THROW(scene::find_light_kind(scene::PunctualLight::Kind{199}), Error);
 }
 
 TEST(Tables, RegisteredTechniqueIsFoundAndCompared) {

@@ -45,12 +45,12 @@ TEST(Text, PrintableTextIsUnchanged) {
 }
 
 TEST(Text, QuotesOfLongTextsAreCut) {
-    EXPECT_EQ(quote_printable("a\x1b"), "'a\\x1b'");
-    EXPECT_EQ(quote_printable(std::string(80, 'x')), "'" + std::string(80, 'x') + "'");
-    EXPECT_EQ(quote_printable(std::string(20'000, 'x')),
+    EXPECT_EQ(quote_as_printable_text("a\x1b"), "'a\\x1b'");
+    EXPECT_EQ(quote_as_printable_text(std::string(80, 'x')), "'" + std::string(80, 'x') + "'");
+    EXPECT_EQ(quote_as_printable_text(std::string(20'000, 'x')),
               "'" + std::string(80, 'x') + "...' (20000 bytes)");
     // A quote never ends in the middle of a character.
-    EXPECT_EQ(quote_printable(std::string(79, 'x') + "üüü"),
+    EXPECT_EQ(quote_as_printable_text(std::string(79, 'x') + "üüü"),
               "'" + std::string(79, 'x') + "...' (85 bytes)");
 }
 
@@ -64,9 +64,9 @@ TEST(Suggestion, NearestNameFindsTyposWithinItsLimits) {
     names.assign(200'000, "zzzzzzzz");
     names.back() = "material"; // after the last name that is searched
     EXPECT_EQ(find_nearest_name("materia", names), "");
-    EXPECT_EQ(suggest_name("a\x1b"
-                           "b",
-                           std::vector{std::string("a\x1b")}),
+    EXPECT_EQ(suggest_nearest_name("a\x1b"
+                                   "b",
+                                   std::vector{std::string("a\x1b")}),
               " (did you mean 'a\\x1b'?)");
 }
 

@@ -16,43 +16,44 @@ using namespace catoptric;
 using Mirrors = std::vector<std::uint32_t>;
 
 TEST(Turns, CapturesThatWaitedLongestAreDrawnFirst) {
-    EXPECT_EQ(render::choose_postponed_mirrors({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2),
+    EXPECT_EQ(render::choose_postponed_capture_redraws({{4, 0}, {2, 1}, {7, 3}, {1, 0}}, 2),
               (Mirrors{1, 4}));
-    EXPECT_EQ(render::choose_postponed_mirrors({{4, 2}, {2, 2}, {3, 2}}, 1), (Mirrors{3, 4}))
+    EXPECT_EQ(render::choose_postponed_capture_redraws({{4, 2}, {2, 2}, {3, 2}}, 1),
+              (Mirrors{3, 4}))
         << "of mirrors that waited equally long, the lower number is drawn first";
-    EXPECT_EQ(render::choose_postponed_mirrors({{4, 2}, {2, 2}}, 2), Mirrors());
-    EXPECT_EQ(render::choose_postponed_mirrors({}, 1), Mirrors());
+    EXPECT_EQ(render::choose_postponed_capture_redraws({{4, 2}, {2, 2}}, 2), Mirrors());
+    EXPECT_EQ(render::choose_postponed_capture_redraws({}, 1), Mirrors());
 }
 
 // Mirrors request a new capture at random and keep requesting until it is drawn. No mirror may wait
 // longer than one round of all mirrors.
 TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
     for (const std::uint32_t most : {1u, 2u, 3u, 5u}) {
-        constexpr std::uint32_t kMirrors = 13;
+        constexpr std::uint32_t kMirrorCount = 13;
         test::RandomNumbers numbers(most);
-        std::vector<std::uint32_t> waited(kMirrors, 0);
+        std::vector<std::uint32_t> waited(kMirrorCount, 0);
         std::uint32_t longest = 0;
         for (int frame = 0; frame < 2000; ++frame) {
-            std::vector<render::RedrawRequest> asking;
-            for (std::uint32_t i = 0; i < kMirrors; ++i) {
+            std::vector<render::CaptureRedrawRequest> asking;
+            for (std::uint32_t i = 0; i < kMirrorCount; ++i) {
                 // The share of requesting mirrors changes from none to all, so that each of them is
                 // tested.
                 const bool asks = waited[i] > 0 ||
-                                  numbers.number_between(0, 1) < (frame % 200) / 150.;
+                                  numbers.random_number_between(0, 1) < (frame % 200) / 150.;
                 if (asks) asking.push_back({i, waited[i]});
             }
-            const Mirrors later = render::choose_postponed_mirrors(asking, most);
+            const Mirrors later = render::choose_postponed_capture_redraws(asking, most);
             EXPECT_EQ(later.size(), asking.size() - std::min<std::size_t>(asking.size(), most));
-            for (std::uint32_t i = 0; i < kMirrors; ++i)
+            for (std::uint32_t i = 0; i < kMirrorCount; ++i)
                 waited[i] = std::ranges::find(later, i) != later.end() ? waited[i] + 1 : 0;
             longest = std::max(longest, std::ranges::max(waited));
         }
-        EXPECT_EQ(longest + 1, (kMirrors + most - 1) / most) << most;
+        EXPECT_EQ(longest + 1, (kMirrorCount + most - 1) / most) << most;
     }
 }
 
 TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
-    app::CaptureCost pace;
+    app::CaptureCostEstimate pace;
     EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
     EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "no mirror was drawn";
@@ -63,16 +64,16 @@ TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
     for (int k = 0; k < 4; ++k) pace.add(900, 1);
     for (int k = 0; k < 5; ++k) pace.add(4, 1);
     EXPECT_EQ(pace.count_affordable_captures(8, 16), 2u) << "the median of the last nine";
-    app::CaptureCost at_once;
+    app::CaptureCostEstimate at_once;
     at_once.add(0, 1);
     EXPECT_EQ(at_once.count_affordable_captures(1, 16), 16u);
 }
 
 TEST(CaptureBudget, BudgetTextSaysHowOldCapturesCanBe) {
-    EXPECT_EQ(app::to_text({.mirrors = 16, .most = 3}),
+    EXPECT_EQ(app::describe_capture_budget({.mirrors = 16, .most = 3}),
               "captures: at most 3 of 16 mirrors a frame; none shows what is older than 5 frames, "
               "and 6 more for each further mirror that it is seen by");
-    EXPECT_EQ(app::to_text({.mirrors = 4, .most = 2}),
+    EXPECT_EQ(app::describe_capture_budget({.mirrors = 4, .most = 2}),
               "captures: at most 2 of 4 mirrors a frame; none shows what is older than 1 frame, "
               "and 2 more for each further mirror that it is seen by");
     EXPECT_EQ((app::CaptureBudget{.mirrors = 0, .most = 0}).frames_per_cycle(), 1u);

@@ -13,8 +13,8 @@
 namespace catoptric::bvh {
 namespace {
 
-std::vector<Triangle> two_level_ball(int levels) {
-    return *test::place_triangles(scene::ball("ball", levels), .5, dvec3(0));
+std::vector<Triangle> make_two_level_ball_triangles(int levels) {
+    return *test::make_placed_triangles(scene::ball("ball", levels), .5, dvec3(0));
 }
 
 /// A tree with one instance at a random place. The instance has a size of 1e-8 to 1 and is rotated,
@@ -23,14 +23,15 @@ struct TwoLevelAlone {
     explicit TwoLevelAlone(const Bvh& tree, test::RandomNumbers& numbers)
         : instance{.tree = &tree,
                    .scene_from_own = test::random_scaled_rotation(
-                       numbers, std::pow(10., numbers.number_between(-8, 0)),
-                       numbers.number_between(.1f, 1)),
-                   .centre = dvec3(numbers.point_in_cube()) + 1e-9 * dvec3(numbers.point_in_cube()),
+                       numbers, std::pow(10., numbers.random_number_between(-8, 0)),
+                       numbers.random_number_between(.1f, 1)),
+                   .centre = dvec3(numbers.random_point_in_cube()) +
+                             1e-9 * dvec3(numbers.random_point_in_cube()),
                    .shift = 100},
           whole(
               assemble_two_level_bvh(build_bvh({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
-          place(detail::read_instance_placement<float>(whole, record())) {}
-    std::uint32_t record() const {
+          place(detail::read_instance_placement<float>(whole, index_of_instance_record())) {}
+    std::uint32_t index_of_instance_record() const {
         return static_cast<std::uint32_t>(count_nodes(whole)) - 1 - f32::kBvhNodesPerInstance;
     }
     BvhInstance instance;
@@ -41,19 +42,20 @@ struct TwoLevelAlone {
 /// Row N15 of the stress test: a ray from strictly inside a closed mesh must hit the mesh. A ray
 /// that hits nothing is a leak.
 TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
-    const std::vector<Triangle> triangles = two_level_ball(3);
+    const std::vector<Triangle> triangles = make_two_level_ball_triangles(3);
     const Bvh tree = build_bvh(triangles);
     test::RandomNumbers numbers(31);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelAlone alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
-            const Triangle& aim = triangles[numbers.integer_below(triangles.size())];
-            const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.unit_fraction() : aim.a;
-            const vec3 from = .3f * numbers.point_in_cube();
+            const Triangle& aim = triangles[numbers.random_integer_below(triangles.size())];
+            const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.random_unit_fraction()
+                                  : aim.a;
+            const vec3 from = .3f * numbers.random_point_in_cube();
             vec3 low;
-            const vec3 origin = f32::scene_point(alone.place,
-                                                 f32::offset_from_centre(alone.place, from), low);
-            const f32::Ray ray{origin, f32::offset_from_centre(alone.place, at - from), 0};
+            const vec3 origin = f32::add_offset_to_object_centre(
+                alone.place, f32::rotate_to_scene_offset(alone.place, from), low);
+            const f32::Ray ray{origin, f32::rotate_to_scene_offset(alone.place, at - from), 0};
             ASSERT_TRUE(find_closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low))
                 << "thing " << k << ", ray " << i;
         }
@@ -64,29 +66,30 @@ TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
 /// Each hit must also be a hit of the exact ray, which is traced in double precision.
 TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
     std::size_t met = 0;
-    const std::vector<Triangle> triangles = two_level_ball(3);
+    const std::vector<Triangle> triangles = make_two_level_ball_triangles(3);
     const Bvh tree = build_bvh(triangles);
     test::RandomNumbers numbers(32);
     for (int k = 0; k < 200; ++k) {
         const TwoLevelAlone alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
-            const auto number = static_cast<std::uint32_t>(numbers.integer_below(triangles.size()));
+            const auto number = static_cast<std::uint32_t>(
+                numbers.random_integer_below(triangles.size()));
             const Triangle& t = triangles[number];
             vec3 error;
-            const vec3 own = f32::triangle_point(t.a, t.b, t.c, numbers.barycentric_weights(),
-                                                 error);
-            const vec3 arm = f32::offset_from_centre(alone.place, own);
-            vec3 facet = f32::facet_normal(f32::offset_from_centre(alone.place, t.a),
-                                           f32::offset_from_centre(alone.place, t.b),
-                                           f32::offset_from_centre(alone.place, t.c));
+            const vec3 own = f32::triangle_hit_point(t.a, t.b, t.c,
+                                                     numbers.random_barycentric_weights(), error);
+            const vec3 arm = f32::rotate_to_scene_offset(alone.place, own);
+            vec3 facet = f32::facet_normal(f32::rotate_to_scene_offset(alone.place, t.a),
+                                           f32::rotate_to_scene_offset(alone.place, t.b),
+                                           f32::rotate_to_scene_offset(alone.place, t.c));
             if (dot(facet, arm) < 0) facet = -facet;
-            vec3 direction = numbers.unit_direction();
+            vec3 direction = numbers.random_unit_direction();
             if (dot(direction, facet) < 0) direction = -direction;
             vec3 low;
-            const vec3 origin = f32::scene_point(
+            const vec3 origin = f32::add_offset_to_object_centre(
                 alone.place,
-                f32::spawn_origin(arm, f32::offset_rounding_error(alone.place, own, error), facet,
-                                  direction),
+                f32::ray_spawn_origin(arm, f32::offset_rounding_error(alone.place, own, error),
+                                      facet, direction),
                 low);
             const f32::Ray ray{origin, direction, 100 + number + 1};
             const auto hit = find_closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr,
@@ -94,8 +97,9 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
             if (!hit) continue;
             // The ball is a subdivided tetrahedron and not convex everywhere, so the ray may meet
             // it again. The ray in double precision must then meet it, too.
-            const f64::Ray exact{dvec3(own), dvec3(f32::to_object_space(alone.place, direction)),
-                                 number + 1};
+            const f64::Ray exact{
+                dvec3(own), dvec3(f32::transform_offset_to_object_space(alone.place, direction)),
+                number + 1};
             const auto wanted = find_closest_hit<double>(tree, exact, 1e300);
             ASSERT_TRUE(wanted) << "thing " << k << ", ray " << i << " of " << number << " meets "
                                 << hit->triangle - 100 << " at " << hit->t;
@@ -109,20 +113,21 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
 /// same triangles in a two-level tree and in one flat tree.
 TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
     test::RandomNumbers numbers(33);
-    const std::vector<Triangle> shape = two_level_ball(2);
+    const std::vector<Triangle> shape = make_two_level_ball_triangles(2);
     const Bvh tree = build_bvh(shape);
     std::vector<Triangle> room, all;
     for (int i = 0; i < 40; ++i) {
-        const vec3 a = 2.0f * numbers.point_in_cube();
-        room.push_back({a, a + numbers.point_in_cube(), a + numbers.point_in_cube(), 0, 0});
+        const vec3 a = 2.0f * numbers.random_point_in_cube();
+        room.push_back(
+            {a, a + numbers.random_point_in_cube(), a + numbers.random_point_in_cube(), 0, 0});
     }
     all = room;
     std::vector<BvhInstance> instances;
     for (std::uint32_t k = 0; k < 30; ++k) {
         const auto first = static_cast<std::uint32_t>(all.size());
         instances.push_back({&tree, test::random_scaled_rotation(numbers, .5, .6),
-                             2.0 * dvec3(numbers.point_in_cube()), k + 1,
-                             k % 5 == 0 ? kHiddenFromCamera : 0, first});
+                             2.0 * dvec3(numbers.random_point_in_cube()), k + 1,
+                             k % 5 == 0 ? kHiddenFromCameraFlag : 0, first});
         for (const Triangle& t : shape) {
             const auto put = [&](const vec3& p) {
                 return vec3(instances[k].centre + instances[k].scene_from_own * dvec3(p));
@@ -136,8 +141,9 @@ TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
     const Bvh other = assemble_two_level_bvh(flat, backwards);
     std::size_t found = 0, apart = 0;
     for (int i = 0; i < 20000; ++i) {
-        const f32::Ray ray{3.0f * numbers.point_in_cube(), numbers.unit_direction(), 0};
-        const std::uint32_t skipped = i % 2 ? kHiddenFromCamera : 0;
+        const f32::Ray ray{3.0f * numbers.random_point_in_cube(), numbers.random_unit_direction(),
+                           0};
+        const std::uint32_t skipped = i % 2 ? kHiddenFromCameraFlag : 0;
         const auto wanted = find_closest_hit<float>(one, ray, test::kInfinity, skipped),
                    hit = find_closest_hit<float>(two, ray, test::kInfinity, skipped),
                    again = find_closest_hit<float>(other, ray, test::kInfinity, skipped);
@@ -178,7 +184,8 @@ TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
                 const bool direction = i % 8 < 4;
                 auto wanted = walk(whole, rays[i]);
                 if (wanted && !direction) wanted->t *= in_scene;
-                ASSERT_EQ(walk(scaled, test::scale_ray(rays[i], in_scene, direction)), wanted)
+                ASSERT_EQ(walk(scaled, test::scale_ray_of_scene(rays[i], in_scene, direction)),
+                          wanted)
                     << (scene ? "scene" : "own spaces") << " x 2^" << k << ", ray " << i;
                 found += wanted.has_value();
             }
@@ -187,7 +194,8 @@ TEST(TwoLevel, ScalingByPowersOfTwoChangesNoHit) {
 }
 
 TEST(TwoLevel, TreeWithoutInstancesStaysFlat) {
-    const Bvh flat = build_bvh(two_level_ball(1)), same = assemble_two_level_bvh(flat, {});
+    const Bvh flat = build_bvh(make_two_level_ball_triangles(1)),
+              same = assemble_two_level_bvh(flat, {});
     EXPECT_EQ(same.nodes.size(), flat.nodes.size());
     EXPECT_EQ(same.triangles, flat.triangles);
 }
@@ -195,7 +203,8 @@ TEST(TwoLevel, TreeWithoutInstancesStaysFlat) {
 TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
     test::RandomNumbers numbers(34);
     for (int i = 0; i < 1000; ++i) {
-        const dvec3 v = dvec3(numbers.point_in_cube()) + 1e-8 * dvec3(numbers.point_in_cube());
+        const dvec3 v = dvec3(numbers.random_point_in_cube()) +
+                        1e-8 * dvec3(numbers.random_point_in_cube());
         const vec3 low = float_rounding_error(v);
         for (int k = 0; k < 3; ++k) {
             const volatile float high = static_cast<float>(v[k]);
@@ -205,10 +214,10 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
 }
 
 TEST(TwoLevel, StretchOfKnownMatricesIsInBounds) {
-    EXPECT_EQ(bound_rounding_amplification(dmat3(.25)), 1);
-    EXPECT_LE(bound_rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
-    EXPECT_GT(bound_rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
-    EXPECT_EQ(bound_rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(max_rounding_amplification(dmat3(.25)), 1);
+    EXPECT_LE(max_rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
+    EXPECT_GT(max_rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
+    EXPECT_EQ(max_rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
 }
 
 } // namespace

@@ -29,11 +29,11 @@ using testing::Not;
 
 /// Returns a row whose FLIP over the mirrors in view i is `flips[i]`. NaN stands for a view without
 /// mirror pixels.
-Row over(const std::string& label, const std::vector<double>& flips) {
-    Row row = sample::row(label, 5, .1, .2);
+Row make_row_with_view_flips(const std::string& label, const std::vector<double>& flips) {
+    Row row = sample::make_row(label, 5, .1, .2);
     for (const double flip : flips) {
         measure::Errors errors;
-        errors.error = sample::error_of(flip / 2, flip);
+        errors.error = sample::make_difference_of_errors(flip / 2, flip);
         if (std::isnan(flip)) errors.error = {};
         row.views.push_back(errors);
     }
@@ -43,13 +43,13 @@ Row over(const std::string& label, const std::vector<double>& flips) {
 
 const std::vector<double> kFlips{.1, .2, .3, .15, .25, .12, .22, .18};
 
-std::vector<double> plus(std::vector<double> values, double more) {
+std::vector<double> add_to_all_values(std::vector<double> values, double more) {
     for (double& value : values) value += more;
     return values;
 }
 
-Comparison with_views(std::vector<Row> rows) {
-    Comparison made = sample::comparison(std::move(rows));
+Comparison make_comparison_with_views(std::vector<Row> rows) {
+    Comparison made = sample::make_comparison(std::move(rows));
     for (std::uint64_t i = 0; i < kFlips.size(); ++i)
         made.views.push_back({{"1,2," + std::to_string(i) + ":4,5,6:40",
                                {1, 2, double(i)},
@@ -62,55 +62,63 @@ Comparison with_views(std::vector<Row> rows) {
 }
 
 TEST(Views, EqualRowsTieOverViews) {
-    const Row row = over("a", kFlips);
+    const Row row = make_row_with_view_flips("a", kFlips);
     for (const char* figure : {"flip", "off", "mae", "rmse"})
         EXPECT_FALSE(measure::differ_over_views(row, row, figure)) << figure;
 }
 
 /// The two rows differ by 1e-6 in each view. The views differ from each other by far more.
 TEST(Views, RowThatIsSlightlyWorseInEachViewDoesNotTie) {
-    const Row a = over("a", kFlips), b = over("b", plus(kFlips, 1e-6));
+    const Row a = make_row_with_view_flips("a", kFlips),
+              b = make_row_with_view_flips("b", add_to_all_values(kFlips, 1e-6));
     EXPECT_TRUE(measure::differ_over_views(a, b, "flip"));
     EXPECT_TRUE(measure::differ_over_views(b, a, "flip"));
-    EXPECT_LT(measure::metric_difference_over_views(a, b, "flip").high, 0);
-    EXPECT_GT(measure::metric_difference_over_views(b, a, "flip").low, 0);
+    EXPECT_LT(measure::metric_difference_interval_over_views(a, b, "flip").high, 0);
+    EXPECT_GT(measure::metric_difference_interval_over_views(b, a, "flip").low, 0);
 }
 
 TEST(Views, OneOutlierDoesNotBreakATie) {
     std::vector<double> flips = kFlips;
     flips[4] = .99;
-    EXPECT_FALSE(measure::differ_over_views(over("a", kFlips), over("b", flips), "flip"));
+    EXPECT_FALSE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
+                                            make_row_with_view_flips("b", flips), "flip"));
     // With many views, one outlier does not hide a difference that all other views show.
     std::vector<double> many(30, .1), more(30, .11);
     more[7] = 0;
-    EXPECT_TRUE(measure::differ_over_views(over("a", many), over("b", more), "flip"));
+    EXPECT_TRUE(measure::differ_over_views(make_row_with_view_flips("a", many),
+                                           make_row_with_view_flips("b", more), "flip"));
 }
 
 TEST(Views, TooFewViewsAlwaysTie) {
     const std::vector<double> five(kFlips.begin(), kFlips.begin() + 5);
-    EXPECT_FALSE(measure::differ_over_views(over("a", five), over("b", plus(five, .1)), "flip"));
-    EXPECT_FALSE(measure::differ_over_views(over("a", kFlips), over("b", {}), "flip"))
+    EXPECT_FALSE(measure::differ_over_views(
+        make_row_with_view_flips("a", five),
+        make_row_with_view_flips("b", add_to_all_values(five, .1)), "flip"));
+    EXPECT_FALSE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
+                                            make_row_with_view_flips("b", {}), "flip"))
         << "of a run cut short";
 }
 
 /// A view that shows no mirror pixel in one row is left out of the comparison of both rows.
 TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
-    std::vector<double> holed = plus(kFlips, 1e-3);
+    std::vector<double> holed = add_to_all_values(kFlips, 1e-3);
     holed[0] = test::kDoubleNan;
-    EXPECT_TRUE(measure::differ_over_views(over("a", kFlips), over("b", holed), "flip"));
+    EXPECT_TRUE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
+                                           make_row_with_view_flips("b", holed), "flip"));
     holed[1] = holed[2] = test::kDoubleNan; // five views are left, too few
-    EXPECT_FALSE(measure::differ_over_views(over("a", kFlips), over("b", holed), "flip"));
+    EXPECT_FALSE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
+                                            make_row_with_view_flips("b", holed), "flip"));
     const measure::Metric& flip = *std::ranges::find(measure::list_difference_metrics(), "flip",
                                                      &measure::Metric::name);
-    const measure::MetricOverViews found = measure::metric_over_views(
-        over("b", holed), measure::list_row_masks().front(), flip);
+    const measure::MetricOverViews found = measure::compute_metric_over_views(
+        make_row_with_view_flips("b", holed), measure::list_row_masks().front(), flip);
     EXPECT_EQ(found.values.size(), 8u);
     EXPECT_NEAR(found.median, .181, 1e-12);
     EXPECT_FALSE(found.ci95.is_known());
 }
 
 TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
-    const Row a = sample::row("a", 5, .1, .2), b = sample::row("b", 5, .1, .2000001);
+    const Row a = sample::make_row("a", 5, .1, .2), b = sample::make_row("b", 5, .1, .2000001);
     EXPECT_TRUE(measure::differ_over_views(a, b, "flip"));
     EXPECT_FALSE(measure::differ_over_views(a, b, "rmse"));
     Row unknown = a;
@@ -119,22 +127,23 @@ TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
 }
 
 TEST(Views, MetricsThatAreNoNumberOfADifferenceAreRefused) {
-    const Row row = over("a", kFlips);
+    const Row row = make_row_with_view_flips("a", kFlips);
     for (const char* name : {"max_at", "gpu_ms", "flop"})
-        EXPECT_THAT(test::error_text_of(Failure::internal,
-                                        [&] { measure::differ_over_views(row, row, name); }),
+        EXPECT_THAT(test::catch_error_text(Failure::internal,
+                                           [&] { measure::differ_over_views(row, row, name); }),
                     HasSubstr("'" + std::string(name) +
                               "': wanted a figure of a difference that is a number"));
 }
 
 TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
-    Row exact = over("exact", std::vector<double>(8, 0.0));
+    Row exact = make_row_with_view_flips("exact", std::vector<double>(8, 0.0));
     exact.is_reference = true;
     std::vector<double> other = kFlips; // larger than kFlips in half of the views
     for (std::size_t i = 0; i < other.size(); ++i) other[i] += i % 2 == 0 ? -.01 : .01;
-    const Comparison made = with_views(
-        {over("worst", plus(kFlips, .4)), over("good", kFlips), over("fair", other), exact});
-    const std::vector<std::string> words = describe_views(made);
+    const Comparison made = make_comparison_with_views(
+        {make_row_with_view_flips("worst", add_to_all_values(kFlips, .4)),
+         make_row_with_view_flips("good", kFlips), make_row_with_view_flips("fair", other), exact});
+    const std::vector<std::string> words = describe_drawn_views(made);
     ASSERT_EQ(words.size(), 4u);
     EXPECT_EQ(words[0],
               "By FLIP, view by view, the least first: good, fair, worst. Ties: good and fair. All "
@@ -143,10 +152,13 @@ TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
                 testing::StartsWith("By off, view by view, the least first: good, fair, worst."));
     EXPECT_THAT(words[2], testing::StartsWith("By MAE, view by view, the least first: "));
     EXPECT_THAT(words[3], HasSubstr("95 % interval of their difference"));
-    const auto first = [](const Comparison& of) { return describe_views(of).front(); };
-    EXPECT_THAT(first(with_views({over("a", kFlips), over("b", kFlips)})),
+    const auto first = [](const Comparison& of) { return describe_drawn_views(of).front(); };
+    EXPECT_THAT(first(make_comparison_with_views({make_row_with_view_flips("a", kFlips),
+                                                  make_row_with_view_flips("b", kFlips)})),
                 HasSubstr("No two of them are apart."));
-    EXPECT_THAT(first(with_views({over("a", kFlips), over("b", plus(kFlips, .1))})),
+    EXPECT_THAT(first(make_comparison_with_views(
+                    {make_row_with_view_flips("a", kFlips),
+                     make_row_with_view_flips("b", add_to_all_values(kFlips, .1))})),
                 HasSubstr("Every two of them are apart."));
 }
 
@@ -156,19 +168,21 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
     std::vector<double> less(low.size());
     for (std::size_t i = 0; i < low.size(); ++i) less[i] = low[i] - .001;
     less[0] = .99; // an outlier in one of nine views
-    Comparison made = with_views({over("low", low), over("less", less)});
+    Comparison made = make_comparison_with_views(
+        {make_row_with_view_flips("low", low), make_row_with_view_flips("less", less)});
     made.views.resize(low.size());
-    const measure::RowOrder order = measure::order_rows_over_views(made).front();
+    const measure::MetricRowOrder order = measure::order_rows_over_views(made).front();
     const measure::RowMask& mirrors = measure::list_row_masks().front();
-    EXPECT_LT(measure::metric_over_views(made.rows[0], mirrors, *order.figure).median,
-              measure::metric_over_views(made.rows[1], mirrors, *order.figure).median);
+    EXPECT_LT(measure::compute_metric_over_views(made.rows[0], mirrors, *order.figure).median,
+              measure::compute_metric_over_views(made.rows[1], mirrors, *order.figure).median);
     EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
     EXPECT_TRUE(order.ties.empty());
     EXPECT_TRUE(order.reversed.empty());
 }
 
 TEST(Views, ViewsTableHasMediansAndTheWorstView) {
-    const ReportTable table = make_views_table(with_views({over("a", kFlips)}));
+    const ReportTable table = make_views_table(
+        make_comparison_with_views({make_row_with_view_flips("a", kFlips)}));
     EXPECT_EQ(table.title, "Over 8 views");
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -183,7 +197,8 @@ TEST(Views, ViewsTableHasMediansAndTheWorstView) {
 }
 
 TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
-    const json document = json::parse(to_json(with_views({over("a", kFlips)})));
+    const json document = json::parse(
+        to_json(make_comparison_with_views({make_row_with_view_flips("a", kFlips)})));
     ASSERT_EQ(document["views"].size(), 8u);
     EXPECT_EQ(document["views"][2]["camera"]["eye"], json({1, 2, 2}));
     EXPECT_EQ(document["views"][2]["time"], 1);
@@ -204,7 +219,8 @@ TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
 }
 
 TEST(Views, CsvReportHoldsTheMedianAndIntervalOverViews) {
-    std::istringstream csv(to_csv(with_views({over("a", kFlips)})));
+    std::istringstream csv(
+        to_csv(make_comparison_with_views({make_row_with_view_flips("a", kFlips)})));
     std::string header, line;
     std::getline(csv, header), std::getline(csv, line);
     std::map<std::string, std::string> found;
@@ -231,7 +247,7 @@ TEST(Views, CsvReportHoldsTheMedianAndIntervalOverViews) {
 }
 
 TEST(Views, ReportsWithoutDrawnViewsDoNotMentionViews) {
-    const Comparison made = sample::usual();
+    const Comparison made = sample::make_usual_comparison();
     EXPECT_EQ(json::parse(to_json(made))["views"], json::array());
     EXPECT_TRUE(json::parse(to_json(made))["rows"][0]["views"].is_null());
     for (const std::string& text : {to_csv(made), to_markdown(made), to_html(made)}) {
@@ -241,7 +257,7 @@ TEST(Views, ReportsWithoutDrawnViewsDoNotMentionViews) {
 }
 
 TEST(Views, ReportSaysIfErrorsOverViewsAreIncomplete) {
-    Comparison made = with_views({over("a", kFlips)});
+    Comparison made = make_comparison_with_views({make_row_with_view_flips("a", kFlips)});
     made.complete = false, made.asked = 1;
     EXPECT_THAT(to_markdown(made), Not(HasSubstr("errors over views")));
     made.rows[0].views.resize(7);
@@ -250,7 +266,7 @@ TEST(Views, ReportSaysIfErrorsOverViewsAreIncomplete) {
                                              "to the end"));
 }
 
-app::Request request_of(const scene::Scene& scene, std::uint64_t seed) {
+app::Request make_request_of_scene(const scene::Scene& scene, std::uint64_t seed) {
     app::Request request;
     request.scene = scene;
     request.time = .5;
@@ -258,7 +274,7 @@ app::Request request_of(const scene::Scene& scene, std::uint64_t seed) {
     return request;
 }
 
-std::vector<std::string> cameras(const std::vector<measure::View>& views) {
+std::vector<std::string> list_camera_texts(const std::vector<measure::View>& views) {
     std::vector<std::string> names;
     for (const measure::View& view : views) names.push_back(view.camera.name);
     return names;
@@ -266,20 +282,23 @@ std::vector<std::string> cameras(const std::vector<measure::View>& views) {
 
 TEST(DrawnViews, DrawnViewsAreDeterminedByTheirSeed) {
     const scene::Scene scene = test::make_lit_room(2, 1);
-    const std::vector<measure::View> views = app::draw_random_views(request_of(scene, 1), 12);
+    const std::vector<measure::View> views = app::draw_random_views(make_request_of_scene(scene, 1),
+                                                                    12);
     ASSERT_EQ(views.size(), 12u);
     std::set<std::string> all;
     for (const measure::View& view : views) {
         all.insert(view.camera.name);
         EXPECT_EQ(view.time, .5) << "nothing moves";
     }
-    EXPECT_EQ(cameras(app::draw_random_views(request_of(scene, 1), 12)), cameras(views));
+    EXPECT_EQ(list_camera_texts(app::draw_random_views(make_request_of_scene(scene, 1), 12)),
+              list_camera_texts(views));
     // Neighbouring seeds share no view. If fewer views are drawn, they are the first ones of the
     // longer list.
-    for (const std::string& name : cameras(app::draw_random_views(request_of(scene, 2), 12)))
+    for (const std::string& name :
+         list_camera_texts(app::draw_random_views(make_request_of_scene(scene, 2), 12)))
         all.insert(name);
     EXPECT_EQ(all.size(), 24u);
-    EXPECT_EQ(app::draw_random_views(request_of(scene, 1), 6).back().camera.name,
+    EXPECT_EQ(app::draw_random_views(make_request_of_scene(scene, 1), 6).back().camera.name,
               views[5].camera.name);
 }
 
@@ -287,7 +306,7 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
     scene::Scene scene = test::make_lit_room(2, 1);
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.1, 0, 0}, .period = 1.6};
     std::set<double> times;
-    for (const measure::View& view : app::draw_random_views(request_of(scene, 1), 12)) {
+    for (const measure::View& view : app::draw_random_views(make_request_of_scene(scene, 1), 12)) {
         EXPECT_GE(view.time, .5);
         EXPECT_LT(view.time, 2.1);
         EXPECT_EQ(view.time, std::round(view.time * 1000) / 1000) << "it can be typed";
@@ -299,11 +318,11 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
 }
 
 TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
-    const app::Request request = request_of(test::make_lit_room(1, 1), 1);
+    const app::Request request = make_request_of_scene(test::make_lit_room(1, 1), 1);
     EXPECT_TRUE(app::draw_random_views(request, 1).empty());
     for (const int count : {-1, 0, 2, 5})
         EXPECT_THAT(
-            test::error_text_of(Failure::usage, [&] { app::draw_random_views(request, count); }),
+            test::catch_error_text(Failure::usage, [&] { app::draw_random_views(request, count); }),
             HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
                       "% confidence, found " +
                       std::to_string(count)));

@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// Returns a scene of three objects, two of which share a material, and a lamp.
-Scene wishes_room() {
+Scene make_override_test_scene() {
     Scene scene{.name = "room"};
     const std::size_t wood = add_material(
         scene, {.name = "wood", .albedo = vec3(.5f), .emission = vec3(.25f), .roughness = .5f});
@@ -36,7 +36,7 @@ Scene wishes_room() {
     return scene;
 }
 
-const Material& of(const Scene& scene, std::size_t object) {
+const Material& material_of_object(const Scene& scene, std::size_t object) {
     return scene.materials[scene.objects[object].material];
 }
 
@@ -50,7 +50,7 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     EXPECT_EQ(read("x=wood"), (MirrorOverride{"x=wood", vec3(1)}));
     EXPECT_EQ(read("x=3=1"), (MirrorOverride{"x=3", vec3(1)}));
     for (const char* text : {"a=2", "a=-1", "a=.5,.5", "a=1,1,1,1"})
-        EXPECT_THAT(test::error_text_of(Failure::usage, [&] { read(text); }),
+        EXPECT_THAT(test::catch_error_text(Failure::usage, [&] { read(text); }),
                     HasSubstr("--mirror: wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], "
                               "REFLECTANCE a number or r,g,b, all from 0 to 1, found '" +
                               std::string(text) + "'"));
@@ -58,15 +58,15 @@ TEST(MirrorOverride, MirrorOverrideIsReadAsPatternAndReflectance) {
     EXPECT_EQ(read("a,roughness=.25"), (MirrorOverride{"a", vec3(1), .25f}));
     EXPECT_EQ(read("a=1,.5,0,roughness=1"), (MirrorOverride{"a", {1, .5f, 0}, 1}));
     for (const char* text : {"a,roughness=2", "a,roughness=", "a=1,roughness=-.1"})
-        EXPECT_THAT(test::error_text_of(Failure::usage, [&] { read(text); }),
+        EXPECT_THAT(test::catch_error_text(Failure::usage, [&] { read(text); }),
                     HasSubstr("--mirror: wanted a number from 0 to 1 after ',roughness=', found '" +
                               std::string(text) + "'"));
-    EXPECT_THAT(test::error_text_of(Failure::usage, [&] { read("=1"); }),
+    EXPECT_THAT(test::catch_error_text(Failure::usage, [&] { read("=1"); }),
                 HasSubstr("wanted a name"));
 }
 
 TEST(MirrorOverride, RoughMirrorIsAMetal) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     apply_edit(scene,
                {.mirrors = {{"table top", vec3(.9f, .8f, .7f), .3f}}, .mirror_max_roughness = .6});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
@@ -75,28 +75,30 @@ TEST(MirrorOverride, RoughMirrorIsAMetal) {
     EXPECT_EQ(material.metallic, 1);
     EXPECT_EQ(material.roughness, .3f);
     EXPECT_EQ(material.albedo, vec3(.9f, .8f, .7f));
-    Scene other = wishes_room();
-    EXPECT_THAT(test::error_text_of(Failure::usage,
-                                    [&] {
-                                        apply_edit(other, {.mirrors = {{"table top", vec3(1), .7f}},
-                                                           .mirror_max_roughness = .6});
-                                    }),
+    Scene other = make_override_test_scene();
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [&] {
+                                           apply_edit(other,
+                                                      {.mirrors = {{"table top", vec3(1), .7f}},
+                                                       .mirror_max_roughness = .6});
+                                       }),
                 HasSubstr("--mirror 'table top': wanted a roughness of at most 0.6, above which no "
                           "surface is a mirror, found 0.7; raise --mirror-max-roughness"));
 }
 
 TEST(MirrorOverride, MirrorOverrideChangesOnlyTheNamedObject) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     apply_edit(scene, {.mirrors = {{"table top", {1, .5f, .25f}}}});
     EXPECT_THAT(mirrors(scene), ElementsAre(0u));
     const Material mirror{.name = "wood", .mirror = true, .reflectance = {1, .5f, .25f}};
-    EXPECT_EQ(of(scene, 0), mirror) << "the rest of the surface is dropped";
-    EXPECT_EQ(of(scene, 1), wishes_room().materials[0]) << "who shares the material keeps it";
+    EXPECT_EQ(material_of_object(scene, 0), mirror) << "the rest of the surface is dropped";
+    EXPECT_EQ(material_of_object(scene, 1), make_override_test_scene().materials[0])
+        << "who shares the material keeps it";
 }
 
 TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
     const auto made = [](const std::string& pattern) {
-        Scene scene = wishes_room();
+        Scene scene = make_override_test_scene();
         apply_edit(scene, {.mirrors = {{pattern, vec3(1)}}});
         return mirrors(scene);
     };
@@ -107,20 +109,20 @@ TEST(MirrorOverride, MirrorOverrideMatchesObjectsNodesAndMaterials) {
     EXPECT_THAT(made("[tf]*"), ElementsAre(0u, 1u, 2u));
     EXPECT_THAT(made("table ???"), ElementsAre(0u, 1u));
     for (const char* pattern : {"Table top", "table", "woo", "top"})
-        EXPECT_THAT(test::error_text_of(Failure::usage, [&] { made(pattern); }),
+        EXPECT_THAT(test::catch_error_text(Failure::usage, [&] { made(pattern); }),
                     HasSubstr("--mirror '" + std::string(pattern) +
                               "': matches no object or material of scene 'room'; it has: "
                               "'frame', 'frame/glass', 'glass', 'lamp', 'table leg', 'table top', "
                               "'wood'"));
-    EXPECT_THAT(test::error_text_of(Failure::usage, [&] { made("tabel top"); }),
+    EXPECT_THAT(test::catch_error_text(Failure::usage, [&] { made("tabel top"); }),
                 HasSubstr("(did you mean 'table top'?)"));
 }
 
 TEST(MirrorOverride, LaterMirrorOverrideWins) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     apply_edit(scene, combine_overrides({.mirrors = {{"wood", vec3(.5f)}}},
                                         {.mirrors = {{"table*", vec3(.1f)}}}));
-    EXPECT_EQ(of(scene, 0).reflectance, vec3(.5f));
+    EXPECT_EQ(material_of_object(scene, 0).reflectance, vec3(.5f));
 }
 
 TEST(Over, CombinedOverridesHoldEachPatternOnce) {
@@ -132,7 +134,7 @@ TEST(Over, CombinedOverridesHoldEachPatternOnce) {
 }
 
 TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     scene.objects[1].name = "it's a * [1]=2";
     const std::vector<std::string> options = app::suggest_mirror_options(scene);
     EXPECT_THAT(options, ElementsAre("--mirror 'frame/glass'"))
@@ -147,7 +149,7 @@ TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
                                                      make_mirror_pattern(scene.objects[1].name));
     apply_edit(scene, {.mirrors = {wish}});
     EXPECT_THAT(mirrors(scene), ElementsAre(1u));
-    EXPECT_TRUE(matches_pattern(make_mirror_pattern("\x1b[2J\xff"), "\x1b[2J\xff"));
+    EXPECT_TRUE(name_matches_pattern(make_mirror_pattern("\x1b[2J\xff"), "\x1b[2J\xff"));
     EXPECT_EQ(make_mirror_pattern("\x1b\xff"), "??");
     const std::string longest(100, 'n'), wide = std::string(59, 'n') + "\xc3\xa4 and more";
     EXPECT_EQ(make_mirror_pattern(longest), std::string(60, 'n') + "*");
@@ -155,25 +157,25 @@ TEST(MirrorOptions, MirrorOptionsCanBePastedAndMatchTheirObject) {
 }
 
 TEST(LightWish, LightOverrideEmitsFactorTimesMeanTexel) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     Texture half;
     half.image = std::make_shared<Image>(Image{"i", {2, 1}, {0xff0000ffu, 0xff000000u}});
     scene.materials[0].emission_texture = half;
     EXPECT_EQ(list_lights(scene).size(), 1u);
     apply_edit(scene, {.lights = {"table top"}});
-    EXPECT_EQ(of(scene, 0).light, vec3(.125f, 0, 0));
-    EXPECT_EQ(of(scene, 1).light, std::nullopt);
+    EXPECT_EQ(material_of_object(scene, 0).light, vec3(.125f, 0, 0));
+    EXPECT_EQ(material_of_object(scene, 1).light, std::nullopt);
     EXPECT_EQ(list_lights(scene).size(), 2u);
     EXPECT_THAT(
-        test::error_text_of(Failure::usage, [&] { apply_edit(scene, {.lights = {"frame"}}); }),
+        test::catch_error_text(Failure::usage, [&] { apply_edit(scene, {.lights = {"frame"}}); }),
         HasSubstr("--light 'frame': wanted something that emits light"));
     EXPECT_THAT(
-        test::error_text_of(Failure::usage, [&] { apply_edit(scene, {.lights = {"lmap"}}); }),
+        test::catch_error_text(Failure::usage, [&] { apply_edit(scene, {.lights = {"lmap"}}); }),
         HasSubstr("did you mean 'lamp'"));
 }
 
 TEST(TurnZUp, TurnZUpMapsZToYExactly) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     scene.cameras.push_back({.name = "c", .eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}});
     scene.punctual.push_back({.kind = PunctualLight::Kind::spot});
     scene.objects[3].motion = HarmonicMotion{.amplitude = {1, 2, 3}};
@@ -197,7 +199,7 @@ TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
     rig.nodes.push_back({.translations = std::make_shared<const TranslationTrack>(
                              TranslationTrack{.times = {0, 1}, .values = {{0, 0, 0}, {1, 2, 3}}})});
     const RigAttachment follows{.rig = std::make_shared<const NodeRig>(std::move(rig))};
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     scene.objects[0].motion = follows;
     scene.cameras = {{.eye = {1, 2, 3}, .target = {4, 5, 6}, .up = {0, 0, 1}, .follows = follows}};
     const Scene turned = [&] {
@@ -206,10 +208,10 @@ TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
         return copy;
     }();
     for (const double seconds : {0.0, .5, 1.0}) {
-        const dvec3 eye = camera_at(scene.cameras[0], seconds).eye;
-        EXPECT_LT(
-            glm::length(camera_at(turned.cameras[0], seconds).eye - dvec3(eye.x, eye.z, -eye.y)),
-            1e-12);
+        const dvec3 eye = camera_at_time(scene.cameras[0], seconds).eye;
+        EXPECT_LT(glm::length(camera_at_time(turned.cameras[0], seconds).eye -
+                              dvec3(eye.x, eye.z, -eye.y)),
+                  1e-12);
         const Scene before = scene_at_time(scene, seconds), after = scene_at_time(turned, seconds);
         const dvec3 centre = bounds(before, before.objects[0]).centre();
         EXPECT_LT(glm::length(bounds(after, after.objects[0]).centre() -
@@ -219,7 +221,7 @@ TEST(TurnZUp, TurnZUpTurnsObjectsAndCamerasOnRigs) {
 }
 
 TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestAtTheCentre) {
-    Scene scene = wishes_room();
+    Scene scene = make_override_test_scene();
     scene.materials[0].emission = vec3(0), scene.materials[2].emission = vec3(1e-6f);
     for (int i = 0; i < 6; ++i) { // equal lights, so the nearest is the strongest
         PunctualLight light{.name = "p" + std::to_string(i), .intensity = vec3(100)};
@@ -241,8 +243,9 @@ TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestAtTheCentre) {
     for (const PunctualLight& light : scene.punctual) kept.push_back(light.name);
     EXPECT_EQ(list_lights(scene).size(), 3u);
     EXPECT_THAT(kept, ElementsAre("p3", "p4", "p5"));
-    EXPECT_EQ(of(scene, 3).light, vec3(0)) << "the far small lamp glows, and lights nothing";
-    EXPECT_EQ(of(scene, 3).emission, vec3(1e-6f));
+    EXPECT_EQ(material_of_object(scene, 3).light, vec3(0))
+        << "the far small lamp glows, and lights nothing";
+    EXPECT_EQ(material_of_object(scene, 3).emission, vec3(1e-6f));
     EXPECT_EQ(scene.unsupported[0].first, "object 'lamp'");
 }
 
@@ -276,7 +279,7 @@ TEST(LeaveOutLights, LeaveOutLightsKeepsTheStrongestPartsOfAMesh) {
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.meshes[scene.objects[0].mesh].triangles.size(), 16u);
     EXPECT_EQ(scene.meshes[scene.objects[1].mesh].triangles.size(), 4u) << "seen, and dark";
-    EXPECT_EQ(of(scene, 1).emission, vec3(1));
+    EXPECT_EQ(material_of_object(scene, 1).emission, vec3(1));
     EXPECT_EQ(scene.unsupported.at(0).first, "object 'lamp', 4 of its 20 parts");
 }
 
@@ -287,8 +290,8 @@ TEST(CameraNamed, OrthographicCameraIsReadFromNumbers) {
     EXPECT_EQ(camera.orthographic_height, 2.5);
     EXPECT_EQ(format_camera(camera), "1,2,3:4,5,6:h=2.5");
     EXPECT_EQ(format_camera(find_camera_by_name("0.5,0,0:0,0,1:40", Scene())), "0.5,0,0:0,0,1:40");
-    EXPECT_THAT(test::error_text_of(Failure::usage,
-                                    [] { find_camera_by_name("0,0,0:0,0,1:h=0", Scene()); }),
+    EXPECT_THAT(test::catch_error_text(Failure::usage,
+                                       [] { find_camera_by_name("0,0,0:0,0,1:h=0", Scene()); }),
                 HasSubstr("--camera: wanted a finite number from 1e-09 to 1e+18, found '0'"));
 }
 

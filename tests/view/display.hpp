@@ -18,12 +18,12 @@ namespace test {
 
 /// Runs an X server without a screen (Xvfb) until the destructor. Sets DISPLAY to the server's
 /// name.
-class Display {
+class VirtualDisplay {
 public:
-    Display()
-        : folder_(std::filesystem::temp_directory_path() /
-                  ("catoptric-display-" + std::to_string(::getpid()))) {
-        std::filesystem::create_directories(folder_);
+    VirtualDisplay()
+        : display_folder_(std::filesystem::temp_directory_path() /
+                          ("catoptric-display-" + std::to_string(::getpid()))) {
+        std::filesystem::create_directories(display_folder_);
         int ends[2];
         if (::pipe(ends) != 0) return;
         server_ = ::fork();
@@ -36,7 +36,8 @@ public:
             // Without -noreset the server restarts when the last window closes, and refuses windows
             // meanwhile.
             ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-noreset", "-screen", "0",
-                     "1280x1024x24", "-fbdir", folder_.c_str(), static_cast<char*>(nullptr));
+                     "1280x1024x24", "-fbdir", display_folder_.c_str(),
+                     static_cast<char*>(nullptr));
             ::_exit(127);
         }
         ::close(ends[1]);
@@ -46,21 +47,21 @@ public:
         is_there_ = !name.empty();
         if (is_there_) ::setenv("DISPLAY", (":" + name).c_str(), 1);
     }
-    ~Display() {
+    ~VirtualDisplay() {
         if (server_ <= 0) return;
         ::kill(server_, SIGTERM);
         ::waitpid(server_, nullptr, 0);
         std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
+        std::filesystem::remove_all(display_folder_, ignored);
     }
-    Display(const Display&) = delete;
-    Display& operator=(const Display&) = delete;
-    bool is_there() const { return is_there_; }
+    VirtualDisplay(const VirtualDisplay&) = delete;
+    VirtualDisplay& operator=(const VirtualDisplay&) = delete;
+    bool is_display_running() const { return is_there_; }
 
     /// Returns the pixels in the upper left corner of the server's screen, where windows are
     /// placed. Channels are 0 to 1.
-    catoptric::measure::Picture shown(int width, int height) const {
-        std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
+    catoptric::measure::Picture read_screen_pixels(int width, int height) const {
+        std::ifstream file(display_folder_ / "Xvfb_screen0", std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(file), {}};
         const auto word = [&](std::size_t at) { // a big-endian word of the XWD header
             std::uint32_t value = 0;
@@ -82,7 +83,7 @@ public:
     }
 
 private:
-    std::filesystem::path folder_;
+    std::filesystem::path display_folder_;
     pid_t server_ = -1;
     bool is_there_ = false;
 };

@@ -19,7 +19,7 @@ using namespace catoptric::view;
 using testing::HasSubstr;
 
 /// Returns the resident memory of this process in bytes.
-std::uint64_t resident_bytes() {
+std::uint64_t read_resident_bytes() {
     std::ifstream statm("/proc/self/statm");
     std::uint64_t all = 0, resident = 0;
     statm >> all >> resident;
@@ -32,41 +32,41 @@ class ViewLife : public test::WindowTest {};
 /// fifty frames, but a leak of 1 kB per frame shows in every fifty frames. This test is the first
 /// of the file, because memory that other tests free would hide a leak.
 TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
-    constexpr int kFrames = 50;
+    constexpr int kWindowFrames = 50;
     std::vector<std::uint64_t> resident, on_device;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.after = [&](const ViewReport& report) {
-        if (report.frame < 200 || report.frame % kFrames != 0) return;
-        resident.push_back(resident_bytes());
+        if (report.frame < 200 || report.frame % kWindowFrames != 0) return;
+        resident.push_back(read_resident_bytes());
         on_device.push_back(
-            app::Access::session_counters(const_cast<Viewer&>(report.viewer).session())
+            app::Access::session_counters(const_cast<SceneViewer&>(report.viewer).viewer_session())
                 .memory_bytes);
     };
-    EXPECT_EQ(view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames",
-                    "500", "--animate"},
-                   driver),
+    EXPECT_EQ(run_view_in_test({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32",
+                                "--frames", "500", "--animate"},
+                               driver),
               0);
     ASSERT_EQ(resident.size(), 7u);
     EXPECT_THAT(on_device, testing::Each(on_device.front()));
     std::int64_t least = 1 << 30;
     for (std::size_t i = 1; i < resident.size(); ++i)
         least = std::min(least, static_cast<std::int64_t>(resident[i] - resident[i - 1]));
-    EXPECT_LT(least, kFrames * 1024) << testing::PrintToString(resident);
+    EXPECT_LT(least, kWindowFrames * 1024) << testing::PrintToString(resident);
 }
 
 TEST_F(ViewLife, InvalidOptionsAndMissingDisplayAreRefused) {
     const auto refused = [&](const Words& words, Failure failure, const std::string& text) {
         try {
-            view(words);
+            run_view_in_test(words);
             ADD_FAILURE() << text;
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, failure);
             EXPECT_THAT(error.what(), HasSubstr(text));
         }
     };
-    refused({"--screenshot", path("a.png")}, Failure::usage,
+    refused({"--screenshot", path_in_test_folder("a.png")}, Failure::usage,
             "--screenshot is of the last frame: wanted --frames N, found none");
-    refused({"--frames", "1", "--screenshot", path("a.gif")}, Failure::usage,
+    refused({"--frames", "1", "--screenshot", path_in_test_folder("a.gif")}, Failure::usage,
             "--screenshot: wanted a name ending in .exr or .png, found '");
     refused({"--technique", "secand"}, Failure::usage, "did you mean 'secant'?");
     refused({"--sise", "4x4"}, Failure::usage, "'catoptric-view' has no option '--sise'");
@@ -79,12 +79,12 @@ TEST_F(ViewLife, InvalidOptionsAndMissingDisplayAreRefused) {
 
 /// The program answers signals from its first static initialiser on, before main begins.
 TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
-    constexpr std::array kSignals{SIGHUP, SIGINT, SIGTERM};
+    constexpr std::array kTestedSignals{SIGHUP, SIGINT, SIGTERM};
     int answered = 0;
     for (int i = 0; i < 12; ++i) {
-        test::ProcessStart process{.command = {CATOPTRIC_VIEW},
-                                   .environment = {{"LD_DEBUG", "files"}}};
-        process.signal = kSignals[static_cast<std::size_t>(i) % kSignals.size()];
+        test::ProcessStartOptions process{.command = {CATOPTRIC_VIEW},
+                                          .environment = {{"LD_DEBUG", "files"}}};
+        process.signal = kTestedSignals[static_cast<std::size_t>(i) % kTestedSignals.size()];
         process.signal_at = "transferring control";
         process.signal_after = std::chrono::milliseconds(4 * i);
         const test::ProcessResult ended = test::run_process(process);
@@ -99,7 +99,7 @@ TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
 /// is 0.
 TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> sizes;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
                         ViewWindow& window) {
         if (frame % 3 == 1)
@@ -110,14 +110,14 @@ TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
         if (frame == 62) inputs.closes = true;
     };
     driver.after = [&](const ViewReport& report) {
-        const uvec2 size = report.viewer.frame_spec().size;
+        const uvec2 size = report.viewer.make_frame_spec().size;
         sizes.insert({size.x, size.y});
         EXPECT_LT(report.frame, 62u);
     };
-    EXPECT_EQ(
-        view({"--technique", "parallax:face=16,shadow_map=16", "--size", "48x48", "--frames", "99"},
-             driver),
-        0);
+    EXPECT_EQ(run_view_in_test({"--technique", "parallax:face=16,shadow_map=16", "--size", "48x48",
+                                "--frames", "99"},
+                               driver),
+              0);
     EXPECT_GE(sizes.size(), 20u);
 }
 
@@ -125,16 +125,17 @@ TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
 /// to the previous plan and frees the images of the failed plan.
 TEST_F(ViewLife, PlanWithoutMemoryFallsBackToThePlanBefore) {
     int refused = 0;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
         if (!state.said.empty()) ++refused, state.said.clear();
         if (frame % 2 == 0 && refused < static_cast<int>(frame) / 2)
             state.plan = parse_plan_text("secant:face=16384");
     };
     driver.after = [&](const ViewReport& report) {
-        EXPECT_EQ(technique_text(report.state.plan), "reuse:face=16");
+        EXPECT_EQ(technique_text_of_plan(report.state.plan), "reuse:face=16");
     };
-    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "12"}, driver),
+    EXPECT_EQ(run_view_in_test(
+                  {"--technique", "reuse:face=16", "--size", "32x32", "--frames", "12"}, driver),
               0);
     EXPECT_EQ(refused, 6);
 }
@@ -146,14 +147,14 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
     const std::string kept = before ? before : "";
     ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
     const Words words{"--technique", "reuse:face=16"};
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
                         ViewWindow& window) {
         if (frame == 1) window.resize({380, 50});
         state.gain = 32, state.motion.speed = -2, state.flies = true;
         if (frame > 2 && inputs.window == uvec2(380, 50)) inputs.closes = true;
     };
-    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32"}, driver), 0);
+    EXPECT_EQ(run_view_in_test({"--technique", "reuse:face=16", "--size", "32x32"}, driver), 0);
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         EXPECT_EQ(inputs.window, uvec2(380, 50));
         EXPECT_EQ(state.gain, 32);
@@ -161,15 +162,15 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
         EXPECT_TRUE(state.flies);
         inputs.closes = frame == 2;
     };
-    EXPECT_EQ(view(words, driver), 0);
+    EXPECT_EQ(run_view_in_test(words, driver), 0);
     Words scripted = words;
     scripted.insert(scripted.end(), {"--frames", "1", "--size", "32x32"});
     driver.before = [&](std::size_t, UserInput&, ViewState& state, ViewWindow&) {
         EXPECT_EQ(state.gain, ViewState().gain);
         state.gain = 64;
     };
-    EXPECT_EQ(view(scripted, driver), 0);
-    EXPECT_EQ(load_settings(settings_file_path()).gain, 32);
+    EXPECT_EQ(run_view_in_test(scripted, driver), 0);
+    EXPECT_EQ(load_viewer_settings(settings_file_path()).gain, 32);
     if (before)
         ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1);
     else
@@ -179,12 +180,12 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
 /// Fixture for a window of 60 frames whose device or surface fails during or before these frames.
 class ViewFaults : public ViewLife {
 protected:
-    test::ProcessResult with_fault(const std::string& fault) const {
-        test::ProcessStart start{
+    test::ProcessResult run_view_with_fault(const std::string& fault) const {
+        test::ProcessStartOptions start{
             .command = {CATOPTRIC_VIEW},
             .environment = {{"VK_ADD_LAYER_PATH", CATOPTRIC_FAULTS_LAYER},
                             {"VK_INSTANCE_LAYERS", "VK_LAYER_CATOPTRIC_faults"},
-                            {"CATOPTRIC_FAULT_REPORT", path("calls")},
+                            {"CATOPTRIC_FAULT_REPORT", path_in_test_folder("calls")},
                             {"CATOPTRIC_FAULT", fault}},
             .folder = folder};
         start.command.insert(start.command.end(), words.begin(), words.end());
@@ -197,21 +198,22 @@ protected:
 /// The device is lost in the middle of a frame. A new session keeps the user's state, and the
 /// picture equals the picture of `render`.
 TEST_F(ViewFaults, WindowGoesOnAfterALostDevice) {
-    const test::ProcessResult ended = with_fault("vkQueueSubmit2:30:-4");
+    const test::ProcessResult ended = run_view_with_fault("vkQueueSubmit2:30:-4");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); a new session is made"));
-    expect_rendered("lost.png", words);
+    expect_same_as_rendered("lost.png", words);
 }
 
 TEST_F(ViewFaults, WindowGoesOnAfterALostSurface) {
-    const test::ProcessResult ended = with_fault("vkQueuePresentKHR:40:-1000000000");
+    const test::ProcessResult ended = run_view_with_fault("vkQueuePresentKHR:40:-1000000000");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; a new session is made"));
-    expect_rendered("lost.png", words);
+    expect_same_as_rendered("lost.png", words);
 }
 
 TEST_F(ViewFaults, DeviceThatCannotPresentIsRefused) {
-    const test::ProcessResult ended = with_fault("vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
+    const test::ProcessResult ended = run_view_with_fault(
+        "vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
     EXPECT_EQ(ended.exit_code, 69) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("lacks a way to show pictures in this window"));
 }

@@ -21,21 +21,21 @@ using testing::Not;
 using testing::StartsWith;
 
 /// A Dear ImGui context that draws one panel without a window.
-class Panel {
+class PanelWithoutWindow {
 public:
-    explicit Panel(const scene::Scene& scene, ImFontAtlas& fonts)
-        : scene_(scene), context_(ImGui::CreateContext(&fonts)) {
+    explicit PanelWithoutWindow(const scene::Scene& scene, ImFontAtlas& fonts)
+        : shown_scene_(scene), context_(ImGui::CreateContext(&fonts)) {
         ImGui::SetCurrentContext(context_);
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
         io.DisplaySize = {360, 700};
         io.DeltaTime = 1; // seconds, so that no click is a double click
     }
-    ~Panel() { ImGui::DestroyContext(context_); }
-    Panel(const Panel&) = delete;
-    Panel& operator=(const Panel&) = delete;
+    ~PanelWithoutWindow() { ImGui::DestroyContext(context_); }
+    PanelWithoutWindow(const PanelWithoutWindow&) = delete;
+    PanelWithoutWindow& operator=(const PanelWithoutWindow&) = delete;
 
-    void click(ViewState& state, float x, float y) {
+    void click_panel(ViewState& state, float x, float y) {
         for (const bool down : {false, true, false, false}) {
             ImGui::GetIO().MousePos = {x, y};
             ImGui::GetIO().MouseDown[0] = down;
@@ -43,14 +43,14 @@ public:
             ImGui::SetNextWindowPos({0, 0});
             ImGui::SetNextWindowSize({360, 700});
             ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
-            draw_plan_controls(state, scene_, {});
+            draw_plan_controls(state, shown_scene_, {});
             ImGui::End();
             ImGui::Render();
         }
     }
 
 private:
-    const scene::Scene& scene_;
+    const scene::Scene& shown_scene_;
     ImGuiContext* context_;
 };
 
@@ -64,24 +64,25 @@ protected:
 
     /// Returns the plans that a click leads to, for clicks all over the panel. A second click below
     /// the first one may choose from a list that the first click opened.
-    std::set<std::string> reached(const ViewState& from,
-                                  const std::function<PlanState(const ViewState&)>& plan) {
+    std::set<std::string>
+    list_plans_reached_by_click(const ViewState& from,
+                                const std::function<EditedPlanState(const ViewState&)>& plan) {
         std::set<std::string> texts;
         for (const float x : {30.f, 220.f, 250.f, 284.f})
             for (float y = 6; y < 500; y += 8) {
                 ViewState state = from;
-                Panel panel(scene, fonts);
-                panel.click(state, x, y);
-                texts.insert(technique_text(plan(state)));
-                panel.click(state, 60, y + 44);
-                texts.insert(technique_text(plan(state)));
+                PanelWithoutWindow panel(scene, fonts);
+                panel.click_panel(state, x, y);
+                texts.insert(technique_text_of_plan(plan(state)));
+                panel.click_panel(state, 60, y + 44);
+                texts.insert(technique_text_of_plan(plan(state)));
                 EXPECT_LE(state.chosen, 4u);
             }
         for (const std::string& text : texts)
             EXPECT_NO_THROW(static_cast<void>(app::parse_technique(text))) << text;
         return texts;
     }
-    static PlanState plan_itself(const ViewState& state) { return state.plan; }
+    static EditedPlanState same_plan(const ViewState& state) { return state.plan; }
 
     scene::Scene scene = scene::load("cornell-mirrors", {});
     ImFontAtlas fonts;
@@ -90,7 +91,7 @@ protected:
 TEST_F(ViewPanel, ControlsChangeTheKnobsOfAllMirrors) {
     ViewState state;
     state.plan = parse_plan_text("secant");
-    const std::set<std::string> texts = reached(state, plan_itself);
+    const std::set<std::string> texts = list_plans_reached_by_click(state, same_plan);
     for (const char* text : {"secant:face=128", "secant:face=512", "secant:face=auto",
                              "secant:shadow_map=512", "secant:distance=r16f"})
         EXPECT_THAT(texts, Contains(text));
@@ -103,13 +104,14 @@ TEST_F(ViewPanel, ControlsChangeTheKnobsOfTheChosenMirror) {
     ViewState state;
     state.plan = parse_plan_text("secant:face=64");
     state.chosen = 2;
-    std::set<std::string> texts = reached(state, plan_itself);
+    std::set<std::string> texts = list_plans_reached_by_click(state, same_plan);
     texts.erase("secant:face=64"); // the plan after a click beside all controls
     EXPECT_THAT(texts, Contains("2=secant:face=128 *=secant:face=64"));
     EXPECT_THAT(texts, Contains("2=secant:face=auto *=secant:face=64"));
     EXPECT_THAT(texts, Each(testing::EndsWith(" *=secant:face=64")));
     state.plan.own[2] = {"reuse", {}};
-    EXPECT_THAT(reached(state, plan_itself), Contains("secant:face=64")) << "as all others";
+    EXPECT_THAT(list_plans_reached_by_click(state, same_plan), Contains("secant:face=64"))
+        << "as all others";
 }
 
 TEST_F(ViewPanel, ControlsEditTheChosenOneOfTwoPlans) {
@@ -117,11 +119,11 @@ TEST_F(ViewPanel, ControlsEditTheChosenOneOfTwoPlans) {
     state.mode = ViewMode::split;
     state.plan = parse_plan_text("secant"), state.other = parse_plan_text("parallax");
     state.edits_other = true;
-    EXPECT_THAT(reached(state, [](const ViewState& s) { return s.other; }),
+    EXPECT_THAT(list_plans_reached_by_click(state, [](const ViewState& s) { return s.other; }),
                 Contains("parallax:face=512"));
-    const std::set<std::string> texts = reached(
+    const std::set<std::string> texts = list_plans_reached_by_click(
         state, [](const ViewState& s) { return s.edits_other ? s.plan : ViewState().plan; });
-    EXPECT_THAT(texts, Each(technique_text(parse_plan_text("secant"))));
+    EXPECT_THAT(texts, Each(technique_text_of_plan(parse_plan_text("secant"))));
 }
 
 } // namespace

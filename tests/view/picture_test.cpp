@@ -20,11 +20,11 @@ TEST_F(ViewPicture, ScreenshotEqualsThePictureOfRender) {
                       "3",           "--animate"};
     for (const std::string name : {"a.png", "a.exr"}) {
         Words with = words;
-        with.insert(with.end(), {"--screenshot", path(name)});
-        EXPECT_EQ(view(with), 0);
+        with.insert(with.end(), {"--screenshot", path_in_test_folder(name)});
+        EXPECT_EQ(run_view_in_test(with), 0);
         Words without = words;
         without.insert(without.end(), {"--warmup", "0"});
-        expect_rendered(name, without);
+        expect_same_as_rendered(name, without);
     }
 }
 
@@ -32,14 +32,16 @@ TEST_F(ViewPicture, ScreenshotEqualsThePictureOfRender) {
 TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
     std::vector<std::string> seen;
     std::vector<measure::Picture> first; // of the modes plan, split and difference
-    const auto expect_shown = [&](const Viewer& viewer, const std::string& name) {
-        viewer.write_picture(path(name));
-        const measure::Picture written = measure::to_display(measure::read_picture(path(name)));
+    const auto expect_shown = [&](const SceneViewer& viewer, const std::string& name) {
+        viewer.write_picture(path_in_test_folder(name));
+        const measure::Picture written = measure::to_display(
+            measure::read_picture(path_in_test_folder(name)));
         double apart = 1;
         for (int tries = 0; tries < 100 && apart > 0; ++tries) { // the X server draws with a delay
             if (tries > 0) ::usleep(20000);
             apart = 0;
-            const measure::Picture shown = display->shown(written.width, written.height);
+            const measure::Picture shown = display->read_screen_pixels(written.width,
+                                                                       written.height);
             for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
                 const vec3 d = glm::abs(shown.pixels[i] - written.pixels[i]);
                 const bool is_divider = name == "split.png" && i % 64 == 40;
@@ -51,7 +53,7 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
         seen.push_back(name);
         if (first.size() < 3) first.push_back(written);
     };
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
         state.other = parse_plan_text("parallax:face=16,shadow_map=64");
         state.divider = 40.0 / 64, state.gain = 2;
@@ -61,14 +63,14 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
     };
     driver.after = [&](const ViewReport& report) {
         if (report.frame % 10 == 9)
-            expect_shown(report.viewer, report.frame < 60
-                                            ? name_of(report.state.mode) + std::string(".png")
-                                            : "split.png");
+            expect_shown(report.viewer,
+                         report.frame < 60 ? view_mode_name(report.state.mode) + std::string(".png")
+                                           : "split.png");
     };
-    EXPECT_EQ(
-        view({"--technique", "secant:face=32,shadow_map=64", "--size", "64x64", "--frames", "69"},
-             driver),
-        0);
+    EXPECT_EQ(run_view_in_test({"--technique", "secant:face=32,shadow_map=64", "--size", "64x64",
+                                "--frames", "69"},
+                               driver),
+              0);
     EXPECT_EQ(seen.size(), 7u);
     // The split picture has the plan's pixels left of the divider and the other plan's pixels right
     // of it. The difference picture must show their difference, times 2.
@@ -91,9 +93,11 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
 
 /// A change of view, time or size starts the reference picture again.
 TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
-    const auto passes = [](const ViewReport& report) { return report.viewer.reference().passes(); };
+    const auto passes = [](const ViewReport& report) {
+        return report.viewer.progressive_reference().rendered_pass_count();
+    };
     std::vector<int> seen;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
                         ViewWindow& window) {
         inputs.on_controls = false;
@@ -104,14 +108,14 @@ TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
     };
     driver.after = [&](const ViewReport& report) {
         seen.push_back(passes(report));
-        const auto made = report.viewer.reference().display();
+        const auto made = report.viewer.progressive_reference().displayed_picture();
         if (!made) return;
-        EXPECT_EQ(uvec2(made->width, made->height), report.viewer.frame_spec().size);
+        EXPECT_EQ(uvec2(made->width, made->height), report.viewer.make_frame_spec().size);
     };
-    EXPECT_EQ(
-        view({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32", "--frames", "30"},
-             driver),
-        0);
+    EXPECT_EQ(run_view_in_test({"--technique", "reuse:face=16,shadow_map=16", "--size", "32x32",
+                                "--frames", "30"},
+                               driver),
+              0);
     EXPECT_GT(seen[5], 1);
     EXPECT_EQ(seen[6], 0);
     EXPECT_GT(seen[12], 1);
@@ -122,9 +126,9 @@ TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
 
 /// Draws every technique and changes up to three of its knobs while the window runs.
 TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
-    std::vector<PlanState> plans;
+    std::vector<EditedPlanState> plans;
     for (const app::TechniqueInfo& technique : app::techniques()) {
-        PlanState plan;
+        EditedPlanState plan;
         plan.rest.technique = technique.name;
         for (const app::KnobInfo& knob : technique.knobs)
             if (knob.name == "face" || knob.name == "shadow_map") set_knob(plan.rest, knob, "16");
@@ -144,16 +148,17 @@ TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
         EXPECT_GE(turned, 2u) << technique.name;
     }
     std::size_t drawn = 0;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
         state.plan = plans[(frame - 1) / 2];
     };
     driver.after = [&](const ViewReport& report) {
-        EXPECT_EQ(report.state.said, "") << technique_text(report.state.plan);
+        EXPECT_EQ(report.state.said, "") << technique_text_of_plan(report.state.plan);
         drawn += report.state.plan == plans[(report.frame - 1) / 2];
     };
     const std::string frames = std::to_string(2 * plans.size());
-    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", frames}, driver),
+    EXPECT_EQ(run_view_in_test(
+                  {"--technique", "reuse:face=16", "--size", "32x32", "--frames", frames}, driver),
               0);
     EXPECT_EQ(drawn, 2 * plans.size());
 }
@@ -174,7 +179,7 @@ TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
                              glm::dot(at, forward);
         return dvec2(edge / 2 + glm::dot(at, right) * scale, edge / 2 - glm::dot(at, up) * scale);
     };
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         inputs.on_controls = false;
         inputs.mouse = pixel_of(frame <= 4 ? 3 : 4);
@@ -189,7 +194,8 @@ TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
         if (report.frame < 8) return;
         EXPECT_THAT(report.command, HasSubstr("--plan '3=raytrace *=reuse:face=16'"));
     };
-    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "96x96", "--frames", "8"}, driver),
+    EXPECT_EQ(run_view_in_test({"--technique", "reuse:face=16", "--size", "96x96", "--frames", "8"},
+                               driver),
               0);
 }
 
@@ -197,7 +203,7 @@ TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
 /// offers for copying renders the same bytes.
 TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
     std::string command;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         inputs.on_controls = false;
         inputs.mouse = {20. + static_cast<double>(frame), 30};
@@ -208,23 +214,24 @@ TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
             set_knob(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
     };
     driver.after = [&](const ViewReport& report) { command = report.command; };
-    EXPECT_EQ(view({"cornell-mirrors", "--technique", "secant:face=auto", "--size", "80x64",
-                    "--mirror", "back*=.5", "--frames", "60", "--screenshot", path("shown.png")},
-                   driver),
+    EXPECT_EQ(run_view_in_test({"cornell-mirrors", "--technique", "secant:face=auto", "--size",
+                                "80x64", "--mirror", "back*=.5", "--frames", "60", "--screenshot",
+                                path_in_test_folder("shown.png")},
+                               driver),
               0);
     ASSERT_TRUE(command.starts_with("catoptric render cornell-mirrors --mirror 'back*=.5' "))
         << command;
     const test::ProcessResult ended = test::run_process(
         {.command = {"/bin/sh", "-c", CATOPTRIC_CLI + command.substr(9)}, .folder = folder});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_TRUE(read("shown.png") == read("view.png")) << command;
+    EXPECT_TRUE(read_output_file("shown.png") == read_output_file("view.png")) << command;
 }
 
 /// The roughness that the user sets for a mirror is shown at once, and is an option of the command.
 TEST_F(ViewPicture, RoughnessOfAMirrorIsShownAndCopied) {
     std::string command;
     std::vector<int> passes;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
         inputs.on_controls = false;
         state.judges = true;
@@ -233,12 +240,13 @@ TEST_F(ViewPicture, RoughnessOfAMirrorIsShownAndCopied) {
     };
     driver.after = [&](const ViewReport& report) {
         command = report.command;
-        passes.push_back(report.viewer.reference().passes());
+        passes.push_back(report.viewer.progressive_reference().rendered_pass_count());
     };
-    EXPECT_EQ(view({"cornell-mirrors", "--technique", "parallax:face=32", "--size", "64x48",
-                    "--frames", "40", "--screenshot", path("shown.png")},
-                   driver),
-              0);
+    EXPECT_EQ(
+        run_view_in_test({"cornell-mirrors", "--technique", "parallax:face=32", "--size", "64x48",
+                          "--frames", "40", "--screenshot", path_in_test_folder("shown.png")},
+                         driver),
+        0);
     EXPECT_GT(passes[6], 1);
     EXPECT_EQ(passes[7], 0) << "the reference begins again";
     EXPECT_GT(passes[38], 1);
@@ -246,26 +254,26 @@ TEST_F(ViewPicture, RoughnessOfAMirrorIsShownAndCopied) {
     const test::ProcessResult ended = test::run_process(
         {.command = {"/bin/sh", "-c", CATOPTRIC_CLI + command.substr(9)}, .folder = folder});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_TRUE(read("shown.png") == read("view.png")) << command;
+    EXPECT_TRUE(read_output_file("shown.png") == read_output_file("view.png")) << command;
 }
 
 /// Errors of rough mirrors are measured against rays from their lobes, not against sharp mirrors.
 TEST_F(ViewPicture, ReferenceOfRoughMirrorsIsRough) {
     double error = 0;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t, UserInput& inputs, ViewState& state, ViewWindow&) {
         inputs.on_controls = false;
         state.judges = true;
     };
     driver.after = [&](const ViewReport& report) {
-        if (report.viewer.error()) error = report.viewer.error()->rmse;
+        if (report.viewer.measured_error()) error = report.viewer.measured_error()->rmse;
     };
     for (const auto& [technique, low, high] :
          {std::tuple("parallax:face=64", .001, .06), {"parallax:face=64,rough=none", .07, 1.}}) {
-        EXPECT_EQ(
-            view({"cornell-rough", "--technique", technique, "--size", "64x48", "--frames", "24"},
-                 driver),
-            0);
+        EXPECT_EQ(run_view_in_test({"cornell-rough", "--technique", technique, "--size", "64x48",
+                                    "--frames", "24"},
+                                   driver),
+                  0);
         EXPECT_GT(error, low) << technique;
         EXPECT_LT(error, high) << technique;
     }
@@ -274,22 +282,22 @@ TEST_F(ViewPicture, ReferenceOfRoughMirrorsIsRough) {
 /// A scene file that is dropped on the window is shown. A dropped file that is no scene only leads
 /// to a message.
 TEST_F(ViewPicture, DroppedSceneFileIsLoaded) {
-    write("broken.glb", "no scene");
-    TestDriver driver;
+    write_input_file("broken.glb", "no scene");
+    SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState&, ViewWindow&) {
-        if (frame == 3) inputs.dropped = {path("broken.glb")};
+        if (frame == 3) inputs.dropped = {path_in_test_folder("broken.glb")};
         if (frame == 5) inputs.dropped = {"flat"};
     };
     std::vector<std::string> said, scenes;
     std::string command;
     driver.after = [&](const ViewReport& report) {
         said.push_back(report.state.said);
-        scenes.push_back(const_cast<Viewer&>(report.viewer).session().scene().name);
+        scenes.push_back(const_cast<SceneViewer&>(report.viewer).viewer_session().scene().name);
         command = report.command;
     };
-    EXPECT_EQ(view({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "6", "--ambient",
-                    ".5", "--device", "0"},
-                   driver),
+    EXPECT_EQ(run_view_in_test({"--technique", "reuse:face=16", "--size", "32x32", "--frames", "6",
+                                "--ambient", ".5", "--device", "0"},
+                               driver),
               0);
     EXPECT_THAT(command, testing::StartsWith("catoptric render flat --device 0 --technique "))
         << "the wishes were for the scene before";
@@ -299,10 +307,10 @@ TEST_F(ViewPicture, DroppedSceneFileIsLoaded) {
     EXPECT_EQ(said[4], "loaded: flat");
     EXPECT_EQ(scenes[4], "flat");
     // The plan names mirrors that the dropped scene does not have.
-    EXPECT_EQ(
-        view({"--plan", "ball1=reuse:face=16 *=secant:face=16", "--size", "32x32", "--frames", "6"},
-             driver),
-        0);
+    EXPECT_EQ(run_view_in_test({"--plan", "ball1=reuse:face=16 *=secant:face=16", "--size", "32x32",
+                                "--frames", "6"},
+                               driver),
+              0);
     EXPECT_EQ(scenes.back(), "flat");
 }
 

@@ -21,62 +21,69 @@ using namespace catoptric;
 using namespace catoptric::view;
 using testing::ElementsAre;
 
-const app::KnobInfo& knob(const std::string& technique, const std::string& name) {
+const app::KnobInfo& find_knob_info(const std::string& technique, const std::string& name) {
     return *std::ranges::find(find_technique_info(technique)->knobs, name, &app::KnobInfo::name);
 }
 
 TEST(ViewPlan, PlanTextMatchesTheCommandLine) {
-    EXPECT_EQ(technique_text(parse_plan_text("secant:face=64,steps=3")), "secant:face=64,steps=3");
-    EXPECT_EQ(technique_text(parse_plan_text("reuse:face=256")), "reuse"); // 256 is the default
-    EXPECT_EQ(technique_text(parse_plan_text("1=planar *=reuse")), "1=planar *=reuse");
+    EXPECT_EQ(technique_text_of_plan(parse_plan_text("secant:face=64,steps=3")),
+              "secant:face=64,steps=3");
+    EXPECT_EQ(technique_text_of_plan(parse_plan_text("reuse:face=256")),
+              "reuse"); // 256 is the default
+    EXPECT_EQ(technique_text_of_plan(parse_plan_text("1=planar *=reuse")), "1=planar *=reuse");
     EXPECT_THROW(parse_plan_text("secand"), Error);
-    EXPECT_THAT(plan_option_words(parse_plan_text("reuse")), ElementsAre("--technique", "reuse"));
-    EXPECT_THAT(plan_option_words(parse_plan_text("auto")), ElementsAre("--technique", "auto"));
+    EXPECT_THAT(make_plan_option_words(parse_plan_text("reuse")),
+                ElementsAre("--technique", "reuse"));
+    EXPECT_THAT(make_plan_option_words(parse_plan_text("auto")),
+                ElementsAre("--technique", "auto"));
 }
 
 TEST(ViewPlan, EditedMirrorGetsARuleOfItsOwn) {
-    PlanState plan = parse_plan_text("reuse");
+    EditedPlanState plan = parse_plan_text("reuse");
     plan.own[2] = plan.rest;
-    EXPECT_EQ(technique_text(plan), "reuse"); // mirror 2 equals the rest
+    EXPECT_EQ(technique_text_of_plan(plan), "reuse"); // mirror 2 equals the rest
     plan.own[2] = {"raytrace", {}};
-    set_knob(plan.own[2], knob("raytrace", "depth"), "3");
-    set_knob(plan.rest, knob("reuse", "face"), "64");
-    EXPECT_EQ(technique_text(plan), "2=raytrace:depth=3 *=reuse:face=64");
-    EXPECT_THAT(plan_option_words(plan),
+    set_knob(plan.own[2], find_knob_info("raytrace", "depth"), "3");
+    set_knob(plan.rest, find_knob_info("reuse", "face"), "64");
+    EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse:face=64");
+    EXPECT_THAT(make_plan_option_words(plan),
                 ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
-    set_knob(plan.rest, knob("reuse", "face"), "256");
-    EXPECT_EQ(technique_text(plan), "2=raytrace:depth=3 *=reuse");
-    EXPECT_EQ(technique_text(with_knob(parse_plan_text("hybrid"), "show", "state")),
+    set_knob(plan.rest, find_knob_info("reuse", "face"), "256");
+    EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse");
+    EXPECT_EQ(technique_text_of_plan(set_knob_in_plan(parse_plan_text("hybrid"), "show", "state")),
               "hybrid:show=state");
-    EXPECT_EQ(technique_text(with_knob(plan, "show", "state")),
-              technique_text(plan)); // no technique has this knob
+    EXPECT_EQ(technique_text_of_plan(set_knob_in_plan(plan, "show", "state")),
+              technique_text_of_plan(plan)); // no technique has this knob
 }
 
 TEST(ViewPlan, SuggestedPlanBecomesRulesByMirrorNumber) {
     const std::vector<PlanEntry> drawn{
         {1, "ball", "reuse", {{"face", "64", 64, true}, {"colour", "half", {}, false}}, "far"},
         {2, "wall", "planar", {}, "flat"}};
-    EXPECT_EQ(technique_text(resolve_plan_by_mirror(parse_plan_text("auto"), drawn)),
+    EXPECT_EQ(technique_text_of_plan(resolve_plan_by_mirror(parse_plan_text("auto"), drawn)),
               "2=planar *=reuse:face=64");
-    EXPECT_EQ(technique_text(resolve_plan_by_mirror(parse_plan_text("reuse"), drawn)), "reuse");
+    EXPECT_EQ(technique_text_of_plan(resolve_plan_by_mirror(parse_plan_text("reuse"), drawn)),
+              "reuse");
 }
 
 class ViewCamera : public testing::Test {
 protected:
     scene::Camera camera{.name = "c", .eye = {0, 1, 0}, .target = {0, 1, 4}};
-    double distance(const scene::Camera& c) const { return glm::length(c.target - c.eye); }
+    double distance_to_target(const scene::Camera& c) const {
+        return glm::length(c.target - c.eye);
+    }
 };
 
 TEST_F(ViewCamera, CameraOrbitsAroundItsTarget) {
     const scene::Camera turned = move_camera(camera, {.turned = {100, 40}}, false, 400, 10);
     EXPECT_EQ(turned.target, camera.target);
-    EXPECT_NEAR(distance(turned), 4, 1e-12);
+    EXPECT_NEAR(distance_to_target(turned), 4, 1e-12);
     // The scene follows the mouse, so the eye moves up and to the picture's left, which is +x.
     EXPECT_NEAR(turned.eye.y, 1 + 4 * std::sin(.2), 1e-12);
     EXPECT_NEAR(turned.eye.x, 4 * std::cos(.2) * std::sin(.5), 1e-12);
     const scene::Camera above = move_camera(camera, {.turned = {0, 1e6}}, false, 400, 10);
     EXPECT_LT(above.eye.y, 5); // the eye never passes over the target
-    EXPECT_NEAR(distance(move_camera(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
+    EXPECT_NEAR(distance_to_target(move_camera(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
 }
 
 TEST_F(ViewCamera, FlightMovesTheEyeAndTurningKeepsIt) {
@@ -124,7 +131,7 @@ TEST(ViewHand, MouseDragsTheDividerAndClicksMirrors) {
     state.camera = {.eye = {0, 1, 0}, .target = {0, 1, 4}};
     const scene::Camera before = state.camera;
     state.mode = ViewMode::split;
-    DragState hand;
+    MouseDragState hand;
     const auto at = [&](double x, double y, bool down) {
         UserInput inputs{.mouse = {x, y}, .down = {down}};
         return hand.apply_drag(inputs, state, {200, 100}, 10);
@@ -166,7 +173,7 @@ TEST(ViewState, ModeDecidesWhichTechniquesAreRendered) {
     state.other = state.plan; // a frame accepts each technique only once
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid"));
     state.against = ComparisonPicture::reference;
-    EXPECT_EQ(choose_shown_pictures(state).second, app::WindowPictures::kCanvasTexture);
+    EXPECT_EQ(choose_shown_pictures(state).second, app::WindowPictures::kCanvasTextureIndex);
     EXPECT_TRUE(needs_host_picture(state));
     state.mode = ViewMode::answers;
     EXPECT_THAT(choose_shown_pictures(state).techniques, ElementsAre("hybrid:show=state"));
@@ -227,13 +234,13 @@ TEST(ViewCommand, CopiedCommandKeepsTheOptionsOfTheScene) {
 }
 
 TEST(ViewSettings, SettingsAreReadAsTheyWereWritten) {
-    const ViewerSettings settings{
+    const SavedViewerSettings settings{
         .window = {800, 600}, .shows_panels = false, .flies = true, .speed = -.5, .gain = 16};
-    EXPECT_EQ(parse_settings(technique_text(settings)), settings);
+    EXPECT_EQ(parse_viewer_settings(serialise_viewer_settings(settings)), settings);
     for (const char* text :
          {"", "[]", "{\"width\": -4, \"height\": 5}", "{\"gain\": 3}", "{\"speed\": \"x\"}",
           "{\"speed\": 1e999, \"panels\": 7}", "{\"width\": 99999, \"height\": 3}"})
-        EXPECT_EQ(parse_settings(text), ViewerSettings()) << text;
+        EXPECT_EQ(parse_viewer_settings(text), SavedViewerSettings()) << text;
 }
 
 TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
@@ -245,13 +252,13 @@ TEST(ViewTimes, MediansCoverFramesWithTheSamePasses) {
         return s;
     };
     for (const double ms : {1., 5., 2., 3., 4., 6., 7.}) times.add(sample(ms));
-    EXPECT_EQ(times.passes().at(0).median, 4);
-    EXPECT_EQ(times.passes().at(0).ci95.low, 1);
+    EXPECT_EQ(times.list_pass_times().at(0).median, 4);
+    EXPECT_EQ(times.list_pass_times().at(0).ci95.low, 1);
     EXPECT_EQ(times.fps(), 50);
     TimeStatistics::FrameTimeSample other = sample(9);
     other.frame.passes[0].name = "trace";
     times.add(other);
-    EXPECT_EQ(times.count(), 1u);
+    EXPECT_EQ(times.frame_count(), 1u);
 }
 
 } // namespace

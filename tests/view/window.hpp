@@ -13,16 +13,16 @@ using namespace catoptric::view;
 
 class WindowTest : public Cli {
 protected:
-    static void SetUpTestSuite() { display = std::make_unique<test::Display>(); }
+    static void SetUpTestSuite() { display = std::make_unique<test::VirtualDisplay>(); }
     static void TearDownTestSuite() { display.reset(); }
     void SetUp() override {
-        ASSERT_TRUE(display->is_there()) << "Xvfb does not start: apt-get install xvfb";
+        ASSERT_TRUE(display->is_display_running()) << "Xvfb does not start: apt-get install xvfb";
         Cli::SetUp();
     }
 
     /// Runs the window program with the given command line and the validation layer. Returns its
     /// exit code.
-    static int view(Words words, const TestDriver& driver = {}) {
+    static int run_view_in_test(Words words, const SimulatedUser& driver = {}) {
         words.insert(words.end(), {"--validate", "-q"});
         ViewOptions options;
         parse_view_command(words, [&](const ViewOptions& parsed) {
@@ -31,16 +31,19 @@ protected:
         })();
         return run_view_window(options, driver);
     }
-    std::string path(const std::string& name) const { return (folder / name).string(); }
-    void expect_rendered(const std::string& picture, Words words) const {
+    std::string path_in_test_folder(const std::string& name) const {
+        return (folder / name).string();
+    }
+    void expect_same_as_rendered(const std::string& picture, Words words) const {
         words.insert(words.begin(), "render");
         words.insert(words.end(), {"-o", "rendered" + picture.substr(picture.rfind('.'))});
-        const test::ProcessResult ended = cli(words);
+        const test::ProcessResult ended = run_cli(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
-        EXPECT_TRUE(read(picture) == read("rendered" + picture.substr(picture.rfind('.'))));
+        EXPECT_TRUE(read_output_file(picture) ==
+                    read_output_file("rendered" + picture.substr(picture.rfind('.'))));
     }
 
-    static inline std::unique_ptr<test::Display> display;
+    static inline std::unique_ptr<test::VirtualDisplay> display;
 };
 
 } // namespace test

@@ -11,7 +11,7 @@ layout(location = 1) out float out_distance;
 
 // Returns the shadow map layer of a direction from the light, the coordinates on that face, and the depth along its
 // axis.
-vec4 in_face(vec3 v) {
+vec4 find_shadow_map_position(vec3 v) {
     vec3 size = abs(v);
     if (size.y >= size.x && size.y >= size.z) return vec4(2, v.x, -v.z, size.y);
     if (size.x >= size.z) return v.x > 0.0 ? vec4(0, -v.z, -v.y, size.x) : vec4(1, v.z, -v.y, size.x);
@@ -24,7 +24,7 @@ void main() {
     float distance = length(to_light);
     vec3 direction = to_light / distance;
     float cosines = max(-dot(direction, frame.light_normal.xyz), 0.0) * max(dot(direction, n), 0.0);
-    vec4 face = in_face(-to_light);
+    vec4 face = find_shadow_map_position(-to_light);
     vec2 place = face.yz / face.w * 0.5 + 0.5;
     float visible = texture(shadow_map, vec4(place, face.x, frame.light_normal.w / face.w));
     vec3 direct = frame.intensity.rgb * (cosines * visible / (distance * distance * 3.14159265));

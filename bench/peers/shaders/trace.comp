@@ -29,7 +29,7 @@ struct TraceHit {
 };
 
 // Intersects the ray with triangle i, and replaces the hit if the new hit is nearer.
-void meet(int i, vec3 from, vec3 along, inout TraceHit hit) {
+void intersect_stored_triangle(int i, vec3 from, vec3 along, inout TraceHit hit) {
     vec3 a = texelFetch(triangles, 3 * i).xyz;
     vec3 e = texelFetch(triangles, 3 * i + 1).xyz;
     vec3 f = texelFetch(triangles, 3 * i + 2).xyz;
@@ -45,7 +45,7 @@ void meet(int i, vec3 from, vec3 along, inout TraceHit hit) {
 
 #ifdef SKIP_LINKS
 
-void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
+void walk_tree(vec3 from, vec3 along, bool any, inout TraceHit hit) {
     // The ray is transformed to steps of the grid, in which its points keep their t.
     vec3 inverse = 1.0 / (along * grid.w);
     vec3 start = -(from - grid.xyz) * grid.w * inverse;
@@ -68,7 +68,7 @@ void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
         } while (count == 0 && node < end);
         int last = first + count;
         do {
-            if (first < last) meet(first, from, along, hit);
+            if (first < last) intersect_stored_triangle(first, from, along, hit);
             ++first;
         } while (first < last);
     } while (node < end && !(any && hit.triangle >= 0));
@@ -78,7 +78,7 @@ void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
 
 shared uint waiting[32 * 64];
 
-void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
+void walk_tree(vec3 from, vec3 along, bool any, inout TraceHit hit) {
     vec3 inverse = 1.0 / along;
     vec3 start = -from * inverse;
     uint depth = 0u, child = 1u;
@@ -109,7 +109,7 @@ void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
         int first = int(child & 0x07ffffffu);
         int last = done ? 0 : first + int(child >> 27);
         do {
-            if (first < last) meet(first, from, along, hit);
+            if (first < last) intersect_stored_triangle(first, from, along, hit);
             ++first;
         } while (first < last);
         done = done || depth == 0u || (any && hit.triangle >= 0);
@@ -120,16 +120,16 @@ void walk(vec3 from, vec3 along, bool any, inout TraceHit hit) {
 #endif
 
 // Returns the origin of a ray that leaves a surface on the side to which its direction points.
-vec3 leaving(vec3 point, vec3 facet, vec3 along) { return point + (dot(along, facet) < 0.0 ? -kLift : kLift) * facet; }
+vec3 leaving_ray_origin(vec3 point, vec3 facet, vec3 along) { return point + (dot(along, facet) < 0.0 ? -kLift : kLift) * facet; }
 
-vec3 radiance(vec3 from, vec3 along) {
+vec3 trace_radiance_of_ray(vec3 from, vec3 along) {
     vec3 weight = vec3(1), sum = vec3(0);
     int bounce = 0;
     bool goes_on;
     do {
         goes_on = false;
         TraceHit hit = TraceHit(kFarthest, 0.0, 0.0, -1);
-        walk(from, along, false, hit);
+        walk_tree(from, along, false, hit);
         if (hit.triangle < 0) continue;
         int i = 3 * hit.triangle;
         vec4 corner = texelFetch(triangles, i);
@@ -146,9 +146,9 @@ vec3 radiance(vec3 from, vec3 along) {
             to_light /= distance;
             float cosines = max(-dot(to_light, light_normal.xyz), 0.0) * max(dot(to_light, n), 0.0);
             if (cosines > 0.0 && albedo.rgb != vec3(0)) {
-                vec3 origin = leaving(point, facet, to_light);
+                vec3 origin = leaving_ray_origin(point, facet, to_light);
                 TraceHit blocked = TraceHit(light.w, 0.0, 0.0, -1);
-                walk(origin, light.xyz - origin, true, blocked);
+                walk_tree(origin, light.xyz - origin, true, blocked);
                 if (blocked.triangle < 0)
                     sum += weight * albedo.rgb * intensity.rgb * (cosines / (distance * distance * 3.14159265));
             }
@@ -158,7 +158,7 @@ vec3 radiance(vec3 from, vec3 along) {
             along -= 2.0 * dot(along, n) * n;
             float height = dot(along, facet);
             if (height < 0.0) along = normalize(along - 2.0 * height * facet);
-            from = leaving(point, facet, along);
+            from = leaving_ray_origin(point, facet, along);
             goes_on = bounce < int(forward.w);
             ++bounce;
         }
@@ -173,6 +173,6 @@ void main() {
     uint group = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 2531u & (count - 1u);
     uvec2 pixel = uvec2(group % gl_NumWorkGroups.x, group / gl_NumWorkGroups.x) * 8u + gl_LocalInvocationID.xy;
     vec2 place = (vec2(pixel) + 0.5) / vec2(imageSize(picture)) * 2.0 - 1.0;
-    vec3 sum = radiance(eye.xyz, normalize(forward.xyz + place.x * right.xyz + place.y * down.xyz));
+    vec3 sum = trace_radiance_of_ray(eye.xyz, normalize(forward.xyz + place.x * right.xyz + place.y * down.xyz));
     imageStore(picture, ivec2(pixel), vec4(sum, 1));
 }

@@ -23,6 +23,6 @@ const uint kBvhReturnFromInstance = 0x70000000u;
 const uint kBvhNodesPerInstance = 3u; // nodes that the record of an instance takes
 const int kBvhMaxStack = 62; // most stack entries: paths of two trees, the root above the first, kBvhReturnFromInstance
 
-INLINE uint bvh_count(uint word) { return (word & ~kBvhNormalFloatBit) >> kBvhCountShift; }
-INLINE uint bvh_index(uint word) { return word & kBvhIndexMask; }
-INLINE bool bvh_is_inner(uint word) { return bvh_count(word) == 0u && bvh_index(word) != 0u; }
+INLINE uint bvh_word_triangle_count(uint word) { return (word & ~kBvhNormalFloatBit) >> kBvhCountShift; }
+INLINE uint bvh_word_index(uint word) { return word & kBvhIndexMask; }
+INLINE bool is_bvh_word_inner_node(uint word) { return bvh_word_triangle_count(word) == 0u && bvh_word_index(word) != 0u; }

@@ -10,7 +10,7 @@ INLINE bool is_miss(real distance) { return isnan(distance) || distance > kLarge
 INLINE vec3 parallax_direction(vec3 offset, vec3 dir, real distance) {
     if (is_miss(distance)) return dir;
     vec3 p = offset + dir * (distance - dot(offset, dir));
-    real size = largest(abs(p));
+    real size = largest_vector_component(abs(p));
     if (!is_finite(size) || size <= real(0)) return dir;
     return normalize(p / size);
 }

@@ -3,7 +3,7 @@
 
 // Rotates a direction from the scene's axes to the environment's axes. The rotation moves the environment's content
 // from an azimuth (counted from -z towards +x) to that azimuth plus the angle with this cosine and sine.
-INLINE vec3 environment_direction(vec3 d, real cosine, real sine) {
+INLINE vec3 rotate_to_environment_axes(vec3 d, real cosine, real sine) {
     return vec3(cosine * d.x + sine * d.z, d.y, cosine * d.z - sine * d.x);
 }
 
@@ -14,7 +14,7 @@ struct EnvironmentMapPosition {
     uint left, right, above, below;
     real across, down;
 };
-INLINE EnvironmentMapPosition environment_map_position(vec3 d, uint width, uint height) {
+INLINE EnvironmentMapPosition direction_to_environment_map(vec3 d, uint width, uint height) {
     real level = sqrt(d.x * d.x + d.z * d.z);
     real azimuth = level > real(0) ? atan(d.x, -d.z) : real(0);
     real x = (real(0.5) + azimuth / (real(2) * kPi)) * real(width) - real(0.5);
@@ -47,9 +47,9 @@ INLINE real studio_radiance(vec3 d) {
     return grey + real(6) * (real(1) - smoothstep(real(18), real(22), x)) * (real(1) - smoothstep(real(10.5), real(14.5), y));
 }
 
-// Returns the irradiance on a surface with unit normal `n`, from the nine coefficients of scene::irradiance
+// Returns the irradiance on a surface with unit normal `n`, from the nine coefficients of scene::irradiance_from_harmonics
 // (Ramamoorthi and Hanrahan 2001). The coefficients include the constant factors of the spherical harmonics.
-INLINE vec3 irradiance(vec3 of[9], vec3 n) {
+INLINE vec3 irradiance_from_harmonics(vec3 of[9], vec3 n) {
     vec3 sum = of[0] + n.y * of[1] + n.z * of[2] + n.x * of[3] + n.x * n.y * of[4] + n.y * n.z * of[5] +
                (real(3) * n.z * n.z - real(1)) * of[6] + n.x * n.z * of[7] + (n.x * n.x - n.y * n.y) * of[8];
     return max(sum, vec3(real(0)));

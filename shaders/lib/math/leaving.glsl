@@ -5,8 +5,8 @@
 INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
     vec3 e, f;
     choose_shorter_edges(a, b, c, e, f);
-    real e_size = largest(abs(e));
-    real f_size = largest(abs(f));
+    real e_size = largest_vector_component(abs(e));
+    real f_size = largest_vector_component(abs(f));
     if (!(e_size > real(0) && f_size > real(0))) return vec3(real(0));
     // The edges are scaled first, so that the cross product of a tiny triangle does not underflow.
     vec3 n = cross(e / e_size, f / f_size);
@@ -17,11 +17,11 @@ INLINE vec3 facet_normal(vec3 a, vec3 b, vec3 c) {
 // Returns the point of a triangle with barycentric weights `w`, and a bound of the error of each coordinate. The bound
 // covers the roundings of the interpolation, and those of a triangle test for a ray that starts at the point.
 // The triangle itself is excluded by Ray::leaves. The bound is for its copies and for neighbours in the same plane.
-INLINE vec3 triangle_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
+INLINE vec3 triangle_hit_point(vec3 a, vec3 b, vec3 c, vec3 w, OUT(vec3) error) {
     vec3 point = w.x * a + w.y * b + w.z * c;
     vec3 sum = abs(w.x * a) + abs(w.y * b) + abs(w.z * c);
     vec3 reach = max(abs(a - point), max(abs(b - point), abs(c - point)));
-    error = gamma_bound(7) * sum + gamma_bound(32) * vec3(largest(reach));
+    error = rounding_error_gamma_bound(7) * sum + rounding_error_gamma_bound(32) * vec3(largest_vector_component(reach));
     return point;
 }
 
@@ -36,17 +36,17 @@ INLINE real smooth_surface_offset(vec3 a, vec3 b, vec3 c, vec3 n_a, vec3 n_b, ve
 }
 
 // Returns the point of a hit on a sphere, projected back onto the sphere, and a bound of the error of each coordinate.
-INLINE vec3 sphere_point(vec3 centre, real radius, Ray ray, real t, OUT(vec3) error) {
+INLINE vec3 sphere_hit_point(vec3 centre, real radius, Ray ray, real t, OUT(vec3) error) {
     vec3 arm = (ray.origin - centre) + t * ray.direction;
     vec3 on_sphere = arm * (radius / length(arm));
     vec3 point = centre + on_sphere;
-    error = gamma_bound(3) * abs(point) + vec3(gamma_bound(16) * radius);
+    error = rounding_error_gamma_bound(3) * abs(point) + vec3(rounding_error_gamma_bound(16) * radius);
     return point;
 }
 
 // Returns the origin of a ray that leaves `point` along `direction`. The origin is moved off the surface by the error
 // bound projected on the normal, and then by one more float in each coordinate.
-INLINE vec3 spawn_origin(vec3 point, vec3 error, vec3 n_geometric, vec3 direction) {
+INLINE vec3 ray_spawn_origin(vec3 point, vec3 error, vec3 n_geometric, vec3 direction) {
     vec3 away = dot(direction, n_geometric) < real(0) ? -n_geometric : n_geometric;
     vec3 origin = point + dot(abs(away), error) * away;
     origin.x = away.x > real(0) ? next_up(origin.x)

@@ -25,21 +25,21 @@ INLINE bool compute_point_light_factor(vec3 position, vec3 normal, vec3 light_po
 const real kFacetFadeSine = real(0.10452846326765347);
 
 // Returns the facet's normal, turned to the side on which the shading normal lies.
-INLINE vec3 facet_side(vec3 normal, vec3 facet) { return dot(normal, facet) < real(0) ? -facet : facet; }
+INLINE vec3 facet_normal_on_shading_side(vec3 normal, vec3 facet) { return dot(normal, facet) < real(0) ? -facet : facet; }
 
 // Returns the share of a light that a facet receives, 0 to 1. The unit `direction` points to the light, which is in
 // front of the unit shading normal. The share is 0 below the facet's plane. It is 1 from 6 degrees above the facet's
 // plane, or from the light's angle above the shading normal's plane if that is smaller. `facet` points along the
 // facet's normal and has any length.
 INLINE real facet_light_share(vec3 direction, vec3 normal, vec3 facet) {
-    real sine = dot(direction, facet_side(normal, facet)) / length(facet);
+    real sine = dot(direction, facet_normal_on_shading_side(normal, facet)) / length(facet);
     real t = clamp(sine / min(kFacetFadeSine, dot(direction, normal)), real(0), real(1));
     return t * t * (real(3) - real(2) * t);
 }
 
 // Returns the mean |cosine| between a lamp's facets and a direction. `cosines` holds this mean for three orthogonal
 // axes.
-INLINE real mean_cosine(vec3 direction, vec3 right, vec3 down, vec3 forward, vec3 cosines) {
+INLINE real mean_lamp_facet_cosine(vec3 direction, vec3 right, vec3 down, vec3 forward, vec3 cosines) {
     return length(cosines * vec3(dot(right, direction), dot(down, direction), dot(forward, direction)));
 }
 
@@ -76,13 +76,13 @@ INLINE real solid_angle_density(real area_density, vec3 to_point, vec3 normal) {
 }
 
 // Returns the radiance of a Lambertian surface. `direct` is the sum over all lights of intensity * factor * visible.
-INLINE vec3 lambert(vec3 emission, vec3 albedo, vec3 direct, real ambient) {
+INLINE vec3 lambertian_radiance(vec3 emission, vec3 albedo, vec3 direct, real ambient) {
     return emission + albedo / kPi * direct + albedo * ambient;
 }
 
 // Reflects the unit direction `d` about the interpolated normal. If the reflection points below the facet, as seen from
 // the side from which `d` comes, it is mirrored to above the facet.
-INLINE vec3 mirror_direction(vec3 d, vec3 n_shading, vec3 n_geometric) {
+INLINE vec3 reflect_above_facet(vec3 d, vec3 n_shading, vec3 n_geometric) {
     vec3 facet = dot(d, n_geometric) > real(0) ? -n_geometric : n_geometric;
     vec3 r = d - real(2) * dot(d, n_shading) * n_shading;
     real height = dot(r, facet);

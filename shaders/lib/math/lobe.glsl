@@ -28,7 +28,7 @@ INLINE void tangent_frame(vec3 normal, OUT(vec3) tangent, OUT(vec3) bitangent) {
 }
 
 // Returns the length of a direction that is stretched by alpha along the surface.
-INLINE real stretched_length(real alpha, vec3 direction) {
+INLINE real length_stretched_by_alpha(real alpha, vec3 direction) {
     real x = alpha * direction.x, y = alpha * direction.y;
     return sqrt(x * x + y * y + direction.z * direction.z);
 }
@@ -36,7 +36,7 @@ INLINE real stretched_length(real alpha, vec3 direction) {
 // Returns G2 / (4 z_eye z_light) for the height-correlated shadowing and masking G2 (Heitz, "Understanding the
 // Masking-Shadowing Function in Microfacet-Based BRDFs", 2014, equation 99). Both directions have z > 0.
 INLINE real smith_visibility(real alpha, vec3 to_eye, vec3 to_light) {
-    return real(0.5) / (to_light.z * stretched_length(alpha, to_eye) + to_eye.z * stretched_length(alpha, to_light));
+    return real(0.5) / (to_light.z * length_stretched_by_alpha(alpha, to_eye) + to_eye.z * length_stretched_by_alpha(alpha, to_light));
 }
 
 // Returns the unit vector half-way between two directions, or the normal if they are opposite.
@@ -52,12 +52,12 @@ INLINE vec3 evaluate_lobe(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3 to_li
     if (!(to_eye.z > real(0)) || !(to_light.z > real(0))) return vec3(real(0));
     vec3 half_way = half_vector_between(to_eye, to_light);
     real density = ggx_density(alpha, half_way) * smith_visibility(alpha, to_eye, to_light) * to_light.z;
-    return schlick(f0, f90, dot(to_eye, half_way)) * density;
+    return schlick_fresnel(f0, f90, dot(to_eye, half_way)) * density;
 }
 
 // Returns the factor k by which bounded sampling limits the visible normals (Eto and Tokuyoshi, "Bounded VNDF Sampling
 // for Smith-GGX Reflections", 2023).
-INLINE real visible_normal_bound(real alpha, vec3 to_eye) {
+INLINE real visible_normal_sampling_bound(real alpha, vec3 to_eye) {
     real a = min(alpha, real(1));
     real s = real(1) + sqrt(to_eye.x * to_eye.x + to_eye.y * to_eye.y);
     real s2 = s * s, a2 = a * a;
@@ -67,17 +67,17 @@ INLINE real visible_normal_bound(real alpha, vec3 to_eye) {
 // Returns the probability density, per steradian, with which sample_lobe draws `to_light`.
 INLINE real lobe_pdf(real alpha, vec3 to_eye, vec3 to_light) {
     if (!(to_eye.z > real(0))) return real(0);
-    real k = visible_normal_bound(alpha, to_eye);
+    real k = visible_normal_sampling_bound(alpha, to_eye);
     return ggx_density(alpha, half_vector_between(to_eye, to_light)) /
-           (real(2) * (k * to_eye.z + stretched_length(alpha, to_eye)));
+           (real(2) * (k * to_eye.z + length_stretched_by_alpha(alpha, to_eye)));
 }
 
 // Returns a direction of light, drawn by bounded sampling of the visible normals, which are points on a spherical cap
 // (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023). `u` and `v` are uniform in [0, 1). The
 // direction may lie below the surface, where the lobe is 0.
 INLINE vec3 sample_lobe(real alpha, vec3 to_eye, real u, real v) {
-    vec3 stretched = vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z) / stretched_length(alpha, to_eye);
-    real lowest = visible_normal_bound(alpha, to_eye) * stretched.z;
+    vec3 stretched = vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z) / length_stretched_by_alpha(alpha, to_eye);
+    real lowest = visible_normal_sampling_bound(alpha, to_eye) * stretched.z;
     real angle = real(2) * kPi * u;
     real z = (real(1) - v) * (real(1) + lowest) - lowest;
     real size = sqrt(max(real(0), real(1) - z * z));
@@ -90,10 +90,10 @@ INLINE vec3 sample_lobe(real alpha, vec3 to_eye, real u, real v) {
 // arrives from there. Returns 0 below the surface. The distribution cancels, so the weight is finite for each alpha.
 INLINE vec3 lobe_sample_weight(real alpha, vec3 f0, vec3 f90, vec3 to_eye, vec3 to_light) {
     if (!(to_eye.z > real(0)) || !(to_light.z > real(0))) return vec3(real(0));
-    real k = visible_normal_bound(alpha, to_eye);
-    real weight = real(2) * (k * to_eye.z + stretched_length(alpha, to_eye)) *
+    real k = visible_normal_sampling_bound(alpha, to_eye);
+    real weight = real(2) * (k * to_eye.z + length_stretched_by_alpha(alpha, to_eye)) *
                   smith_visibility(alpha, to_eye, to_light) * to_light.z;
-    return schlick(f0, f90, dot(to_eye, half_vector_between(to_eye, to_light))) * weight;
+    return schlick_fresnel(f0, f90, dot(to_eye, half_vector_between(to_eye, to_light))) * weight;
 }
 
 // Computes the albedo of the lobe as f0 * `head_on` + f90 * `grazing`, for a viewer at the angle `cosine` to the normal,

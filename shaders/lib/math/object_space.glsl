@@ -10,17 +10,17 @@ struct ObjectPlacement {
     vec3 centre, centre_low;        // origin of the object space and its rounding error, scene units
 };
 
-INLINE vec3 to_object_space(ObjectPlacement place, vec3 arm) {
+INLINE vec3 transform_offset_to_object_space(ObjectPlacement place, vec3 arm) {
     return vec3(dot(place.own_x, arm), dot(place.own_y, arm), dot(place.own_z, arm));
 }
-INLINE vec3 offset_from_centre(ObjectPlacement place, vec3 own) {
+INLINE vec3 rotate_to_scene_offset(ObjectPlacement place, vec3 own) {
     return own.x * place.scene_x + own.y * place.scene_y + own.z * place.scene_z;
 }
 // Transforms a normal from object space to the scene by the inverse transpose. Returns a unit vector, or zero if the
 // normal is zero.
-INLINE vec3 scene_normal(ObjectPlacement place, vec3 own) {
+INLINE vec3 transform_normal_out_of_object_space(ObjectPlacement place, vec3 own) {
     vec3 n = own.x * place.own_x + own.y * place.own_y + own.z * place.own_z;
-    real size = largest(abs(n));
+    real size = largest_vector_component(abs(n));
     return size > real(0) ? normalize(n / size) : vec3(real(0));
 }
 
@@ -36,18 +36,18 @@ INLINE vec3 subtract_split_vectors(vec3 a, vec3 a_low, vec3 b, vec3 b_low) {
 
 // Transforms a ray to an instance's object space, where its points have the same t. `low` is the rounding error of the
 // ray's origin.
-INLINE Ray ray_in_object_space(ObjectPlacement place, Ray ray, vec3 low) {
+INLINE Ray transform_ray_to_object_space(ObjectPlacement place, Ray ray, vec3 low) {
     precise vec3 high = ray.origin - place.centre;
     precise vec3 rest = low - place.centre_low;
     precise vec3 arm = high + rest;
     Ray result;
-    result.origin = to_object_space(place, arm);
-    result.direction = to_object_space(place, ray.direction);
+    result.origin = transform_offset_to_object_space(place, arm);
+    result.direction = transform_offset_to_object_space(place, ray.direction);
     result.leaves = ray.leaves;
     return result;
 }
 
-// Returns a bound of the error of offset_from_centre(own), where `own` has the error `error`. The bound covers the
+// Returns a bound of the error of rotate_to_scene_offset(own), where `own` has the error `error`. The bound covers the
 // roundings of the transform to the scene, of a ray's transform back, and of the centre's two floats.
 INLINE vec3 offset_rounding_error(ObjectPlacement place, vec3 own, vec3 error) {
     vec3 x = abs(place.scene_x);
@@ -56,12 +56,12 @@ INLINE vec3 offset_rounding_error(ObjectPlacement place, vec3 own, vec3 error) {
     vec3 size = abs(own.x) * x + abs(own.y) * y + abs(own.z) * z;
     vec3 back = dot(abs(place.own_x), size) * x + dot(abs(place.own_y), size) * y + dot(abs(place.own_z), size) * z;
     vec3 moved = error.x * x + error.y * y + error.z * z;
-    return moved * (real(1) + gamma_bound(8)) + gamma_bound(16) * (size + back) +
+    return moved * (real(1) + rounding_error_gamma_bound(8)) + rounding_error_gamma_bound(16) * (size + back) +
            real(16) * kUnitRoundoff * kUnitRoundoff * abs(place.centre);
 }
 
 // Returns the centre plus an arm as the sum of two floats, the result and `low` (Knuth's two-sum).
-INLINE vec3 scene_point(ObjectPlacement place, vec3 arm, OUT(vec3) low) {
+INLINE vec3 add_offset_to_object_centre(ObjectPlacement place, vec3 arm, OUT(vec3) low) {
     precise vec3 sum = place.centre + arm;
     precise vec3 added = sum - place.centre;
     precise vec3 lost = (place.centre - (sum - added)) + (arm - added);

@@ -7,14 +7,14 @@ struct Ray {
     uint leaves;    // 1 + original number of the triangle on which the ray starts; 0: it starts on no triangle
 };
 
-INLINE bool is_valid(Ray ray) {
+INLINE bool is_valid_ray(Ray ray) {
     return is_finite(ray.origin) && is_finite(ray.direction) &&
-           largest(abs(ray.direction)) > real(0);
+           largest_vector_component(abs(ray.direction)) > real(0);
 }
 
 // The data of a ray for the triangle test (Woop, Benthin, Wald 2013). The coordinates are turned so that the ray's
 // dominant axis becomes z, and then sheared so that the ray runs along z.
-struct RayShear {
+struct TriangleTestRayShear {
     int axis;   // the ray's dominant axis, 0 to 2
     vec3 shear; // d.x / d.z, d.y / d.z and 1 / d.z of the turned direction d
 };
@@ -24,9 +24,9 @@ INLINE vec3 permute_to_axis(vec3 v, int axis) {
     return axis == 2 ? v : (axis == 0 ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y));
 }
 
-INLINE RayShear make_ray_shear(vec3 direction) {
+INLINE TriangleTestRayShear make_ray_shear(vec3 direction) {
     vec3 size = abs(direction);
-    RayShear result;
+    TriangleTestRayShear result;
     result.axis = size.z >= size.x && size.z >= size.y ? 2 : (size.y >= size.x ? 1 : 0);
     precise vec3 d = permute_to_axis(direction, result.axis);
     precise real x = d.x / d.z;
@@ -37,7 +37,7 @@ INLINE RayShear make_ray_shear(vec3 direction) {
 
 // Returns the rounding error of the product a * b, exactly, unless a product overflows or underflows (Dekker 1971, with
 // Veltkamp's split).
-INLINE real product_error(real a, real b) {
+INLINE real product_rounding_error(real a, real b) {
     precise real ta = kSplitter * a;
     precise real tb = kSplitter * b;
     precise real a_high = ta - (ta - a);
@@ -52,10 +52,10 @@ INLINE real product_error(real a, real b) {
 
 // Returns a * b - c * d with the exact sign, unless a product overflows or underflows. Rounding is monotone, so only a
 // difference of exactly 0 can have lost its sign. In this case the rounding errors of the products give the sign.
-INLINE real edge_function(real a, real b, real c, real d) {
+INLINE real exact_product_difference(real a, real b, real c, real d) {
     precise real difference = a * b - c * d;
     if (difference == real(0)) {
-        precise real rest = product_error(a, b) - product_error(c, d);
+        precise real rest = product_rounding_error(a, b) - product_rounding_error(c, d);
         difference = rest;
     }
     return difference;
@@ -72,9 +72,9 @@ INLINE int choose_shorter_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f
     precise vec3 ab = b - a;
     precise vec3 bc = c - b;
     precise vec3 ca = a - c;
-    real ab_size = largest(abs(ab));
-    real bc_size = largest(abs(bc));
-    real ca_size = largest(abs(ca));
+    real ab_size = largest_vector_component(abs(ab));
+    real bc_size = largest_vector_component(abs(bc));
+    real ca_size = largest_vector_component(abs(ca));
     bool ab_longest = ab_size >= bc_size && ab_size >= ca_size;
     bool bc_longest = !ab_longest && bc_size >= ca_size;
     e = ab_longest ? bc : (bc_longest ? ca : ab);
@@ -83,8 +83,8 @@ INLINE int choose_shorter_edges(vec3 a, vec3 b, vec3 c, OUT(vec3) e, OUT(vec3) f
 }
 
 // Watertight triangle test. Returns whether the ray meets the triangle from either side at a finite t > 0. The weights,
-// divided by their sum, are the barycentric weights of a, b, c (see `barycentric`).
-INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT(real) t,
+// divided by their sum, are the barycentric weights of a, b, c (see `normalise_barycentric`).
+INLINE bool intersect_triangle_watertight(vec3 a, vec3 b, vec3 c, vec3 origin, TriangleTestRayShear ray, OUT(real) t,
                           OUT(vec3) weights) {
     precise vec3 ta = permute_to_axis(a - origin, ray.axis);
     precise vec3 tb = permute_to_axis(b - origin, ray.axis);
@@ -95,9 +95,9 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
     precise real by = tb.y - ray.shear.y * tb.z;
     precise real cx = tc.x - ray.shear.x * tc.z;
     precise real cy = tc.y - ray.shear.y * tc.z;
-    precise real u = edge_function(cx, by, cy, bx);
-    precise real v = edge_function(ax, cy, ay, cx);
-    precise real w = edge_function(bx, ay, by, ax);
+    precise real u = exact_product_difference(cx, by, cy, bx);
+    precise real v = exact_product_difference(ax, cy, ay, cx);
+    precise real w = exact_product_difference(bx, ay, by, ax);
     t = real(0);
     weights = vec3(u, v, w);
     bool inside = (u >= real(0) && v >= real(0) && w >= real(0)) ||
@@ -114,14 +114,14 @@ INLINE bool triangle_test(vec3 a, vec3 b, vec3 c, vec3 origin, RayShear ray, OUT
     precise real height = normal.x * corner.x + normal.y * corner.y + normal.z * corner.z;
     precise real slope = normal.x * ray.shear.x + normal.y * ray.shear.y + normal.z;
     // If the plane is seen edge-on within rounding errors, t from the plane is arbitrary, so the weights give t.
-    real doubt = gamma_bound(64) * (abs(normal.x * ray.shear.x) + abs(normal.y * ray.shear.y) + abs(normal.z));
+    real doubt = rounding_error_gamma_bound(64) * (abs(normal.x * ray.shear.x) + abs(normal.y * ray.shear.y) + abs(normal.z));
     precise vec3 at = ray.shear.z * vec3(ta.z, tb.z, tc.z);
     precise real at_weights = (u * at.x + v * at.y + w * at.z) / det;
     precise real at_plane = abs(slope) > doubt ? ray.shear.z * (height / slope) : at_weights;
     // Clamps t to the range between the nearest and the farthest corner. For a triangle without a normal, t from the
     // plane is NaN or infinite.
     real first = min(at.x, min(at.y, at.z));
-    t = nan_safe_min(largest(at), nan_safe_max(first, at_plane));
+    t = nan_safe_min(largest_vector_component(at), nan_safe_max(first, at_plane));
     return t > real(0) && t <= kLargestFloat;
 }
 
@@ -130,7 +130,7 @@ INLINE bool hits_back_face(vec3 a, vec3 b, vec3 c, vec3 direction) {
     return dot(cross(b - a, c - a), direction) > real(0);
 }
 
-INLINE vec3 barycentric(vec3 weights) {
+INLINE vec3 normalise_barycentric(vec3 weights) {
     precise real det = weights.x + weights.y + weights.z;
     return weights / det;
 }
@@ -138,7 +138,7 @@ INLINE vec3 barycentric(vec3 weights) {
 // The data of a ray for the box test. The triangle test has rounding errors relative to the ray's distance from the
 // vertices. The origins are moved by as much, so that the ray meets the box of every triangle that the triangle test
 // accepts (Woop et al. 2013, section 4).
-struct BoxRay {
+struct BoxTestRay {
     vec3 near_origin; // moved origin of the ray, for the planes where the ray enters a box
     vec3 far_origin;  // moved origin of the ray, for the planes where the ray leaves a box
     vec3 inverse;     // 1 / direction, infinite for a component 0
@@ -147,10 +147,10 @@ struct BoxRay {
 // Prepares a ray for box tests. `lo` and `hi` bound the geometry that the ray may meet. Boxes of geometry outside these
 // bounds are widened when the tree is built (engine/bvh/bvh.cpp). `times` is the factor by which boxes are widened for
 // instances below them (engine/bvh/tlas.hpp), else 1.
-INLINE BoxRay make_box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
-    real reach = largest(max(abs(lo - ray.origin), abs(hi - ray.origin)));
-    real slack = gamma_bound(16) * reach * times;
-    BoxRay result;
+INLINE BoxTestRay make_box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
+    real reach = largest_vector_component(max(abs(lo - ray.origin), abs(hi - ray.origin)));
+    real slack = rounding_error_gamma_bound(16) * reach * times;
+    BoxTestRay result;
     result.inverse = vec3(real(1)) / ray.direction;
     vec3 step = vec3(result.inverse.x < real(0) ? -slack : slack,
                      result.inverse.y < real(0) ? -slack : slack,
@@ -161,7 +161,7 @@ INLINE BoxRay make_box_ray(Ray ray, vec3 lo, vec3 hi, real times) {
 }
 
 // Returns whether the ray meets the box at a t in [0, t_max]. The ray enters the box at t_near.
-INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near) {
+INLINE bool intersect_box_slabs(vec3 lo, vec3 hi, BoxTestRay ray, real t_max, OUT(real) t_near) {
     bool back_x = ray.inverse.x < real(0);
     bool back_y = ray.inverse.y < real(0);
     bool back_z = ray.inverse.z < real(0);
@@ -171,12 +171,12 @@ INLINE bool slab_test(vec3 lo, vec3 hi, BoxRay ray, real t_max, OUT(real) t_near
     vec3 t_leave = (leave - ray.far_origin) * ray.inverse;
     t_near = nan_safe_max(nan_safe_max(nan_safe_max(real(0), t_enter.x), t_enter.y), t_enter.z);
     real t_far = nan_safe_min(nan_safe_min(nan_safe_min(t_max, t_leave.x), t_leave.y), t_leave.z);
-    return t_near <= t_far * (real(1) + real(2) * gamma_bound(3));
+    return t_near <= t_far * (real(1) + real(2) * rounding_error_gamma_bound(3));
 }
 
 // Computes the nearest t in (0, t_max) at which the ray meets the sphere from outside or inside. The formula avoids the
 // difference of nearly equal squares (Haines, Gunther, Akenine-Moller 2019).
-INLINE bool sphere_test(vec3 centre, real radius, Ray ray, real t_max, OUT(real) t) {
+INLINE bool intersect_sphere_robustly(vec3 centre, real radius, Ray ray, real t_max, OUT(real) t) {
     vec3 f = ray.origin - centre;
     real a = dot(ray.direction, ray.direction);
     real b = -dot(f, ray.direction);

@@ -5,10 +5,10 @@
 const real kLargestHalf = real(65504); // largest finite 16-bit float
 
 // Returns the angle of a texel in the middle of a cube face, in radians, if the face has `edge` texels along an edge.
-INLINE real texel_angle(real edge) { return kPi / (real(2) * edge); }
+INLINE real texel_angle_of_cube_face(real edge) { return kPi / (real(2) * edge); }
 
 // Returns the width alpha of the lobe by which level `level`, from 1, of a capture is filtered.
-INLINE real alpha_of_capture_level(real level, real edge) { return real(2) * texel_angle(edge) * exp2(level); }
+INLINE real alpha_of_capture_level(real level, real edge) { return real(2) * texel_angle_of_cube_face(edge) * exp2(level); }
 
 // Returns the level whose filter is as wide as a lobe of width `alpha`. Between two levels, the share of the upper level
 // makes the mean square width of the mixed filters equal to that of the lobe. Level 0 counts as a filter of no width.
@@ -24,7 +24,7 @@ INLINE real capture_level_of_alpha(real alpha, real edge) {
 // width of a reflected GGX lobe at half its height is 1.29 alpha, because the normals' is sqrt(sqrt(2) - 1) alpha. A
 // bilinear look-up makes a box one and a half times as wide.
 INLINE real box_level_of_alpha(real alpha, real edge) {
-    return max(real(0), log2(real(2.57) * alpha / (real(1.5) * texel_angle(edge))));
+    return max(real(0), log2(real(2.57) * alpha / (real(1.5) * texel_angle_of_cube_face(edge))));
 }
 
 // Numbers of the distance laws: how the width of a filtered look-up follows from the distance of the reflected surface.
@@ -39,7 +39,7 @@ const uint kLawNone = 0u, kLawFrostbite = 1u, kLawSquare = 2u, kLawCone = 3u, kL
 // kLawSquare is a width in proportion to the distance, up to that of the lobe, as in the screen-space reflections of
 // three.js. kLawCone: the lobe's cross section at the reflected point, as it appears from the centre. kLawExact: the
 // lobe's solid angle as it appears from the centre, on a reflecting surface of any slope.
-INLINE real alpha_by_distance_law(uint law, real roughness, real ratio, real foreshortening) {
+INLINE real lookup_alpha_by_distance_law(uint law, real roughness, real ratio, real foreshortening) {
     real alpha = roughness * roughness;
     if (law == kLawFrostbite) {
         real near = clamp(ratio * roughness, real(0), roughness);
@@ -55,7 +55,7 @@ INLINE real alpha_by_distance_law(uint law, real roughness, real ratio, real for
 // Returns point `index` of Hammersley's set of `count` points, in [0, 1)^2.
 INLINE void hammersley_point(uint index, uint count, OUT(real) u, OUT(real) v) {
     u = (real(index) + real(0.5)) / real(count);
-    v = unit_fraction(reverse_bits(index));
+    v = word_to_unit_fraction(reverse_bits_of_word(index));
 }
 
 // Returns a direction of light around the normal, drawn from the lobe of a surface that is seen along its normal: the

@@ -79,13 +79,13 @@ namespace {
     X(CmdPipelineBarrier2) X(CmdPipelineBarrier) X(CmdWriteTimestamp2)
 // clang-format on
 
-struct Counter {
+struct CallCounter {
     int calls = 0, alive = 0;
     PFN_vkVoidFunction next = nullptr; ///< the function of the next layer or the driver
 };
 
-struct Alive {
-    Counter* maker = nullptr;
+struct LiveObject {
+    CallCounter* maker = nullptr;
     std::uint64_t bytes = 0; ///< size of device memory; 0 for other objects
 };
 
@@ -96,7 +96,7 @@ using Key = std::pair<std::string_view, std::uint64_t>;
 /// All state of the layer for an instance. The report is written when the instance is destroyed.
 /// After the fault the report is also written after every call, because a program may then end
 /// without destroying the instance.
-struct State {
+struct FaultLayerState {
     std::string fault_name;
     int fault_at = 0, fault_result = 0;
     bool failed = false; ///< the Vulkan call that the test chose to fail has been made
@@ -107,9 +107,9 @@ struct State {
     bool leaves_out = false;
     bool stamped = false; ///< the last recorded command is a timestamp
     int loose_stamps = 0;
-    std::map<std::string, Counter, std::less<>> counters;
+    std::map<std::string, CallCounter, std::less<>> counters;
     std::uint64_t bytes = 0, most_bytes = 0; ///< device memory: now, and at most
-    std::map<Key, Alive> alive;
+    std::map<Key, LiveObject> alive;
     std::set<Key> in_use; ///< objects that devices, also abandoned ones, may still use
 
     PFN_vkGetInstanceProcAddr next_instance_proc = nullptr;
@@ -117,9 +117,9 @@ struct State {
 } state;
 
 /// Resets the state for a new instance. Objects that earlier instances abandoned stay in use.
-void begin() {
+void reset_layer_state() {
     const std::set<Key> in_use = std::move(state.in_use);
-    state = State{.in_use = in_use};
+    state = FaultLayerState{.in_use = in_use};
     const char* text = std::getenv("CATOPTRIC_FAULT");
     if (!text) return;
     char name[64] = {};
@@ -130,7 +130,7 @@ void begin() {
     state.fault_name = name;
 }
 
-void report() {
+void write_layer_report() {
     const char* path = std::getenv("CATOPTRIC_FAULT_REPORT");
     std::FILE* file = path ? std::fopen(path, "w") : nullptr;
     if (!file) return;
@@ -143,31 +143,32 @@ void report() {
     std::fclose(file);
 }
 
-Counter& counter_of(std::string_view name) {
+CallCounter& find_call_counter(std::string_view name) {
     const auto found = state.counters.find(name);
     return found != state.counters.end() ? found->second : state.counters[std::string(name)];
 }
 
 template <typename Handle>
-std::uint64_t number_of(Handle handle) {
+std::uint64_t handle_to_number(Handle handle) {
     std::uint64_t number = 0;
     std::memcpy(&number, &handle, sizeof handle);
     return number;
 }
 
 template <typename Handle>
-void born(Counter& counter, std::string_view destroyer, Handle handle, std::uint64_t bytes = 0) {
+void record_created_object(CallCounter& counter, std::string_view destroyer, Handle handle,
+                           std::uint64_t bytes = 0) {
     if (handle == VK_NULL_HANDLE) return;
     ++counter.alive;
-    state.alive[{destroyer, number_of(handle)}] = {&counter, bytes};
+    state.alive[{destroyer, handle_to_number(handle)}] = {&counter, bytes};
     state.bytes += bytes;
     state.most_bytes = std::max(state.most_bytes, state.bytes);
 }
 
 template <typename Handle>
-void died(std::string_view destroyer, Handle handle) {
+void record_destroyed_object(std::string_view destroyer, Handle handle) {
     if (handle == VK_NULL_HANDLE) return;
-    const Key key{destroyer, number_of(handle)};
+    const Key key{destroyer, handle_to_number(handle)};
     const auto found = state.alive.find(key);
     if (state.in_use.contains(key)) {
         ++state.untimely;
@@ -178,47 +179,48 @@ void died(std::string_view destroyer, Handle handle) {
         state.bytes -= found->second.bytes;
         state.alive.erase(found);
     }
-    if (state.failed) report();
+    if (state.failed) write_layer_report();
 }
 
 /// Counts a call. Returns whether this call must fail.
-bool is_fault(std::string_view name) {
-    const bool fault = ++counter_of(name).calls == state.fault_at && name == state.fault_name;
+bool count_call_and_check_fault(std::string_view name) {
+    const bool fault = ++find_call_counter(name).calls == state.fault_at &&
+                       name == state.fault_name;
     state.failed |= fault;
-    if (state.failed) report();
+    if (state.failed) write_layer_report();
     return fault;
 }
 
-bool waits(std::string_view name) {
+bool is_waiting_call(std::string_view name) {
     return name == "vkWaitSemaphores" || name == "vkQueueWaitIdle" || name == "vkDeviceWaitIdle";
 }
 
-bool may_say_lost(std::string_view name) {
-    return waits(name) || name == "vkQueueSubmit2" || name == "vkGetQueryPoolResults";
+bool may_report_device_loss(std::string_view name) {
+    return is_waiting_call(name) || name == "vkQueueSubmit2" || name == "vkGetQueryPoolResults";
 }
 
 /// Returns the result that a call must return instead of being passed on. VK_SUCCESS: pass it on.
-VkResult refusal(std::string_view name) {
-    const bool fault = is_fault(name);
-    if (!fault && !(state.lost && may_say_lost(name))) return VK_SUCCESS;
+VkResult find_forced_result(std::string_view name) {
+    const bool fault = count_call_and_check_fault(name);
+    if (!fault && !(state.lost && may_report_device_loss(name))) return VK_SUCCESS;
     const VkResult result = fault ? static_cast<VkResult>(state.fault_result)
                                   : VK_ERROR_DEVICE_LOST;
-    if (result == VK_ERROR_DEVICE_LOST && may_say_lost(name)) state.lost = true;
-    if (state.lost || waits(name))
+    if (result == VK_ERROR_DEVICE_LOST && may_report_device_loss(name)) state.lost = true;
+    if (state.lost || is_waiting_call(name))
         for (const auto& [key, object] : state.alive) state.in_use.insert(key);
     return result;
 }
 
 /// Returns how many handles a creating call asks for. Only pipelines are created in arrays.
 template <typename... Args>
-std::uint32_t handle_count(const std::tuple<Args...>& args) {
+std::uint32_t count_created_handles(const std::tuple<Args...>& args) {
     if constexpr (sizeof...(Args) == 6) return std::get<2>(args);
     return 1;
 }
 
 /// Returns how many bytes of device memory a call allocates; 0 for other calls.
 template <typename... Args>
-std::uint64_t bytes_of(const std::tuple<Args...>& args) {
+std::uint64_t allocated_bytes_of_call(const std::tuple<Args...>& args) {
     if constexpr (std::is_same_v<std::tuple_element_t<1, std::tuple<Args...>>,
                                  const VkMemoryAllocateInfo*>)
         return std::get<1>(args)->allocationSize;
@@ -230,9 +232,10 @@ struct Call;
 template <const auto& kName, typename... Args>
 struct Call<kName, VkResult(VKAPI_PTR*)(Args...)> {
     static VkResult hook(Args... args) {
-        const auto next = reinterpret_cast<VkResult(VKAPI_PTR*)(Args...)>(counter_of(kName).next);
+        const auto next = reinterpret_cast<VkResult(VKAPI_PTR*)(Args...)>(
+            find_call_counter(kName).next);
         const bool was_lost = state.lost;
-        const VkResult result = refusal(kName);
+        const VkResult result = find_forced_result(kName);
         if (result == VK_SUCCESS) return next(args...);
         if (kName == std::string_view("vkQueueSubmit2") && state.lost && !was_lost) next(args...);
         return result;
@@ -247,8 +250,9 @@ struct Creator<kName, kDestroyer, VkResult(VKAPI_PTR*)(Args...)> {
         const std::tuple<Args...> list(args...);
         const auto handles = std::get<sizeof...(Args) - 1>(list);
         const VkResult result = Call<kName, VkResult(VKAPI_PTR*)(Args...)>::hook(args...);
-        for (std::uint32_t i = 0; result == VK_SUCCESS && i < handle_count(list); ++i)
-            born(counter_of(kName), kDestroyer, handles[i], bytes_of(list));
+        for (std::uint32_t i = 0; result == VK_SUCCESS && i < count_created_handles(list); ++i)
+            record_created_object(find_call_counter(kName), kDestroyer, handles[i],
+                                  allocated_bytes_of_call(list));
         return result;
     }
 };
@@ -267,26 +271,26 @@ struct Command<kName, void(VKAPI_PTR*)(VkCommandBuffer, Args...)> {
         }
         state.loose_stamps += state.stamped && !divides;
         state.stamped = kThis == "vkCmdWriteTimestamp2";
-        const bool is_first = is_fault(kName);
+        const bool is_first = count_call_and_check_fault(kName);
         state.leaves_out |= is_first;
         if (state.leaves_out && kThis == state.fault_name) return;
-        reinterpret_cast<void(VKAPI_PTR*)(VkCommandBuffer, Args...)>(counter_of(kName).next)(
+        reinterpret_cast<void(VKAPI_PTR*)(VkCommandBuffer, Args...)>(find_call_counter(kName).next)(
             buffer, args...);
     }
 };
 
 template <const auto& kName, typename Handle>
-void destroy_hook(VkDevice device, Handle handle, const VkAllocationCallbacks* callbacks) {
-    died(kName, handle);
+void hook_destroy_object(VkDevice device, Handle handle, const VkAllocationCallbacks* callbacks) {
+    record_destroyed_object(kName, handle);
     using Destroy = void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*);
-    reinterpret_cast<Destroy>(counter_of(kName).next)(device, handle, callbacks);
+    reinterpret_cast<Destroy>(find_call_counter(kName).next)(device, handle, callbacks);
 }
 template <typename Pfn>
 struct Destroyed;
 template <typename Handle>
 struct Destroyed<void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
     template <const auto& kName>
-    static constexpr auto hook = &destroy_hook<kName, Handle>;
+    static constexpr auto hook = &hook_destroy_object<kName, Handle>;
 };
 
 #define NAME(call, ...) constexpr char k##call[] = "vk" #call;
@@ -296,12 +300,12 @@ FOR_CALLS(NAME)
 FOR_COMMANDS(NAME)
 #undef NAME
 
-struct Hook {
+struct FunctionHook {
     std::string_view name;
     PFN_vkVoidFunction function;
 };
 
-const Hook kDeviceHooks[] = {
+const FunctionHook kDeviceHooks[] = {
 #define CREATOR(call, destroyer)                                                                   \
     {k##call,                                                                                      \
      reinterpret_cast<PFN_vkVoidFunction>(&Creator<k##call, k##destroyer, PFN_vk##call>::hook)},
@@ -318,10 +322,11 @@ const Hook kDeviceHooks[] = {
 #undef CALL
 };
 
-VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationCallbacks* callbacks,
-                         VkInstance* instance) {
-    begin();
-    if (const VkResult result = refusal("vkCreateInstance"); result != VK_SUCCESS) return result;
+VkResult hook_create_instance(const VkInstanceCreateInfo* create,
+                              const VkAllocationCallbacks* callbacks, VkInstance* instance) {
+    reset_layer_state();
+    if (const VkResult result = find_forced_result("vkCreateInstance"); result != VK_SUCCESS)
+        return result;
     auto* link = test::find_link<VkLayerInstanceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
@@ -331,95 +336,100 @@ VkResult create_instance(const VkInstanceCreateInfo* create, const VkAllocationC
         state.next_instance_proc(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult result = next(create, callbacks, instance);
     if (result != VK_SUCCESS) return result;
-    born(counter_of("vkCreateInstance"), "vkDestroyInstance", *instance);
+    record_created_object(find_call_counter("vkCreateInstance"), "vkDestroyInstance", *instance);
     // Function addresses are taken now. Later the loader would return the first layer's functions
     // instead of those below this layer.
     for (const char* name : {"vkDestroyInstance", "vkEnumeratePhysicalDevices", "vkCreateDevice",
                              "vkGetPhysicalDeviceSurfaceSupportKHR"})
-        counter_of(name).next = state.next_instance_proc(*instance, name);
+        find_call_counter(name).next = state.next_instance_proc(*instance, name);
     return result;
 }
 
-void destroy_instance(VkInstance instance, const VkAllocationCallbacks* callbacks) {
-    died("vkDestroyInstance", instance);
-    reinterpret_cast<PFN_vkDestroyInstance>(counter_of("vkDestroyInstance").next)(instance,
-                                                                                  callbacks);
-    report();
+void hook_destroy_instance(VkInstance instance, const VkAllocationCallbacks* callbacks) {
+    record_destroyed_object("vkDestroyInstance", instance);
+    reinterpret_cast<PFN_vkDestroyInstance>(find_call_counter("vkDestroyInstance").next)(instance,
+                                                                                         callbacks);
+    write_layer_report();
 }
 
-VkResult enumerate_devices(VkInstance instance, std::uint32_t* count, VkPhysicalDevice* devices) {
+VkResult hook_enumerate_devices(VkInstance instance, std::uint32_t* count,
+                                VkPhysicalDevice* devices) {
     constexpr char kName[] = "vkEnumeratePhysicalDevices";
-    const bool fault = is_fault(kName);
+    const bool fault = count_call_and_check_fault(kName);
     if (fault && state.fault_result < 0) return static_cast<VkResult>(state.fault_result);
     if (fault && state.fault_result == VK_SUCCESS) {
         *count = 0;
         return VK_SUCCESS;
     }
     if (fault && devices && *count > 0) --*count;
-    const auto next = reinterpret_cast<PFN_vkEnumeratePhysicalDevices>(counter_of(kName).next);
+    const auto next = reinterpret_cast<PFN_vkEnumeratePhysicalDevices>(
+        find_call_counter(kName).next);
     const VkResult result = next(instance, count, devices);
     if (fault && !devices) ++*count;
     return result;
 }
 
-VkResult surface_support(VkPhysicalDevice physical, std::uint32_t family, VkSurfaceKHR surface,
-                         VkBool32* can) {
+VkResult hook_surface_support(VkPhysicalDevice physical, std::uint32_t family, VkSurfaceKHR surface,
+                              VkBool32* can) {
     constexpr char kName[] = "vkGetPhysicalDeviceSurfaceSupportKHR";
-    const bool fault = is_fault(kName);
+    const bool fault = count_call_and_check_fault(kName);
     if (fault && state.fault_result < 0) return static_cast<VkResult>(state.fault_result);
     const VkResult result = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceSupportKHR>(
-        counter_of(kName).next)(physical, family, surface, can);
+        find_call_counter(kName).next)(physical, family, surface, can);
     if (fault) *can = VK_FALSE;
     return result;
 }
 
-VkResult create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
-                       const VkAllocationCallbacks* callbacks, VkDevice* device) {
-    if (const VkResult result = refusal("vkCreateDevice"); result != VK_SUCCESS) return result;
+VkResult hook_create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
+                            const VkAllocationCallbacks* callbacks, VkDevice* device) {
+    if (const VkResult result = find_forced_result("vkCreateDevice"); result != VK_SUCCESS)
+        return result;
     auto* link = test::find_link<VkLayerDeviceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_device_proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
-    const auto next = reinterpret_cast<PFN_vkCreateDevice>(counter_of("vkCreateDevice").next);
+    const auto next = reinterpret_cast<PFN_vkCreateDevice>(
+        find_call_counter("vkCreateDevice").next);
     const VkResult result = next(physical, create, callbacks, device);
     if (result != VK_SUCCESS) return result;
-    born(counter_of("vkCreateDevice"), "vkDestroyDevice", *device);
-    for (const Hook& hook : kDeviceHooks)
-        counter_of(hook.name).next = state.next_device_proc(*device, hook.name.data());
+    record_created_object(find_call_counter("vkCreateDevice"), "vkDestroyDevice", *device);
+    for (const FunctionHook& hook : kDeviceHooks)
+        find_call_counter(hook.name).next = state.next_device_proc(*device, hook.name.data());
     return result;
 }
 
-void destroy_device(VkDevice device, const VkAllocationCallbacks* callbacks) {
-    died("vkDestroyDevice", device);
+void hook_destroy_device(VkDevice device, const VkAllocationCallbacks* callbacks) {
+    record_destroyed_object("vkDestroyDevice", device);
     const auto next = state.next_device_proc(device, "vkDestroyDevice");
     reinterpret_cast<PFN_vkDestroyDevice>(next)(device, callbacks);
 }
 
-PFN_vkVoidFunction device_proc(VkDevice device, const char* name) {
+PFN_vkVoidFunction find_device_function(VkDevice device, const char* name) {
     if (!std::strcmp(name, "vkGetDeviceProcAddr"))
-        return reinterpret_cast<PFN_vkVoidFunction>(device_proc);
+        return reinterpret_cast<PFN_vkVoidFunction>(find_device_function);
     if (!std::strcmp(name, "vkDestroyDevice"))
-        return reinterpret_cast<PFN_vkVoidFunction>(destroy_device);
-    for (const Hook& hook : kDeviceHooks)
+        return reinterpret_cast<PFN_vkVoidFunction>(hook_destroy_device);
+    for (const FunctionHook& hook : kDeviceHooks)
         if (hook.name == name) return hook.function;
     return state.next_device_proc(device, name);
 }
 
-PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
-    const Hook hooks[] = {
-        {"vkGetInstanceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(instance_proc)},
-        {"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(device_proc)},
-        {"vkCreateInstance", reinterpret_cast<PFN_vkVoidFunction>(create_instance)},
-        {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(destroy_instance)},
-        {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(create_device)},
-        {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(destroy_device)},
-        {"vkEnumeratePhysicalDevices", reinterpret_cast<PFN_vkVoidFunction>(enumerate_devices)},
+PFN_vkVoidFunction find_instance_function(VkInstance instance, const char* name) {
+    const FunctionHook hooks[] = {
+        {"vkGetInstanceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(find_instance_function)},
+        {"vkGetDeviceProcAddr", reinterpret_cast<PFN_vkVoidFunction>(find_device_function)},
+        {"vkCreateInstance", reinterpret_cast<PFN_vkVoidFunction>(hook_create_instance)},
+        {"vkDestroyInstance", reinterpret_cast<PFN_vkVoidFunction>(hook_destroy_instance)},
+        {"vkCreateDevice", reinterpret_cast<PFN_vkVoidFunction>(hook_create_device)},
+        {"vkDestroyDevice", reinterpret_cast<PFN_vkVoidFunction>(hook_destroy_device)},
+        {"vkEnumeratePhysicalDevices",
+         reinterpret_cast<PFN_vkVoidFunction>(hook_enumerate_devices)},
         {"vkGetPhysicalDeviceSurfaceSupportKHR",
-         reinterpret_cast<PFN_vkVoidFunction>(surface_support)}};
-    for (const Hook& hook : hooks)
+         reinterpret_cast<PFN_vkVoidFunction>(hook_surface_support)}};
+    for (const FunctionHook& hook : hooks)
         if (hook.name == name) return hook.function;
-    for (const Hook& hook : kDeviceHooks)
+    for (const FunctionHook& hook : kDeviceHooks)
         if (hook.name == name) return hook.function;
     return state.next_instance_proc ? state.next_instance_proc(instance, name) : nullptr;
 }
@@ -429,8 +439,8 @@ PFN_vkVoidFunction instance_proc(VkInstance instance, const char* name) {
 extern "C" VK_LAYER_EXPORT VkResult
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* interface) {
     interface->loaderLayerInterfaceVersion = 2;
-    interface->pfnGetInstanceProcAddr = instance_proc;
-    interface->pfnGetDeviceProcAddr = device_proc;
+    interface->pfnGetInstanceProcAddr = find_instance_function;
+    interface->pfnGetDeviceProcAddr = find_device_function;
     interface->pfnGetPhysicalDeviceProcAddr = nullptr;
     return VK_SUCCESS;
 }

@@ -14,14 +14,14 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::view;
 
-struct Shot {
+struct DocumentedScreenshot {
     std::string name;
     std::size_t frames;
     std::function<void(ViewState&)> set;
     uvec2 window{872, 512};
 };
 
-const std::vector<Shot> kShots{
+const std::vector<DocumentedScreenshot> kShots{
     {"plan", 12, [](ViewState& state) { state.said = ""; }, {872, 1000}},
     {"split", 8,
      [](ViewState& state) {
@@ -47,11 +47,12 @@ const std::vector<Shot> kShots{
     {"keys", 4, [](ViewState& state) { state.shows_keys = true; }},
 };
 
-int make(const std::filesystem::path& folder) {
-    const test::Display display;
-    check(display.is_there(), Failure::no_device, "Xvfb does not start: apt-get install xvfb");
+int make_documentation_pictures(const std::filesystem::path& folder) {
+    const test::VirtualDisplay display;
+    check(display.is_display_running(), Failure::no_device,
+          "Xvfb does not start: apt-get install xvfb");
     std::size_t shot = 0, last = kShots.front().frames;
-    TestDriver driver;
+    SimulatedUser driver;
     driver.before = [&](std::size_t, UserInput& inputs, ViewState& state, ViewWindow& window) {
         inputs.on_controls = true; // ignores the mouse pointer of the X server
         kShots[shot].set(state);
@@ -61,12 +62,13 @@ int make(const std::filesystem::path& folder) {
         if (report.frame < last) return;
         ::usleep(500000); // waits until the X server has drawn
         const auto& [name, frames, set, size] = kShots[shot];
-        measure::write_png(display.shown(static_cast<int>(size.x), static_cast<int>(size.y)),
-                           folder / ("view-" + name + ".png"));
+        measure::write_png(
+            display.read_screen_pixels(static_cast<int>(size.x), static_cast<int>(size.y)),
+            folder / ("view-" + name + ".png"));
         if (++shot < kShots.size()) last += kShots[shot].frames;
     };
     std::size_t frames = 0;
-    for (const Shot& one : kShots) frames += one.frames;
+    for (const DocumentedScreenshot& one : kShots) frames += one.frames;
     return parse_view_command(
         {"--frames", std::to_string(frames), "--time", "0.4"},
         [&](const ViewOptions& options) { return run_view_window(options, driver); })();
@@ -77,6 +79,6 @@ int make(const std::filesystem::path& folder) {
 int main(int argc, char** argv) {
     return cli::run_other_program_guarded("catoptric_view_pictures", [&] {
         check(argc == 2, Failure::usage, "wanted a folder for the pictures");
-        return make(argv[1]);
+        return make_documentation_pictures(argv[1]);
     });
 }
