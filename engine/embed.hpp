@@ -8,13 +8,11 @@
 
 #include <vulkan/vulkan.h>
 
-/// Runs sessions on the caller's Vulkan device, and renders into the caller's images. Needs the
-/// Vulkan headers. This is the only public header with Vulkan's names.
+/// Runs sessions on the caller's Vulkan device, and renders into the caller's images.
 namespace catoptric::embed {
 
-/// Features that the device must be created with, for Vulkan 1.3. The features are chained in the
-/// member `core`. VkDeviceCreateInfo::pNext must point to `core`, and pEnabledFeatures must be
-/// null. You may enable other features in the chain, too. No extension is needed.
+/// Features that the device must be created with, for Vulkan 1.3. VkDeviceCreateInfo::pNext must
+/// point to `core`, which chains them, and pEnabledFeatures must be null. No extension is needed.
 struct RequiredDeviceFeatures {
     /// Fills the chain. Throws `no_device` with the names of features that the device lacks.
     CATOPTRIC_API explicit RequiredDeviceFeatures(VkPhysicalDevice device);
@@ -36,9 +34,8 @@ struct Device {
     VkQueue queue = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0;
 };
-/// Makes an engine on the caller's device. Ignores the options `device` and `validate`, because the
-/// caller has chosen both. Throws `usage` for missing handles, and `no_device` for a device that is
-/// not suitable.
+/// Makes an engine on the caller's device. Ignores the options `device` and `validate`. Throws
+/// `usage` for missing handles, and `no_device` for a device that is not suitable.
 CATOPTRIC_API app::Engine make_engine(const Device& device, const app::EngineOptions& options = {});
 
 /// An image of the caller: 2D, one layer, mip and sample, optimal tiling, of the frame's size. Its
@@ -53,10 +50,9 @@ struct Target {
 };
 /// Renders a frame of one technique as Session::frame does, and writes the displayed picture into
 /// the image. All work submitted to the queue before has ended when the frame ends. Work submitted
-/// afterwards sees the picture without a semaphore. These rules do not cover acquiring and
-/// presenting a swapchain's image. Wait for the acquired image in a submit of your own before the
-/// frame, and signal for presenting in one after it. The image must live until the frame has ended
-/// (Frame::times). Throws `usage` for several techniques, no image, and another layout.
+/// afterwards sees the picture without a semaphore. Wait for an acquired image of a swapchain in a
+/// submit of your own before the frame, and signal for presenting in one after it. The image must
+/// live until Frame::times is known. Throws `usage` for several techniques or a wrong image.
 CATOPTRIC_API app::Frame render_frame_into(app::Session& session, const app::FrameSpec& spec,
                                            const Target& target);
 
