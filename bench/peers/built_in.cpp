@@ -28,13 +28,13 @@ constexpr int kSettlingFrames = 14; // frames until mirrors seen in mirrors no l
 /// Prints how much the prototypes' pictures differ from ours. Returns whether the pictures of the
 /// prototypes that trace rays equal ours.
 bool check_prototype_pictures(app::Session& session, app::Request request,
-                              PrototypePrograms& prototypes) {
+                              PrototypeFrames& prototypes) {
     for (app::BenchmarkSubject& subject : prototypes.subjects(0))
         for (int i = 0; i < kSettlingFrames; ++i) subject.work();
     request.techniques = {kPairs[0].technique};
     const measure::Picture traced = session.frame(request).read().hdr;
     bool same = true;
-    for (const std::string& name : PrototypePrograms::tracers()) {
+    for (const std::string& name : PrototypeFrames::tracers()) {
         const std::size_t other = count_differing_pixels(traced, prototypes.read(name));
         std::printf("%-23s %zu pixels differ by more than %g\n", name.c_str(), other,
                     static_cast<double>(kEqualPixelTolerance));
@@ -45,14 +45,14 @@ bool check_prototype_pictures(app::Session& session, app::Request request,
         request.techniques = {technique};
         const measure::Picture ours = app::run(session, request).parts.front().hdr;
         const std::vector<PeerVector> theirs = prototypes.read(
-            PrototypePrograms::prototype_name_of_edge(face));
+            PrototypeFrames::prototype_name_of_edge(face));
         double squares = 0;
         for (std::size_t i = 0; i < theirs.size(); ++i) {
             const vec3 apart = ours.pixels[i] - vec3(theirs[i].x, theirs[i].y, theirs[i].z);
             squares += dot(dvec3(apart), dvec3(apart)) / 3;
         }
         std::printf("%-23s rmse %.4f from %s, %zu pixels differ by more than %g\n",
-                    PrototypePrograms::prototype_name_of_edge(face).c_str(),
+                    PrototypeFrames::prototype_name_of_edge(face).c_str(),
                     std::sqrt(squares / static_cast<double>(theirs.size())), technique,
                     count_differing_pixels(ours, theirs),
                     static_cast<double>(kEqualPixelTolerance));
@@ -77,7 +77,7 @@ bool compare_built_in_scene_pictures(const PeerBench& bench) {
         same = same && shown.same;
     }
     const EmbreePeerScene mesh(bench.device, request, kMirrorBounces, false);
-    PrototypePrograms prototypes(request, mesh);
+    PrototypeFrames prototypes(request, mesh);
     same = check_prototype_pictures(*session, request, prototypes) && same;
     std::ranges::move(prototypes.subjects(kWarmupFrameCount), std::back_inserter(subjects));
     for (const auto& [technique, face] : kOthers) {
@@ -97,13 +97,13 @@ bool compare_built_in_scene_pictures(const PeerBench& bench) {
     for (const auto& [technique, face] : kOthers)
         print_cost_ratio(find_benchmark_by_name(list, technique),
                          find_benchmark_by_name(list, embree_benchmark_name("mesh", 1)));
-    for (const std::string& prototype : PrototypePrograms::tracers())
+    for (const std::string& prototype : PrototypeFrames::tracers())
         print_cost_ratio(find_benchmark_by_name(list, "ours/mesh"),
                          find_benchmark_by_name(list, prototype));
     for (const auto& [technique, face] : kOthers)
         print_cost_ratio(
             find_benchmark_by_name(list, technique),
-            find_benchmark_by_name(list, PrototypePrograms::prototype_name_of_edge(face)));
+            find_benchmark_by_name(list, PrototypeFrames::prototype_name_of_edge(face)));
     return same;
 }
 

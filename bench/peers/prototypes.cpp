@@ -18,14 +18,14 @@ constexpr int kCaptureFaceEdges[] = {64, 256, 512};
 
 } // namespace
 
-struct PrototypePrograms::Impl {
+struct PrototypeFrames::Impl {
     gpu::GpuDevice device{{}};
     gpu::PipelineStore pipelines{device};
     std::map<std::string, std::unique_ptr<TracePrototype>> tracers;
     std::map<std::string, std::unique_ptr<CapturePrototype>> captures;
 };
 
-PrototypePrograms::PrototypePrograms(const app::Request& request, const EmbreePeerScene& mesh)
+PrototypeFrames::PrototypeFrames(const app::Request& request, const EmbreePeerScene& mesh)
     : prototype_impl_(std::make_unique<Impl>()) {
     const std::vector<bvh::Triangle> triangles = list_scene_triangles(request.scene);
     for (const auto& [name, tree] : kTracers)
@@ -37,15 +37,15 @@ PrototypePrograms::PrototypePrograms(const app::Request& request, const EmbreePe
                                                request, static_cast<std::uint32_t>(face));
 }
 
-PrototypePrograms::~PrototypePrograms() = default;
+PrototypeFrames::~PrototypeFrames() = default;
 
-std::vector<std::string> PrototypePrograms::tracers() {
+std::vector<std::string> PrototypeFrames::tracers() {
     std::vector<std::string> names;
     for (const auto& [name, tree] : kTracers) names.emplace_back(name);
     return names;
 }
 
-std::vector<app::BenchmarkSubject> PrototypePrograms::subjects(int warmup) {
+std::vector<app::BenchmarkSubject> PrototypeFrames::subjects(int warmup) {
     std::vector<app::BenchmarkSubject> subjects;
     for (const auto& [name, tracer] : prototype_impl_->tracers)
         subjects.push_back(app::make_benchmark_subject(
@@ -56,7 +56,7 @@ std::vector<app::BenchmarkSubject> PrototypePrograms::subjects(int warmup) {
     return subjects;
 }
 
-std::vector<PeerVector> PrototypePrograms::read(const std::string& name) {
+std::vector<PeerVector> PrototypeFrames::read(const std::string& name) {
     const auto tracer = prototype_impl_->tracers.find(name);
     return tracer != prototype_impl_->tracers.end() ? tracer->second->read()
                                                     : prototype_impl_->captures.at(name)->read();

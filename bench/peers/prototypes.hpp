@@ -13,14 +13,14 @@ namespace peers {
 
 /// The prototypes: "prototype/stack" and "prototype/links" trace rays with two forms of tree.
 /// "prototype/FACE" draws captures with faces of FACE texels.
-class PrototypePrograms {
+class PrototypeFrames {
 public:
     /// Sets up all prototypes for the request's scene and view. `mesh` is the same scene without
     /// exact spheres.
-    PrototypePrograms(const catoptric::app::Request& request, const EmbreePeerScene& mesh);
-    ~PrototypePrograms();
-    PrototypePrograms(const PrototypePrograms&) = delete;
-    PrototypePrograms& operator=(const PrototypePrograms&) = delete;
+    PrototypeFrames(const catoptric::app::Request& request, const EmbreePeerScene& mesh);
+    ~PrototypeFrames();
+    PrototypeFrames(const PrototypeFrames&) = delete;
+    PrototypeFrames& operator=(const PrototypeFrames&) = delete;
 
     /// Returns the names of the prototypes that trace rays.
     static std::vector<std::string> tracers();

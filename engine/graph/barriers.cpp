@@ -15,7 +15,7 @@ struct SubresourceAccessHistory {
 
     /// Returns the touches that the next write must wait for. For an image, all have its present
     /// layout.
-    AccessStateList accesses_before_write() const {
+    AccessStateList list_accesses_before_write() const {
         if (!readers.empty()) return readers;
         return write == kNoAccessState ? AccessStateList() : AccessStateList(write);
     }
@@ -122,7 +122,7 @@ public:
           previous_(graph, access_history_on_arrival(ResourceUse::sampled)), users_(plan) {
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
             if (const SubresourceAccessHistory state = access_history_at_frame_start(graph, i);
-                !state.accesses_before_write().empty())
+                !state.list_accesses_before_write().empty())
                 states_.set_value_of_access(access_to_whole_image(graph, i), state);
     }
 
@@ -131,13 +131,13 @@ public:
         const AccessStateCode code = encode_access_state(touch);
         const auto visit = [&](std::uint32_t first, std::uint32_t end,
                                SubresourceAccessHistory& state) {
-            if (state.accesses_before_write().empty())
+            if (state.list_accesses_before_write().empty())
                 emit_layer_barriers(
                     access, first, end, {}, touch,
                     list_access_states(users_.touches_left_in(memory_placement(access))), barriers);
             else
                 add_wait_barriers(access, first, end,
-                                  touch.write ? state.accesses_before_write()
+                                  touch.write ? state.list_accesses_before_write()
                                               : accesses_before_read(state, code, access.is_buffer),
                                   touch, barriers);
             record_access_state(state, code, access.is_buffer);
@@ -151,7 +151,7 @@ public:
         AccessStateSet touches = 0;
         states_.runs_of_resource(access).for_each_run(
             [&](std::uint32_t, std::uint32_t, const SubresourceAccessHistory& state) {
-                const AccessStateList latest = state.accesses_before_write();
+                const AccessStateList latest = state.list_accesses_before_write();
                 for (std::size_t i = 0; i < latest.size(); ++i)
                     touches |= access_state_set_of_code(latest[i]);
             });
@@ -169,7 +169,7 @@ public:
         states_.for_each_value(access, [&](std::uint32_t first, std::uint32_t end,
                                            const SubresourceAccessHistory& state) {
             if (!untouched && state == start) return;
-            AccessStateList latest = state.accesses_before_write();
+            AccessStateList latest = state.list_accesses_before_write();
             // Never touched: the barrier discards the contents.
             if (latest.empty()) latest.add_access(kNoAccessState);
             add_wait_barriers(access, first, end, latest, touch, barriers);

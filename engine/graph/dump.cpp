@@ -92,7 +92,7 @@ void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
 void write_placement_text(std::ostream& out, const MemorySharingResources& sharers,
                           const MemoryPlacement& placement) {
     constexpr std::size_t kMaxNamedResources =
-        32; // in a large frame, hundreds of resources share a place
+        32; // of the hundreds of resources whose memory may overlap in a large frame
     if (!placement.used) {
         out << ", not used\n";
         return;

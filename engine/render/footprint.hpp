@@ -39,8 +39,8 @@ double angle_between_reflected_pixels(double pixel_angle, double distance, doubl
 /// many texels across its right angle, a face has the footprint as mean texel angle.
 double cube_edge_texels_for_footprint(double footprint);
 
-/// Returns the largest cube_edge_texels_for_footprint on a sphere. The maximum lies near the point
-/// closest to the eye, a little farther from the axis. Returns 0 for a sphere outside the picture.
+/// Returns the largest cube_edge_texels_for_footprint on a sphere. The maximum lies near the
+/// sphere's point that is closest to the eye. Returns 0 for a sphere outside the picture.
 double texels_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre, double radius);
 
 /// Returns the largest cube_edge_texels_for_footprint of a mesh's triangles. Each triangle uses the

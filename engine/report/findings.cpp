@@ -127,8 +127,8 @@ OptionalSentence describe_correction_price(const Comparison& comparison) {
     const auto finding = measure::find_parallax_correction_price(comparison);
     if (!finding) return {};
     std::string text = fmt::format(
-        "Price of the correction: the report calls the code's complexity its only drawback ({:.1f} "
-        "against {:.1f} ms). Here part three takes ",
+        "Price of the correction: in the seed report, part three takes {:.1f} ms instead of {:.1f} ms, "
+        "and the complexity of its code is the only drawback that is named. Here part three takes ",
         measure::kSeedReportPartThree.ms, measure::kSeedReportPartTwo.ms);
     const std::string times = format_both_times(*finding->three, *finding->two);
     if (finding->tie)

@@ -14,8 +14,8 @@ namespace catoptric::require {
 
 namespace {
 
-FixedMeshFacts compute_mesh_facts(const scene::Mesh& mesh) {
-    FixedMeshFacts facts;
+MeshShapeFacts compute_mesh_facts(const scene::Mesh& mesh) {
+    MeshShapeFacts facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
     const dvec3 middle = facts.box.centre();
@@ -140,7 +140,7 @@ void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
-    const FixedMeshFacts& mesh = meshes_[thing.mesh];
+    const MeshShapeFacts& mesh = meshes_[thing.mesh];
     if (!mesh.box.empty())
         thing.middle = scene::transform_point_to_world(thing.place, mesh.box.centre());
     thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;

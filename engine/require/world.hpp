@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxWalls = 32;
 inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
-struct FixedMeshFacts {
+struct MeshShapeFacts {
     Bounds<double> box; ///< in the mesh's own space
     double radius = 0;  ///< of all its triangles, around the middle of `box`
     std::uint64_t content_hash = 0;
@@ -71,7 +71,7 @@ public:
     }                                                                      ///< indices of objects
     const std::vector<OccluderWall>& list_walls() const { return walls_; } ///< the largest first
     const std::vector<scene::PointLight>& list_point_lights() const { return lights_; }
-    const std::vector<FixedMeshFacts>& list_mesh_facts() const { return meshes_; }
+    const std::vector<MeshShapeFacts>& list_mesh_shapes() const { return meshes_; }
     const Bounds<double>& bounds_of_static_objects() const {
         return still_;
     } ///< bounds of all that never moved
@@ -94,7 +94,7 @@ private:
     void find_walls();
     void find_epoch();
 
-    std::vector<FixedMeshFacts> meshes_;
+    std::vector<MeshShapeFacts> meshes_;
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;

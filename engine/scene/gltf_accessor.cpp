@@ -11,7 +11,7 @@ namespace {
 
 std::string accessor_type_name(int type) {
     if (type == TINYGLTF_TYPE_SCALAR) return "SCALAR";
-    const int size = type & 15; // tinygltf: 2, 3 and 4 are vectors, 32 more are matrices
+    const int size = type & 15; // tinygltf adds 32 to the size of a matrix
     return (type == size ? "VEC" : "MAT") + std::to_string(size);
 }
 

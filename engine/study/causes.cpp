@@ -82,8 +82,8 @@ std::string with_float_distances(const std::string& technique) {
 constexpr int kSettlingFrames =
     16; // frames; deeper bounces are below a rounding of the picture's halves
 
-/// Returns the row's own frames, or frames that are settled at the instant of its last picture.
-/// Returns the settled ones if there is no difference.
+/// Returns the frames that precede the judged picture: those of the row, or frames of a scene that
+/// stands still at the last instant. Returns the latter if both give the same picture.
 HistorySourceFrames choose_history_source(const Request& base, const std::string& technique,
                                           bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettlingFrames;

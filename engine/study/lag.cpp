@@ -39,13 +39,13 @@ struct LagInstants {
     double path_length_seconds() const { return step * count; }
     double instant_seconds(int i) const { return start + step * i; }
     /// Returns the number of frames of a speed in a step.
-    int count_frames_of_step(double speed) const {
+    int count_frames_per_instant(double speed) const {
         return stride * static_cast<int>(fastest / speed);
     }
     /// Returns the instant of frame f (0 at the start) of a speed, in seconds. Every
-    /// count_frames_of_step()-th frame lies exactly on an instant of the path.
+    /// count_frames_per_instant()-th frame lies exactly on an instant of the path.
     double seconds_of_frame(double speed, int f) const {
-        return start + step * (static_cast<double>(f) / count_frames_of_step(speed));
+        return start + step * (static_cast<double>(f) / count_frames_per_instant(speed));
     }
 };
 
@@ -253,7 +253,7 @@ private:
 
     report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
-        const int between = path_.count_frames_of_step(speed),
+        const int between = path_.count_frames_per_instant(speed),
                   count = count_frames_at_speed(speed) - kLagPathWarmupFrames;
         begin_cold_frame_run(frames_done_);
         for (int k = -kLagPathWarmupFrames; k < count; ++k) {
@@ -269,7 +269,7 @@ private:
     }
 
     int count_frames_at_speed(double speed) const {
-        return kLagPathWarmupFrames + (path_.count - 1) * path_.count_frames_of_step(speed) + 1;
+        return kLagPathWarmupFrames + (path_.count - 1) * path_.count_frames_per_instant(speed) + 1;
     }
     /// Counts every still with the largest number of frames.
     int count_frames_of_row() const {

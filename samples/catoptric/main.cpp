@@ -14,9 +14,9 @@ namespace {
 /// new pages each time, which took 40 % of a frame with 64 captures.
 void release_freed_memory_at_once() {
 #ifdef __GLIBC__
-    constexpr int kMinMappedBlockBytes = 128 * 1024, kKeptFreeBytes = 8 * 1024 * 1024;
-    mallopt(M_MMAP_THRESHOLD, kMinMappedBlockBytes);
-    mallopt(M_TRIM_THRESHOLD, kMinMappedBlockBytes);
+    constexpr int kMinMmapAllocationBytes = 128 * 1024, kKeptFreeBytes = 8 * 1024 * 1024;
+    mallopt(M_MMAP_THRESHOLD, kMinMmapAllocationBytes);
+    mallopt(M_TRIM_THRESHOLD, kMinMmapAllocationBytes);
     mallopt(M_TOP_PAD, kKeptFreeBytes);
 #endif
 }

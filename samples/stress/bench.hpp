@@ -40,7 +40,7 @@ public:
         row_.cases.push_back({std::move(what), measured, limit, false});
     }
     /// Adds a measured value that only looks worse beyond its limit and is not wrong.
-    void add_quality_case(std::string what, double measured, double limit) {
+    void add_quality_warning_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
     /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.

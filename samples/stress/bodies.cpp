@@ -127,7 +127,7 @@ void judge_face_sizes(StressTestBench& bench) {
             // With a few texels, chance decides whether one of them sees the lamp.
             const double mean = mean_of(part);
             bench.add_measured_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
-            bench.add_quality_case(
+            bench.add_quality_warning_case(
                 text + ": factor between the mean of mirrors and that of ray tracing",
                 std::max(mean / wanted, wanted / mean), 4);
         }

@@ -23,7 +23,7 @@ protected:
                          "report.html",
                          "report.json"};
 
-    static Words make_comparison_words(const std::string& into) {
+    static Words make_compare_arguments(const std::string& into) {
         return {"compare", "-o",       into, "--size",  "16x16",        "--frames",
                 "1",       "--warmup", "0",  "--quiet", "--techniques", "raytrace"};
     }
@@ -49,7 +49,7 @@ protected:
             const fs::path file = folder / out / files[i];
             fs::create_directories(file.parent_path());
             prepare(file);
-            expect_exit_code(run_cli(make_comparison_words(out)), exit_code,
+            expect_exit_code(run_cli(make_compare_arguments(out)), exit_code,
                              {out + "/" + files[i], why});
         });
         EXPECT_EQ(list_leftover_temporaries(), Words{});
@@ -119,7 +119,7 @@ TEST_F(Disk, FileSizeLimitEndsInAnErrorAndNotASignal) {
     }
     fs::create_directory(folder / "out");
     write_input_file("out/report.json", "old");
-    Words words = make_comparison_words("out");
+    Words words = make_compare_arguments("out");
     words.insert(words.end(), {"--csv", "all"});
     test::ProcessStartOptions process = make_process_start(words);
     process.file_limit = 4096; // bytes: pictures are smaller, rows.csv is larger
@@ -140,7 +140,7 @@ TEST_F(Disk, FolderThatTakesNoFilesExitsWith73) {
     Words words = make_picture_words("y.png");
     words.insert(words.end(), {"--trace", "/proc/t.json"});
     expect_exit_code(run_cli(words), 73, {"/proc/t.json", "cannot be created"});
-    expect_exit_code(run_cli(make_comparison_words("/proc/out")), 73, {"/proc/out"});
+    expect_exit_code(run_cli(make_compare_arguments("/proc/out")), 73, {"/proc/out"});
 }
 
 TEST_F(Disk, ReadOnlyFolderExitsWith73) {
@@ -153,7 +153,7 @@ TEST_F(Disk, ReadOnlyFolderExitsWith73) {
     expect_exit_code(run_cli(make_picture_words("disk/x.exr")), 73,
                      {"disk/x.exr", "Read-only file system"});
     EXPECT_EQ(read_output_file("disk/x.exr"), "old");
-    expect_exit_code(run_cli(make_comparison_words("disk/out")), 73,
+    expect_exit_code(run_cli(make_compare_arguments("disk/out")), 73,
                      {"disk/out", "Read-only file system"});
 }
 

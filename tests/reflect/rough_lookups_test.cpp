@@ -65,8 +65,8 @@ std::vector<BallPixel> list_ball_pixels(const scene::Scene& scene, double least_
     return pixels;
 }
 
-/// Returns the light that a captured level is to show: the environment, filtered by the lobe that
-/// is seen along its normal, in the mirror's direction.
+/// Returns the light that a filtered level of a capture must show along `normal`: the environment,
+/// weighted by the lobe of a surface with this normal that is seen head-on.
 dvec3 filter_environment_by_lobe(const scene::Environment& environment, double roughness,
                                  const dvec3& normal) {
     dvec3 tangent, bitangent;

@@ -328,7 +328,7 @@ scene::Scene make_scene_with_cut_out_board(float cutoff) {
 }
 
 TEST(CutOut, CutOutPartIsInvisibleAndCastsNoShadow) {
-    // Seen from above, the floor left of the middle is visible through the hole, and is lit.
+    // Through the hole in the cut-out quad, a camera above sees the lit floor.
     for (const char* world : kSurfacesWorlds) {
         const measure::Picture
             cut = test::render_technique(make_scene_with_cut_out_board(.5f), world, {32, 32}).hdr,

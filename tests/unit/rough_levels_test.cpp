@@ -135,7 +135,7 @@ TEST(RoughLevels, DirectionsSeenHeadOnFollowTheLobe) {
         const dvec3 o(0, 0, 1);
         const auto shape = [](const dvec3& i) { return i.z > .2 ? 1 + i.x + i.z * i.y : 0; };
         const double wanted = test::integrate_over_half_vectors(
-            roughness, o, [&](const dvec3& i) { // density of normals over 4, per light direction
+            roughness, o, [&](const dvec3& i) { // density of light directions: D / 4
                 const dvec3 h = glm::normalize(o + i);
                 return shape(i) * f64::ggx_density(alpha, h) / 4;
             });
