@@ -1,6 +1,8 @@
 // The technique `raytrace`, which is also the reference: Whitted ray tracing (reflect/tracer.hpp).
 #include "reflect/captures.hpp"
 
+#include <algorithm>
+
 namespace catoptric::reflect {
 
 namespace {
@@ -55,8 +57,8 @@ constexpr TechniqueKnob kLampSamplingKnob{
 constexpr TechniqueKnob kIndirectKnob{
     .name = "indirect",
     .help = "light between surfaces: none = lamps are points, and ambient light stands in; paths = "
-            "path tracing, for which rays also leave diffuse surfaces (needs rays=1 or more; depth "
-            "then counts all bounces)",
+            "path tracing, for which rays also leave diffuse surfaces (rays=0 counts as 1; depth "
+            "counts all bounces)",
     .high = 1,
     .choices = kIndirectChoices};
 constexpr std::int64_t kMaxPathsPerPixel = 65536; // of a pixel: samples times rays
@@ -97,7 +99,8 @@ TracerSettings make_tracer_settings(const KnobSettings& settings,
     const SharedKnobs::ShadowMethod shadow = read_shared_knobs(settings).shadow;
     return {.depth = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRayDepthKnob)),
             .samples = settings.knob_value_as_integer(kSamplesPerPixelKnob),
-            .rays = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeRaysKnob)),
+            .rays = static_cast<std::uint32_t>(std::max(
+                settings.knob_value_as_integer(kLobeRaysKnob), is_path_traced(settings) ? 1 : 0)),
             .samples_lamps = settings.knob_value_as_enum<LampSamplingMethod>(kLampSamplingKnob) ==
                              LampSamplingMethod::sampled,
             .paths = is_path_traced(settings),
@@ -125,8 +128,6 @@ std::string describe_knob_conflict(const KnobSettings& settings) {
                " for each of samples=" + settings.format_value(kSamplesPerPixelKnob) +
                ": wanted at most 65536 in all";
     if (is_path_traced(settings)) {
-        if (settings.knob_value_as_integer(kLobeRaysKnob) == 0)
-            return "indirect=paths draws directions; wanted rays=1 or more, found rays=0";
         if (are_first_hits_rasterised(settings))
             return "indirect=paths lights the first surface by rays; wanted first=ray, found "
                    "first=raster";

@@ -36,15 +36,16 @@ int ReferenceSeeds::next() {
     return last_;
 }
 
-bool draws_rays_from_lobes(const std::string& technique) {
-    const TechniqueChoice choice = parse_technique(technique);
-    return choice.technique == "raytrace" && find_knob_number(choice, "rays") > 0;
-}
-
 bool traces_paths(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
     const auto setting = std::ranges::find(choice.settings, "indirect", &Setting::name);
     return setting != choice.settings.end() && setting->text == "paths";
+}
+
+bool draws_rays_from_lobes(const std::string& technique) {
+    const TechniqueChoice choice = parse_technique(technique);
+    return choice.technique == "raytrace" &&
+           (find_knob_number(choice, "rays") > 0 || traces_paths(technique));
 }
 
 std::string set_lobe_seed(const std::string& technique, int seed) {

@@ -26,7 +26,7 @@ private:
     int last_ = 0;
 };
 
-/// Returns whether the technique draws rays from lobes: `raytrace` with rays above 0.
+/// Returns whether the technique draws rays from lobes: `raytrace` with rays above 0 or with paths.
 bool draws_rays_from_lobes(const std::string& technique);
 /// Returns whether the technique traces light between surfaces: `raytrace` with indirect=paths.
 bool traces_paths(const std::string& technique);

@@ -106,7 +106,7 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
         for (const char* technique :
              {"reuse:face=32,rough=prefilter", "parallax:face=32,rough=mips",
               "secant:face=32,rough=prefilter,law=cone", "secant:face=32,rough=fast",
-              "pyramid:face=32,rough=rays,rays=64"}) {
+              "pyramid:face=32,rough=rays,rays=256"}) {
             const measure::Picture picture =
                 test::render_technique(scene, technique, kBallPictureSize, 3).hdr;
             test::RandomNumbers numbers(2);

@@ -39,6 +39,7 @@ TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
         EXPECT_EQ(after.settings[i].text,
                   before.settings[i].name == "seed" ? "9" : before.settings[i].text);
     EXPECT_TRUE(app::draws_rays_from_lobes("raytrace:rays=1"));
+    EXPECT_TRUE(app::draws_rays_from_lobes("raytrace:indirect=paths"));
     EXPECT_FALSE(app::draws_rays_from_lobes("raytrace:depth=16"));
     EXPECT_FALSE(app::draws_rays_from_lobes("reuse"));
 }
