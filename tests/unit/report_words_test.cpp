@@ -203,7 +203,7 @@ TEST(ReportMarkdown, ReportMentionsTheSeedReportOnlyForTheSeedScene) {
     made.rows.push_back(make_naive_row(1, 7, 0.0880, 0.2));
     made.rows.push_back(make_naive_row(2, 9, 0.0871, 0.2));
     for (const char* words : {"seed report's Table 1", "What this says of the seed report",
-                              "GTX 770", "the report calls"})
+                              "GTX 770", "in the seed report, part three takes"})
         EXPECT_THAT(report_text_of_comparison(made) + to_html(made), HasSubstr(words));
     made.scene.is_seed = false;
     for (const char* words : {"seed report", "GTX 770", "the report "}) {
