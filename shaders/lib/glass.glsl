@@ -54,14 +54,16 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
     leave_point(p, is_solid ? refract_direction(direction, normal, cosine, ratio, cosine_behind) : direction, ray);
 }
 
-// Goes on with a pending ray after the path has ended. Returns false if there is none.
-bool resume_pending_ray(out Ray ray, inout vec3 weight, inout uint bounce, inout bool done) {
+// Goes on with a pending ray after the path has ended. Returns false if there is none. No ray to a lamp accompanies the
+// pending ray, so its density is 0 (counted_share_of_met_emission in lib/whitted.glsl).
+bool resume_pending_ray(inout Ray ray, inout vec3 weight, inout uint bounce, inout float ray_density, inout bool done) {
     if (has_glass == 0u || pending_count == 0u) return false;
     PendingRay next = pending_rays[--pending_count];
     ray = next.ray;
     trace_low = next.low;
     weight = next.weight;
     bounce = next.bounce;
+    ray_density = 0.0;
 #ifdef DOUBLES
     set_double_precision_ray(ray, trace_low);
 #endif

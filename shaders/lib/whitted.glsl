@@ -466,7 +466,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             ++bounce;
             if (traces_lobes != 0u) done = weight == vec3(0) && !traces_to_lamp;
         }
-    } while (!done || resume_pending_ray(ray, weight, bounce, done));
+    } while (!done || resume_pending_ray(ray, weight, bounce, ray_density, done));
     // The software driver silently stops this loop, too, after it has stopped a loop of the BVH walk.
     trace_exhausted = trace_exhausted || !done;
     return result;

@@ -155,6 +155,29 @@ TEST(GlassPane, SolidSlabAbsorbsByItsThickness) {
     EXPECT_NEAR(seen.z, .2 * passes(2), .002);
 }
 
+/// A pane reflects a lamp, and the path that passes the pane ends at a diffuse wall. The reflected
+/// ray must count the whole lamp, because no ray to the lamp accompanies it.
+TEST(GlassPane, ReflectedLampCountsOnce) {
+    scene::Scene scene{.name = "pane"};
+    const std::size_t glass = test::add_material(scene, make_glass(1.5f, false)),
+                      wall = test::add_material(scene, {.name = "wall", .albedo = vec3(.5f)}),
+                      lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(8)});
+    test::add_quad(scene, "pane", glass, {-1, -1, 1}, {1, -1, 1}, {1, 1, -1}, {-1, 1, -1});
+    test::add_quad(scene, "wall", wall, {-9, -9, -3}, {9, -9, -3}, {9, 9, -3}, {-9, 9, -3});
+    test::add_quad(scene, "lamp", lamp, {-1, 3, -1}, {1, 3, -1}, {1, 3, 1}, {-1, 3, 1});
+    scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+    const auto seen = [&](const std::string& knobs) {
+        return test::render_without_ambient(scene, "raytrace:rays=4096,depth=4" + knobs, {1, 1})
+            .hdr.at(0, 0)
+            .x;
+    };
+    double behind;
+    const double reflected = 8 * f64::fresnel_dielectric(std::sqrt(.5), 1.5, behind);
+    const float sampled = seen(",indirect=paths"), met = seen(",indirect=paths,lamps=met");
+    EXPECT_GT(sampled, reflected);
+    EXPECT_NEAR(sampled, met, .02 * met);
+}
+
 TEST(GlassPane, CastsNoShadowInBothWorlds) {
     for (const bool has_pane : {false, true}) {
         static double lit[2];
