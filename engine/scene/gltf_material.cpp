@@ -133,7 +133,7 @@ void MaterialReader::dielectric() {
     const double n = ior ? ior->number("ior", 1.5) : 1.5;
     material_json_.require_condition(
         n == 0 || n >= 1, "KHR_materials_ior: wanted an ior of 0 or from 1 on, found ", n);
-    const double f = n == 0 ? 1 : std::pow((n - 1) / (n + 1), 2);
+    const double f = n == 0 ? 1 : compute_dielectric_f0(n);
     material_.dielectric_f0 = vec3(ior ? static_cast<float>(f) : kUsualDielectricF0);
     material_.dielectric_f90 = vec3(1);
     if (!specular) return;
@@ -183,7 +183,8 @@ void MaterialReader::transmission() {
     if (extensions_->has_member("KHR_materials_ior")) {
         const double ior = find_material_extension("KHR_materials_ior")->number("ior", 1.5);
         // glTF's ior of 0 reflects all light.
-        material_.ior = ior == 0 ? std::numeric_limits<float>::max() : static_cast<float>(ior);
+        constexpr double kLargest = std::numeric_limits<float>::max();
+        material_.ior = static_cast<float>(ior == 0 ? kLargest : std::min(ior, kLargest));
     }
     if (const std::optional<JsonObject> volume = find_material_extension(kVolumeExtension)) {
         material_json_.require_condition(

@@ -60,14 +60,11 @@ void write_dielectric_reflectance(GltfWriter& writer, const Material& material,
             Value::Object{{"ior", Value(float_to_shortest_double(material.ior))}});
         writer.use("KHR_materials_ior");
     }
-    const float usual = has_ior ? compute_dielectric_f0(float_to_shortest_double(material.ior))
-                                : kUsualDielectricF0;
-    if (material.dielectric_f0 == vec3(usual) && material.dielectric_f90 == vec3(1)) return;
     // As in the reader, in double precision.
-    const double f0 = has_ior ? std::pow((float_to_shortest_double(material.ior) - 1) /
-                                             (float_to_shortest_double(material.ior) + 1),
-                                         2)
-                              : .04;
+    const double f0 = has_ior ? compute_dielectric_f0(float_to_shortest_double(material.ior)) : .04;
+    if (material.dielectric_f0 == vec3(static_cast<float>(f0)) &&
+        material.dielectric_f90 == vec3(1))
+        return;
     const double strength = material.dielectric_f90.x;
     const dvec3 colour = strength > 0 ? dvec3(material.dielectric_f0) / (f0 * strength) : dvec3(0);
     to.extensions["KHR_materials_specular"] = Value(

@@ -55,10 +55,10 @@ bool has_specular_part(const Material& material);
 /// Returns whether rays pass through the surface: it transmits at least half of the light, is
 /// smooth everywhere and has no metal. Glass casts no shadow.
 bool is_glass(const Material& material);
-/// Returns F0 of a dielectric with this index of refraction in air (Fresnel's equations).
-inline float compute_dielectric_f0(double ior) {
+/// Returns F0 of a dielectric with this finite index of refraction in air (Fresnel's equations).
+inline double compute_dielectric_f0(double ior) {
     const double root = (ior - 1) / (ior + 1);
-    return static_cast<float>(root * root);
+    return root * root;
 }
 /// Returns whether the surface can be seen by its own light.
 bool is_visibly_emissive(const Material& material);

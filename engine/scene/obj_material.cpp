@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace catoptric::scene::obj {
 
@@ -275,9 +276,10 @@ private:
     /// Makes a smooth body of glass. Kd tints it, unless Kd is black.
     void set_glass() {
         material_.transmission = 1, material_.roughness = 0, material_.solid = true;
+        constexpr double kLargest = std::numeric_limits<float>::max();
         material_.ior = static_cast<float>(
-            std::max(mtl_material_.ior.value_or(kUsualGlassIor), 1.0));
-        material_.dielectric_f0 = vec3(compute_dielectric_f0(material_.ior));
+            std::clamp(mtl_material_.ior.value_or(kUsualGlassIor), 1.0, kLargest));
+        material_.dielectric_f0 = vec3(static_cast<float>(compute_dielectric_f0(material_.ior)));
         material_.dielectric_f90 = vec3(1);
         if (material_.albedo == vec3(0)) material_.albedo = vec3(1);
     }

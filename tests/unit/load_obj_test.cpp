@@ -6,6 +6,7 @@
 #include "unit/load_fixture.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace {
 
@@ -171,6 +172,9 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
                     ElementsAre("glass-as-diffuse", "glass-shadow"))
             << glass;
     }
+    const Material dense = load_obj_statements("illum 7\nNi 1e300\n").materials[0];
+    EXPECT_EQ(dense.ior, std::numeric_limits<float>::max());
+    EXPECT_EQ(dense.dielectric_f0, vec3(1));
     const Scene thin = load_obj_statements("d .25\n");
     EXPECT_EQ(thin.materials[0].alpha, .25f);
     EXPECT_EQ(thin.materials[0].alpha_cutoff, .5f);
