@@ -64,12 +64,16 @@ bool reflect_at_exact_sphere(inout MirrorPath path) {
     float t;
     Ray ray = Ray(path.at, path.direction, 0u);
     if (!find_first_exact_sphere(ray, path.mirror, next, t)) return false;
+    // Read once: the driver simplifies c + x - c to x only if both c come from the same read, so two reads would make the
+    // normal's rounding depend on how the lists are bound.
+    vec3 centre = read_probe(next).sphere;
+    float radius = read_probe(next).radius;
     vec3 error;
-    vec3 met = sphere_hit_point(read_probe(next).sphere, read_probe(next).radius, ray, t, error);
+    vec3 met = sphere_hit_point(centre, radius, ray, t, error);
     // A captured surface that is more than the sphere's radius nearer hides the sphere.
     vec3 seen = met - path.centre;
-    if (captured_distance(path.mirror, normalize(seen)) + read_probe(next).radius < length(seen)) return false;
-    vec3 n = (met - read_probe(next).sphere) / read_probe(next).radius;
+    if (captured_distance(path.mirror, normalize(seen)) + radius < length(seen)) return false;
+    vec3 n = (met - centre) / radius;
     path = MirrorPath(next, met, reflect_above_facet(path.direction, n, n), read_probe(next).centre,
                 path.weight * mirror_reflectance(next, path.direction, n), path.hops + 1u);
     return true;
