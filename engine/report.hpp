@@ -20,8 +20,7 @@ CATOPTRIC_API std::string to_csv(const Comparison& comparison);
 /// Returns report.md: the seed report's Table 1 beside the measured times, errors, rows that are
 /// not on the front, and a judgement of the seed report's statements.
 CATOPTRIC_API std::string to_markdown(const Comparison& comparison);
-/// Returns report.html: one self-contained page with table and pictures (data: URIs) side by side,
-/// without script.
+/// Returns report.html: one self-contained page with tables, pictures (data: URIs) and a comparer.
 CATOPTRIC_API std::string to_html(const Comparison& comparison);
 
 /// Makes `folder` with its parents. Existing folders are accepted. Call it before long work, so

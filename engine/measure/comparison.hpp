@@ -217,11 +217,9 @@ struct Row : Errors {
     std::optional<WorstView> worst;   ///< the drawn view with the largest FLIP over the mirrors
     std::shared_ptr<Studied> studied; ///< the same, of studies without a member of their own
     Mean mean, mean_clamped;
-    /// Number, from 1, of the frame whose picture and errors are given. Later frames show the same
-    /// picture.
-    int pictured = 0;
-    Picture hdr;                 ///< the row's picture, linear RGB
-    Picture display;             ///< the same picture as displayed
+    int pictured = 0; ///< frame, from 1, whose picture and errors are given; later ones are equal
+    Picture hdr;      ///< the row's picture, linear RGB
+    Picture display;  ///< the same picture as displayed
     std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
     std::string image; ///< file name of the pictures without folder and ending: "naive-bounces1"
     bool is_reference = false;  ///< whether technique and settings are those of the reference
@@ -250,7 +248,9 @@ struct Comparison {
     std::string reference_technique, reference_label;
     std::vector<Setting> reference_settings;
     SampleSummary reference_gpu_ms;
-    Picture reference_display;
+    Picture reference_hdr, reference_display;
+    /// First mirror of each pixel in the low 16 bits, 0 for none (measure/masks.hpp).
+    std::vector<std::uint32_t> mirror_hits;
     double reference_area_flip = NAN; ///< over mirrors, from the mean over pixels; NaN: unknown
     std::shared_ptr<ReferenceNoise> noise; ///< see measure/halves.hpp; null: no noise
     /// Time to clear the cubes of all mirrors once without drawing, at the default face size, ms.

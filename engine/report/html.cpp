@@ -1,4 +1,4 @@
-// Writes report.html: one self-contained page without script.
+// Writes report.html: one self-contained page.
 #include "report/html.hpp"
 #include "measure/budget.hpp"
 #include "measure/heat.hpp"
@@ -22,11 +22,6 @@ std::string make_html_table_cell(const TableColumn& column, const char* tag, con
                                  const std::string& content) {
     return fmt::format("<{}{}{}>{}</{}>", tag, scope, column.is_number ? "" : " class=\"text\"",
                        content, tag);
-}
-
-/// Returns the anchor in the page at which the pictures of a row stand.
-std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t row) {
-    return fmt::format("{}row-{}", make_html_id_prefix(comparison), row);
 }
 
 /// Returns a table as HTML. If `linked` is given, the first cell of row i links to the pictures of
@@ -139,11 +134,12 @@ std::string make_html_row_article(const Comparison& comparison, const EncodedPic
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
     html += "</div><div class=\"pair\">" +
             make_html_figure(row.display.width, row.display.height, encoded.rows[index].picture,
-                             "Picture by " + row.label, "Picture") +
+                             "Picture by " + row.label, "Picture",
+                             make_html_anchor_of_row(comparison, index) + "-picture") +
             make_html_figure(row.display.width, row.display.height, encoded.rows[index].error,
                              "Heat map of the FLIP error of " + row.label +
                                  ", mean over the mirrors " + format_flip(row.error),
-                             "FLIP error") +
+                             "FLIP error", make_html_anchor_of_row(comparison, index) + "-error") +
             make_html_figure(row.display.width, row.display.height, encoded.rows[index].causes,
                              "Pixels of " + row.label +
                                  " that are off, painted by their largest cause",
@@ -181,7 +177,8 @@ std::string make_html_pictures(const Comparison& comparison, const EncodedPictur
         "<div class=\"reference\">" +
         make_html_figure(comparison.reference_display.width, comparison.reference_display.height,
                          encoded.reference, "Reference picture by " + comparison.reference_label,
-                         "Reference: " + comparison.reference_label) +
+                         "Reference: " + comparison.reference_label,
+                         make_html_id_prefix(comparison) + "reference") +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
         make_html_heat_scale() + make_html_cause_legend(comparison) +
         "</div></div><div class=\"rows\">";
@@ -229,6 +226,10 @@ std::string make_html_circumstances(const Comparison& comparison) {
 
 } // namespace
 
+std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t row) {
+    return fmt::format("{}row-{}", make_html_id_prefix(comparison), row);
+}
+
 std::string make_html_titled_section(const std::string& title, const std::string& content) {
     return "<section><h2>" + title + "</h2>" + content + "</section>\n";
 }
@@ -246,12 +247,12 @@ std::string to_html(const Comparison& comparison) {
 }
 
 std::string make_html_figure(int width, int height, const std::string& png, const std::string& alt,
-                             const std::string& caption) {
+                             const std::string& caption, const std::string& id) {
     if (png.empty()) return "";
-    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
+    return fmt::format("<figure><img {}width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
                        "<figcaption>{}</figcaption></figure>",
-                       width, height, escape_html(alt), make_png_data_uri(png),
-                       escape_html(caption));
+                       id.empty() ? "" : "id=\"" + id + "\" ", width, height, escape_html(alt),
+                       make_png_data_uri(png), escape_html(caption));
 }
 
 std::string make_html_page(const std::string& title, const std::string& content) {
@@ -259,23 +260,25 @@ std::string make_html_page(const std::string& title, const std::string& content)
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
            "<title>Reflections compared: " +
            escape_html(title) + "</title><style>" + kStyleSheet + "</style></head>\n<body>" +
-           content + "</body></html>\n";
+           content + "\n<script>" + kPageScript + "</script></body></html>\n";
 }
 
 std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {
-    std::string html = "<header><p class=\"kicker\">Reflections compared</p><h1>" +
-                       escape_html(comparison.scene.name) + "</h1>" +
-                       (measure::has_time_or_flip_budget(comparison)
-                            ? "<p class=\"lede answer\"><strong>" +
-                                  escape_html(describe_budget_answer(comparison)) + "</strong></p>"
-                            : "") +
-                       "<p class=\"lede\">" +
-                       escape_html(summarise_ray_tracing_verdict(comparison)) + "</p>";
+    std::string html =
+        "<header class=\"screen\"><div><p class=\"kicker\">Reflections compared on " +
+        escape_html(comparison.device.name) + "</p><h1>" + escape_html(comparison.scene.name) +
+        "</h1>" +
+        (measure::has_time_or_flip_budget(comparison)
+             ? "<p class=\"lede answer\"><strong>" +
+                   escape_html(describe_budget_answer(comparison)) + "</strong></p>"
+             : "") +
+        "<p class=\"lede\">" + escape_html(summarise_ray_tracing_verdict(comparison)) + "</p>";
     const std::vector<std::string> notes = list_reader_cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + make_html_list(notes) + "</aside>";
     const bool is_page = make_html_id_prefix(comparison).empty(); // a page has exactly one <main>
-    html += make_html_headlines(comparison) + "</header>\n" +
-            (is_page ? "<main>" : "<div class=\"main\">") + make_html_front(comparison) +
+    html += make_html_headlines(comparison) + "</div>" + make_html_comparer(comparison) +
+            "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
+            make_html_front(comparison) +
             (comparison.scene.is_seed ? to_html(make_seed_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = list_findings(comparison);
     if (!sentences.empty())

@@ -10,18 +10,36 @@ namespace catoptric::report {
 
 /// Returns text escaped for use between tags and inside quoted attributes.
 std::string escape_html(std::string_view text);
+/// Returns bytes in base64 (RFC 4648), padded.
+std::string encode_base64(std::string_view bytes);
 /// Returns a PNG as a data URI for `src`.
 std::string make_png_data_uri(std::string_view png);
 
-/// Returns a PNG with a caption, or nothing if `png` is empty.
+/// Returns a PNG with a caption, or nothing if `png` is empty. `id` names the picture in the page;
+/// empty: no name.
 std::string make_html_figure(int width, int height, const std::string& png, const std::string& alt,
-                             const std::string& caption);
+                             const std::string& caption, const std::string& id = {});
 
 /// Returns a section of a page under its title, which is HTML.
 std::string make_html_titled_section(const std::string& title, const std::string& content);
 
-/// CSS style sheet of report.html and stress.html.
+/// CSS style sheet and script of report.html and stress.html, from report/page/.
 extern const char* const kStyleSheet;
+extern const char* const kPageScript;
+
+/// Returns the anchor in the page at which the pictures of a row stand. The ids of its pictures are
+/// the anchor with "-picture" and "-error".
+std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t row);
+
+/// Returns the comparer of the reference and the rows, which the page's script fills, or nothing
+/// without a reference or a row.
+std::string make_html_comparer(const Comparison& comparison);
+/// Returns a script that gives the comparer the linear values of a picture, as halves in base64.
+/// `file` is its path relative to the page.
+std::string make_picture_values_script(const measure::Picture& picture, const std::string& file);
+/// Returns a script that gives the comparer the mirror that each pixel shows: 0 for none, or the
+/// mirror's number from 1, in 16 bits.
+std::string make_mirror_pixels_script(const Comparison& comparison, const std::string& file);
 
 /// Returns the whole report.html of one comparison.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);

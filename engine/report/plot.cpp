@@ -163,6 +163,7 @@ struct RowPlotPoint {
     double low, high; ///< ends of the time's interval, clamped to the axes
     const Row* row;
     bool front;
+    std::size_t picture; ///< number of the row's picture in the comparer
 };
 
 struct PlotLabelBox {
@@ -202,15 +203,17 @@ std::string make_svg_time_interval(const RowPlotPoint& point) {
 std::string make_svg_row_mark(const RowPlotPoint& point) {
     std::string kind = point.front ? "mark front" : "mark";
     if (measure::is_below_noise(point.row->error)) kind += " hidden";
+    const std::string choice = fmt::format(R"(data-picture="{}" tabindex="0" role="button")",
+                                           point.picture);
     const std::string title = fmt::format(
         "<title>{}: {} ms, FLIP {}</title>", escape_html(point.row->label),
         format_ms(point.row->time_ms().median), format_flip(point.row->error));
     if (measure::is_ray_traced_row(*point.row))
         return fmt::format(
-            R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
-            point.x - 4.5, point.y - 4.5, title);
-    return fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5">{}</circle>)", kind,
-                       point.x, point.y, title);
+            R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9" {}>{}</rect>)", kind,
+            point.x - 4.5, point.y - 4.5, choice, title);
+    return fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5" {}>{}</circle>)", kind,
+                       point.x, point.y, choice, title);
 }
 
 /// Returns the first of several places around the point where the label overlaps no earlier label,
@@ -309,7 +312,8 @@ std::string make_comparison_plot(const Comparison& comparison) {
              row.error.flip > 0 ? y(row.error.flip) : kComparisonPlotFrame.y_of_zero_lane(),
              std::max(x(ci95.low), kComparisonPlotFrame.left),
              std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
-             measure::is_on_front(comparison, row)});
+             measure::is_on_front(comparison, row),
+             static_cast<std::size_t>(&row - comparison.rows.data()) + 1});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"

@@ -26,7 +26,8 @@ std::string scene_images_folder(std::size_t index, const std::string& scene) {
 
 Comparison copy_without_pictures(const Comparison& comparison) {
     Comparison bare = comparison;
-    bare.reference_display = {};
+    bare.reference_hdr = bare.reference_display = {};
+    bare.mirror_hits = {};
     for (Row& row : bare.rows) {
         row.hdr = row.display = {};
         row.flip_map = {};
@@ -74,8 +75,8 @@ std::string to_html(const MultiSceneReport& scenes, const std::vector<std::strin
                    escape_html(comparison.scene.name) + "</a></li>";
     content += "</ul></nav>\n";
     for (std::size_t i = 0; i < sections.size(); ++i)
-        content += "<div id=\"" + make_html_id_prefix(scenes.list[i]) + "\">" + sections[i] +
-                   "</div>\n";
+        content += "<div class=\"scene\" id=\"" + make_html_id_prefix(scenes.list[i]) + "\">" +
+                   sections[i] + "</div>\n";
     return make_html_page(join_texts(scenes.asked, ", "), content);
 }
 

@@ -63,8 +63,19 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
         png = std::move(bytes); // a picture that could not be written stays new
     };
     const int noise_frames = comparison.noise ? comparison.noise->frames : 0;
-    if (pictures.reference.empty() || pictures.noise_frames != noise_frames)
+    const auto write_values = [&](const std::string& name, const measure::Picture& picture) {
+        const std::string file = report_image_path(comparison, name + ".js");
+        if (!images.empty() && !picture.pixels.empty())
+            write_file(images / (name + ".js"), make_picture_values_script(picture, file));
+    };
+    if (pictures.reference.empty() || pictures.noise_frames != noise_frames) {
+        write_values("reference", comparison.reference_hdr);
+        if (!images.empty() && !comparison.mirror_hits.empty())
+            write_file(
+                images / "mirrors.js",
+                make_mirror_pixels_script(comparison, report_image_path(comparison, "mirrors.js")));
         encode(pictures.reference, comparison.reference_display, "reference.png");
+    }
     pictures.noise_frames = noise_frames;
     pictures.rows.resize(comparison.rows.size());
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
@@ -73,6 +84,7 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
         if (encoded.pictured != row.pictured || encoded.noise_frames != noise_frames) {
             if (!images.empty() && !row.hdr.pixels.empty())
                 measure::write_exr(row.hdr, images / (row.image + ".exr"));
+            write_values(row.image, row.hdr);
             encode(encoded.picture, row.display, row.image + ".png");
             const bool has_map = !row.flip_map.empty();
             encode(encoded.error,
@@ -100,10 +112,11 @@ void ReportWriter::write_comparison(const Comparison& comparison) {
 std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
                                         const std::string& folder) {
     const fs::path there = fs::path("images") / folder;
-    std::vector<fs::path> files{"report.json", "report.html", "report.md", "rows.csv",
-                                there / "reference.png"};
+    std::vector<fs::path> files{
+        "report.json",           "report.html",          "report.md",         "rows.csv",
+        there / "reference.png", there / "reference.js", there / "mirrors.js"};
     for (const std::string& image : images) {
-        for (const char* ending : {".exr", ".png", "-error.png"})
+        for (const char* ending : {".exr", ".js", ".png", "-error.png"})
             files.push_back(there / (image + ending));
         for (const std::string& more :
              {"causes-" + image + ".png", make_worst_view_image_name(image)})

@@ -221,7 +221,9 @@ private:
     void fill_reference_noise() {
         comparison_.reference_gpu_ms = measure::summarise_samples(
             truths_.get_reference("1").gpu_ms);
+        comparison_.reference_hdr = truths_.get_reference("1").part.hdr;
         comparison_.reference_display = truths_.get_reference("1").part.display;
+        comparison_.mirror_hits = truths_.find_mirror_hits();
         if (!truths_.has_reference_noise()) return;
         comparison_.noise = std::make_shared<measure::ReferenceNoise>(truths_.measure_noise("1"));
         comparison_.noise->most_seconds = compare_request_.reference_seconds;

@@ -104,8 +104,9 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     catoptric::report::ReportWriter writer(folder / "out");
     writer.write_comparison(made);
     EXPECT_EQ(list_image_files(),
-              (std::vector<std::string>{"causes-naive0.png", "naive0-error.png", "naive0.exr",
-                                        "naive0.png", "reference.png"}));
+              (std::vector<std::string>{"causes-naive0.png", "mirrors.js", "naive0-error.png",
+                                        "naive0.exr", "naive0.js", "naive0.png", "reference.js",
+                                        "reference.png"}));
     std::vector<fs::path> missing = catoptric::report::list_report_files({"naive0"});
     EXPECT_EQ(missing.size(), 4 + list_image_files().size() + 1);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
@@ -114,8 +115,8 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     made.rows.push_back(whole.rows[1]);
     writer.write_comparison(made);
     const std::string second = whole.rows[1].image;
-    EXPECT_EQ(list_image_files(),
-              (std::vector<std::string>{second + "-error.png", second + ".exr", second + ".png"}));
+    EXPECT_EQ(list_image_files(), (std::vector<std::string>{second + "-error.png", second + ".exr",
+                                                            second + ".js", second + ".png"}));
     // The causes of a row's error may arrive after the row itself.
     made.rows[1].causes = whole.rows[1].causes = made.rows[0].causes;
     fs::remove_all(folder / "out/images");

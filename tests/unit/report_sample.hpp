@@ -97,7 +97,8 @@ inline Comparison make_comparison(std::vector<Row> rows) {
     made.reference_settings = {make_number_setting("depth", 16),
                                make_choice_setting("shadow", "ray")};
     made.reference_gpu_ms = make_time_samples(12);
-    made.reference_display = Picture(4, 3);
+    made.reference_hdr = made.reference_display = Picture(4, 3);
+    made.mirror_hits = std::vector<std::uint32_t>(12, 1);
     made.rows = std::move(rows);
     return made;
 }

@@ -16,6 +16,13 @@
 namespace {
 
 namespace fs = std::filesystem;
+
+std::size_t count_texts(const std::string& text, const std::string& searched) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(searched); at != text.npos; at = text.find(searched, at + 1))
+        ++count;
+    return count;
+}
 using catoptric::Error;
 using catoptric::Failure;
 using catoptric::report::Comparison;
@@ -170,8 +177,11 @@ TEST(ReportHtml, HtmlReportEscapesTextAndLoadsNothingFromOutside) {
     made.scene.name = "<script>alert('x')</script>\" onload=\"&";
     made.warnings = {"<img src=x>"};
     made.rows[0].label = "naive:<b>";
+    made.rows[1].label = "</script><script>alert('y')</script>";
     const std::string html = catoptric::report::to_html(made);
-    EXPECT_THAT(html, Not(HasSubstr("<script")));
+    EXPECT_THAT(html, Not(HasSubstr("<script>alert")));
+    EXPECT_EQ(count_texts(html, "<script"), 2) << "the comparer's data and the page's own script";
+    EXPECT_EQ(count_texts(html, "</script"), 2);
     EXPECT_THAT(
         html,
         HasSubstr("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot; onload=&quot;&amp;"));
@@ -243,7 +253,7 @@ TEST_F(ReportWrite, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
          {"reference.png", "naive0.png", "naive0.exr", "naive0-error.png", "raytrace.png"})
         EXPECT_EQ(catoptric::measure::read_picture(out / "images" / name).width, 4) << name;
     EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 6);
-    EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 13);
+    EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 19);
 }
 
 TEST_F(ReportWrite, WritingAReportCreatesTheFolderAndItsParents) {

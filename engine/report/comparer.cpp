@@ -1,0 +1,91 @@
+// The comparer of report.html: its data in the page, and the linear values of pictures beside it.
+#include "measure/masks.hpp"
+#include "report/html.hpp"
+#include "report/json.hpp"
+#include "report/text.hpp"
+
+#include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
+
+namespace catoptric::report {
+
+namespace {
+
+std::string make_values_script(const std::vector<std::uint16_t>& words, const std::string& file) {
+    std::string bytes;
+    bytes.reserve(2 * words.size());
+    for (const std::uint16_t word : words) {
+        bytes += static_cast<char>(word & 0xFF);
+        bytes += static_cast<char>(word >> 8);
+    }
+    return "catoptric_values(" + Json(file).dump() + ", \"" + encode_base64(bytes) + "\");\n";
+}
+
+Json make_picture_json(const Comparison& comparison, const std::string& label,
+                       const std::string& image, const std::string& picture_id,
+                       const std::string& error_id, bool is_first) {
+    return {{"label", label},
+            {"file", report_image_path(comparison, image + ".js")},
+            {"picture_id", picture_id},
+            {"error_id", error_id},
+            {"first", is_first}};
+}
+
+/// Returns the row with the least FLIP over the mirrors that is not 0, or null without such a row:
+/// the row whose differences from the reference are worth a look.
+const Row* find_closest_row_with_error(const Comparison& comparison) {
+    const Row* closest = nullptr;
+    for (const Row& row : comparison.rows)
+        if (row.error.flip > 0 && (closest == nullptr || row.error.flip < closest->error.flip))
+            closest = &row;
+    return closest;
+}
+
+} // namespace
+
+std::string make_html_comparer(const Comparison& comparison) {
+    if (comparison.reference_display.pixels.empty() || comparison.rows.empty()) return "";
+    const std::string prefix = make_html_id_prefix(comparison);
+    const Row* first = find_closest_row_with_error(comparison);
+    Json pictures = Json::array();
+    pictures.push_back(make_picture_json(comparison, "reference " + comparison.reference_label,
+                                         "reference", prefix + "reference", "", false));
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const Row& row = comparison.rows[i];
+        const std::string anchor = make_html_anchor_of_row(comparison, i);
+        pictures.push_back(make_picture_json(comparison, row.label, row.image, anchor + "-picture",
+                                             anchor + "-error", &row == first));
+    }
+    Json mirrors = Json::array();
+    for (std::size_t i = 0; i < comparison.scene.mirrors; ++i)
+        mirrors.push_back(fmt::format("mirror {}", i + 1));
+    const Json data{{"width", comparison.reference_display.width},
+                    {"height", comparison.reference_display.height},
+                    {"exposure", comparison.exposure},
+                    {"mirrors", mirrors},
+                    {"mirrors_file", report_image_path(comparison, "mirrors.js")},
+                    {"pictures", pictures}};
+    // "<" would let a label end the script element.
+    std::string text;
+    for (const char c : data.dump(-1, ' ', true)) text += c == '<' ? "\\u003c" : std::string(1, c);
+    return "<section class=\"comparer\" aria-label=\"Comparer\"><script type=\"application/json\">" +
+           text + "</script></section>";
+}
+
+std::string make_picture_values_script(const measure::Picture& picture, const std::string& file) {
+    std::vector<std::uint16_t> halves;
+    halves.reserve(3 * picture.pixels.size());
+    for (const vec3& pixel : picture.pixels)
+        for (int k = 0; k < 3; ++k) halves.push_back(glm::packHalf1x16(pixel[k]));
+    return make_values_script(halves, file);
+}
+
+std::string make_mirror_pixels_script(const Comparison& comparison, const std::string& file) {
+    std::vector<std::uint16_t> mirrors;
+    mirrors.reserve(comparison.mirror_hits.size());
+    for (const std::uint32_t hit : comparison.mirror_hits)
+        mirrors.push_back(static_cast<std::uint16_t>(hit & 0xFFFF));
+    return make_values_script(mirrors, file);
+}
+
+} // namespace catoptric::report

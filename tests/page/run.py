@@ -1,0 +1,239 @@
+#!/usr/bin/python3
+"""Opens a report in Chromium and uses its page as a reader would. run.py CATOPTRIC FOLDER, by ./dev test --label page."""
+
+import base64
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import time
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+SIZE = (96, 64)
+ROWS = ["naive:bounces=1", "reuse", "secant", "raytrace:depth=1"]
+
+
+def open_page(path, width=1400, dark=False):
+    """Returns a browser that shows the page once its comparer is drawn."""
+    options = Options()
+    options.binary_location = "/usr/bin/chromium"
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    browser = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+    # Windows of a headless browser are at least 500 pixels wide, so the width of the page is set by emulation.
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                            {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+    if dark:
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia",
+                                {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
+    browser.get(path.resolve().as_uri())
+    wait(browser, "return document.querySelector('.comparer')?.dataset.ready")
+    return browser
+
+
+def wait(browser, script, wanted=None):
+    """Waits until a script returns a true value, or the wanted value."""
+    found = None
+    for _ in range(100):
+        found = browser.execute_script(script)
+        if found == wanted or (wanted is None and found):
+            return found
+        time.sleep(0.1)
+    raise AssertionError(f"{script}: wanted {wanted or 'a value'}, found {found!r}")
+
+
+def expect(holds, what):
+    if not holds:
+        raise AssertionError(what)
+
+
+def read_pixel(folder, name, x, y):
+    """Returns the linear values of a pixel of images/NAME.js."""
+    text = (folder / "images" / f"{name}.js").read_text()
+    data = base64.b64decode(re.search(r', "(.*)"\);', text).group(1))
+    return struct.unpack_from("<3e", data, 6 * (y * SIZE[0] + x))
+
+
+def told_values(browser):
+    """Returns the pixel and the values of each picture that the comparer's line tells."""
+    text = browser.execute_script("return document.querySelector('.values').textContent")
+    x, y = map(int, re.match(r"Pixel (\d+), (\d+)", text).groups())
+    values = {}
+    for part in text.split("Linear values: ")[1].rstrip(".").split("; "):
+        label, numbers = part.rsplit(": ", 1)
+        values[label] = [float(number) for number in numbers.split()]
+    return x, y, values
+
+
+def choose(browser, name, text):
+    """Chooses an option of one of the comparer's controls."""
+    browser.execute_script(
+        """const label = [...document.querySelectorAll('.comparer label')].find(x => x.textContent.startsWith(arguments[0]));
+           const select = label.querySelector('select');
+           select.value = [...select.options].find(x => x.text === arguments[1]).value;
+           select.dispatchEvent(new Event('change'));""", name, text)
+
+
+def canvas_pixel(browser, x, y):
+    """Returns the colour of the comparer's canvas at a share of its width and height."""
+    return browser.execute_script(
+        """const c = document.querySelector('.comparer canvas');
+           const copy = new OffscreenCanvas(1, 1).getContext('2d', {willReadFrequently: true});
+           copy.drawImage(c, -(c.width * arguments[0] | 0), -(c.height * arguments[1] | 0));
+           return [...copy.getImageData(0, 0, 1, 1).data]""",
+        x, y)
+
+
+def chosen_right(browser):
+    return browser.execute_script("return document.querySelectorAll('.comparer select')[1].selectedOptions[0].text")
+
+
+def test_values(browser, folder):
+    """The line of values tells what the files hold, for the pixel that the keys reached."""
+    canvas = browser.find_element(By.CSS_SELECTOR, ".comparer canvas")
+    choose(browser, "Right", "reuse")
+    for keys in ("", Keys.ARROW_LEFT * 9 + Keys.ARROW_UP * 4, Keys.ARROW_RIGHT * 3 + Keys.ARROW_DOWN * 11):
+        if keys:
+            canvas.send_keys(keys)
+        time.sleep(0.5)
+        x, y, values = told_values(browser)
+        for label, name in (("reference raytrace:depth=16", "reference"), ("reuse", "reuse")):
+            wanted = [float(f"{value:.4g}") for value in read_pixel(folder, name, x, y)]
+            expect(values[label] == wanted, f"pixel {x}, {y} of {label}: wanted {wanted}, told {values[label]}")
+    expect((x, y) == (SIZE[0] // 2 - 9 + 3, SIZE[1] // 2 - 4 + 11), f"the keys led to pixel {x}, {y}")
+
+
+def test_pictures(browser):
+    """The split, the differences, the masks and the exposure change what is drawn, each as its name says."""
+    canvas = browser.find_element(By.CSS_SELECTOR, ".comparer canvas")
+    canvas.send_keys("0")
+    choose(browser, "Right", "naive:bounces=1")
+    canvas.send_keys("d")
+    time.sleep(1)
+    left = [canvas_pixel(browser, x / 40, y / 40)[:3] for x in range(8, 18) for y in range(8, 32)]
+    right = [canvas_pixel(browser, x / 40, y / 40)[:3] for x in range(22, 32) for y in range(8, 32)]
+    expect(all(pixel == [0, 0, 0] for pixel in left), "the reference differs from itself")
+    expect(any(pixel != [0, 0, 0] for pixel in right), "a naive row shows no difference from the reference")
+    canvas.send_keys("p")
+    time.sleep(1)
+    before = canvas_pixel(browser, 0.3, 0.2)
+    canvas.send_keys("]]")
+    time.sleep(1)
+    expect(sum(canvas_pixel(browser, 0.3, 0.2)) > sum(before), "a stop more of exposure brightens nothing")
+    canvas.send_keys("[[")
+    choose(browser, "Pixels", "mirrors")
+    time.sleep(1)
+    dim = canvas_pixel(browser, 0.3, 0.2)
+    expect(sum(dim[:3]) < 0.5 * sum(before[:3]), f"a wall stays as bright as before under the mask: {before}, {dim}")
+    choose(browser, "Pixels", "all")
+    shown = browser.execute_script("return document.querySelector('.comparer canvas').toDataURL()")
+    canvas.send_keys("++++")
+    time.sleep(0.5)
+    expect(shown != browser.execute_script("return document.querySelector('.comparer canvas').toDataURL()"),
+           "zoom changes nothing")
+    canvas.send_keys("0f")
+    time.sleep(0.5)
+    expect(browser.execute_script("return document.querySelectorAll('.comparer select')[2].value") == "flip",
+           "the key F does not choose the layout")
+
+
+def test_plot_and_tables(browser):
+    """A mark of the plot chooses its row, by mouse and by keyboard; headers sort."""
+    for index in range(len(ROWS)):
+        mark = browser.find_elements(By.CSS_SELECTOR, "[data-picture]")[index]
+        name = mark.find_element(By.TAG_NAME, "title").get_attribute("textContent").split(": ")
+        mark.send_keys(Keys.ENTER)
+        wait(browser, "return document.querySelectorAll('.comparer select')[1].selectedOptions[0].text",
+             ": ".join(name[:-1]))
+    header = "[...document.querySelectorAll('table.all thead th')].findIndex(x => x.textContent.trim() === 'FLIP')"
+    column = browser.execute_script("return " + header)
+    expect(column > 0, "the table of rows has no column FLIP")
+    for wanted_order in (False, True):
+        browser.execute_script(f"document.querySelectorAll('table.all thead button')[{column}].click()")
+        cells = browser.execute_script(
+            f"return [...document.querySelectorAll('table.all tbody tr')].map(r => r.cells[{column}].textContent)")
+        numbers = [float(cell) for cell in cells]
+        expect(len(numbers) == len(ROWS) and numbers == sorted(numbers, reverse=wanted_order), f"sorted: {numbers}")
+
+
+def test_first_screen(browser):
+    """The answer, the device and the comparer stand on the first screen."""
+    places = browser.execute_script(
+        """return ['.answer', '.kicker', '.comparer canvas'].map(x => document.querySelector(x).getBoundingClientRect().top)""")
+    expect(places[0] < 400 and places[1] < 400, f"the answer and the device stand at {places[:2]}")
+    expect(places[2] < 400, f"the pictures stand at {places[2]}")
+
+
+def relative_luminance(colour):
+    linear = [c / 255 / 12.92 if c / 255 <= 0.03928 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def test_contrast(browser, name):
+    """Each text has a contrast of 4.5 with its background (WCAG 2, 1.4.3)."""
+    pairs = browser.execute_script(
+        """const read = text => text.match(/[\\d.]+/g).map(Number);
+           return [...document.querySelectorAll('body *')].filter(x => [...x.childNodes].some(n => n.nodeType === 3 &&
+               n.textContent.trim()) && x.checkVisibility() && !x.closest('svg, script, style')).map(x => {
+               let at = x, back = [0, 0, 0, 0];
+               while (at && (back.length === 4 && back[3] === 0)) back = read(getComputedStyle(at).backgroundColor), at = at.parentElement;
+               return [x.tagName + ' ' + x.textContent.trim().slice(0, 30), read(getComputedStyle(x).color), back];
+           })""")
+    expect(len(pairs) > 50, "the page has hardly any text")
+    for what, front, back in pairs:
+        light = sorted((relative_luminance(front[:3]), relative_luminance(back[:3])))
+        ratio = (light[1] + 0.05) / (light[0] + 0.05)
+        expect(ratio >= 4.5, f"{name}: '{what}' has a contrast of {ratio:.2f}")
+
+
+def test_print(browser):
+    data = browser.execute_cdp_cmd("Page.printToPDF", {})["data"]
+    pages = len(re.findall(rb"/Type\s*/Page\b", base64.b64decode(data)))
+    expect(1 <= pages <= 6, f"the page prints to {pages} pages")
+
+
+def main():
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    subprocess.run([program, "compare", "cornell-mirrors", "--size", f"{SIZE[0]}x{SIZE[1]}", "--frames", "6", "--warmup", "1",
+                    "--max-ms", "1000", "-q", "-o", str(folder), "--techniques", *ROWS], check=True, stdout=subprocess.DEVNULL)
+    page = folder / "report.html"
+    browser = open_page(page)
+    test_first_screen(browser)
+    test_values(browser, folder)
+    test_pictures(browser)
+    test_plot_and_tables(browser)
+    test_contrast(browser, "light")
+    test_print(browser)
+    problems = [entry["message"] for entry in browser.get_log("browser")]
+    expect(not problems, f"the console says {problems}")
+    browser.quit()
+    for width in (360, 600, 1400, 2560):
+        browser = open_page(page, width, dark=width == 600)
+        if width == 600:
+            test_contrast(browser, "dark")
+        wide = browser.execute_script("return document.documentElement.scrollWidth")
+        expect(wide <= width, f"at {width} pixels the page is {wide} wide")
+        browser.quit()
+    # Without the values beside it, the page shows those of its 8-bit pictures and says so.
+    alone = folder / "alone"
+    alone.mkdir(exist_ok=True)
+    (alone / "report.html").write_bytes(page.read_bytes())
+    browser = open_page(alone / "report.html")
+    note = wait(browser, "return document.querySelector('.comparer .note').textContent")
+    expect("8-bit pictures" in note and "is not beside this page" in note, f"the page alone says '{note}'")
+    x, y, values = told_values(browser)
+    for told, real in zip(values["reference raytrace:depth=16"], read_pixel(folder, "reference", x, y)):
+        expect(abs(told - min(real, 1)) <= 0.005 + 0.01 * real, f"pixel {x}, {y} of the 8-bit picture: {told}, {real}")
+    browser.quit()
+    print("page: passed")
+
+
+if __name__ == "__main__":
+    main()
