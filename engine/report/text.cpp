@@ -84,7 +84,8 @@ std::string describe_incomplete_run(const Comparison& comparison) {
     const bool in_rounds = has_all && measured < static_cast<std::size_t>(comparison.rounds);
     const bool in_views = has_all && !in_rounds &&
                           std::ranges::any_of(comparison.rows, [&](const Row& row) {
-                              return row.views.size() < comparison.views.size();
+                              return (measure::has_known_time(row) || !row.views.empty()) &&
+                                     row.views.size() < comparison.views.size();
                           });
     return describe_incomplete_run(comparison.rows.size(), comparison.asked, comparison.stopped) +
            (in_rounds ? fmt::format("; {} of {} rounds", measured, comparison.rounds) : "") +

@@ -18,7 +18,7 @@
 
 namespace catoptric::app {
 
-measure::CameraFacts make_device_facts(const scene::Camera& camera) {
+measure::CameraFacts make_camera_facts(const scene::Camera& camera) {
     return {camera.name,
             camera.eye,
             camera.target,
@@ -122,7 +122,7 @@ measure::SceneFacts make_scene_facts(const Request& request, const std::vector<i
                               scene::hash_scene(scene),
                               scene::hash_scene(scene) ==
                                   scene::hash_scene(scene::make_cornell_mirrors()),
-                              make_device_facts(request.camera)};
+                              make_camera_facts(request.camera)};
     facts.lights = list_light_facts(scene);
     facts.environment = make_environment_facts(scene);
     facts.unsupported = list_unsupported_features(scene, seen);

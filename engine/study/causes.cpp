@@ -202,7 +202,7 @@ void measure_error_causes(const StudyInput& input) {
     const CompareRequest& request = input.request;
     std::vector<report::Row>& rows = input.comparison.rows;
     std::optional<ErrorCauseFinder> finder;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < request.base.techniques.size(); ++i) {
         const std::string& text = request.base.techniques[i];
         // A plan's error belongs to no single search.
         const bool is_plan = !read_technique_plan(text).is_technique;

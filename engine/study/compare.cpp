@@ -97,6 +97,7 @@ public:
             reduce_reference_noise();
             measure_pixel_area();
             truths_.write_file();
+            add_picture_rows();
             for (const StudyChoice& choice : list_requested_studies())
                 find_study(choice.name)
                     .run({.session = shared_session_,
@@ -105,8 +106,11 @@ public:
                           .texts = choice.texts,
                           .truth = truths_,
                           .comparison = comparison_,
-                          .tell = [this] { report_progress(); }});
-            add_picture_rows();
+                          .tell = [this] { report_progress(); },
+                          .warn =
+                              [this](const std::string& warning) {
+                                  study_warnings_.push_back(warning);
+                              }});
             comparison_.complete = true;
         } catch (const Error& error) {
             if (comparison_.rows.empty() && !is_stop_signal(error.failure)) throw;
@@ -191,6 +195,8 @@ private:
         for (const std::vector<std::string>& warnings : row_warnings_)
             comparison_.warnings.insert(comparison_.warnings.end(), warnings.begin(),
                                         warnings.end());
+        comparison_.warnings.insert(comparison_.warnings.end(), study_warnings_.begin(),
+                                    study_warnings_.end());
         comparison_.pareto = measure::find_front_of_rows(comparison_.rows);
     }
 
@@ -305,18 +311,21 @@ private:
         prefixes_.push_back(part.prefix);
     }
 
-    /// Adds the rows whose pictures are files. Studies and rounds leave them out.
+    /// Adds the rows whose pictures are files, after all rows that are drawn. Studies of drawn rows
+    /// leave them out.
     void add_picture_rows() {
         const ComparedReference truth = truths_.get_reference("1").compared_reference();
         const std::vector<std::uint32_t>& hits = truths_.find_mirror_hits();
         const double exposure = compare_request_.base.exposure;
         for (std::size_t i = 0; i < compare_request_.pictures.size(); ++i) {
-            const auto& [name, file] = compare_request_.pictures[i];
-            comparison_.rows.push_back(
-                make_picture_row(name, i, read_row_picture(file, exposure), truth, hits,
+            const auto& [name, path] = compare_request_.pictures[i];
+            const measure::Picture picture = read_row_picture(*find_view_picture(path, 0),
+                                                              exposure);
+            const report::Row& row = comparison_.rows.emplace_back(
+                make_picture_row(name, i, picture, truth, hits,
                                  scene::mirrors(compare_request_.base.scene).size(), exposure));
             row_warnings_.push_back(
-                list_picture_row_warnings(comparison_.rows.back(), truth, hits, exposure));
+                list_picture_row_warnings(name, picture, row.error.rmse, truth, hits, exposure));
         }
     }
 
@@ -412,6 +421,7 @@ private:
     std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
     std::vector<std::vector<double>> clear_ms_; ///< by round
     std::vector<std::vector<std::string>> row_warnings_;
+    std::vector<std::string> study_warnings_;
     std::vector<LastJudgedFrame>
         judged_; ///< of each row; empty frames if the reference has no noise
     report::Comparison comparison_;

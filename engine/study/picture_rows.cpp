@@ -31,13 +31,17 @@ measure::Picture flip_picture_vertically(const measure::Picture& picture) {
     return turned;
 }
 
-/// Returns the mean square difference over the pixels of the mask, after exposure and clamping.
-double mean_square_error(const measure::Picture& picture, const ComparedReference& truth,
-                         const measure::Mask& mask, double exposure) {
+/// Returns the difference over the pixels of the mask, without FLIP, after exposure and clamping.
+measure::Difference compute_plain_error(const measure::Picture& picture,
+                                        const ComparedReference& truth, const measure::Mask& mask,
+                                        double exposure) {
     const std::vector<float> no_flip(picture.pixels.size());
-    const double rmse = compute_masked_error(picture, {truth.hdr}, mask, no_flip, exposure).rmse;
-    return rmse * rmse;
+    return compute_masked_error(picture, {truth.hdr}, mask, no_flip, exposure);
 }
+
+// Share of the pixels without reflections that must be off before their light is called different.
+// A rasteriser alone puts the outlines of surfaces and shadows on other pixels than rays do.
+constexpr double kMinShareOfOtherLight = 0.1;
 
 } // namespace
 
@@ -51,16 +55,30 @@ std::string picture_row_image_name(const std::string& name, std::size_t index) {
     return fmt::format("picture{}-{}", index + 1, safe);
 }
 
+std::string view_picture_name(std::size_t view) { return fmt::format("view-{:03}", view); }
+
+std::optional<std::string> find_view_picture(const std::string& path, std::size_t view) {
+    namespace fs = std::filesystem;
+    std::error_code error; // a path that cannot be looked at is read as a file, which says why
+    if (!fs::is_directory(path, error))
+        return view == 0 ? std::optional<std::string>(path) : std::nullopt;
+    std::vector<std::string> found;
+    for (const char* ending : {".exr", ".hdr", ".png"})
+        if (const fs::path file = fs::path(path) / (view_picture_name(view) + ending);
+            fs::exists(file, error))
+            found.push_back(file.string());
+    check(found.size() == 1, Failure::bad_data, path, ": wanted one ", view_picture_name(view),
+          ".exr, .hdr or .png, found ", found.empty() ? "none" : "several");
+    return found.front();
+}
+
 void check_picture_rows(const CompareRequest& request) {
     std::vector<std::string> names;
-    for (const std::string& text : request.base.techniques)
-        names.push_back(parse_technique(text).label);
-    for (const auto& [name, file] : request.pictures) {
-        check(!name.empty(), Failure::usage, "--row ", quote_as_printable_text("=" + file),
-              ": wanted NAME=FILE with a name, found none");
-        check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ",
-              quote_as_printable_text(name), ": wanted a name that no other row has");
-        names.push_back(name);
+    const auto drawn = std::ranges::find(request.studies, "views", &StudyChoice::name);
+    const std::size_t views = drawn != request.studies.end() && drawn->count > 1
+                                  ? static_cast<std::size_t>(drawn->count)
+                                  : 0;
+    const auto check_picture_size = [&](const std::string& file) {
         const auto width = static_cast<int>(request.base.size.x),
                    height = static_cast<int>(request.base.size.y);
         measure::PictureReader picture_reader(file, [&](int columns, int rows) {
@@ -68,6 +86,18 @@ void check_picture_rows(const CompareRequest& request) {
                   ": wanted a picture of ", width, "x", height,
                   " pixels, as the comparison (--size), found ", columns, "x", rows);
         });
+    };
+    for (const std::string& text : request.base.techniques)
+        names.push_back(parse_technique(text).label);
+    for (const auto& [name, file] : request.pictures) {
+        check(!name.empty(), Failure::usage, "--row ", quote_as_printable_text("=" + file),
+              ": wanted NAME=PICTURES with a name, found none");
+        check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ",
+              quote_as_printable_text(name), ": wanted a name that no other row has");
+        names.push_back(name);
+        for (std::size_t view = 0; view <= views; ++view)
+            if (const std::optional<std::string> picture = find_view_picture(file, view))
+                check_picture_size(*picture);
     }
 }
 
@@ -95,26 +125,32 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
     return row;
 }
 
-std::vector<std::string> list_picture_row_warnings(const report::Row& row,
+std::vector<std::string> list_picture_row_warnings(const std::string& name,
+                                                   const measure::Picture& picture, double rmse,
                                                    const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure) {
-    measure::Mask beside = measure::mask_mirror_pixels(hits);
-    for (std::uint8_t& counts : beside) counts = counts == 0 ? 255 : 0;
-    const std::string begin = "'" + row.label + "': ";
+    // Surfaces that reflect tell nothing here, because techniques draw their reflections
+    // differently.
+    measure::Mask beside(hits.size());
+    std::ranges::transform(hits, beside.begin(),
+                           [](std::uint32_t hit) { return hit == 0 ? 255 : 0; });
+    if (std::ranges::count(beside, 255) == 0) return {};
+    const std::string begin = "'" + name + "': ";
     std::vector<std::string> warnings;
-    const double error = mean_square_error(row.hdr, truth, beside, exposure),
-                 turned = mean_square_error(flip_picture_vertically(row.hdr), truth, beside,
-                                            exposure);
-    if (turned < error / 4)
+    const measure::Difference error = compute_plain_error(picture, truth, beside, exposure),
+                              turned = compute_plain_error(flip_picture_vertically(picture), truth,
+                                                           beside, exposure);
+    if (turned.rmse < error.rmse / 2)
         warnings.push_back(begin + "its picture is upside down, as far as the pixels beside the "
                                    "mirrors tell");
-    else if (std::sqrt(error) > std::max(std::abs(row.error.rmse), measure::kEightBitStep))
+    else if (error.rmse > std::max(std::abs(rmse), measure::kEightBitStep) &&
+             error.off > kMinShareOfOtherLight)
         warnings.push_back(begin +
                            fmt::format("its rmse is {:.3g} beside the mirrors and {:.3g} on them: "
                                        "its light, exposure or camera differs, not its reflections "
                                        "alone",
-                                       std::sqrt(error), row.error.rmse));
+                                       error.rmse, rmse));
     return warnings;
 }
 

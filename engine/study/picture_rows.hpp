@@ -4,6 +4,7 @@
 #include "study/compare_row.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,19 @@ namespace catoptric::app {
 /// the row among those of files, from 0.
 std::string picture_row_image_name(const std::string& name, std::size_t index);
 
+/// Returns the name, without ending, of a view's picture in the folder of such a row: "view-000" of
+/// the comparison's own camera, and "view-001" of the first drawn view.
+std::string view_picture_name(std::size_t view);
+
+/// Returns the file of a row's picture in a view, as view_picture_name counts. `path` is a folder
+/// with a picture for each view, or the picture of view 0. Returns nothing for other views of a
+/// single picture. Throws `bad_data` unless a folder has exactly one .exr, .hdr or .png of the
+/// view.
+std::optional<std::string> find_view_picture(const std::string& path, std::size_t view);
+
 /// Throws `usage` for a row without a name, or with the name of another row. Throws `bad_data`, and
-/// names the file, if a picture cannot be read or has another size than the comparison. Reads the
-/// pictures' headers only.
+/// names the file, if a picture cannot be read or has another size than the comparison, and if a
+/// folder lacks the picture of a view. Reads the pictures' headers only.
 void check_picture_rows(const CompareRequest& request);
 
 /// Reads the picture of a row. Files of floats (EXR, Radiance) hold linear light. A PNG holds what
@@ -31,9 +42,11 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
                              const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                              double exposure);
 
-/// Returns what is suspicious about the row's picture, in sentences: it differs from the reference
-/// more beside the mirrors than on them, or less if it is turned upside down.
-std::vector<std::string> list_picture_row_warnings(const report::Row& row,
+/// Returns what is suspicious about a picture, in sentences that begin with `name`: it differs from
+/// the reference more where surfaces reflect nothing than on the mirrors, or less if it is turned
+/// upside down. `rmse`: its error on the mirrors.
+std::vector<std::string> list_picture_row_warnings(const std::string& name,
+                                                   const measure::Picture& picture, double rmse,
                                                    const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure);

@@ -27,6 +27,8 @@ struct StudyInput {
     /// Passes the unfinished comparison on, for example to a writer of reports. Call it after each
     /// part of the work.
     std::function<void()> tell;
+    /// Adds a sentence to the comparison's warnings.
+    std::function<void(const std::string&)> warn;
 };
 
 struct Study {

@@ -10,6 +10,7 @@
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/compare_row.hpp"
+#include "study/picture_rows.hpp"
 #include "study/reference_cache.hpp"
 #include "study/study.hpp"
 
@@ -64,6 +65,7 @@ measure::Picture place_pictures_side_by_side(const measure::Picture& left,
     return both;
 }
 
+/// Adds the errors of a row's picture in a view. Only `part.hdr` and `part.display` are used.
 void add_view_errors(report::Row& row, const TechniqueResult& part, const ReferencePicture& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure) {
     const std::vector<float> flip_map = compute_flip_map(part.hdr, truth.compared_reference(),
@@ -75,6 +77,25 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
         row.worst = {row.views.size() - 1,
                      place_pictures_side_by_side(part.display, truth.part.display)};
+}
+
+/// Adds the errors of the picture that a row of files has for view `view`, from 1, if it has one.
+void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, std::size_t view,
+                                const ReferencePicture& truth,
+                                const std::vector<std::uint32_t>& hits, std::size_t mirrors,
+                                report::Row& row) {
+    const auto& [name, path] = request.pictures[index];
+    const std::optional<std::string> file = find_view_picture(path, view);
+    if (!file) return;
+    const double exposure = request.base.exposure;
+    TechniqueResult part;
+    part.hdr = read_row_picture(*file, exposure);
+    part.display = measure::to_display(part.hdr, exposure);
+    add_view_errors(row, part, truth, hits, mirrors, exposure);
+    for (const std::string& warning : list_picture_row_warnings(
+             name + "', '" + view_picture_name(view), part.hdr, row.views.back().error.rmse,
+             truth.compared_reference(), hits, exposure))
+        if (request.on_warning) request.on_warning(warning);
 }
 
 void check_view_count(std::string_view option, int count) {
@@ -91,7 +112,9 @@ void measure_drawn_views(const StudyInput& input) {
                        .reference = input.request.reference,
                        .reference_seconds = input.request.reference_seconds,
                        .watcher = input.request.watcher,
-                       .on_finished_view = input.tell},
+                       .pictures = input.request.pictures,
+                       .on_finished_view = input.tell,
+                       .on_warning = input.warn},
                       input.comparison);
 }
 
@@ -127,15 +150,16 @@ std::vector<measure::View> draw_random_views(const Request& request, int count) 
     std::vector<scene::Camera> cameras;
     if (!(period > 0)) cameras = make_seeded_cameras(request.scene, request.time, seeds);
     for (std::size_t i = 0; i < views.size(); ++i)
-        views[i].camera = make_device_facts(
+        views[i].camera = make_camera_facts(
             period > 0 ? make_seeded_camera(request.scene, views[i].time, seeds[i]) : cameras[i]);
     return views;
 }
 
 void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison) {
     const std::vector<std::string>& texts = request.base.techniques;
-    check(texts.size() == comparison.rows.size(), Failure::internal, "views of ", texts.size(),
-          " techniques: wanted as many rows, found ", comparison.rows.size());
+    const std::size_t row_count = texts.size() + request.pictures.size();
+    check(row_count == comparison.rows.size(), Failure::internal, "views of ", row_count,
+          " techniques and pictures: wanted as many rows, found ", comparison.rows.size());
     const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
     std::vector<const report::Row*> rows;
@@ -168,6 +192,9 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                             truths.get_reference(find_sample_count(parse_technique(texts[k]))),
                             hits, mirrors, request.base.exposure);
         }
+        for (std::size_t k = 0; k < request.pictures.size(); ++k)
+            add_errors_of_view_picture(request, k, i + 1, truths.get_reference("1"), hits, mirrors,
+                                       comparison.rows[texts.size() + k]);
         if (request.on_finished_view) request.on_finished_view();
     }
 }

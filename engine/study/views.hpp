@@ -4,6 +4,10 @@
 #include "session/run.hpp"
 #include "session/watcher.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace catoptric::app {
 
 /// Draws `count` views of the request's scene that see a mirror (session/seeded_camera.hpp), from
@@ -21,9 +25,15 @@ struct ViewsRequest {
     /// Most time to reduce the noise of the reference, seconds for all views together.
     double reference_seconds = 0;
     Watcher watcher;
+    /// Rows of files: name, and folder of pictures (study/picture_rows.hpp). They are the last rows
+    /// of the comparison. A row of a single picture gets no errors in views.
+    std::vector<std::pair<std::string, std::string>> pictures = {};
     /// Called after each view, as soon as every row has its errors in that view. The function may
     /// be empty.
     std::function<void()> on_finished_view;
+    /// Called with what is suspicious about the pictures of rows of files. The function may be
+    /// empty.
+    std::function<void(const std::string&)> on_warning;
 };
 
 /// Renders the reference and every row of the comparison from each view of the comparison, and

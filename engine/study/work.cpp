@@ -56,7 +56,7 @@ const RegisteredStudy kWorkStudy{
 
 void count_row_work(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t i = 0; i < input.request.base.techniques.size(); ++i) {
         if (measure::has_counted_work(rows[i])) continue;
         report_row_to_watcher(input.request.watcher, rows[i].label + ": work", i, rows.size());
         Request request = input.request.base;

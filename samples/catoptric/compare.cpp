@@ -56,7 +56,7 @@ struct CompareOptions {
     double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
-    std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, file
+    std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, PICTURES
     std::vector<app::StudyChoice> studies;
     std::vector<std::string> command;
 };
@@ -333,14 +333,15 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
         "rows to compare, each name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\", see "
         "'list techniques' (a built-in list)",
         options->techniques);
-    verb.repeated("--row", "NAME=FILE",
-                  "further row: a picture of the same camera, time and size from another renderer. "
-                  "EXR and Radiance files hold linear light, a PNG what is displayed at the "
-                  "comparison's exposure; may be repeated",
+    verb.repeated("--row", "NAME=PICTURES",
+                  "further row: a picture of the same camera, time and size from another renderer, "
+                  "or a folder with one for each view, see 'help views'. EXR and Radiance files "
+                  "hold linear light, a PNG what is displayed at the comparison's exposure; may be "
+                  "repeated",
                   [options](const std::string& text) {
                       const std::size_t end = text.find('=');
                       check(end != std::string::npos && end > 0 && end + 1 < text.size(),
-                            Failure::usage, "--row: wanted NAME=FILE, found ",
+                            Failure::usage, "--row: wanted NAME=PICTURES, found ",
                             quote_as_printable_text(text));
                       options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
                   });

@@ -17,5 +17,6 @@ void add_diff_verb(CommandLine& program);
 void add_graph_verb(CommandLine& program);
 void add_list_verb(CommandLine& program);
 void add_info_verb(CommandLine& program);
+void add_views_verb(CommandLine& program);
 
 } // namespace catoptric::cli

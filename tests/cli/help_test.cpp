@@ -8,8 +8,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::vector<std::string> kVerbs{"compare", "render", "stress", "bench",
-                                      "diff",    "graph",  "list",   "info"};
+const std::vector<std::string> kVerbs{"compare", "render", "stress", "bench", "diff",
+                                      "graph",   "list",   "info",   "views"};
 
 std::vector<std::string> split_into_lines(const std::string& text) {
     std::vector<std::string> lines;

@@ -3,6 +3,9 @@
 #include "measure/display.hpp"
 #include "measure/picture_file.hpp"
 
+#include <array>
+#include <cmath>
+
 namespace {
 
 using nlohmann::json;
@@ -18,7 +21,7 @@ protected:
                       0);
     }
 
-    /// Compares with the rows given as NAME=FILE.
+    /// Compares with the rows given as NAME=PICTURES.
     test::ProcessResult compare_picture_rows(const Words& rows) const {
         Words words{"compare", "-o", "out", "--techniques", "parallax:face=16", "reuse:face=16"};
         for (const std::string& row : rows) words.insert(words.end(), {"--row", row});
@@ -100,9 +103,136 @@ TEST_F(PictureRows, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
     };
     refused({"a=small.exr"}, 65, "small.exr: wanted a picture of ");
     refused({"a=none.exr"}, 66, "none.exr");
-    refused({"own.exr"}, 2, "wanted NAME=FILE");
+    refused({"own.exr"}, 2, "wanted NAME=PICTURES");
     refused({"a=own.exr", "a=own.png"}, 2, "wanted a name that no other row has");
     refused({"parallax:face=16=own.exr"}, 66, "16=own.exr");
+}
+
+/// Another renderer gets the views from `views`. Here it is this program itself, so the row of its
+/// pictures must have the errors of the row that draws them.
+class ViewPictures : public PictureRows {
+protected:
+    void SetUp() override {
+        Cli::SetUp();
+        const test::ProcessResult ended = run_cli(
+            {"views", "flat", "--count", "6", "--seed", "9", "--size", "48x32", "-o", "views"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        views_ = json::parse(read_file_at_path(folder / "views/views.json"))["views"];
+        ASSERT_EQ(views_.size(), 7U);
+        for (const json& view : views_) render_view(view);
+    }
+
+    void render_view(const json& view) const {
+        const json& camera = view["camera"];
+        std::string text;
+        for (const char* point : {"eye", "target"}) {
+            for (const json& number : camera[point]) text += number.dump() + ",";
+            text.back() = ':';
+        }
+        text += camera["vertical_fov_degrees"].dump();
+        const std::string file = "views/" + view["name"].get<std::string>() + ".exr";
+        ASSERT_EQ(run_cli({"render", "flat", "--technique", "reuse:face=16", "--size", "48x32",
+                           "--camera", text, "--time", view["time"].dump(), "-o", file})
+                      .exit_code,
+                  0);
+    }
+
+    test::ProcessResult compare_views(const Words& more = {}) const {
+        Words words{"compare", "flat",    "--size", "48x32", "--seed",
+                    "9",       "--views", "6",      "-o",    "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        for (const char* word :
+             {"--frames", "6", "--row", "mine=views", "--techniques", "reuse:face=16"})
+            words.emplace_back(word);
+        return run_cli(words);
+    }
+
+    json views_;
+};
+
+TEST_F(ViewPictures, OwnPicturesHandedBackHaveTheSameErrorsInEachView) {
+    const test::ProcessResult ended = compare_views();
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json own = read_report_row(0), back = read_report_row(1);
+    EXPECT_EQ(back["label"], "mine");
+    EXPECT_NEAR(back["error"]["flip"], own["error"]["flip"].get<double>(), 1e-6);
+    for (const char* figure : {"flip", "rmse"}) {
+        const json &values = back["views"]["error"][figure]["values"],
+                   &wanted = own["views"]["error"][figure]["values"];
+        ASSERT_EQ(values.size(), 6U);
+        for (std::size_t i = 0; i < 6; ++i)
+            EXPECT_NEAR(values[i], wanted[i].get<double>(), 1e-6) << figure << " of view " << i + 1;
+    }
+    EXPECT_EQ(back["views"]["worst"]["view"], own["views"]["worst"]["view"]);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/images/worst-picture1-mine.png"));
+    const json report = json::parse(read_file_at_path(folder / "out/report.json"));
+    EXPECT_THAT(report["warnings"].dump(), testing::Not(testing::HasSubstr("'mine'")));
+    EXPECT_EQ(report["views"][2]["camera"]["eye"], views_[3]["camera"]["eye"]);
+}
+
+TEST_F(ViewPictures, MissingDoubleAndTurnedPicturesAreNamed) {
+    namespace measure = catoptric::measure;
+    const measure::Picture own = measure::read_picture(folder / "views/view-004.exr");
+    measure::Picture turned(own.width, own.height);
+    for (int y = 0; y < own.height; ++y)
+        for (int x = 0; x < own.width; ++x) turned.at(x, y) = own.at(x, own.height - 1 - y);
+    measure::write_exr(turned, folder / "views/view-004.exr");
+    const test::ProcessResult studied = compare_views({"--work", "--causes"});
+    ASSERT_EQ(studied.exit_code, 0) << "studies of rows that are not drawn: " << studied.err;
+    EXPECT_THAT(json::parse(read_file_at_path(folder / "out/report.json"))["warnings"].dump(),
+                testing::HasSubstr("'mine', 'view-004': its picture is upside down"));
+    std::filesystem::copy(folder / "views/view-002.exr", folder / "views/view-002.hdr");
+    EXPECT_THAT(compare_views().err,
+                testing::HasSubstr("views: wanted one view-002.exr, .hdr or .png, found several"));
+    std::filesystem::remove(folder / "views/view-002.hdr");
+    std::filesystem::remove(folder / "views/view-006.exr");
+    const test::ProcessResult missing = compare_views();
+    EXPECT_EQ(missing.exit_code, 65);
+    EXPECT_THAT(missing.err,
+                testing::HasSubstr("views: wanted one view-006.exr, .hdr or .png, found none"));
+    measure::write_exr(measure::Picture(5, 4), folder / "views/view-006.exr");
+    EXPECT_THAT(compare_views().err, testing::HasSubstr("view-006.exr: wanted a picture of 48x32"));
+}
+
+/// The cameras of views.gltf, turned into eye and direction by the rules of glTF 2.0, are those of
+/// views.json.
+TEST_F(PictureRows, ViewsAsGltfAreThoseOfTheJson) {
+    ASSERT_EQ(
+        run_cli({"views", "courtyard", "--count", "8", "--size", "64x48", "-o", "v"}).exit_code, 0);
+    const json views = json::parse(read_file_at_path(folder / "v/views.json"))["views"],
+               gltf = json::parse(read_file_at_path(folder / "v/views.gltf"));
+    ASSERT_EQ(gltf["nodes"].size(), 9U);
+    for (std::size_t i = 0; i < 9; ++i) {
+        const json &node = gltf["nodes"][i], &camera = views[i]["camera"],
+                   &lens = gltf["cameras"][node["camera"].get<std::size_t>()]["perspective"];
+        EXPECT_EQ(node["name"], views[i]["name"]);
+        EXPECT_NEAR(lens["yfov"].get<double>() * 180 / 3.14159265358979,
+                    camera["vertical_fov_degrees"].get<double>(), 1e-6);
+        EXPECT_NEAR(lens["aspectRatio"], 64.0 / 48, 1e-12);
+        std::array<double, 3> forward{}, wanted{};
+        const auto q = node["rotation"].get<std::array<double, 4>>(); // x, y, z, w
+        forward = {-2 * (q[0] * q[2] + q[3] * q[1]), -2 * (q[1] * q[2] - q[3] * q[0]),
+                   -(1 - 2 * (q[0] * q[0] + q[1] * q[1]))};
+        double length = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(node["translation"][k], camera["eye"][k]);
+            wanted[k] = camera["target"][k].get<double>() - camera["eye"][k].get<double>();
+            length += wanted[k] * wanted[k];
+        }
+        // The camera's own y axis points up: it lies in the plane of the view and the up vector.
+        const double up_y = 1 - 2 * (q[0] * q[0] + q[2] * q[2]);
+        EXPECT_GT(up_y, 0);
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_NEAR(forward[k], wanted[k] / std::sqrt(length), 1e-9) << i << " " << k;
+    }
+}
+
+TEST_F(PictureRows, ViewsAreRefusedWithoutAFolderOrWithTooFew) {
+    EXPECT_EQ(run_cli({"views", "room"}).exit_code, 2);
+    const test::ProcessResult few = run_cli({"views", "room", "--count", "3", "-o", "v"});
+    EXPECT_EQ(few.exit_code, 2);
+    EXPECT_THAT(few.err, testing::HasSubstr("--count: wanted 1 or at least 6"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "v"));
 }
 
 } // namespace
