@@ -44,6 +44,13 @@ std::string read_text_member(const PlanJson& rule, const char* member, const std
     return value.get<std::string>();
 }
 
+/// Returns whether the only rule gives `auto`, which is no technique of one mirror, to all mirrors.
+bool is_auto_for_all_mirrors(const PlanJson& rules) {
+    return rules.size() == 1 && rules[0].is_object() && rules[0].size() == 2 &&
+           rules[0].value("mirror", PlanJson()) == "*" &&
+           rules[0].value("technique", PlanJson()) == reflect::kAutoPlanName;
+}
+
 reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
     check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
           format_json_value(rule));
@@ -82,6 +89,11 @@ reflect::TechniquePlan read_technique_plan(const std::string& text) {
     const PlanJson document = parse_json<PlanJson>(file, read_file(file));
     reflect::TechniquePlan plan{text, {}};
     const PlanJson& rules = find_plan_rules(document, file);
+    if (is_auto_for_all_mirrors(rules)) {
+        plan = reflect::parse_plan(reflect::kAutoPlanName);
+        plan.label = text;
+        return plan;
+    }
     for (std::size_t i = 0; i < rules.size(); ++i)
         plan.rules.push_back(read_plan_rule(rules[i], file + ": plan[" + std::to_string(i) + "]"));
     return plan;

@@ -11,6 +11,7 @@ namespace catoptric::app {
 /// JSON of at most 16 MiB: a list of rules, or an object with such a list as `plan`, as a report's
 /// row has it. A rule is {"mirror": number or pattern, "technique": "name[:knob=value,...]",
 /// "settings": {knob: value}}. `settings` is optional; a report's `name` and `why` are ignored.
+/// The single rule {"mirror": "*", "technique": "auto"} is the plan `auto`.
 /// Throws `missing_input`, `io` and `bad_data` with the place, the wanted and the found value, and
 /// `usage` as parse_plan does.
 reflect::TechniquePlan read_technique_plan(const std::string& text);

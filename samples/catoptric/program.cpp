@@ -35,6 +35,7 @@ int run_program_and_check_streams(int argc, char** argv) {
         "catoptric", "Measures the cost and the error of each way of rendering reflections.",
         "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
     add_compare_verb(program, words);
+    add_choose_verb(program, words);
     add_render_verb(program);
     add_stress_verb(program, words);
     add_bench_verb(program, words);

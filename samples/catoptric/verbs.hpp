@@ -10,6 +10,7 @@ namespace catoptric::cli {
 
 /// `command` is the whole command line, which reports record.
 void add_compare_verb(CommandLine& program, std::vector<std::string> command);
+void add_choose_verb(CommandLine& program, std::vector<std::string> command);
 void add_stress_verb(CommandLine& program, std::vector<std::string> command);
 void add_bench_verb(CommandLine& program, std::vector<std::string> command);
 void add_render_verb(CommandLine& program);

@@ -9,7 +9,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 const std::vector<std::string> kVerbs{"compare", "render", "stress", "bench", "diff",
-                                      "graph",   "list",   "info",   "views"};
+                                      "graph",   "list",   "info",   "views", "choose"};
 
 std::vector<std::string> split_into_lines(const std::string& text) {
     std::vector<std::string> lines;

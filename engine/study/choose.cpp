@@ -1,0 +1,328 @@
+#include "study/choose.hpp"
+
+#include "compare.hpp"
+#include "core/error.hpp"
+#include "measure/certificate.hpp"
+#include "measure/findings.hpp"
+#include "measure/interval.hpp"
+#include "measure/judge.hpp"
+#include "measure/plan_mix.hpp"
+#include "session/plan_file.hpp"
+#include "study/compare_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace catoptric::app {
+
+namespace {
+
+double error_of(ErrorQuantity quantity, const measure::Difference& error) {
+    return quantity == ErrorQuantity::flip ? error.flip : error.rmse;
+}
+
+void check_choose_request(const ChooseRequest& request) {
+    const auto check_part = [](const char* name, double value) {
+        check(value > 0 && value < 1, Failure::usage, name,
+              ": wanted a number between 0 and 1, found ", value);
+    };
+    check_part("share", request.share);
+    check_part("confidence", request.confidence);
+    check(request.max_error || request.max_ms, Failure::usage,
+          "a limit is missing: wanted one of error or of time");
+    check(request.training_views >= static_cast<int>(measure::kMinIntervalSamples), Failure::usage,
+          "training views: wanted at least ", measure::kMinIntervalSamples, ", found ",
+          request.training_views);
+    check(request.proof_seed != request.base.seed, Failure::usage,
+          "seed of the proof: wanted another than that of the training views, found ",
+          request.proof_seed);
+}
+
+void tell_step(const ChooseRequest& request, const std::string& sentence) {
+    if (request.tell) request.tell(sentence);
+}
+
+/// Compares plans with the reference in the own view, and in `views` drawn ones if there are any.
+measure::Comparison compare_plans(Engine& engine, const ChooseRequest& request,
+                                  const std::vector<std::string>& plans, int views,
+                                  std::uint64_t seed) {
+    CompareRequest compared;
+    compared.base = request.base;
+    compared.base.techniques = plans;
+    compared.base.seed = seed;
+    compared.reference = request.reference;
+    compared.reference_seconds = request.reference_seconds;
+    compared.watcher = request.watcher;
+    if (views > 0) compared.studies.push_back({"views", views});
+    if (request.costs) compared.studies.push_back({"work"});
+    measure::Comparison comparison = compare(engine, compared);
+    if (comparison.stopped) throw Error(*comparison.stopped);
+    return comparison;
+}
+
+std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
+                                          const measure::Comparison& comparison,
+                                          const std::vector<std::string>& texts) {
+    std::vector<measure::PredictedTime> predicted;
+    if (request.costs)
+        predicted = measure::find_predicted_front(*request.costs, comparison.rows).times;
+    std::vector<JudgedPlan> plans;
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+        const measure::Row& row = comparison.rows[i];
+        JudgedPlan plan{.text = texts[i],
+                        .ms = row.time_ms().median,
+                        .ms_ci95 = row.time_ms().ci95,
+                        .errors = {}};
+        if (request.costs)
+            plan.ms = predicted[i].ms, plan.ms_ci95 = {predicted[i].low, predicted[i].high};
+        for (const measure::Errors& errors : row.views)
+            if (const double error = error_of(request.quantity, errors.error); !std::isnan(error))
+                plan.errors.push_back(error); // a view without mirror pixels says nothing
+        for (const double error : plan.errors)
+            plan.largest_error = std::max(plan.largest_error, error);
+        plans.push_back(std::move(plan));
+    }
+    return plans;
+}
+
+/// Returns whether the upper end of the plan's time, or its median without an interval, keeps the
+/// limit of time.
+bool keeps_time(const ChooseRequest& request, const JudgedPlan& plan) {
+    if (!request.max_ms) return true;
+    return (plan.ms_ci95.is_known() ? plan.ms_ci95.high : plan.ms) <= *request.max_ms;
+}
+
+bool keeps_error(const ChooseRequest& request, const JudgedPlan& plan) {
+    return !request.max_error || plan.largest_error <= *request.max_error;
+}
+
+/// Returns the candidates that no other beats by a wide margin in the own view, in time and error.
+/// The others are listed in `dropped`.
+std::vector<std::string> keep_promising_plans(const ChooseRequest& request,
+                                              const measure::Comparison& comparison,
+                                              const std::vector<std::string>& texts,
+                                              std::vector<std::string>& dropped) {
+    constexpr double kMargin = 1.5; // of one view's errors and times against those of others
+    const std::vector<JudgedPlan> plans = list_judged_plans(request, comparison, texts);
+    std::vector<std::string> kept;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const double error = error_of(request.quantity, comparison.rows[i].error);
+        bool beaten = !measure::is_ranking_candidate(comparison.rows[i]) || std::isnan(error);
+        for (std::size_t k = 0; k < plans.size() && !beaten; ++k)
+            beaten = measure::is_ranking_candidate(comparison.rows[k]) &&
+                     plans[i].ms > kMargin * plans[k].ms &&
+                     error > kMargin * error_of(request.quantity, comparison.rows[k].error);
+        (beaten ? dropped : kept).push_back(texts[i]);
+    }
+    return kept;
+}
+
+/// Returns a text for a plan of one technique per mirror, or nothing if all mirrors have the same.
+std::string make_mix_text(const std::vector<std::string>& texts,
+                          const std::vector<std::size_t>& mix) {
+    std::map<std::size_t, std::string> mirrors; // of each technique
+    for (std::size_t mirror = 0; mirror < mix.size(); ++mirror) {
+        std::string& list = mirrors[mix[mirror]];
+        list += (list.empty() ? "" : ",") + std::to_string(mirror + 1);
+    }
+    if (mirrors.size() < 2) return "";
+    std::string text;
+    for (const auto& [technique, list] : mirrors)
+        text += (text.empty() ? "" : " ") + list + "=" + texts[technique];
+    return text;
+}
+
+/// Returns the cheapest mix of several techniques that keeps the limit of error in the training
+/// views, as a plan; empty if there is none. Candidates that are plans themselves take no part.
+std::string find_mixed_plan(const ChooseRequest& request, const measure::Comparison& training,
+                            const std::vector<JudgedPlan>& plans) {
+    if (!request.max_error) return "";
+    const bool squares = request.quantity == ErrorQuantity::rmse; // squares add up over pixels
+    std::vector<measure::MixCandidate> candidates;
+    std::vector<std::string> texts;
+    std::vector<std::vector<double>> pixels;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        if (!read_technique_plan(plans[i].text).is_technique) continue;
+        measure::MixCandidate candidate{plans[i].ms, {}};
+        pixels.clear();
+        for (const measure::Errors& view : training.rows[i].views) {
+            std::vector<double>& sums = candidate.error_sums.emplace_back();
+            std::vector<double>& counts = pixels.emplace_back();
+            for (const measure::Difference& mirror : view.error_per_mirror) {
+                const double error = mirror.pixels > 0 ? error_of(request.quantity, mirror) : 0;
+                counts.push_back(static_cast<double>(mirror.pixels));
+                sums.push_back(counts.back() * (squares ? error * error : error));
+            }
+        }
+        candidates.push_back(std::move(candidate));
+        texts.push_back(plans[i].text);
+    }
+    const double limit = squares ? *request.max_error * *request.max_error : *request.max_error;
+    const std::vector<std::size_t> mix = measure::find_cheapest_mix(candidates, pixels, limit);
+    return make_mix_text(texts, mix);
+}
+
+/// Returns whether the second of two plans is faster when both are measured side by side.
+bool is_second_plan_faster(Engine& engine, const ChooseRequest& request, const std::string& first,
+                           const std::string& second) {
+    const std::vector<std::string> texts{first, second};
+    const measure::Comparison both = compare_plans(engine, request, texts, 0, request.base.seed);
+    if (!request.costs) return measure::is_confidently_faster(both.rows[1], both.rows[0]);
+    const std::vector<JudgedPlan> plans = list_judged_plans(request, both, texts);
+    return plans[1].ms < plans[0].ms;
+}
+
+/// Returns whether one plan takes less time than another: its interval ends before the other's.
+bool takes_less_time(const JudgedPlan& a, const JudgedPlan& b) {
+    const bool known = a.ms_ci95.is_known() && b.ms_ci95.is_known();
+    return known ? a.ms_ci95.high < b.ms_ci95.low : a.ms < b.ms;
+}
+
+/// Returns the plans within the limits that no other such plan beats, from the surest to the
+/// cheapest: a plan is beaten by one that errs less and does not take more time.
+std::vector<const JudgedPlan*> list_unbeaten_plans(const ChooseRequest& request,
+                                                   const std::vector<JudgedPlan>& plans) {
+    std::vector<const JudgedPlan*> kept;
+    for (const JudgedPlan& plan : plans)
+        if (keeps_time(request, plan) && keeps_error(request, plan)) kept.push_back(&plan);
+    std::ranges::stable_sort(kept, [](const JudgedPlan* a, const JudgedPlan* b) {
+        return a->largest_error != b->largest_error ? a->largest_error < b->largest_error
+                                                    : a->ms < b->ms;
+    });
+    std::vector<const JudgedPlan*> unbeaten;
+    for (const JudgedPlan* plan : kept) // those before it err less
+        if (std::ranges::all_of(
+                unbeaten, [&](const JudgedPlan* surer) { return takes_less_time(*plan, *surer); }))
+            unbeaten.push_back(plan);
+    return unbeaten;
+}
+
+/// Returns the plans to prove, from the surest to the cheapest.
+std::vector<std::string> list_plans_to_prove(Engine& engine, const ChooseRequest& request,
+                                             const measure::Comparison& training,
+                                             const std::vector<JudgedPlan>& plans) {
+    constexpr std::size_t kMaxProvedPlans = 4; // besides the mix
+    std::vector<std::string> chain;
+    for (const JudgedPlan* plan : list_unbeaten_plans(request, plans)) chain.push_back(plan->text);
+    if (chain.empty()) return chain;
+    if (!request.max_error) return {chain.front()}; // the limit of time asks for the least error
+    if (chain.size() > kMaxProvedPlans)             // the surest and the cheapest stay
+        chain.erase(chain.begin() + 1, chain.end() - (kMaxProvedPlans - 1));
+    const std::string mixed = find_mixed_plan(request, training, plans), cheapest = chain.back();
+    if (mixed.empty()) return chain;
+    tell_step(request, "measuring the mix " + mixed + " beside " + cheapest);
+    if (is_second_plan_faster(engine, request, cheapest, mixed)) chain.push_back(mixed);
+    return chain;
+}
+
+std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
+                                   const std::vector<std::string>& texts) {
+    const int least = static_cast<int>(measure::kMinIntervalSamples);
+    const int views = std::max(
+        request.proof_views > 0
+            ? request.proof_views
+            : static_cast<int>(measure::count_views_needed(request.share, request.confidence, 0)),
+        least);
+    tell_step(request,
+              fmt::format("proving {} on {} fresh views",
+                          texts.size() == 1 ? texts.front() : fmt::format("{} plans", texts.size()),
+                          views));
+    const measure::Comparison comparison = compare_plans(engine, request, texts, views,
+                                                         request.proof_seed);
+    std::vector<PlanProof> proofs;
+    for (JudgedPlan& plan : list_judged_plans(request, comparison, texts)) {
+        PlanProof proof;
+        proof.views = plan.errors.size();
+        if (request.max_error)
+            proof.failures = static_cast<std::size_t>(std::ranges::count_if(
+                plan.errors, [&](double error) { return !(error <= *request.max_error); }));
+        proof.share_bound = measure::kept_share_lower_bound(proof.failures, proof.views,
+                                                            request.confidence);
+        proof.error_bound = measure::upper_tolerance_limit(plan.errors, request.share,
+                                                           request.confidence);
+        proof.holds = keeps_time(request, plan) &&
+                      (request.max_error ? proof.share_bound >= request.share
+                                         : !std::isnan(proof.error_bound));
+        proof.plan = std::move(plan);
+        proofs.push_back(std::move(proof));
+    }
+    return proofs;
+}
+
+std::string format_limit_of_error(const ChooseRequest& request) {
+    return fmt::format("{} <= {:g}", error_quantity_name(request.quantity), *request.max_error);
+}
+
+/// Returns why no plan keeps the limits in the training views, and which comes nearest.
+std::string describe_nearest_plan(const ChooseRequest& request,
+                                  const std::vector<JudgedPlan>& plans) {
+    const JudgedPlan *closest = nullptr, *fastest = nullptr;
+    for (const JudgedPlan& plan : plans) {
+        if (fastest == nullptr || plan.ms < fastest->ms) fastest = &plan;
+        if (keeps_time(request, plan) &&
+            (closest == nullptr || plan.largest_error < closest->largest_error))
+            closest = &plan;
+    }
+    if (fastest == nullptr) return "no candidate could be judged";
+    if (closest == nullptr)
+        return fmt::format("no candidate takes at most {:g} ms; the best that is reachable is {} "
+                           "with {:.3g} ms",
+                           *request.max_ms, fastest->text, fastest->ms);
+    return fmt::format("no candidate keeps {} in the {} training views{}; the best that is "
+                       "reachable is {}, at most {:.4g}",
+                       format_limit_of_error(request), closest->errors.size(),
+                       request.max_ms ? " within the time" : "", closest->text,
+                       closest->largest_error);
+}
+
+} // namespace
+
+const char* error_quantity_name(ErrorQuantity quantity) {
+    return quantity == ErrorQuantity::flip ? "flip" : "rmse";
+}
+
+PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan) {
+    check_choose_request(request);
+    return prove_plans(engine, request, {plan}).front();
+}
+
+PlanChoice choose_plan(Engine& engine, const ChooseRequest& request) {
+    check_choose_request(request);
+    PlanChoice choice;
+    std::vector<std::string> texts = request.base.techniques;
+    if (texts.empty()) texts = list_default_techniques(request.base);
+    tell_step(request, fmt::format("measuring {} candidates in one view", texts.size()));
+    texts = keep_promising_plans(request,
+                                 compare_plans(engine, request, texts, 0, request.base.seed), texts,
+                                 choice.dropped);
+    check(!texts.empty(), Failure::usage,
+          "candidates: wanted one that shows reflections, found none");
+    tell_step(request, fmt::format("judging {} candidates in {} training views", texts.size(),
+                                   request.training_views));
+    const measure::Comparison training = compare_plans(engine, request, texts,
+                                                       request.training_views, request.base.seed);
+    choice.candidates = list_judged_plans(request, training, texts);
+    const std::vector<std::string> chain = list_plans_to_prove(engine, request, training,
+                                                               choice.candidates);
+    if (chain.empty()) {
+        choice.failure = describe_nearest_plan(request, choice.candidates);
+        return choice;
+    }
+    choice.proofs = prove_plans(engine, request, chain);
+    for (std::size_t i = 0; i < choice.proofs.size() && choice.proofs[i].holds; ++i)
+        choice.chosen = i;
+    if (!choice.chosen) {
+        const PlanProof& surest = choice.proofs.front();
+        choice.failure = fmt::format(
+            "{} keeps the limits in the training views, but not in enough of the fresh ones "
+            "({} of {} fail, {:.3g} ms); the best that is reachable is {} <= {:.4g}",
+            surest.plan.text, surest.failures, surest.views, surest.plan.ms,
+            error_quantity_name(request.quantity), surest.error_bound);
+    }
+    return choice;
+}
+
+} // namespace catoptric::app

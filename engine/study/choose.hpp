@@ -1,0 +1,84 @@
+#pragma once
+
+#include "measure/comparison.hpp"
+#include "measure/costs.hpp"
+#include "session/run.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Chooses the cheapest plan that keeps a limit of error, or the closest within a limit of time, and
+// proves the choice on other views than those it was found on.
+namespace catoptric::app {
+
+/// Error over the mirrors that a limit is set for.
+enum class ErrorQuantity : std::uint8_t { flip, rmse };
+/// Returns "flip" or "rmse".
+const char* error_quantity_name(ErrorQuantity quantity);
+
+struct ChooseRequest {
+    Request base;          ///< scene and settings; `techniques` are the candidates; empty: all
+    std::string reference; ///< see CompareRequest::reference
+    double reference_seconds = 60; ///< most time for a reference's noise, in each comparison
+    ErrorQuantity quantity = ErrorQuantity::flip;
+    std::optional<double> max_error; ///< limit of the error in a view, 0..1
+    std::optional<double> max_ms;    ///< limit of the time of a frame, milliseconds
+    double share = .95;              ///< share of views that must keep the limit, between 0 and 1
+    double confidence = .95;         ///< between 0 and 1
+    int training_views = 12;         ///< views of the search, at least 6
+    int proof_views = 0;             ///< views of the proof; 0: as few as can prove the share
+    std::uint64_t proof_seed = 2;    ///< seed of the proof's views; must differ from base.seed
+    /// Costs of another device, from which times are predicted; empty: measured here.
+    std::optional<measure::DeviceCosts> costs;
+    Watcher watcher;
+    /// Called with a sentence at the begin of each step. May be empty.
+    std::function<void(const std::string&)> tell;
+};
+
+/// A plan with its cost and its errors over views.
+struct JudgedPlan {
+    std::string text; ///< for Request::techniques, such as "secant" or "1=reuse 2,3=secant"
+    double ms = 0;    ///< median time of a frame, or the predicted time
+    measure::Interval ms_ci95;  ///< unknown for predicted times
+    std::vector<double> errors; ///< error over the mirrors, by view
+    double largest_error = 0;   ///< of `errors`
+};
+
+/// What the proof's views say about a plan.
+struct PlanProof {
+    JudgedPlan plan;
+    std::size_t views = 0;    ///< views with a mirror pixel
+    std::size_t failures = 0; ///< views above the limit; 0 without a limit
+    double share_bound = 0;   ///< measure::kept_share_lower_bound of the limit
+    /// Limit that `share` of all views keeps, with `confidence` (measure::upper_tolerance_limit).
+    double error_bound = 0;
+    bool holds = false; ///< the plan keeps max_error, or there is none and error_bound is known
+};
+
+struct PlanChoice {
+    std::vector<JudgedPlan> candidates; ///< over the training views
+    std::vector<std::string> dropped;   ///< candidates left out after the first view
+    /// Plans in the order of their test, from the surest. Each is tested only if those before it
+    /// hold, so none of the tests lowers the confidence of another (fixed-sequence testing; Maurer,
+    /// Hothorn, Lehmacher, Multiple Comparisons in Drug Clinical Trials and Preclinical Assays,
+    /// 1995).
+    std::vector<PlanProof> proofs;
+    /// Index into `proofs`: the last plan that holds before the first that does not.
+    std::optional<std::size_t> chosen;
+    std::string failure; ///< why no plan was chosen, a sentence; empty if one was
+};
+
+/// Chooses a plan. Steps: all candidates in the comparison's own view, which drops those that are
+/// slower and farther from the reference than another by a wide margin; the others in the training
+/// views; a mix of techniques by mirror from these errors (measure::find_cheapest_mix); and the
+/// proof of the surest and the cheapest plans on fresh views. Throws `usage` for limits out of
+/// range, and what `compare` throws. Costs one comparison with drawn views for each step.
+PlanChoice choose_plan(Engine& engine, const ChooseRequest& request);
+
+/// Proves one plan on fresh views: the last step of choose_plan.
+PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan);
+
+} // namespace catoptric::app

@@ -1,0 +1,351 @@
+// catoptric choose: chooses the cheapest plan that keeps a limit, and proves it on other views.
+#include "study/choose.hpp"
+
+#include "compare.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/image_module.hpp"
+#include "core/json.hpp"
+#include "core/text.hpp"
+#include "measure/certificate.hpp"
+#include "options.hpp"
+#include "output_checks.hpp"
+#include "parse.hpp"
+#include "progress.hpp"
+#include "report/costs.hpp"
+#include "report/json.hpp"
+#include "session/plan_file.hpp"
+#include "study/compare_checks.hpp"
+#include "study/reference_cache.hpp"
+#include "table.hpp"
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+using report::Json;
+
+constexpr const char* kChooseExamples = R"(Examples:
+  catoptric choose room.glb --max-error flip=0.05 -o plan.json
+  catoptric choose room.glb --max-ms 4 --costs card.json -o plan.json
+  catoptric render room.glb --plan plan.json -o look.png
+  catoptric choose room.glb --certify plan.json --proof-seed 7
+
+Candidates are judged in drawn views, and techniques are mixed by mirror. The surest and the cheapest plans are then
+proved on fresh views. plan.json holds the last plan that holds, with its certificate: "at least this share of drawn
+views keeps the limit, with this confidence". With --max-ms alone, the certificate states the error that this share
+keeps. The exit code is 1 if no plan keeps the limits.)";
+
+struct ChooseOptions {
+    CommonOptions common;
+    app::ChooseRequest limits; ///< without scene, reference and watcher
+    std::string output, certified;
+    std::vector<std::string> techniques;
+    std::string costs;
+    bool is_share_given = false, is_confidence_given = false;
+    std::vector<std::string> command;
+};
+
+void read_error_limit(const std::string& text, app::ChooseRequest& limits) {
+    const std::size_t end = text.find('=');
+    const std::string quantity = text.substr(0, end);
+    check(end != std::string::npos && (quantity == "flip" || quantity == "rmse"), Failure::usage,
+          "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote_as_printable_text(text));
+    limits.quantity = quantity == "flip" ? app::ErrorQuantity::flip : app::ErrorQuantity::rmse;
+    limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
+}
+
+/// Takes the limits that the options leave out from a plan's certificate.
+void read_certificate_limits(const ChooseOptions& options, app::ChooseRequest& limits) {
+    const std::string& file = options.certified;
+    const auto document = parse_json<nlohmann::json>(file, read_file(file));
+    const nlohmann::json none;
+    const nlohmann::json& certificate = document.is_object() && document.contains("certificate")
+                                            ? document["certificate"]
+                                            : none;
+    const auto number = [&](const char* name) -> std::optional<double> {
+        const auto found = certificate.is_object() ? certificate.find(name) : certificate.end();
+        if (!certificate.is_object() || found == certificate.end() || found->is_null())
+            return std::nullopt;
+        check(found->is_number(), Failure::bad_data, file, ": certificate.", name,
+              ": wanted a number, found something else");
+        return found->get<double>();
+    };
+    if (!limits.max_error && !limits.max_ms) {
+        limits.max_error = number("max_error"), limits.max_ms = number("max_ms");
+        check(limits.max_error || limits.max_ms, Failure::usage, file,
+              ": has no certificate with a limit; wanted --max-error or --max-ms");
+        if (certificate.value("quantity", nlohmann::json()) == "rmse")
+            limits.quantity = app::ErrorQuantity::rmse;
+    }
+    if (!options.is_share_given) limits.share = number("share").value_or(limits.share);
+    if (!options.is_confidence_given)
+        limits.confidence = number("confidence").value_or(limits.confidence);
+}
+
+std::string format_time(const app::JudgedPlan& plan) {
+    std::string text = fmt::format("{:.3g}", plan.ms);
+    if (plan.ms_ci95.low < plan.ms_ci95.high)
+        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_ci95.low, plan.ms_ci95.high);
+    return text;
+}
+
+/// Returns the name of the device whose times decide.
+std::string timed_device_name(const app::ChooseRequest& request, const app::Engine& engine) {
+    return request.costs ? request.costs->device + " (predicted)" : engine.device().name;
+}
+
+/// Returns what a proof says of its plan, in one sentence.
+std::string describe_proof(const app::ChooseRequest& request, const app::PlanProof& proof,
+                           const std::string& device) {
+    const char* quantity = app::error_quantity_name(request.quantity);
+    const std::string statement = request.max_error
+                                      ? fmt::format("at least {:.4g} % of views have {} <= {:g}",
+                                                    100 * proof.share_bound, quantity,
+                                                    *request.max_error)
+                                      : fmt::format("at least {:g} % of views have {} <= {:.4g}",
+                                                    100 * request.share, quantity,
+                                                    proof.error_bound);
+    return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures)",
+                       proof.plan.text, format_time(proof.plan), device, statement,
+                       100 * request.confidence, proof.views, proof.failures);
+}
+
+Json make_plan_rules_json(const std::string& text) {
+    if (text.starts_with("plan:"))
+        return Json::parse(parse_json<nlohmann::json>(text.substr(5), read_file(text.substr(5)))
+                               .at("plan")
+                               .dump());
+    Json rules = Json::array();
+    if (text == reflect::kAutoPlanName || app::read_technique_plan(text).is_technique) {
+        rules.push_back({{"mirror", "*"}, {"technique", text}});
+        return rules;
+    }
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string rule = text.substr(begin, end - begin);
+        const std::size_t sign = rule.find('=');
+        rules.push_back({{"mirror", rule.substr(0, sign)}, {"technique", rule.substr(sign + 1)}});
+        begin = end + 1;
+    }
+    return rules;
+}
+
+Json make_judged_plan_json(const app::JudgedPlan& plan) {
+    return {{"technique", plan.text},
+            {"ms", report::make_number_json(plan.ms)},
+            {"ms_ci95", report::make_interval_json(plan.ms_ci95)},
+            {"largest_error", report::make_number_json(plan.largest_error)},
+            {"errors", report::make_number_list_json(plan.errors)}};
+}
+
+Json make_proof_json(const app::PlanProof& proof) {
+    Json json = make_judged_plan_json(proof.plan);
+    json["views"] = proof.views, json["failures"] = proof.failures;
+    json["share_bound"] = report::make_number_json(proof.share_bound);
+    json["error_bound"] = report::make_number_json(proof.error_bound);
+    json["holds"] = proof.holds;
+    return json;
+}
+
+Json make_certificate_json(const ChooseOptions& options, const app::ChooseRequest& request,
+                           const app::PlanProof& proof, const std::string& device) {
+    return {{"quantity", app::error_quantity_name(request.quantity)},
+            {"max_error", report::make_number_json(request.max_error)},
+            {"max_ms", report::make_number_json(request.max_ms)},
+            {"share", request.share},
+            {"confidence", request.confidence},
+            {"views", proof.views},
+            {"failures", proof.failures},
+            {"share_bound", report::make_number_json(proof.share_bound)},
+            {"error_bound", report::make_number_json(proof.error_bound)},
+            {"ms", report::make_number_json(proof.plan.ms)},
+            {"ms_ci95", report::make_interval_json(proof.plan.ms_ci95)},
+            {"device", device},
+            {"scene", options.common.scene},
+            {"width", request.base.size.x},
+            {"height", request.base.size.y},
+            {"training_seed", request.base.seed},
+            {"proof_seed", request.proof_seed},
+            {"views_drawn", "as by compare --views: cameras that see a mirror, instants within one "
+                            "period of the scene's motion"},
+            {"version", app::version()},
+            {"commit", app::commit()}};
+}
+
+Json make_choice_json(const ChooseOptions& options, const app::ChooseRequest& request,
+                      const app::PlanChoice& choice, const std::string& device) {
+    Json document{{"schema", "catoptric/plan/1"}, {"command", options.command}};
+    if (choice.chosen) {
+        const app::PlanProof& proof = choice.proofs[*choice.chosen];
+        document["plan"] = make_plan_rules_json(proof.plan.text);
+        document["certificate"] = make_certificate_json(options, request, proof, device);
+    } else {
+        document["plan"] = nullptr, document["why"] = choice.failure;
+    }
+    document["proofs"] = report::make_list_json(choice.proofs, make_proof_json);
+    document["candidates"] = report::make_list_json(choice.candidates, make_judged_plan_json);
+    document["dropped"] = choice.dropped;
+    return document;
+}
+
+std::string make_candidate_table(const app::ChooseRequest& request, const app::PlanChoice& choice) {
+    std::vector<std::vector<std::string>> rows{
+        {"candidate", "ms [95 %]",
+         fmt::format("largest {} in {} views", app::error_quantity_name(request.quantity),
+                     request.training_views)}};
+    for (const app::JudgedPlan& plan : choice.candidates)
+        rows.push_back({plan.text, format_time(plan), fmt::format("{:.5f}", plan.largest_error)});
+    return align_columns(rows);
+}
+
+app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPrinter& progress) {
+    app::ChooseRequest request = options.limits;
+    request.base = make_render_request_of_options(options.common, app::check_has_mirror);
+    request.base.techniques = options.techniques;
+    request.reference = app::choose_reference(options.common.reference, request.base.scene,
+                                              app::ReferencePixelKind::centre);
+    if (!options.costs.empty()) request.costs = report::read_costs_file(options.costs);
+    if (!options.certified.empty()) read_certificate_limits(options, request);
+    request.watcher = make_progress_watcher(progress);
+    request.tell = [&progress, &options](const std::string& step) {
+        progress.clear();
+        print_note_unless_quiet(options.common.manners, step);
+    };
+    return request;
+}
+
+int certify_plan(const ChooseOptions& options, const app::ChooseRequest& request,
+                 app::Engine& engine, ProgressPrinter& progress) {
+    const app::PlanProof proof = app::prove_plan(engine, request, "plan:" + options.certified);
+    progress.clear();
+    const std::string device = timed_device_name(request, engine);
+    const Json document{{"schema", "catoptric/plan/1"},
+                        {"command", options.command},
+                        {"plan", make_plan_rules_json(proof.plan.text)},
+                        {"certificate", make_certificate_json(options, request, proof, device)},
+                        {"proofs", Json::array({make_proof_json(proof)})}};
+    if (!options.output.empty()) write_file(options.output, report::serialise_json(document));
+    print_result(options.common.manners.json
+                     ? report::serialise_json(document)
+                     : std::string(proof.holds ? "holds: " : "does not hold: ") +
+                           describe_proof(request, proof, device) + "\n");
+    return proof.holds ? 0 : 1;
+}
+
+int run_choose(const ChooseOptions& options) {
+    check(options.certified.empty() || options.techniques.empty(), Failure::usage,
+          "--certify: wanted no --techniques beside it");
+    if (options.certified.empty()) {
+        throw_unless_option_given(options.limits.max_error || options.limits.max_ms, "choose",
+                                  "--max-error or --max-ms", "the limit to keep");
+        throw_unless_option_given(!options.output.empty(), "choose", "-o PLAN.json",
+                                  "the file for the plan");
+        check_techniques_hold_no_scene(options.techniques);
+        app::check_row_techniques(options.techniques);
+    }
+    if (!options.output.empty()) check_file_can_be_made(options.output);
+    ProgressPrinter progress(options.common.manners, ProgressPrinter::ProgressOffTerminal::tenths);
+    const app::ChooseRequest request = make_choose_request(options, progress);
+    if (!options.output.empty())
+        check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
+    app::Engine engine(make_engine_options(options.common.device));
+    print_device_and_warnings(engine, options.common.manners);
+    if (!options.certified.empty()) return certify_plan(options, request, engine, progress);
+    const app::PlanChoice choice = app::choose_plan(engine, request);
+    progress.clear();
+    const std::string device = timed_device_name(request, engine);
+    const Json document = make_choice_json(options, request, choice, device);
+    if (choice.chosen) write_file(options.output, report::serialise_json(document));
+    if (options.common.manners.json) {
+        print_result(report::serialise_json(document));
+    } else {
+        std::string text = make_candidate_table(request, choice);
+        for (const app::PlanProof& proof : choice.proofs)
+            text += std::string(proof.holds ? "holds: " : "does not hold: ") +
+                    describe_proof(request, proof, device) + "\n";
+        print_result(text + (choice.chosen
+                                 ? "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n"
+                                 : "no plan: " + choice.failure + "\n"));
+    }
+    if (choice.chosen)
+        print_note_unless_quiet(options.common.manners, "written: " + options.output);
+    if (options.common.device.validate) engine.check_validation();
+    return choice.chosen ? 0 : 1;
+}
+
+void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
+    app::ChooseRequest& limits = options.limits;
+    verb.option("--max-error", "Q=V",
+                "limit of the error over the mirrors in a view: flip=V or rmse=V, from 0 to 1",
+                [&limits](const std::string& text) { read_error_limit(text, limits); });
+    verb.option("--max-ms", "M",
+                "limit of the time of a frame, milliseconds; alone: choose the least error",
+                [&limits](const std::string& text) {
+                    limits.max_ms = parse_real("--max-ms", text, 0, 1e6);
+                });
+    verb.option("--share", "Q", "share of views that must keep the limit of error (0.95)",
+                [&options](const std::string& text) {
+                    options.limits.share = parse_real("--share", text, .5, .9999);
+                    options.is_share_given = true;
+                });
+    verb.option("--confidence", "C", "confidence of the statement (0.95)",
+                [&options](const std::string& text) {
+                    options.limits.confidence = parse_real("--confidence", text, .5, .9999);
+                    options.is_confidence_given = true;
+                });
+    verb.option("--costs", "FILE",
+                "choose for another device, by times predicted from its costs (see docs/costs)",
+                options.costs);
+}
+
+void add_view_count_options(CommandVerb& verb, app::ChooseRequest& limits) {
+    verb.option("--training-views", "N", "views on which plans are found, at least 6 (12)",
+                [&limits](const std::string& text) {
+                    limits.training_views = static_cast<int>(
+                        parse_integer("--training-views", text, 6, 10'000));
+                });
+    verb.option("--proof-views", "N",
+                "fresh views on which plans are proved, at least 6 (as few as can prove the share: "
+                "59 for 95 % with 95 % confidence)",
+                [&limits](const std::string& text) {
+                    limits.proof_views = static_cast<int>(
+                        parse_integer("--proof-views", text, 6, 10'000));
+                });
+    verb.option("--proof-seed", "N", "seed of the fresh views, another than --seed (2)",
+                [&limits](const std::string& text) {
+                    limits.proof_seed = static_cast<std::uint64_t>(
+                        parse_integer("--proof-seed", text, 0, 1'000'000'000));
+                });
+}
+
+} // namespace
+
+void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
+    const auto options = std::make_shared<ChooseOptions>();
+    options->command = std::move(command);
+    CommandVerb& verb = program.add_verb(
+        "choose", "choose the cheapest plan within a limit of error or time, with a certificate");
+    verb.examples(kChooseExamples);
+    verb.argument("SCENE", "built-in scene or .glb, .gltf or .obj file (cornell-mirrors)",
+                  options->common.scene, CommandVerb::VerbArgumentNeed::optional);
+    verb.option("-o,--output", "FILE", "file for the plan; required without --certify",
+                options->output);
+    verb.option("--techniques", "T", "candidates, as of compare (a built-in list)",
+                options->techniques);
+    verb.option("--certify", "FILE",
+                "prove the plan of this file again, by its certificate's limits, on fresh views",
+                options->certified);
+    add_limit_options(verb, *options);
+    add_view_count_options(verb, options->limits);
+    add_common_options_without_scene(verb, options->common);
+    verb.set_verb_action([options] { return run_choose(*options); });
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,139 @@
+// Tests of `catoptric choose`. Its certificate is checked by a comparison in the same views.
+#include "cli/program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class Choose : public Cli {
+protected:
+    /// Runs `choose` on a scene of flat mirrors with few views: 6 prove a share of .5.
+    test::ProcessResult run_choose(const Words& more) const {
+        Words words{"choose", "flat", "--size", "32x32", "--frames", "6", "--warmup", "1"};
+        words.insert(words.end(), more.begin(), more.end());
+        for (const char* word : {"--share", ".5", "--confidence", ".9", "--training-views", "6"})
+            words.emplace_back(word);
+        return run_cli(words);
+    }
+    test::ProcessResult choose_of_two(const Words& more) const {
+        Words words{"-o", "plan.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        for (const char* word : {"--techniques", "reuse:face=16", "raytrace:depth=4"})
+            words.emplace_back(word);
+        return run_choose(words);
+    }
+    json read_plan() const { return json::parse(read_file_at_path(folder / "plan.json")); }
+
+    /// Returns the FLIP over the mirrors of the plan in the file, in views drawn from this seed.
+    std::vector<double> measure_plan_errors(int views, int seed) const {
+        const test::ProcessResult ended = run_cli(
+            {"compare", "flat", "--size", "32x32", "--frames", "6", "--warmup", "1", "--views",
+             std::to_string(views), "--seed", std::to_string(seed), "-o", "out", "--techniques",
+             "plan:plan.json"});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return json::parse(read_file_at_path(
+            folder / "out/report.json"))["rows"][0]["views"]["error"]["flip"]["values"];
+    }
+};
+
+TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
+    const test::ProcessResult ended = choose_of_two({"--max-error", "flip=0.5"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("chosen: "));
+    const json plan = read_plan(), &certificate = plan["certificate"];
+    EXPECT_EQ(plan["schema"], "catoptric/plan/1");
+    ASSERT_EQ(certificate["views"], 6); // 4 views prove .5 with .9; 6 are the least
+    const std::vector<double> errors = measure_plan_errors(6, certificate["proof_seed"]);
+    const auto failures = std::ranges::count_if(errors, [](double error) { return error > .5; });
+    EXPECT_EQ(certificate["failures"], failures);
+    EXPECT_NEAR(certificate["share_bound"], std::pow(.1, 1.0 / 6), 1e-9);
+    // Two of six may lie above: P(Binomial(6, .5) <= 1) = 7/64 > .1 allows none.
+    EXPECT_NEAR(certificate["error_bound"], std::ranges::max(errors), 1e-6);
+    // The plans were proved from the surest to the cheapest.
+    const json& proofs = plan["proofs"];
+    for (std::size_t i = 0; i + 1 < proofs.size(); ++i)
+        EXPECT_GE(proofs[i]["ms"], proofs[i + 1]["ms"]);
+    EXPECT_EQ(run_cli({"render", "flat", "--size", "32x32", "--plan", "plan.json", "-o", "x.png"})
+                  .exit_code,
+              0);
+}
+
+TEST_F(Choose, PlanThatCannotKeepTheLimitIsNamedAndTheOldFileStays) {
+    write_input_file("plan.json", "old");
+    Words words{"-o", "plan.json", "--max-error", "flip=0", "--techniques", "reuse:face=16"};
+    const test::ProcessResult none = run_choose(words);
+    EXPECT_EQ(none.exit_code, 1) << none.err;
+    EXPECT_THAT(none.out,
+                HasSubstr("no plan: no candidate keeps flip <= 0 in the 6 training views; "
+                          "the best that is reachable is reuse:face=16, at most "));
+    const test::ProcessResult slow = choose_of_two({"--max-ms", "0"});
+    EXPECT_EQ(slow.exit_code, 1);
+    EXPECT_THAT(slow.out, HasSubstr("no plan: no candidate takes at most 0 ms; the best that is "
+                                    "reachable is "));
+    EXPECT_EQ(read_file_at_path(folder / "plan.json"), "old");
+}
+
+TEST_F(Choose, LimitOfTimeAsksForTheLeastErrorAndProvesItsBound) {
+    const test::ProcessResult ended = choose_of_two({"--max-ms", "100000"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json plan = read_plan();
+    EXPECT_EQ(plan["plan"][0]["technique"],
+              "raytrace:depth=4"); // it errs less than a small capture
+    EXPECT_EQ(plan["certificate"]["max_error"], json());
+    const std::vector<double> errors = measure_plan_errors(6, plan["certificate"]["proof_seed"]);
+    EXPECT_NEAR(plan["certificate"]["error_bound"], std::ranges::max(errors), 1e-6);
+}
+
+TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
+    const auto certify = [&](const Words& more) {
+        Words words{"--certify", "plan.json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_choose(words);
+    };
+    write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "auto"}],
+        "certificate": {"quantity": "rmse", "max_error": 0.9}})");
+    const test::ProcessResult holds = certify({"--proof-seed", "7", "-o", "again.json"});
+    EXPECT_EQ(holds.exit_code, 0) << holds.err;
+    EXPECT_THAT(holds.out, HasSubstr("holds: plan:plan.json: "));
+    EXPECT_THAT(holds.out, HasSubstr("rmse <= 0.9"));
+    const json again = json::parse(read_file_at_path(folder / "again.json"));
+    EXPECT_EQ(again["certificate"]["proof_seed"], 7);
+    EXPECT_EQ(again["plan"], read_plan()["plan"]);
+
+    write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "reuse:face=16"}],
+        "certificate": {"quantity": "flip", "max_error": 1e-9}})");
+    const test::ProcessResult fails = certify({});
+    EXPECT_EQ(fails.exit_code, 1) << fails.err;
+    EXPECT_THAT(fails.out, HasSubstr("does not hold: "));
+    EXPECT_THAT(fails.out, HasSubstr("6 failures"));
+
+    write_input_file("plan.json", R"([{"mirror": "*", "technique": "reuse"}])");
+    const test::ProcessResult bare = certify({});
+    EXPECT_EQ(bare.exit_code, 2);
+    EXPECT_THAT(bare.err, HasSubstr("plan.json: has no certificate with a limit"));
+    write_input_file("plan.json", R"({"plan": [], "certificate": {"max_error": "x"}})");
+    EXPECT_EQ(certify({}).exit_code, 65);
+}
+
+TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
+    const auto refused = [&](const Words& more, const std::string& says) {
+        const test::ProcessResult ended = choose_of_two(more);
+        EXPECT_EQ(ended.exit_code, 2) << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(says));
+        EXPECT_FALSE(std::filesystem::exists(folder / "plan.json"));
+    };
+    refused({}, "'choose' needs --max-error or --max-ms: the limit to keep");
+    refused({"--max-error", "0.05"}, "--max-error: wanted flip=VALUE or rmse=VALUE, found '0.05'");
+    refused({"--max-error", "flip=2"}, "--max-error");
+    refused({"--max-error", "flip=.1", "--proof-seed", "1"},
+            "wanted another than that of the training views, found 1");
+    const test::ProcessResult nowhere = run_choose({"--max-error", "flip=.1"});
+    EXPECT_EQ(nowhere.exit_code, 2);
+    EXPECT_THAT(nowhere.err, HasSubstr("'choose' needs -o PLAN.json"));
+}
+
+} // namespace

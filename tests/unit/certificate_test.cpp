@@ -1,0 +1,92 @@
+// Statements about all views from drawn ones: known values, and how often they hold.
+#include "measure/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace catoptric::measure;
+
+TEST(Certificate, NumbersOfViewsAreThoseOfTheTables) {
+    const struct {
+        double share;
+        std::size_t failures, views;
+    } known[] = {{.90, 0, 29}, {.95, 0, 59}, {.99, 0, 299},
+                 {.90, 1, 46}, {.95, 1, 93}, {.99, 1, 473}};
+    for (const auto& [share, failures, views] : known)
+        EXPECT_EQ(count_views_needed(share, .95, failures), views) << share << " " << failures;
+}
+
+TEST(Certificate, BoundIsTheShareAtWhichTheFailuresBecomeUnlikely) {
+    // Without a failure the bound is the n-th root of 1 - confidence.
+    for (const std::size_t views : {1, 6, 59, 1000})
+        EXPECT_NEAR(kept_share_lower_bound(0, views, .95),
+                    std::pow(.05, 1.0 / static_cast<double>(views)), 1e-12);
+    // Two views, one failure: P(at most one failure) = 1 - p^2 = .05.
+    EXPECT_NEAR(kept_share_lower_bound(1, 2, .95), 1 - std::sqrt(.95), 1e-12);
+    // Clopper-Pearson for 2 of 30: one-sided 95 % bound of the failures is .19529.
+    EXPECT_NEAR(kept_share_lower_bound(2, 30, .95), 1 - .19529, 2e-4);
+    EXPECT_EQ(kept_share_lower_bound(0, 0, .95), 0);
+    EXPECT_EQ(kept_share_lower_bound(5, 5, .95), 0);
+    // More failures never prove more, and more views never prove less.
+    for (std::size_t failures = 0; failures < 20; ++failures) {
+        EXPECT_GT(kept_share_lower_bound(failures, 50, .9),
+                  kept_share_lower_bound(failures + 1, 50, .9));
+        EXPECT_LT(kept_share_lower_bound(failures, 50, .9),
+                  kept_share_lower_bound(failures, 51, .9));
+    }
+    const double many = kept_share_lower_bound(500, 10'000, .95); // logarithms, no overflow
+    EXPECT_GT(many, .945);
+    EXPECT_LT(many, .95);
+}
+
+/// The bound may lie above the true share in at most 5 % of all samples.
+TEST(Certificate, BoundCoversTheTrueShare) {
+    std::mt19937_64 random(5);
+    for (const double share : {.8, .9, .95, .99}) {
+        std::bernoulli_distribution keeps(share);
+        constexpr int kTrials = 4000;
+        int wrong = 0;
+        for (int trial = 0; trial < kTrials; ++trial) {
+            std::size_t failures = 0;
+            for (int view = 0; view < 59; ++view) failures += keeps(random) ? 0 : 1;
+            wrong += kept_share_lower_bound(failures, 59, .95) > share ? 1 : 0;
+        }
+        EXPECT_LE(wrong, .05 * kTrials + 3 * std::sqrt(kTrials * .05 * .95)) << share;
+    }
+}
+
+TEST(Certificate, ToleranceLimitIsTheSmallestValueThatIsLargeEnough) {
+    std::vector<double> values(59);
+    for (std::size_t i = 0; i < 59; ++i) values[i] = static_cast<double>((i * 37) % 59);
+    EXPECT_EQ(upper_tolerance_limit(values, .95, .95), 58); // 59 views: only the largest
+    values.pop_back();
+    EXPECT_TRUE(std::isnan(upper_tolerance_limit(values, .95, .95))); // 58 views: none
+    std::vector<double> more(93);
+    for (std::size_t i = 0; i < 93; ++i) more[i] = static_cast<double>(i);
+    EXPECT_EQ(upper_tolerance_limit(more, .95, .95), 91); // 93 views: one may be larger
+    EXPECT_TRUE(std::isnan(upper_tolerance_limit({}, .5, .5)));
+}
+
+/// For values of any distribution, the limit lies below the true quantile in at most 5 % of all
+/// samples. For uniform values the quantile is the share itself.
+TEST(Certificate, ToleranceLimitCoversTheQuantile) {
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    constexpr int kTrials = 3000;
+    for (const std::size_t count : {59, 130}) {
+        int wrong = 0;
+        for (int trial = 0; trial < kTrials; ++trial) {
+            std::vector<double> values(count);
+            for (double& value : values) value = uniform(random);
+            wrong += upper_tolerance_limit(values, .95, .95) < .95 ? 1 : 0;
+        }
+        EXPECT_LE(wrong, .05 * kTrials + 3 * std::sqrt(kTrials * .05 * .95)) << count;
+    }
+}
+
+} // namespace
