@@ -9,9 +9,6 @@
 
 namespace catoptric::report {
 
-namespace {
-
-/// Returns text escaped for Markdown, on one line.
 std::string escape_markdown(const std::string& text) {
     std::string result;
     for (const char c : escape_control_characters(text, "\n")) {
@@ -20,6 +17,8 @@ std::string escape_markdown(const std::string& text) {
     }
     return result;
 }
+
+namespace {
 
 /// Returns the number of characters, not bytes.
 std::size_t count_characters(const std::string& text) {

@@ -38,6 +38,8 @@ std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
                                     const std::optional<Error>& stopped);
 /// Returns the same for a comparison, its lag included. Empty if it is complete.
 std::string describe_incomplete_run(const Comparison& comparison);
+/// Returns text escaped for Markdown, on one line.
+std::string escape_markdown(const std::string& text);
 std::string join_texts(const std::vector<std::string>& parts, std::string_view between);
 std::string join_labels_of_rows(const std::vector<const Row*>& rows,
                                 std::string_view between = ", ");

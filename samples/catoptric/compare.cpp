@@ -1,6 +1,7 @@
 // catoptric compare: compares all techniques with the reference, with time and error in one table.
 #include "compare.hpp"
 
+#include "baseline.hpp"
 #include "core/error.hpp"
 #include "core/image_module.hpp"
 #include "core/text.hpp"
@@ -54,6 +55,7 @@ struct CompareOptions {
     double reference_seconds = app::CompareRequest().reference_seconds;
     app::ReferencePixelKind truth = app::ReferencePixelKind::centre;
     double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
+    BaselineOptions baseline;
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
     std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, PICTURES
@@ -133,6 +135,8 @@ std::vector<std::string> list_requested_rows(const app::CompareRequest& request)
 void check_output_places(const CompareOptions& options,
                          const std::vector<app::CompareRequest>& requests) {
     std::vector<std::filesystem::path> outputs{kStdoutPath}, inputs;
+    for (const std::string& file : {options.baseline.summary, options.baseline.junit})
+        if (!file.empty()) outputs.emplace_back(file);
     for (const app::CompareRequest& request : requests) {
         std::vector<std::string> images;
         for (const std::string& text : list_requested_rows(request)) {
@@ -151,6 +155,9 @@ void check_output_places(const CompareOptions& options,
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
     check_outputs_differ_from_inputs(outputs, inputs);
+    if (!options.baseline.baseline.empty())
+        check_outputs_differ_from_inputs(outputs, {options.baseline.baseline},
+                                         ", which is the baseline");
 }
 
 /// Returns the labels of rows with pixels that are NaN or infinite.
@@ -244,6 +251,8 @@ int run_compare(const CompareOptions& options) {
                               "the folder for the report");
     check_folder_can_be_made(options.folder);
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
+    check_baseline_options(options.baseline);
+    BaselineGate gate(options.baseline);
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
     check_output_places(options, requests);
     get_image_codecs(); // fail before rendering if the codecs are missing
@@ -264,15 +273,18 @@ int run_compare(const CompareOptions& options) {
         if (!comparison.stopped && i + 1 == requests.size())
             print_note_unless_quiet(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
+        gate.judge_scene(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||
                                           measure::find_row_within_budget(comparison).row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
+    if (const std::string verdict = gate.finish(); !verdict.empty())
+        manners.json ? print_message(verdict) : print_result(verdict);
     check(broken.empty(), Failure::internal, broken.empty() ? "" : broken.front(),
           broken.size() > 1 ? " (and " + std::to_string(broken.size() - 1) + " more rows)" : "");
     if (options.common.device.validate) engine.check_validation();
-    return keeps_budgets ? 0 : 1;
+    return keeps_budgets && gate.passes() ? 0 : 1;
 }
 
 enum class StudyOptionKind : std::uint8_t { number, words, flag };
@@ -369,6 +381,7 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
         [options](const std::string& text) {
             options->max_flip = parse_real("--max-flip", text, 0, 1);
         });
+    add_baseline_options(verb, options->baseline);
     verb.option("--truth", "T",
                 "pixels of the reference: centre (one camera ray, as techniques draw them), "
                 "converged (the mean over the pixel's area) or paths (as centre, by path tracing: "

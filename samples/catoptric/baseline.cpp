@@ -1,0 +1,75 @@
+#include "baseline.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
+#include "core/text.hpp"
+#include "output.hpp"
+#include "parse.hpp"
+
+#include <algorithm>
+
+namespace catoptric::cli {
+
+void add_baseline_options(CommandVerb& verb, BaselineOptions& options) {
+    verb.option(
+        "--baseline", "FILE",
+        "report.json of an earlier run: say which rows err more or take longer now; exit code "
+        "1 if any does",
+        options.baseline);
+    verb.option("--max-flip-rise", "S",
+                "largest rise of FLIP, as a share of the earlier FLIP (0.02)",
+                [&options](const std::string& text) {
+                    options.limits.max_flip_rise = parse_real("--max-flip-rise", text, 0, 1e6);
+                });
+    verb.option("--max-time-ratio", "R",
+                "largest time of a row or pass, divided by the earlier time (1.1)",
+                [&options](const std::string& text) {
+                    options.limits.max_time_ratio = parse_real("--max-time-ratio", text, 1, 1e6);
+                });
+    verb.option("--summary", "FILE", "Markdown file for the verdict on the baseline",
+                options.summary);
+    verb.option("--junit", "FILE", "JUnit XML file for the verdict on the baseline", options.junit);
+}
+
+void check_baseline_options(const BaselineOptions& options) {
+    const report::BaselineLimits usual;
+    const bool has_others = !options.summary.empty() || !options.junit.empty() ||
+                            options.limits.max_flip_rise != usual.max_flip_rise ||
+                            options.limits.max_time_ratio != usual.max_time_ratio;
+    check(
+        !options.baseline.empty() || !has_others, Failure::usage,
+        "--max-flip-rise, --max-time-ratio, --summary and --junit: wanted --baseline beside them");
+    for (const std::string& file : {options.summary, options.junit})
+        if (!file.empty()) check_file_can_be_made(file);
+}
+
+BaselineGate::BaselineGate(const BaselineOptions& options) : baseline_options_(options) {
+    if (options.baseline.empty()) return;
+    json_ = read_file(options.baseline);
+    check_json_syntax(options.baseline, json_);
+}
+
+void BaselineGate::judge_scene(const report::Comparison& comparison) {
+    if (json_.empty()) return;
+    const std::vector<report::BaselineFinding> findings = report::judge_against_baseline(
+        comparison, json_, baseline_options_.baseline, baseline_options_.limits);
+    text_ += comparison.scene.name + "\n" + report::format_baseline_findings(findings);
+    summary_ += (summary_.empty() ? "" : "\n") +
+                report::make_baseline_markdown(findings, comparison.scene.name);
+    junit_ += report::make_baseline_junit(findings, comparison.scene.name);
+    passes_ = passes_ && std::ranges::none_of(findings, [](const auto& finding) {
+                  return finding.verdict == report::BaselineVerdict::worse;
+              });
+}
+
+std::string BaselineGate::finish() {
+    if (!baseline_options_.summary.empty()) write_file(baseline_options_.summary, summary_);
+    if (!baseline_options_.junit.empty())
+        write_file(baseline_options_.junit,
+                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n" + junit_ +
+                       "</testsuites>\n");
+    return text_;
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "command_line.hpp"
+#include "report/baseline.hpp"
+
+#include <string>
+#include <vector>
+
+namespace catoptric::cli {
+
+/// Options with which `compare` judges its rows against an earlier report.
+struct BaselineOptions {
+    std::string baseline; ///< report.json of the earlier comparison; empty: none
+    std::string summary;  ///< Markdown file to write; empty: none
+    std::string junit;    ///< JUnit XML file to write; empty: none
+    report::BaselineLimits limits;
+};
+
+/// Adds --baseline, --max-flip-rise, --max-time-ratio, --summary and --junit. `options` must
+/// outlive the parsing.
+void add_baseline_options(CommandVerb& verb, BaselineOptions& options);
+
+/// Throws `usage` for options of a baseline without one, and as reading the file does. Call it
+/// before measuring.
+void check_baseline_options(const BaselineOptions& options);
+
+/// The verdict of a comparison of one or several scenes.
+class BaselineGate {
+public:
+    /// Reads the baseline, if there is one. `options` must outlive the gate.
+    explicit BaselineGate(const BaselineOptions& options);
+    /// Judges a finished scene. Throws `bad_data` if the baseline does not fit it.
+    void judge_scene(const report::Comparison& comparison);
+    /// Writes the files and returns the text for the terminal; empty without a baseline.
+    std::string finish();
+    /// Returns whether nothing is worse than in the baseline.
+    bool passes() const { return passes_; }
+
+private:
+    const BaselineOptions& baseline_options_;
+    std::string json_, text_, summary_, junit_;
+    bool passes_ = true;
+};
+
+} // namespace catoptric::cli

@@ -1,0 +1,214 @@
+// A comparison beside the report.json of an earlier one: what is worse, kept, or cannot be told.
+#include "measure/halves.hpp"
+#include "measure/statistics.hpp"
+#include "measure/work.hpp"
+#include "report/baseline.hpp"
+#include "report_sample.hpp"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace {
+
+using namespace catoptric::report;
+using catoptric::Error;
+using catoptric::Failure;
+using catoptric::measure::summarise_samples;
+using catoptric::report::sample::make_usual_comparison;
+using testing::HasSubstr;
+
+/// Returns six rounds of one frame each whose times are `ms` times 0.98 to 1.02.
+catoptric::measure::SampleSummary make_rounds(double ms) {
+    std::vector<std::vector<double>> rounds;
+    for (const double factor : {.98, .99, 1.0, 1.0, 1.01, 1.02}) rounds.push_back({ms * factor});
+    return summarise_samples(rounds);
+}
+
+/// Two rows with a time of 10 and 20 ms, the second with passes of 5 and 15 ms.
+Comparison make_timed_comparison() {
+    Comparison made = make_usual_comparison();
+    made.rows.resize(2);
+    for (Row& row : made.rows) row.passes.clear();
+    made.rows[0].gpu_ms = make_rounds(10), made.rows[1].gpu_ms = make_rounds(20);
+    made.rows[1].passes = {{"capture", make_rounds(5)}, {"search", make_rounds(15)}};
+    made.clear_ms = make_rounds(1);
+    return made;
+}
+
+std::vector<BaselineFinding> judge(const Comparison& now, const Comparison& before,
+                                   const BaselineLimits& limits = {}) {
+    return judge_against_baseline(now, to_json(before), "old.json", limits);
+}
+
+std::vector<std::string> list_quantities(const std::vector<BaselineFinding>& findings,
+                                         BaselineVerdict verdict) {
+    std::vector<std::string> list;
+    for (const BaselineFinding& finding : findings)
+        if (finding.verdict == verdict) list.push_back(finding.row + ": " + finding.quantity);
+    return list;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(Baseline, EqualComparisonIsKept) {
+    const Comparison made = make_timed_comparison();
+    const std::vector<BaselineFinding> findings = judge(made, made);
+    EXPECT_EQ(findings.size(), 6U); // FLIP and time of two rows, two passes
+    EXPECT_EQ(list_quantities(findings, BaselineVerdict::kept).size(), 6U);
+    EXPECT_EQ(format_baseline_findings(findings), "baseline: 0 worse, 0 unknown, 6 kept\n");
+}
+
+TEST(Baseline, SlowerPassIsNamedWithItsRow) {
+    const Comparison before = make_timed_comparison();
+    Comparison now = before;
+    now.rows[1].passes[1].gpu_ms = make_rounds(15 * 1.2);
+    now.rows[1].gpu_ms = make_rounds(20 * 1.15);
+    const std::string row = before.rows[1].label;
+    // 1.2 * .98 / 1.02 = 1.153 and 1.15 * .98 / 1.02 = 1.105: both above 1.1.
+    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
+              (Names{row + ": ms", row + ": ms of search"}));
+    EXPECT_THAT(format_baseline_findings(judge(now, before)),
+                HasSubstr("worse: " + row +
+                          ", ms of search: 18.0 ms, before 15.0 ms: 1.15 to 1.25 "
+                          "times with 95 % confidence; at most 1.1 times"));
+    // With a limit of 1.3 all is kept; with 1.2 the intervals reach over the limit.
+    EXPECT_TRUE(list_quantities(judge(now, before, {.max_time_ratio = 1.3}), BaselineVerdict::worse)
+                    .empty());
+    EXPECT_EQ(
+        list_quantities(judge(now, before, {.max_time_ratio = 1.2}), BaselineVerdict::unknown),
+        (Names{row + ": ms of search"}));
+    // Faster is never worse.
+    EXPECT_EQ(list_quantities(judge(before, now), BaselineVerdict::kept).size(), 6U);
+}
+
+TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
+    const Comparison before = make_timed_comparison();
+    Comparison slow = before;
+    for (Row& row : slow.rows) row.gpu_ms = make_rounds(row.gpu_ms.median * 1.3);
+    slow.clear_ms = make_rounds(1.3); // the constant work takes as much longer
+    EXPECT_TRUE(list_quantities(judge(slow, before), BaselineVerdict::worse).empty());
+    slow.clear_ms = before.clear_ms;
+    EXPECT_EQ(list_quantities(judge(slow, before), BaselineVerdict::worse).size(), 2U);
+    Comparison other = slow;
+    other.device.name = "another";
+    EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
+    EXPECT_EQ(list_quantities(judge(other, before), BaselineVerdict::unknown).size(), 4U);
+    Comparison noisy = slow;
+    noisy.rows[0].noisy = true;
+    EXPECT_EQ(list_quantities(judge(noisy, before), BaselineVerdict::worse),
+              (Names{before.rows[1].label + ": ms"}));
+    Comparison short_run = slow;
+    short_run.rows[0].gpu_ms = summarise_samples(std::vector<std::vector<double>>{{99}});
+    EXPECT_EQ(list_quantities(judge(short_run, before), BaselineVerdict::unknown),
+              (Names{before.rows[0].label + ": ms"}));
+}
+
+TEST(Baseline, RiseOfFlipIsWorseAboveTheShareAndAboveTheNoise) {
+    const Comparison before = make_timed_comparison();
+    Comparison now = before;
+    now.rows[0].error.flip = before.rows[0].error.flip * 1.05;
+    const Names row{before.rows[0].label + ": flip"};
+    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse), row);
+    EXPECT_TRUE(list_quantities(judge(now, before, {.max_flip_rise = .06}), BaselineVerdict::worse)
+                    .empty());
+    now.noise = std::make_shared<catoptric::measure::ReferenceNoise>();
+    now.noise->flip_floor = before.rows[0].error.flip * .06;
+    EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
+    now.noise->flip_floor = before.rows[0].error.flip * .04;
+    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse), row);
+    // A row without error may not get one.
+    Comparison exact = before, inexact = before;
+    exact.rows[0].error.flip = 0, inexact.rows[0].error.flip = 1e-5;
+    EXPECT_EQ(list_quantities(judge(inexact, exact), BaselineVerdict::worse), row);
+}
+
+/// Counts repeat exactly, so a count above the limit is worse on any device and beside any noise.
+TEST(Baseline, MoreCountedWorkIsWorse) {
+    const auto with_work = [](double nodes) {
+        auto json = nlohmann::ordered_json::parse(to_json(make_timed_comparison()));
+        for (auto& row : json["rows"]) row["work"] = {{"nodes", nodes}, {"draws", 6}};
+        return json.dump();
+    };
+    Comparison now = make_timed_comparison();
+    for (Row& row : now.rows) {
+        catoptric::WorkCounts counts{};
+        counts[catoptric::WorkKind::nodes] = 120;
+        catoptric::measure::set_row_work(row, {{"view", counts}});
+    }
+    now.device.name = "another", now.studies.emplace_back("work");
+    const auto judge_nodes = [&](double nodes) {
+        return list_quantities(judge_against_baseline(now, with_work(nodes), "old.json", {}),
+                               BaselineVerdict::worse);
+    };
+    const Names both{now.rows[0].label + ": work: nodes", now.rows[1].label + ": work: nodes"};
+    EXPECT_EQ(judge_nodes(100), both);
+    EXPECT_EQ(judge_nodes(115), Names{});
+    EXPECT_EQ(judge_nodes(0), both);
+}
+
+TEST(Baseline, MissingRowIsWorseAndNewRowIsNot) {
+    const Comparison before = make_timed_comparison();
+    Comparison now = before;
+    now.rows.pop_back();
+    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
+              (Names{before.rows[1].label + ": row"}));
+    EXPECT_EQ(list_quantities(judge(before, now), BaselineVerdict::worse), Names{});
+}
+
+TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
+    const Comparison before = make_timed_comparison();
+    const auto refusal = [&](const Comparison& now, const std::string& json) -> std::string {
+        try {
+            judge_against_baseline(now, json, "old.json", {});
+        } catch (const Error& error) {
+            EXPECT_EQ(error.failure, Failure::bad_data);
+            return error.what();
+        }
+        return "";
+    };
+    Comparison other = before;
+    other.scene.hash = "feed";
+    EXPECT_EQ(refusal(other, to_json(before)),
+              "old.json: wanted a baseline with the same scene.hash as now (\"feed\"), found "
+              "'\"deadbeef\"'");
+    other = before, other.width = 5;
+    EXPECT_THAT(refusal(other, to_json(before)), HasSubstr("the same size as now"));
+    other = before, other.reference_label = "raytrace:depth=2";
+    EXPECT_THAT(refusal(other, to_json(before)), HasSubstr("the same reference.label as now"));
+    other = before, other.complete = false;
+    EXPECT_THAT(refusal(before, to_json(other)), HasSubstr("wanted a complete report"));
+    for (const char* json : {"[]", "{}", "null", R"({"schema": "catoptric/plan/1"})"})
+        EXPECT_THAT(refusal(before, json),
+                    HasSubstr("wanted a report.json of 'catoptric compare'"));
+    EXPECT_THAT(refusal(before, R"({"schema": "catoptric/compare-scenes/1", "scenes": [1, {}]})"),
+                HasSubstr("wanted the scene "));
+    EXPECT_THAT(refusal(before, "{"), HasSubstr("old.json"));
+}
+
+TEST(Baseline, FilesForPipelinesHoldEveryFinding) {
+    const Comparison before = make_timed_comparison();
+    Comparison now = before;
+    now.rows[0].error.flip *= 2;
+    now.rows[1].noisy = true;
+    const std::vector<BaselineFinding> findings = judge(now, before);
+    const std::string xml = make_baseline_junit(findings, "a<b"),
+                      markdown = make_baseline_markdown(findings, "a|b");
+    EXPECT_THAT(xml, HasSubstr("<testsuite name=\"a&lt;b\" tests=\"6\" failures=\"1\" "
+                               "skipped=\"3\">"));
+    const auto count = [&](const std::string& tag) {
+        std::size_t found = 0;
+        for (std::size_t at = xml.find(tag); at != xml.npos; at = xml.find(tag, at + 1)) ++found;
+        return found;
+    };
+    EXPECT_EQ(count("<testcase "), 6U);
+    EXPECT_EQ(count("<failure "), 1U);
+    EXPECT_EQ(count("<skipped "), 3U);
+    EXPECT_EQ(count("</testcase>"), 4U);
+    EXPECT_THAT(markdown, HasSubstr("### a\\|b: worse than the baseline"));
+    EXPECT_THAT(markdown, HasSubstr("| worse | naive"));
+    EXPECT_THAT(markdown, HasSubstr("baseline: 1 worse, 3 unknown, 2 kept"));
+}
+
+} // namespace
