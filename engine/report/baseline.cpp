@@ -42,10 +42,11 @@ Json find_scene_report(const Json& document, const Comparison& comparison,
     check(member_of(document, "schema") == "catoptric/compare-scenes/1" && scenes.is_array(),
           Failure::bad_data, file, ": wanted a report.json of 'catoptric compare', found schema ",
           describe_json_value(member_of(document, "schema")));
-    for (const Json& scene : scenes)
-        if (member_of(member_of(scene, "scene"), "name") == comparison.scene.name) return scene;
+    for (const Json& scene : scenes) // two scenes may have one name, but not one hash
+        if (member_of(member_of(scene, "scene"), "hash") == comparison.scene.hash) return scene;
     fail(Failure::bad_data, file, ": wanted the scene ",
-         quote_as_printable_text(comparison.scene.name), ", found others");
+         quote_as_printable_text(comparison.scene.name), " as it is now (", comparison.scene.hash,
+         "), found others");
 }
 
 /// Throws unless both comparisons show the same picture against the same reference.
@@ -62,15 +63,15 @@ void check_same_question(const Json& before, const Json& now, const std::string&
     for (const char* name : {"hash", "camera"})
         check_equal(std::string("scene.") + name, member_of(member_of(before, "scene"), name),
                     member_of(member_of(now, "scene"), name));
-    for (const char* name : {"size", "time", "exposure"})
+    for (const char* name : {"size", "time", "exposure", "ambient", "timing", "together"})
         check_equal(name, member_of(before, name), member_of(now, name));
     check_equal("reference.label", member_of(member_of(before, "reference"), "label"),
                 member_of(member_of(now, "reference"), "label"));
 }
 
 std::string baseline_row_name(const Json& row) {
-    return member_of(row, "label").get<std::string>() +
-           (member_of(row, "model") == "required" ? ", model=required" : "");
+    const std::string label = member_of(row, "label"), model = ", model=required";
+    return member_of(row, "model") != "required" || label.ends_with(model) ? label : label + model;
 }
 
 const Json* find_equal_row(const Json& rows, const Json& row) {
@@ -91,12 +92,12 @@ measure::Interval ratio_of_intervals(const measure::Interval& now,
 class BaselineJudge {
 public:
     BaselineJudge(const Json& before, const Json& now, const BaselineLimits& limits)
-        : limits_(limits), same_device_(member_of(member_of(before, "device"), "name") ==
-                                        member_of(member_of(now, "device"), "name")),
+        : limits_(limits),
+          same_device_(is_same_device(member_of(before, "device"), member_of(now, "device"))),
           floor_(find_noise_floor(now)) {
         const measure::Interval control = ratio_of_intervals(
             interval_of(member_of(now, "clear_ms")), interval_of(member_of(before, "clear_ms")));
-        if (control.low > 1) machine_ratio_ = control.high;
+        if (control.low > 1) machine_ratio_ = control;
     }
 
     std::vector<BaselineFinding> judge_row(const Json& before, const Json& now) const {
@@ -118,6 +119,12 @@ public:
     }
 
 private:
+    static bool is_same_device(const Json& before, const Json& now) {
+        for (const char* name : {"name", "driver", "threads"})
+            if (member_of(before, name) != member_of(now, name)) return false;
+        return true;
+    }
+
     static double find_noise_floor(const Json& report) {
         const double floor = number_of(member_of(member_of(report, "reference"), "noise"),
                                        "flip_floor");
@@ -136,7 +143,7 @@ private:
         const double rise = finding.now - finding.before;
         if (rise > limits_.max_flip_rise * std::max(finding.before, 0.0) && rise > floor_)
             finding.verdict = BaselineVerdict::worse;
-        finding.says = fmt::format("FLIP {:.5f}, before {:.5f}; at most {:g} % more is allowed",
+        finding.says = fmt::format("FLIP {:.5g}, before {:.5g}; at most {:g} % more is allowed",
                                    finding.now, finding.before, 100 * limits_.max_flip_rise);
         return finding;
     }
@@ -168,7 +175,7 @@ private:
         const Json a = member_of(before, "gpu_ms"), b = member_of(now, "gpu_ms");
         finding.before = number_of(a, "median"), finding.now = number_of(b, "median");
         measure::Interval ratio = ratio_of_intervals(interval_of(b), interval_of(a));
-        ratio.low /= machine_ratio_;
+        ratio = {ratio.low / machine_ratio_.high, ratio.high / machine_ratio_.low};
         const std::string times = fmt::format("{} ms, before {} ms", format_ms(finding.now),
                                               format_ms(finding.before));
         const std::string limit = fmt::format("at most {:g} times is allowed",
@@ -182,7 +189,7 @@ private:
                                 : noisy       ? "other programs used the processors"
                                 : !ratio.is_known()
                                     ? "there are too few rounds"
-                                    : fmt::format("{:.2f} to {:.2f} times with 95 % confidence",
+                                    : fmt::format("{:.2f} to {:.2f} times by both 95 % intervals",
                                                   ratio.low, ratio.high);
         finding.says = times + ": " + why + "; " + limit;
         return finding;
@@ -191,7 +198,7 @@ private:
     BaselineLimits limits_;
     bool same_device_;
     double floor_;
-    double machine_ratio_ = 1; ///< how much slower the machine itself may be now
+    measure::Interval machine_ratio_{1, 1}; ///< how much slower the machine itself is now
 };
 
 std::vector<const BaselineFinding*> list_findings_of(const std::vector<BaselineFinding>& findings,
@@ -214,6 +221,12 @@ std::string format_counts(const std::vector<BaselineFinding>& findings) {
 const char* baseline_verdict_name(BaselineVerdict verdict) {
     constexpr const char* kNames[] = {"kept", "worse", "unknown"};
     return kNames[static_cast<std::size_t>(verdict)];
+}
+
+void check_baseline_fits(const Comparison& comparison, const std::string& json,
+                         const std::string& file) {
+    check_same_question(find_scene_report(parse_json<Json>(file, json), comparison, file),
+                        make_report_json(comparison), file);
 }
 
 std::vector<BaselineFinding> judge_against_baseline(const Comparison& comparison,
@@ -252,7 +265,8 @@ std::string make_baseline_markdown(const std::vector<BaselineFinding>& findings,
                                    const std::string& scene) {
     const bool is_worse = !list_findings_of(findings, BaselineVerdict::worse).empty();
     std::string text = fmt::format("### {}: {}\n\n{}\n", escape_markdown(scene),
-                                   is_worse ? "worse than the baseline" : "as the baseline",
+                                   is_worse ? "worse than the baseline"
+                                            : "not worse than the baseline",
                                    format_counts(findings));
     std::string table;
     for (const BaselineVerdict verdict : {BaselineVerdict::worse, BaselineVerdict::unknown})

@@ -33,14 +33,19 @@ struct BaselineFinding {
     std::string says; ///< a sentence without the row's name
 };
 
-/// Judges each row of the baseline against the row with the same label and model. `json` is a
-/// report.json of one scene or of several; `file` names it in messages. A row that is missing now
-/// is worse. Times are `worse` only if the ratio of the two 95 % intervals lies above the limit as
-/// a whole, after division by the ratio of the cleared cubes, a constant work, if that has risen
-/// too. They are `unknown` on another device, if a row was noisy, or if the intervals reach over
-/// the limit. Counted work, if both reports have it, is held to the same factor. A rise of FLIP
-/// below the noise of the reference is kept. Throws `bad_data` if the baseline is no report, is
-/// incomplete, or shows another scene, camera, instant, size or reference.
+/// Throws `bad_data` if the baseline is no report, is incomplete, or shows another scene, camera,
+/// instant, size, exposure, ambient light, way of timing or reference. `json` is a report.json of
+/// one scene or of several; `file` names it in messages. The comparison may be unfinished.
+void check_baseline_fits(const Comparison& comparison, const std::string& json,
+                         const std::string& file);
+
+/// Judges each row of the baseline against the row with the same label and model. A row that is
+/// missing now is worse. Device times of rows and passes are `worse` only if the ratio of the two
+/// 95 % intervals lies above the limit as a whole. If the time to clear the cubes, a constant work,
+/// has risen with confidence, that rise is divided out. Times are `unknown` on another device, if a
+/// row was noisy, or if the intervals reach over the limit. Counted work, if both reports have it,
+/// is held to the same factor. A rise of FLIP below the noise of the reference is kept. Throws as
+/// check_baseline_fits does.
 std::vector<BaselineFinding> judge_against_baseline(const Comparison& comparison,
                                                     const std::string& json,
                                                     const std::string& file,

@@ -67,7 +67,8 @@ std::string make_html_comparer(const Comparison& comparison) {
                     {"pictures", pictures}};
     // "<" would let a label end the script element.
     std::string text;
-    for (const char c : data.dump(-1, ' ', true)) text += c == '<' ? "\\u003c" : std::string(1, c);
+    for (const char c : data.dump(-1, ' ', true, Json::error_handler_t::replace))
+        text += c == '<' ? "\\u003c" : std::string(1, c);
     return "<section class=\"comparer\" aria-label=\"Comparer\"><script type=\"application/json\">" +
            text + "</script></section>";
 }

@@ -24,6 +24,13 @@ double error_of(ErrorQuantity quantity, const measure::Difference& error) {
     return quantity == ErrorQuantity::flip ? error.flip : error.rmse;
 }
 
+/// Returns the least number of views that can prove the share, and that `compare` draws.
+int count_proof_views(const ChooseRequest& request) {
+    return static_cast<int>(
+        std::max(measure::count_views_needed(request.share, request.confidence, 0),
+                 measure::kMinIntervalSamples));
+}
+
 void check_choose_request(const ChooseRequest& request) {
     const auto check_part = [](const char* name, double value) {
         check(value > 0 && value < 1, Failure::usage, name,
@@ -39,6 +46,16 @@ void check_choose_request(const ChooseRequest& request) {
     check(request.proof_seed != request.base.seed, Failure::usage,
           "seed of the proof: wanted another than that of the training views, found ",
           request.proof_seed);
+    // More views than any run draws would be needed for more.
+    constexpr double kMaxPart = .9999;
+    check(request.share <= kMaxPart && request.confidence <= kMaxPart, Failure::usage,
+          "share and confidence: wanted at most ", kMaxPart, ", found ", request.share, " and ",
+          request.confidence);
+    const int needed = count_proof_views(request);
+    check(request.proof_views == 0 || request.proof_views >= needed, Failure::usage,
+          "views of the proof: wanted at least ", needed, ", since fewer cannot prove a share of ",
+          request.share, " with a confidence of ", request.confidence, ", found ",
+          request.proof_views);
 }
 
 void tell_step(const ChooseRequest& request, const std::string& sentence) {
@@ -74,13 +91,15 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
         const measure::Row& row = comparison.rows[i];
         JudgedPlan plan{.text = texts[i],
                         .ms = row.time_ms().median,
-                        .ms_ci95 = row.time_ms().ci95,
+                        .ms_range = row.time_ms().ci95,
                         .errors = {}};
         if (request.costs)
-            plan.ms = predicted[i].ms, plan.ms_ci95 = {predicted[i].low, predicted[i].high};
+            plan.ms = predicted[i].ms, plan.ms_range = {predicted[i].low, predicted[i].high};
         for (const measure::Errors& errors : row.views)
-            if (const double error = error_of(request.quantity, errors.error); !std::isnan(error))
-                plan.errors.push_back(error); // a view without mirror pixels says nothing
+            plan.errors.push_back(errors.error.nonfinite > 0 ? INFINITY
+                                  : errors.error.pixels == 0
+                                      ? 0
+                                      : error_of(request.quantity, errors.error));
         for (const double error : plan.errors)
             plan.largest_error = std::max(plan.largest_error, error);
         plans.push_back(std::move(plan));
@@ -92,7 +111,7 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
 /// limit of time.
 bool keeps_time(const ChooseRequest& request, const JudgedPlan& plan) {
     if (!request.max_ms) return true;
-    return (plan.ms_ci95.is_known() ? plan.ms_ci95.high : plan.ms) <= *request.max_ms;
+    return (plan.ms_range.is_known() ? plan.ms_range.high : plan.ms) <= *request.max_ms;
 }
 
 bool keeps_error(const ChooseRequest& request, const JudgedPlan& plan) {
@@ -175,10 +194,11 @@ bool is_second_plan_faster(Engine& engine, const ChooseRequest& request, const s
     return plans[1].ms < plans[0].ms;
 }
 
-/// Returns whether one plan takes less time than another: its interval ends before the other's.
-bool takes_less_time(const JudgedPlan& a, const JudgedPlan& b) {
-    const bool known = a.ms_ci95.is_known() && b.ms_ci95.is_known();
-    return known ? a.ms_ci95.high < b.ms_ci95.low : a.ms < b.ms;
+/// Returns whether one plan takes less time than another. A measured interval must end before the
+/// other's. The ranges of predicted times have the same unknown costs, so the times decide.
+bool takes_less_time(const ChooseRequest& request, const JudgedPlan& a, const JudgedPlan& b) {
+    const bool known = !request.costs && a.ms_range.is_known() && b.ms_range.is_known();
+    return known ? a.ms_range.high < b.ms_range.low : a.ms < b.ms;
 }
 
 /// Returns the plans within the limits that no other such plan beats, from the surest to the
@@ -194,8 +214,9 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ChooseRequest& request,
     });
     std::vector<const JudgedPlan*> unbeaten;
     for (const JudgedPlan* plan : kept) // those before it err less
-        if (std::ranges::all_of(
-                unbeaten, [&](const JudgedPlan* surer) { return takes_less_time(*plan, *surer); }))
+        if (std::ranges::all_of(unbeaten, [&](const JudgedPlan* surer) {
+                return takes_less_time(request, *plan, *surer);
+            }))
             unbeaten.push_back(plan);
     return unbeaten;
 }
@@ -220,12 +241,7 @@ std::vector<std::string> list_plans_to_prove(Engine& engine, const ChooseRequest
 
 std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
                                    const std::vector<std::string>& texts) {
-    const int least = static_cast<int>(measure::kMinIntervalSamples);
-    const int views = std::max(
-        request.proof_views > 0
-            ? request.proof_views
-            : static_cast<int>(measure::count_views_needed(request.share, request.confidence, 0)),
-        least);
+    const int views = request.proof_views > 0 ? request.proof_views : count_proof_views(request);
     tell_step(request,
               fmt::format("proving {} on {} fresh views",
                           texts.size() == 1 ? texts.front() : fmt::format("{} plans", texts.size()),
@@ -234,20 +250,22 @@ std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
                                                          request.proof_seed);
     std::vector<PlanProof> proofs;
     for (JudgedPlan& plan : list_judged_plans(request, comparison, texts)) {
-        PlanProof proof;
-        proof.views = plan.errors.size();
+        PlanProof proof{.plan = std::move(plan),
+                        .scene_hash = comparison.scene.hash,
+                        .exposure = comparison.exposure};
+        const std::vector<double>& errors = proof.plan.errors;
         if (request.max_error)
             proof.failures = static_cast<std::size_t>(std::ranges::count_if(
-                plan.errors, [&](double error) { return !(error <= *request.max_error); }));
-        proof.share_bound = measure::kept_share_lower_bound(proof.failures, proof.views,
+                errors, [&](double error) { return !(error <= *request.max_error); }));
+        proof.share_bound = measure::kept_share_lower_bound(proof.failures, errors.size(),
                                                             request.confidence);
-        proof.error_bound = measure::upper_tolerance_limit(plan.errors, request.share,
+        proof.error_bound = measure::upper_tolerance_limit(errors, request.share,
                                                            request.confidence);
-        proof.holds = keeps_time(request, plan) &&
-                      (request.max_error ? proof.share_bound >= request.share
-                                         : !std::isnan(proof.error_bound));
-        proof.plan = std::move(plan);
+        proof.keeps_error = request.max_error ? proof.share_bound >= request.share
+                                              : std::isfinite(proof.error_bound);
+        proof.keeps_time = keeps_time(request, proof.plan);
         proofs.push_back(std::move(proof));
+        if (!proofs.back().keeps_error) break; // cheaper plans count no more
     }
     return proofs;
 }
@@ -276,6 +294,20 @@ std::string describe_nearest_plan(const ChooseRequest& request,
                        format_limit_of_error(request), closest->errors.size(),
                        request.max_ms ? " within the time" : "", closest->text,
                        closest->largest_error);
+}
+
+/// Returns why no plan holds in the proof's views.
+std::string describe_failed_proof(const ChooseRequest& request,
+                                  const std::vector<PlanProof>& proofs) {
+    const PlanProof& surest = proofs.front();
+    if (surest.keeps_error)
+        return fmt::format("no plan takes at most {:g} ms when it is measured again; {} takes "
+                           "{:.3g} ms",
+                           *request.max_ms, proofs.back().plan.text, proofs.back().plan.ms);
+    return fmt::format("{} keeps the limits in the training views, but not in enough of the fresh "
+                       "ones ({} of {} fail); the best that is reachable is {} <= {:.4g}",
+                       surest.plan.text, surest.failures, surest.plan.errors.size(),
+                       error_quantity_name(request.quantity), surest.error_bound);
 }
 
 } // namespace
@@ -312,16 +344,9 @@ PlanChoice choose_plan(Engine& engine, const ChooseRequest& request) {
         return choice;
     }
     choice.proofs = prove_plans(engine, request, chain);
-    for (std::size_t i = 0; i < choice.proofs.size() && choice.proofs[i].holds; ++i)
-        choice.chosen = i;
-    if (!choice.chosen) {
-        const PlanProof& surest = choice.proofs.front();
-        choice.failure = fmt::format(
-            "{} keeps the limits in the training views, but not in enough of the fresh ones "
-            "({} of {} fail, {:.3g} ms); the best that is reachable is {} <= {:.4g}",
-            surest.plan.text, surest.failures, surest.views, surest.plan.ms,
-            error_quantity_name(request.quantity), surest.error_bound);
-    }
+    for (std::size_t i = 0; i < choice.proofs.size(); ++i)
+        if (choice.proofs[i].holds()) choice.chosen = i;
+    if (!choice.chosen) choice.failure = describe_failed_proof(request, choice.proofs);
     return choice;
 }
 

@@ -42,33 +42,40 @@ struct ChooseRequest {
 struct JudgedPlan {
     std::string text; ///< for Request::techniques, such as "secant" or "1=reuse 2,3=secant"
     double ms = 0;    ///< median time of a frame, or the predicted time
-    measure::Interval ms_ci95;  ///< unknown for predicted times
-    std::vector<double> errors; ///< error over the mirrors, by view
-    double largest_error = 0;   ///< of `errors`
+    /// 95 % interval of a measured time; of a predicted time, the times by the least and the
+    /// largest cost of each kind of work.
+    measure::Interval ms_range;
+    /// Error over the mirrors, by view: 0 if the view shows no mirror, infinite if a pixel of the
+    /// mirrors is not finite.
+    std::vector<double> errors;
+    double largest_error = 0; ///< of `errors`
 };
 
 /// What the proof's views say about a plan.
 struct PlanProof {
     JudgedPlan plan;
-    std::size_t views = 0;    ///< views with a mirror pixel
-    std::size_t failures = 0; ///< views above the limit; 0 without a limit
-    double share_bound = 0;   ///< measure::kept_share_lower_bound of the limit
+    std::size_t failures = 0; ///< views above the limit of error; 0 without a limit
+    double share_bound = 0;   ///< measure::kept_share_lower_bound of the failures
     /// Limit that `share` of all views keeps, with `confidence` (measure::upper_tolerance_limit).
     double error_bound = 0;
-    bool holds = false; ///< the plan keeps max_error, or there is none and error_bound is known
+    bool keeps_error = false; ///< the share is proved, or there is no limit of error
+    bool keeps_time = false;  ///< the upper end of the time keeps its limit, or there is none
+    bool holds() const { return keeps_error && keeps_time; }
+    std::string scene_hash; ///< of the scene whose views were drawn
+    double exposure = 0;    ///< stops
 };
 
 struct PlanChoice {
     std::vector<JudgedPlan> candidates; ///< over the training views
     std::vector<std::string> dropped;   ///< candidates left out after the first view
-    /// Plans in the order of their test, from the surest. Each is tested only if those before it
-    /// hold, so none of the tests lowers the confidence of another (fixed-sequence testing; Maurer,
-    /// Hothorn, Lehmacher, Multiple Comparisons in Drug Clinical Trials and Preclinical Assays,
-    /// 1995).
+    /// Plans in the order of their test, from the surest. The order is fixed before the proof's
+    /// views are drawn. A plan counts only if all before it keep the limit of error, so none of the
+    /// tests lowers the confidence of another (fixed-sequence testing; Maurer, Hothorn, Lehmacher,
+    /// Multiple Comparisons in Drug Clinical Trials and Preclinical Assays, 1995). The list ends
+    /// with the first plan that does not keep the limit of error.
     std::vector<PlanProof> proofs;
-    /// Index into `proofs`: the last plan that holds before the first that does not.
-    std::optional<std::size_t> chosen;
-    std::string failure; ///< why no plan was chosen, a sentence; empty if one was
+    std::optional<std::size_t> chosen; ///< index into `proofs`: the last plan that holds
+    std::string failure;               ///< why no plan was chosen, a sentence; empty if one was
 };
 
 /// Chooses a plan. Steps: all candidates in the comparison's own view, which drops those that are

@@ -1,14 +1,20 @@
 #include "study/picture_rows.hpp"
 
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "measure/display.hpp"
 #include "measure/findings.hpp"
 #include "measure/masks.hpp"
 #include "measure/picture_file.hpp"
+#include "report/json.hpp"
+#include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
+#include "study/views.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +48,30 @@ measure::Difference compute_plain_error(const measure::Picture& picture,
 // Share of the pixels without reflections that must be off before their light is called different.
 // A rasteriser alone puts the outlines of surfaces and shadows on other pixels than rays do.
 constexpr double kMinShareOfOtherLight = 0.1;
+
+/// Throws `bad_data` if a folder has a views.json whose views are not those of the comparison: its
+/// own and `drawn`.
+void check_folder_shows_views(const std::string& folder, const std::vector<measure::View>& drawn,
+                              const Request& base) {
+    const std::filesystem::path file = std::filesystem::path(folder) / "views.json";
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return;
+    const auto document = parse_json<nlohmann::json>(file.string(), read_file(file));
+    const nlohmann::json list = document.is_object() ? document.value("views", nlohmann::json())
+                                                     : nlohmann::json();
+    for (std::size_t i = 0; i <= drawn.size(); ++i) {
+        const measure::CameraFacts camera = i == 0 ? make_camera_facts(base.camera)
+                                                   : drawn[i - 1].camera;
+        const nlohmann::json wanted{{"camera", nlohmann::json(report::make_camera_json(camera))},
+                                    {"name", view_picture_name(i)},
+                                    {"time", nlohmann::json(report::make_number_json(
+                                                 i == 0 ? base.time : drawn[i - 1].time))}};
+        check(list.is_array() && i < list.size() && list[i] == wanted, Failure::bad_data,
+              file.string(), ": wanted the views of this comparison, found another ",
+              view_picture_name(i),
+              "; scene, --views, --seed, --camera and --time must be those of 'catoptric views'");
+    }
+}
 
 } // namespace
 
@@ -78,6 +108,13 @@ void check_picture_rows(const CompareRequest& request) {
     const std::size_t views = drawn != request.studies.end() && drawn->count > 1
                                   ? static_cast<std::size_t>(drawn->count)
                                   : 0;
+    const bool has_folder = std::ranges::any_of(request.pictures, [](const auto& picture) {
+        std::error_code error;
+        return std::filesystem::is_directory(picture.second, error);
+    });
+    std::vector<measure::View> drawn_views;
+    if (has_folder && views > 0)
+        drawn_views = draw_random_views(request.base, static_cast<int>(views));
     const auto check_picture_size = [&](const std::string& file) {
         const auto width = static_cast<int>(request.base.size.x),
                    height = static_cast<int>(request.base.size.y);
@@ -95,6 +132,7 @@ void check_picture_rows(const CompareRequest& request) {
         check(std::ranges::find(names, name) == names.end(), Failure::usage, "--row ",
               quote_as_printable_text(name), ": wanted a name that no other row has");
         names.push_back(name);
+        check_folder_shows_views(file, drawn_views, request.base);
         for (std::size_t view = 0; view <= views; ++view)
             if (const std::optional<std::string> picture = find_view_picture(file, view))
                 check_picture_size(*picture);

@@ -79,11 +79,14 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
                      place_pictures_side_by_side(part.display, truth.part.display)};
 }
 
+constexpr int kMaxViewWarnings = 3; // of all rows of files
+
 /// Adds the errors of the picture that a row of files has for view `view`, from 1, if it has one.
+/// `warned` counts warnings of all rows.
 void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, std::size_t view,
                                 const ReferencePicture& truth,
                                 const std::vector<std::uint32_t>& hits, std::size_t mirrors,
-                                report::Row& row) {
+                                report::Row& row, int& warned) {
     const auto& [name, path] = request.pictures[index];
     const std::optional<std::string> file = find_view_picture(path, view);
     if (!file) return;
@@ -95,7 +98,7 @@ void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, 
     for (const std::string& warning : list_picture_row_warnings(
              name + "', '" + view_picture_name(view), part.hdr, row.views.back().error.rmse,
              truth.compared_reference(), hits, exposure))
-        if (request.on_warning) request.on_warning(warning);
+        if (request.on_warning && ++warned <= kMaxViewWarnings) request.on_warning(warning);
 }
 
 void check_view_count(std::string_view option, int count) {
@@ -164,6 +167,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
+    int warned = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
         Request at_view = make_view_request(request.base, comparison.views[i]);
@@ -194,9 +198,12 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
         }
         for (std::size_t k = 0; k < request.pictures.size(); ++k)
             add_errors_of_view_picture(request, k, i + 1, truths.get_reference("1"), hits, mirrors,
-                                       comparison.rows[texts.size() + k]);
+                                       comparison.rows[texts.size() + k], warned);
         if (request.on_finished_view) request.on_finished_view();
     }
+    if (warned > kMaxViewWarnings && request.on_warning)
+        request.on_warning(std::to_string(warned - kMaxViewWarnings) +
+                           " more views of such rows look suspicious in the same way");
 }
 
 } // namespace catoptric::app

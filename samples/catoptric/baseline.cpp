@@ -50,6 +50,11 @@ BaselineGate::BaselineGate(const BaselineOptions& options) : baseline_options_(o
     check_json_syntax(options.baseline, json_);
 }
 
+void BaselineGate::check_scene(const report::Comparison& comparison) const {
+    if (json_.empty()) return;
+    report::check_baseline_fits(comparison, json_, baseline_options_.baseline);
+}
+
 void BaselineGate::judge_scene(const report::Comparison& comparison) {
     if (json_.empty()) return;
     const std::vector<report::BaselineFinding> findings = report::judge_against_baseline(

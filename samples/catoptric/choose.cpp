@@ -48,7 +48,7 @@ struct ChooseOptions {
     std::string output, certified;
     std::vector<std::string> techniques;
     std::string costs;
-    bool is_share_given = false, is_confidence_given = false;
+    bool is_share_given = false, is_confidence_given = false, is_proof_seed_given = false;
     std::vector<std::string> command;
 };
 
@@ -61,38 +61,52 @@ void read_error_limit(const std::string& text, app::ChooseRequest& limits) {
     limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
 }
 
-/// Takes the limits that the options leave out from a plan's certificate.
-void read_certificate_limits(const ChooseOptions& options, app::ChooseRequest& limits) {
+/// Takes what the options leave out from a plan's certificate: limits, share, confidence and seeds.
+void read_certificate(const ChooseOptions& options, app::ChooseRequest& request) {
     const std::string& file = options.certified;
     const auto document = parse_json<nlohmann::json>(file, read_file(file));
-    const nlohmann::json none;
-    const nlohmann::json& certificate = document.is_object() && document.contains("certificate")
-                                            ? document["certificate"]
-                                            : none;
-    const auto number = [&](const char* name) -> std::optional<double> {
-        const auto found = certificate.is_object() ? certificate.find(name) : certificate.end();
-        if (!certificate.is_object() || found == certificate.end() || found->is_null())
-            return std::nullopt;
-        check(found->is_number(), Failure::bad_data, file, ": certificate.", name,
-              ": wanted a number, found something else");
-        return found->get<double>();
+    nlohmann::json certificate;
+    if (document.is_object()) certificate = document.value("certificate", nlohmann::json());
+    if (!certificate.is_object()) certificate = nlohmann::json::object();
+    const auto number = [&](const char* name, double low, double high) -> std::optional<double> {
+        const nlohmann::json value = certificate.value(name, nlohmann::json());
+        if (value.is_null()) return std::nullopt;
+        const bool fits = value.is_number() && value.get<double>() >= low &&
+                          value.get<double>() <= high;
+        check(fits, Failure::bad_data, file, ": certificate.", name, ": wanted a number from ", low,
+              " to ", high, ", found ", report::describe_json_value(value));
+        return value.get<double>();
     };
-    if (!limits.max_error && !limits.max_ms) {
-        limits.max_error = number("max_error"), limits.max_ms = number("max_ms");
-        check(limits.max_error || limits.max_ms, Failure::usage, file,
-              ": has no certificate with a limit; wanted --max-error or --max-ms");
+    constexpr double kMaxSeed = 0x1p53; // integers of a double
+    if (!request.max_error) {
+        request.max_error = number("max_error", 0, 1);
         if (certificate.value("quantity", nlohmann::json()) == "rmse")
-            limits.quantity = app::ErrorQuantity::rmse;
+            request.quantity = app::ErrorQuantity::rmse;
     }
-    if (!options.is_share_given) limits.share = number("share").value_or(limits.share);
+    if (!request.max_ms) request.max_ms = number("max_ms", 0, 1e6);
+    check(request.max_error || request.max_ms, Failure::usage, file,
+          ": has no certificate with a limit; wanted --max-error or --max-ms");
+    if (!options.is_share_given) request.share = number("share", .5, .9999).value_or(request.share);
     if (!options.is_confidence_given)
-        limits.confidence = number("confidence").value_or(limits.confidence);
+        request.confidence = number("confidence", .5, .9999).value_or(request.confidence);
+    if (const std::optional<double> seed = number("training_seed", 0, kMaxSeed))
+        request.base.seed = static_cast<std::uint64_t>(*seed);
+    const std::optional<double> proved = number("proof_seed", 0, kMaxSeed);
+    if (!options.is_proof_seed_given) // other views than those that the certificate has seen
+        request.proof_seed = std::max(static_cast<std::uint64_t>(proved.value_or(1)),
+                                      request.base.seed) +
+                             1;
+    check(!proved || static_cast<std::uint64_t>(*proved) != request.proof_seed, Failure::usage,
+          "--proof-seed: wanted another than that of the certificate, found ", request.proof_seed);
+    check(certificate.value("times", nlohmann::json()) != "predicted" || request.costs ||
+              !request.max_ms,
+          Failure::usage, file, ": its limit of time is for another device; wanted --costs of it");
 }
 
 std::string format_time(const app::JudgedPlan& plan) {
     std::string text = fmt::format("{:.3g}", plan.ms);
-    if (plan.ms_ci95.low < plan.ms_ci95.high)
-        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_ci95.low, plan.ms_ci95.high);
+    if (plan.ms_range.low < plan.ms_range.high)
+        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
     return text;
 }
 
@@ -105,23 +119,26 @@ std::string timed_device_name(const app::ChooseRequest& request, const app::Engi
 std::string describe_proof(const app::ChooseRequest& request, const app::PlanProof& proof,
                            const std::string& device) {
     const char* quantity = app::error_quantity_name(request.quantity);
+    // A larger share than the requested one was not to be proved, so it is not claimed.
+    const double share = std::min(proof.share_bound, request.share);
     const std::string statement = request.max_error
                                       ? fmt::format("at least {:.4g} % of views have {} <= {:g}",
-                                                    100 * proof.share_bound, quantity,
-                                                    *request.max_error)
+                                                    100 * share, quantity, *request.max_error)
                                       : fmt::format("at least {:g} % of views have {} <= {:.4g}",
                                                     100 * request.share, quantity,
                                                     proof.error_bound);
     return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures)",
                        proof.plan.text, format_time(proof.plan), device, statement,
-                       100 * request.confidence, proof.views, proof.failures);
+                       100 * request.confidence, proof.plan.errors.size(), proof.failures);
 }
 
+/// Returns the rules of a plan. The file of a plan was read before, so it is valid.
 Json make_plan_rules_json(const std::string& text) {
-    if (text.starts_with("plan:"))
-        return Json::parse(parse_json<nlohmann::json>(text.substr(5), read_file(text.substr(5)))
-                               .at("plan")
-                               .dump());
+    if (constexpr std::string_view kFile = "plan:"; text.starts_with(kFile)) {
+        const std::string file = text.substr(kFile.size());
+        const Json document = parse_json<Json>(file, read_file(file));
+        return document.is_object() ? document.value("plan", Json()) : document;
+    }
     Json rules = Json::array();
     if (text == reflect::kAutoPlanName || app::read_technique_plan(text).is_technique) {
         rules.push_back({{"mirror", "*"}, {"technique", text}});
@@ -140,17 +157,17 @@ Json make_plan_rules_json(const std::string& text) {
 Json make_judged_plan_json(const app::JudgedPlan& plan) {
     return {{"technique", plan.text},
             {"ms", report::make_number_json(plan.ms)},
-            {"ms_ci95", report::make_interval_json(plan.ms_ci95)},
+            {"ms_range", report::make_interval_json(plan.ms_range)},
             {"largest_error", report::make_number_json(plan.largest_error)},
             {"errors", report::make_number_list_json(plan.errors)}};
 }
 
 Json make_proof_json(const app::PlanProof& proof) {
     Json json = make_judged_plan_json(proof.plan);
-    json["views"] = proof.views, json["failures"] = proof.failures;
+    json["views"] = proof.plan.errors.size(), json["failures"] = proof.failures;
     json["share_bound"] = report::make_number_json(proof.share_bound);
     json["error_bound"] = report::make_number_json(proof.error_bound);
-    json["holds"] = proof.holds;
+    json["keeps_error"] = proof.keeps_error, json["keeps_time"] = proof.keeps_time;
     return json;
 }
 
@@ -161,14 +178,18 @@ Json make_certificate_json(const ChooseOptions& options, const app::ChooseReques
             {"max_ms", report::make_number_json(request.max_ms)},
             {"share", request.share},
             {"confidence", request.confidence},
-            {"views", proof.views},
+            {"views", proof.plan.errors.size()},
             {"failures", proof.failures},
             {"share_bound", report::make_number_json(proof.share_bound)},
             {"error_bound", report::make_number_json(proof.error_bound)},
             {"ms", report::make_number_json(proof.plan.ms)},
-            {"ms_ci95", report::make_interval_json(proof.plan.ms_ci95)},
+            {"ms_range", report::make_interval_json(proof.plan.ms_range)},
             {"device", device},
+            {"times", request.costs ? "predicted" : "measured"},
             {"scene", options.common.scene},
+            {"scene_hash", proof.scene_hash},
+            {"reference", request.reference},
+            {"exposure", proof.exposure},
             {"width", request.base.size.x},
             {"height", request.base.size.y},
             {"training_seed", request.base.seed},
@@ -197,7 +218,7 @@ Json make_choice_json(const ChooseOptions& options, const app::ChooseRequest& re
 
 std::string make_candidate_table(const app::ChooseRequest& request, const app::PlanChoice& choice) {
     std::vector<std::vector<std::string>> rows{
-        {"candidate", "ms [95 %]",
+        {"candidate", request.costs ? "ms [range]" : "ms [95 %]",
          fmt::format("largest {} in {} views", app::error_quantity_name(request.quantity),
                      request.training_views)}};
     for (const app::JudgedPlan& plan : choice.candidates)
@@ -212,7 +233,7 @@ app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPri
     request.reference = app::choose_reference(options.common.reference, request.base.scene,
                                               app::ReferencePixelKind::centre);
     if (!options.costs.empty()) request.costs = report::read_costs_file(options.costs);
-    if (!options.certified.empty()) read_certificate_limits(options, request);
+    if (!options.certified.empty()) read_certificate(options, request);
     request.watcher = make_progress_watcher(progress);
     request.tell = [&progress, &options](const std::string& step) {
         progress.clear();
@@ -223,20 +244,34 @@ app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPri
 
 int certify_plan(const ChooseOptions& options, const app::ChooseRequest& request,
                  app::Engine& engine, ProgressPrinter& progress) {
+    const Json rules = make_plan_rules_json("plan:" + options.certified);
     const app::PlanProof proof = app::prove_plan(engine, request, "plan:" + options.certified);
     progress.clear();
     const std::string device = timed_device_name(request, engine);
     const Json document{{"schema", "catoptric/plan/1"},
                         {"command", options.command},
-                        {"plan", make_plan_rules_json(proof.plan.text)},
+                        {"plan", rules},
                         {"certificate", make_certificate_json(options, request, proof, device)},
                         {"proofs", Json::array({make_proof_json(proof)})}};
-    if (!options.output.empty()) write_file(options.output, report::serialise_json(document));
+    if (!options.output.empty() && proof.holds())
+        write_file(options.output, report::serialise_json(document));
+    if (options.common.device.validate) engine.check_validation();
     print_result(options.common.manners.json
                      ? report::serialise_json(document)
-                     : std::string(proof.holds ? "holds: " : "does not hold: ") +
+                     : std::string(proof.holds() ? "holds: " : "does not hold: ") +
                            describe_proof(request, proof, device) + "\n");
-    return proof.holds ? 0 : 1;
+    return proof.holds() ? 0 : 1;
+}
+
+/// Throws `usage` if the plan's file would replace a file that is read.
+void check_output_place(const ChooseOptions& options, const app::ChooseRequest& request) {
+    check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
+    std::vector<std::filesystem::path> read;
+    for (const std::string& file : {options.certified, options.costs})
+        if (!file.empty()) read.emplace_back(file);
+    for (const std::string& text : options.techniques)
+        if (text.starts_with("plan:")) read.emplace_back(text.substr(5));
+    check_outputs_differ_from_inputs({options.output}, read, ", which is read");
 }
 
 int run_choose(const ChooseOptions& options) {
@@ -250,11 +285,14 @@ int run_choose(const ChooseOptions& options) {
         check_techniques_hold_no_scene(options.techniques);
         app::check_row_techniques(options.techniques);
     }
+    check(!options.common.both_models, Failure::usage,
+          "--model both: wanted everything or required, of which a plan has one");
+    check(options.common.reference_file.empty(), Failure::usage,
+          "--reference: wanted a technique, found a file");
     if (!options.output.empty()) check_file_can_be_made(options.output);
     ProgressPrinter progress(options.common.manners, ProgressPrinter::ProgressOffTerminal::tenths);
     const app::ChooseRequest request = make_choose_request(options, progress);
-    if (!options.output.empty())
-        check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
+    if (!options.output.empty()) check_output_place(options, request);
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);
     if (!options.certified.empty()) return certify_plan(options, request, engine, progress);
@@ -268,7 +306,7 @@ int run_choose(const ChooseOptions& options) {
     } else {
         std::string text = make_candidate_table(request, choice);
         for (const app::PlanProof& proof : choice.proofs)
-            text += std::string(proof.holds ? "holds: " : "does not hold: ") +
+            text += std::string(proof.holds() ? "holds: " : "does not hold: ") +
                     describe_proof(request, proof, device) + "\n";
         print_result(text + (choice.chosen
                                  ? "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n"
@@ -305,7 +343,8 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
                 options.costs);
 }
 
-void add_view_count_options(CommandVerb& verb, app::ChooseRequest& limits) {
+void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
+    app::ChooseRequest& limits = options.limits;
     verb.option("--training-views", "N", "views on which plans are found, at least 6 (12)",
                 [&limits](const std::string& text) {
                     limits.training_views = static_cast<int>(
@@ -318,10 +357,13 @@ void add_view_count_options(CommandVerb& verb, app::ChooseRequest& limits) {
                     limits.proof_views = static_cast<int>(
                         parse_integer("--proof-views", text, 6, 10'000));
                 });
-    verb.option("--proof-seed", "N", "seed of the fresh views, another than --seed (2)",
-                [&limits](const std::string& text) {
-                    limits.proof_seed = static_cast<std::uint64_t>(
+    verb.option("--proof-seed", "N",
+                "seed of the fresh views, another than --seed (2; with --certify another than the "
+                "certificate's)",
+                [&options](const std::string& text) {
+                    options.limits.proof_seed = static_cast<std::uint64_t>(
                         parse_integer("--proof-seed", text, 0, 1'000'000'000));
+                    options.is_proof_seed_given = true;
                 });
 }
 
@@ -343,7 +385,7 @@ void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
                 "prove the plan of this file again, by its certificate's limits, on fresh views",
                 options->certified);
     add_limit_options(verb, *options);
-    add_view_count_options(verb, options->limits);
+    add_view_count_options(verb, *options);
     add_common_options_without_scene(verb, options->common);
     verb.set_verb_action([options] { return run_choose(*options); });
 }

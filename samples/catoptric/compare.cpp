@@ -229,11 +229,13 @@ private:
 /// Measures one scene and writes the report on all scenes so far.
 report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& request,
                                  std::size_t index, const CompareOptions& budget,
-                                 ProgressPrinter& progress, CompareReportOutput& output) {
+                                 ProgressPrinter& progress, CompareReportOutput& output,
+                                 const BaselineGate& gate) {
     const std::size_t row_count = list_requested_rows(request).size();
     request.watcher = make_progress_watcher(progress);
     report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
+        if (so_far.rows.size() == 1) gate.check_scene(so_far); // before more time is spent
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
@@ -268,7 +270,7 @@ int run_compare(const CompareOptions& options) {
     bool keeps_budgets = true;
     for (std::size_t i = 0; i < requests.size(); ++i) {
         const report::Comparison comparison = compare_scene(engine, requests[i], i, options,
-                                                            progress, output);
+                                                            progress, output, gate);
         if (comparison.stopped || i + 1 == requests.size()) output.print_all_scenes();
         if (!comparison.stopped && i + 1 == requests.size())
             print_note_unless_quiet(manners, "written: " + options.folder);

@@ -106,12 +106,30 @@ TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
 
     write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "reuse:face=16"}],
         "certificate": {"quantity": "flip", "max_error": 1e-9}})");
-    const test::ProcessResult fails = certify({});
+    const test::ProcessResult fails = certify({"-o", "failed.json"});
     EXPECT_EQ(fails.exit_code, 1) << fails.err;
     EXPECT_THAT(fails.out, HasSubstr("does not hold: "));
     EXPECT_THAT(fails.out, HasSubstr("6 failures"));
 
+    EXPECT_FALSE(std::filesystem::exists(folder / "failed.json"));
+
+    // The views of the certificate and of its training are not fresh.
+    write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "planar"}],
+        "certificate": {"max_error": 1, "training_seed": 5, "proof_seed": 6, "share": 0.5}})");
+    EXPECT_EQ(certify({"--proof-seed", "5"}).exit_code, 2);
+    EXPECT_EQ(certify({"--proof-seed", "6"}).exit_code, 2);
+    ASSERT_EQ(certify({"-o", "fresh.json"}).exit_code, 0);
+    const json fresh = json::parse(read_file_at_path(folder / "fresh.json"))["certificate"];
+    EXPECT_EQ(fresh["proof_seed"], 7);
+    EXPECT_EQ(fresh["training_seed"], 5);
+    const test::ProcessResult onto = certify({"-o", "plan.json"});
+    EXPECT_EQ(onto.exit_code, 2);
+    EXPECT_THAT(onto.err,
+                HasSubstr("plan.json: cannot be written: it is the same file as plan.json"));
+
     write_input_file("plan.json", R"([{"mirror": "*", "technique": "reuse"}])");
+    EXPECT_EQ(certify({"--max-error", "flip=1"}).exit_code,
+              0); // a list of rules has no certificate
     const test::ProcessResult bare = certify({});
     EXPECT_EQ(bare.exit_code, 2);
     EXPECT_THAT(bare.err, HasSubstr("plan.json: has no certificate with a limit"));
@@ -131,6 +149,13 @@ TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
     refused({"--max-error", "flip=2"}, "--max-error");
     refused({"--max-error", "flip=.1", "--proof-seed", "1"},
             "wanted another than that of the training views, found 1");
+    refused({"--max-error", "flip=.1", "--model", "both"}, "--model both");
+    const test::ProcessResult hopeless = run_cli(
+        {"choose", "flat", "--max-error", "flip=.1", "--proof-views", "58", "-o", "plan.json"});
+    EXPECT_EQ(hopeless.exit_code, 2);
+    EXPECT_THAT(hopeless.err,
+                HasSubstr("views of the proof: wanted at least 59, since fewer cannot "
+                          "prove a share of 0.95 with a confidence of 0.95, found 58"));
     const test::ProcessResult nowhere = run_choose({"--max-error", "flip=.1"});
     EXPECT_EQ(nowhere.exit_code, 2);
     EXPECT_THAT(nowhere.err, HasSubstr("'choose' needs -o PLAN.json"));

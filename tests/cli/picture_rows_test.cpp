@@ -170,6 +170,19 @@ TEST_F(ViewPictures, OwnPicturesHandedBackHaveTheSameErrorsInEachView) {
     EXPECT_EQ(report["views"][2]["camera"]["eye"], views_[3]["camera"]["eye"]);
 }
 
+TEST_F(ViewPictures, PicturesOfOtherViewsAreRefused) {
+    Words words{"compare", "flat", "--size", "48x32", "--seed", "8", "--views", "6", "-o", "out"};
+    for (const char* word : {"--row", "mine=views", "--techniques", "reuse:face=16"})
+        words.emplace_back(word);
+    const test::ProcessResult other = run_cli(words);
+    EXPECT_EQ(other.exit_code, 65) << other.err;
+    EXPECT_THAT(other.err, testing::HasSubstr("views/views.json: wanted the views of this "
+                                              "comparison, found another view-001; scene, --views, "
+                                              "--seed, --camera and --time must be those of"));
+    words[5] = "9", words[7] = "7"; // one view more than the folder has
+    EXPECT_THAT(run_cli(words).err, testing::HasSubstr("found another view-007"));
+}
+
 TEST_F(ViewPictures, MissingDoubleAndTurnedPicturesAreNamed) {
     namespace measure = catoptric::measure;
     const measure::Picture own = measure::read_picture(folder / "views/view-004.exr");

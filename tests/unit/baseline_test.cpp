@@ -72,7 +72,7 @@ TEST(Baseline, SlowerPassIsNamedWithItsRow) {
     EXPECT_THAT(format_baseline_findings(judge(now, before)),
                 HasSubstr("worse: " + row +
                           ", ms of search: 18.0 ms, before 15.0 ms: 1.15 to 1.25 "
-                          "times with 95 % confidence; at most 1.1 times"));
+                          "times by both 95 % intervals; at most 1.1 times"));
     // With a limit of 1.3 all is kept; with 1.2 the intervals reach over the limit.
     EXPECT_TRUE(list_quantities(judge(now, before, {.max_time_ratio = 1.3}), BaselineVerdict::worse)
                     .empty());
@@ -89,12 +89,18 @@ TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
     for (Row& row : slow.rows) row.gpu_ms = make_rounds(row.gpu_ms.median * 1.3);
     slow.clear_ms = make_rounds(1.3); // the constant work takes as much longer
     EXPECT_TRUE(list_quantities(judge(slow, before), BaselineVerdict::worse).empty());
+    EXPECT_TRUE(
+        list_quantities(judge(slow, before, {.max_time_ratio = 1.2}), BaselineVerdict::unknown)
+            .empty())
+        << "passes and rows are 1 to 1.3 times as slow on a machine that is 1.3 times as slow";
     slow.clear_ms = before.clear_ms;
     EXPECT_EQ(list_quantities(judge(slow, before), BaselineVerdict::worse).size(), 2U);
     Comparison other = slow;
     other.device.name = "another";
     EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
     EXPECT_EQ(list_quantities(judge(other, before), BaselineVerdict::unknown).size(), 4U);
+    other = slow, other.device.threads = 16; // a processor's name does not tell its size
+    EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
     Comparison noisy = slow;
     noisy.rows[0].noisy = true;
     EXPECT_EQ(list_quantities(judge(noisy, before), BaselineVerdict::worse),
@@ -184,6 +190,8 @@ TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
                     HasSubstr("wanted a report.json of 'catoptric compare'"));
     EXPECT_THAT(refusal(before, R"({"schema": "catoptric/compare-scenes/1", "scenes": [1, {}]})"),
                 HasSubstr("wanted the scene "));
+    other = before, other.timing = "pipelined";
+    EXPECT_THAT(refusal(other, to_json(before)), HasSubstr("the same timing as now"));
     EXPECT_THAT(refusal(before, "{"), HasSubstr("old.json"));
 }
 

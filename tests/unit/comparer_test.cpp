@@ -124,6 +124,12 @@ TEST(Comparer, LabelsCannotEndTheScript) {
     EXPECT_EQ(read_comparer_data(made)["pictures"][1]["label"], made.rows[0].label);
 }
 
+TEST(Comparer, LabelsMayHoldAnyBytes) {
+    Comparison made = catoptric::report::sample::make_usual_comparison();
+    made.rows[0].label = "plan:\xff.json";
+    EXPECT_EQ(read_comparer_data(made)["pictures"][1]["label"], "plan:\xef\xbf\xbd.json");
+}
+
 TEST(Comparer, IsLeftOutWithoutReferenceOrRows) {
     Comparison made = catoptric::report::sample::make_usual_comparison();
     Comparison without = made;

@@ -13,6 +13,7 @@ function load_values(file) {
         loading.set(file, text => resolve(Uint8Array.from(atob(text), c => c.charCodeAt(0))));
         const script = document.createElement("script");
         script.src = file;
+        script.onload = () => reject(new Error(file + " is broken")); // no effect after a call
         script.onerror = () => reject(new Error(file + " is not beside this page"));
         document.head.append(script);
     });
@@ -92,7 +93,11 @@ class Comparer {
         this.pixel = [width >> 1, height >> 1];
         this.bitmaps = new Map();
         this.make_controls();
-        new ResizeObserver(() => this.draw()).observe(this.canvas);
+        // A scene on a hidden tab has no size. It loads its pictures when it is first shown.
+        new ResizeObserver(() => {
+            if (this.shown) this.draw();
+            else if (this.canvas.clientWidth > 0 && !this.turn) this.refresh();
+        }).observe(this.canvas);
     }
 
     make_controls() {
@@ -167,25 +172,26 @@ class Comparer {
 
     /** Returns a canvas with one picture as the controls ask for it. */
     async make_bitmap(index) {
-        const key = [index, this.show, this.exposure, this.gain, this.mask].join();
+        const {show, exposure, gain, mask} = this; // the controls may change while files are loaded
+        const key = [index, show, exposure, gain, mask].join();
         const known = this.bitmaps.get(key);
         if (known) return known;
         const [floats, reference, mirrors] = await Promise.all([this.load(index), this.load("0"), this.load_mirrors()]);
         const canvas = new OffscreenCanvas(this.width, this.height), pen = canvas.getContext("2d", {willReadFrequently: true});
         const error = document.getElementById(this.pictures[index].error_id);
-        if (this.show === "error" && error) {
+        if (show === "error" && error) {
             await error.decode();
             pen.drawImage(error, 0, 0, this.width, this.height);
         }
-        const image = pen.getImageData(0, 0, this.width, this.height), scale = 2 ** this.exposure;
-        const shows_mirror = mirror => this.mask === "mirrors" ? mirror > 0 : mirror === Number(this.mask);
+        const image = pen.getImageData(0, 0, this.width, this.height), scale = 2 ** exposure;
+        const shows_mirror = mirror => mask === "mirrors" ? mirror > 0 : mirror === Number(mask);
         for (let i = 0; i < this.width * this.height; ++i) {
-            const dim = this.mask !== "all" && mirrors && !shows_mirror(mirrors[i]) ? 0.2 : 1;
+            const dim = mask !== "all" && mirrors && !shows_mirror(mirrors[i]) ? 0.2 : 1;
             for (let k = 0; k < 3; ++k) {
                 const x = floats[3 * i + k];
-                if (this.show === "picture") image.data[4 * i + k] = to_srgb_code(x * scale);
-                if (this.show === "difference")
-                    image.data[4 * i + k] = to_srgb_code(Math.abs(x - reference[3 * i + k]) * scale * this.gain);
+                if (show === "picture") image.data[4 * i + k] = to_srgb_code(x * scale);
+                if (show === "difference")
+                    image.data[4 * i + k] = to_srgb_code(Math.abs(x - reference[3 * i + k]) * scale * gain);
                 image.data[4 * i + k] *= dim;
             }
             image.data[4 * i + 3] = 255;
@@ -199,9 +205,11 @@ class Comparer {
     /** Draws again after a change of what is shown. */
     async refresh() {
         const turn = this.turn = (this.turn ?? 0) + 1;
-        const shown = await Promise.all([this.left, this.right].map(index => this.make_bitmap(index)));
+        const indices = [this.left, this.right];
+        const bitmaps = await Promise.all(indices.map(index => this.make_bitmap(index)));
         if (turn !== this.turn) return; // a later change draws
-        this.shown = shown;
+        this.shown = bitmaps.map((bitmap, side) => ({bitmap, label: this.pictures[indices[side]].label}));
+        this.forget_unused(indices);
         this.draw();
         await this.tell_values();
         this.place.dataset.ready = String(turn);
@@ -238,7 +246,7 @@ class Comparer {
             pen.save();
             pen.beginPath(), pen.rect(pane.x, 0, pane.end - pane.x, high), pen.clip();
             pen.imageSmoothingEnabled = scale < 1;
-            pen.drawImage(this.shown[pane.of], x, y, this.width * scale, this.height * scale);
+            pen.drawImage(this.shown[pane.of].bitmap, x, y, this.width * scale, this.height * scale);
             pen.strokeStyle = "#fff", pen.lineWidth = ratio;
             pen.strokeRect(x + this.pixel[0] * scale, y + this.pixel[1] * scale, Math.max(scale, 3), Math.max(scale, 3));
             this.draw_name(pen, pane, ratio);
@@ -248,7 +256,7 @@ class Comparer {
     }
 
     draw_name(pen, pane, ratio) {
-        const name = this.pictures[pane.of === 0 ? this.left : this.right].label;
+        const name = this.shown[pane.of].label;
         pen.font = `${13 * ratio}px system-ui, sans-serif`;
         const size = pen.measureText(name).width + 12 * ratio, right = this.layout === "split" && pane.of === 1;
         const x = right ? pane.end - size - 6 * ratio : pane.x + 6 * ratio;
@@ -256,8 +264,14 @@ class Comparer {
         pen.fillStyle = "#fff", pen.fillText(name, x + 6 * ratio, 21 * ratio);
     }
 
+    /** Frees the values of all pictures but the reference and those shown, which load again. */
+    forget_unused(indices) {
+        this.pictures.forEach((picture, i) => { if (i > 0 && !indices.includes(String(i))) delete picture.values; });
+    }
+
     /** Says the linear values of the chosen pixel. */
     async tell_values() {
+        const turn = this.telling = (this.telling ?? 0) + 1;
         const [x, y] = this.pixel, at = 3 * (y * this.width + x);
         const mirrors = await this.load_mirrors(), mirror = mirrors ? mirrors[y * this.width + x] : 0;
         const parts = [];
@@ -265,8 +279,9 @@ class Comparer {
             const floats = await this.load(index);
             parts.push(`${this.pictures[index].label}: ${Array.from(floats.slice(at, at + 3), format_value).join(" ")}`);
         }
+        if (turn !== this.telling) return; // a later call tells
         const where = mirror > 0 ? `, ${this.data.mirrors[mirror - 1]}` : "";
-        this.values.textContent = `Pixel ${x}, ${y}${where}. Linear values: ${parts.join("; ")}.`;
+        this.values.textContent = `Pixel ${x}, ${y}${where}. Linear values, as half floats: ${parts.join("; ")}.`;
     }
 
     /** Returns the pixel of the picture under the pointer, as fractions. */
@@ -384,7 +399,6 @@ function make_tabs(links) {
 
 for (const place of document.querySelectorAll(".comparer")) {
     const comparer = new Comparer(place);
-    comparer.refresh();
     const section = place.closest(".scene") ?? document;
     for (const mark of section.querySelectorAll("[data-picture]")) {
         const choose = () => {
@@ -392,7 +406,11 @@ for (const place of document.querySelectorAll(".comparer")) {
             place.scrollIntoView({block: "nearest"});
         };
         mark.addEventListener("click", choose);
-        mark.addEventListener("keydown", event => { if (event.key === "Enter") choose(); });
+        mark.addEventListener("keydown", event => {
+            if (event.key !== "Enter" && event.key !== " ") return;
+            event.preventDefault();
+            choose();
+        });
     }
 }
 document.querySelectorAll(".scroll table").forEach(make_sortable);
