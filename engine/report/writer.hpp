@@ -48,9 +48,9 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
 /// Writes the results of the finished rows into a folder, which is made as create_folder does.
 /// Files: report.json, report.md, report.html, rows.csv, images/<row>.png and .exr,
 /// images/<row>-error.png and images/reference.png. The linear values for the page lie in
-/// images/<row>.js, images/reference.js and images/mirrors.js. Rows with causes add images/causes-<row>.png,
-/// and drawn views add images/worst-<row>.png. `write` is called again as rows are added. It
-/// replaces only pictures that changed and all other files, each as a whole.
+/// images/<row>.js, images/reference.js and images/mirrors.js. Rows with causes add
+/// images/causes-<row>.png, and drawn views add images/worst-<row>.png. `write` is called again as
+/// rows are added. It replaces only pictures that changed and all other files, each as a whole.
 class ReportWriter {
 public:
     explicit ReportWriter(std::filesystem::path folder, CsvColumnSet csv = CsvColumnSet::table)
