@@ -89,6 +89,13 @@ measure::Interval ratio_of_intervals(const measure::Interval& now,
     return {now.low / before.high, now.high / before.low};
 }
 
+// Share of a row's time that a pass must take to be judged. Times of shorter passes differ from run
+// to run by more than their intervals say.
+constexpr double kMinJudgedPassShare = .05;
+
+/// Returns the median device time of a row or a pass, ms, or NaN.
+double median_of_time(const Json& timed) { return number_of(member_of(timed, "gpu_ms"), "median"); }
+
 class BaselineJudge {
 public:
     BaselineJudge(const Json& before, const Json& now, const BaselineLimits& limits)
@@ -109,9 +116,11 @@ public:
         if (!member_of(before, "gpu_ms").is_object() || !member_of(now, "gpu_ms").is_object())
             return findings; // a picture of another renderer has no time
         findings.push_back(judge_time(name, "ms", before, now, noisy));
+        const double least = kMinJudgedPassShare * median_of_time(now);
         for (const Json& pass : member_of(before, "passes"))
             for (const Json& other : member_of(now, "passes"))
-                if (member_of(pass, "name") == member_of(other, "name"))
+                if (member_of(pass, "name") == member_of(other, "name") &&
+                    median_of_time(other) >= least)
                     findings.push_back(
                         judge_time(name, "ms of " + member_of(pass, "name").get<std::string>(),
                                    pass, other, noisy));

@@ -40,12 +40,12 @@ void check_baseline_fits(const Comparison& comparison, const std::string& json,
                          const std::string& file);
 
 /// Judges each row of the baseline against the row with the same label and model. A row that is
-/// missing now is worse. Device times of rows and passes are `worse` only if the ratio of the two
-/// 95 % intervals lies above the limit as a whole. If the time to clear the cubes, a constant work,
-/// has risen with confidence, that rise is divided out. Times are `unknown` on another device, if a
-/// row was noisy, or if the intervals reach over the limit. Counted work, if both reports have it,
-/// is held to the same factor. A rise of FLIP below the noise of the reference is kept. Throws as
-/// check_baseline_fits does.
+/// missing now is worse. Device times of rows, and of passes with at least a twentieth of their
+/// row's time, are `worse` only if the ratio of the two 95 % intervals lies above the limit as a
+/// whole. If the time to clear the cubes, a constant work, has risen with confidence, that rise is
+/// divided out. Times are `unknown` on another device, if a row was noisy, or if the intervals
+/// reach over the limit. Counted work, if both reports have it, is held to the same factor. A rise
+/// of FLIP below the noise of the reference is kept. Throws as check_baseline_fits does.
 std::vector<BaselineFinding> judge_against_baseline(const Comparison& comparison,
                                                     const std::string& json,
                                                     const std::string& file,

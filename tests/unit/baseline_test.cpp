@@ -83,6 +83,18 @@ TEST(Baseline, SlowerPassIsNamedWithItsRow) {
     EXPECT_EQ(list_quantities(judge(before, now), BaselineVerdict::kept).size(), 6U);
 }
 
+TEST(Baseline, ShortPassIsNotJudged) {
+    Comparison before = make_timed_comparison();
+    before.rows[1].passes.push_back({"clear", make_rounds(.6)}); // of 20 ms
+    Comparison now = before;
+    now.rows[1].passes[2].gpu_ms = make_rounds(.9);
+    EXPECT_EQ(judge(now, before).size(), 6U);
+    EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
+    now.rows[1].passes[2].gpu_ms = make_rounds(1.2); // 6 % of the row now
+    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
+              (Names{before.rows[1].label + ": ms of clear"}));
+}
+
 TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
     const Comparison before = make_timed_comparison();
     Comparison slow = before;
