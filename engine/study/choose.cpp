@@ -96,10 +96,7 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
         if (request.costs)
             plan.ms = predicted[i].ms, plan.ms_range = {predicted[i].low, predicted[i].high};
         for (const measure::Errors& errors : row.views)
-            plan.errors.push_back(errors.error.nonfinite > 0 ? INFINITY
-                                  : errors.error.pixels == 0
-                                      ? 0
-                                      : error_of(request.quantity, errors.error));
+            plan.errors.push_back(error_of_view(request.quantity, errors.error));
         for (const double error : plan.errors)
             plan.largest_error = std::max(plan.largest_error, error);
         plans.push_back(std::move(plan));
@@ -314,6 +311,11 @@ std::string describe_failed_proof(const ChooseRequest& request,
 
 const char* error_quantity_name(ErrorQuantity quantity) {
     return quantity == ErrorQuantity::flip ? "flip" : "rmse";
+}
+
+double error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
+    if (mirrors.nonfinite > 0) return INFINITY;
+    return mirrors.pixels == 0 ? 0 : error_of(quantity, mirrors);
 }
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan) {

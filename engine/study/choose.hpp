@@ -19,6 +19,11 @@ enum class ErrorQuantity : std::uint8_t { flip, rmse };
 /// Returns "flip" or "rmse".
 const char* error_quantity_name(ErrorQuantity quantity);
 
+/// Returns the error that counts for a view, from its difference over the mirrors: 0 if the view
+/// shows no mirror, and infinite if any pixel of the mirrors is not finite, whatever the others
+/// say.
+double error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
+
 struct ChooseRequest {
     Request base;          ///< scene and settings; `techniques` are the candidates; empty: all
     std::string reference; ///< see CompareRequest::reference
@@ -45,10 +50,8 @@ struct JudgedPlan {
     /// 95 % interval of a measured time; of a predicted time, the times by the least and the
     /// largest cost of each kind of work.
     measure::Interval ms_range;
-    /// Error over the mirrors, by view: 0 if the view shows no mirror, infinite if a pixel of the
-    /// mirrors is not finite.
-    std::vector<double> errors;
-    double largest_error = 0; ///< of `errors`
+    std::vector<double> errors; ///< error_of_view of each view
+    double largest_error = 0;   ///< of `errors`
 };
 
 /// What the proof's views say about a plan.

@@ -181,7 +181,8 @@ float rough_lookup_alpha(MirrorPath path, Lookup lookup) {
         if (distance_law == kLawExact && has_surfaces != 0u) {
             // Zero beside a silhouette, where the nearest texel shows no surface. Both cosines are then at their least.
             vec3 n = read_captured_surface(path.mirror, lookup.direction).yzw;
-            float size = max(length(n), 1e-3);
+            const float kMinNormalLength = 1e-3; // a divisor for a normal of length 0; all others are far longer
+            float size = max(length(n), kMinNormalLength);
             float to_centre = abs(dot(n, lookup.direction)) / size, to_surface = abs(dot(n, path.direction)) / size;
             // At grazing angles the surface ends before the lobe's cross section does.
             foreshortening = max(to_centre, 0.1) / max(to_surface, 0.1);

@@ -328,8 +328,8 @@ void resume_path_after_lamp_ray(out Ray ray) {
 
 // Returns whether the ray has met the point drawn on a lamp, and no other surface before.
 bool does_ray_meet_lamp_point(SurfacePoint p, vec3 origin) {
-    // Part of the distance by which the direction's rounding may move the point, even on a lamp seen edge-on. Positions
-    // add their own rounding.
+    // Part of the distance by which the direction's rounding may move the point: about 800 times the rounding of a float
+    // (2^-23), so that lamps seen at a cosine down to about 1/800 count. Positions add their own rounding.
     const float kTolerance = 1e-4;
     vec3 miss = p.position - lamp.position;
     float allowed = kTolerance * length(lamp.position - origin) + length(p.error + rounding_error_gamma_bound(4) * abs(lamp.position));

@@ -1,5 +1,6 @@
 // Statements about all views from drawn ones: known values, and how often they hold.
 #include "measure/certificate.hpp"
+#include "study/choose.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,20 @@ TEST(Certificate, ToleranceLimitCoversTheQuantile) {
         }
         EXPECT_LE(wrong, .05 * kTrials + 3 * std::sqrt(kTrials * .05 * .95)) << count;
     }
+}
+
+/// A view of which half a mirror is NaN must not be judged by the other half.
+TEST(Certificate, ViewFailsIfAPixelIsNotFiniteAndKeepsIfItShowsNoMirror) {
+    using catoptric::app::error_of_view;
+    using catoptric::app::ErrorQuantity;
+    Difference view;
+    view.pixels = 100, view.flip = .01, view.rmse = .02;
+    EXPECT_EQ(error_of_view(ErrorQuantity::flip, view), .01);
+    EXPECT_EQ(error_of_view(ErrorQuantity::rmse, view), .02);
+    view.nonfinite = 1;
+    EXPECT_TRUE(std::isinf(error_of_view(ErrorQuantity::flip, view)));
+    view = Difference();
+    EXPECT_EQ(error_of_view(ErrorQuantity::flip, view), 0);
 }
 
 } // namespace
