@@ -77,16 +77,16 @@ void check_image_bindings(const GpuDevice& device, const std::string& name,
 
 /// Checks that every constant is known to a stage, merges the bindings and creates the layouts.
 void make_pipeline_layout(const GpuDevice& device, const std::string& name,
-                          std::span<ShaderStage> stages, const ShaderConstants& constants,
-                          Pipeline& pipeline) {
+                          std::span<const ShaderStage* const> stages,
+                          const ShaderConstants& constants, Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
         check(std::ranges::any_of(stages,
-                                  [&](const ShaderStage& s) { return s.find_constant(constant); }),
+                                  [&](const ShaderStage* s) { return s->find_constant(constant); }),
               Failure::internal, "pipeline '", name, "' has no constant '", constant, "'");
-    for (const ShaderStage& stage : stages) {
-        pipeline.stages |= stage.bit;
-        pipeline.push_bytes = std::max(pipeline.push_bytes, stage.reflection.push_bytes);
-        for (const ShaderBinding& binding : stage.reflection.bindings) {
+    for (const ShaderStage* stage : stages) {
+        pipeline.stages |= stage->bit;
+        pipeline.push_bytes = std::max(pipeline.push_bytes, stage->reflection.push_bytes);
+        for (const ShaderBinding& binding : stage->reflection.bindings) {
             const auto same = std::ranges::find(pipeline.bindings, binding.binding,
                                                 &ShaderBinding::binding);
             if (same == pipeline.bindings.end())
@@ -207,9 +207,24 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
 
 } // namespace
 
-const std::string& PipelineStore::variant_of(const std::string& shader) const {
-    const auto found = variants_.find(shader);
-    return found == variants_.end() ? shader : found->second;
+PipelineStore::PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants,
+                             const std::filesystem::path& cache)
+    : pipeline_device_(device), variants_(std::move(variants)), cache_(device, cache) {}
+
+PipelineStore::~PipelineStore() = default;
+
+const ShaderStage& PipelineStore::find_or_make_stage(const std::string& shader,
+                                                     VkShaderStageFlagBits bit,
+                                                     const ShaderConstants& constants,
+                                                     const ShaderConstants& features) {
+    const auto variant = variants_.find(shader);
+    const std::string& name = variant == variants_.end() ? shader : variant->second;
+    ShaderReflection whole = reflect_spirv(name, find_shader(name).words);
+    std::pair key(name, find_constant_bits(pipeline_device_, whole, constants, features));
+    const auto found = stages_.find(key);
+    if (found != stages_.end()) return found->second;
+    ShaderStage stage(pipeline_device_, name, bit, std::move(whole), key.second);
+    return stages_.emplace(std::move(key), std::move(stage)).first->second;
 }
 
 bool PipelineStore::ShaderConstantsOrder::operator()(const RasterKeyView& a,
@@ -236,15 +251,14 @@ const Pipeline& PipelineStore::find_or_make_raster(const RasterState& state,
     const Stopwatch watch(ms_);
     const std::string name = describe_raster_pipeline(state, attachments);
     Pipeline pipeline;
-    std::vector<ShaderStage> stages;
-    stages.emplace_back(pipeline_device_, variant_of(state.vertex), VK_SHADER_STAGE_VERTEX_BIT,
-                        state.constants, state.features);
+    std::vector<const ShaderStage*> stages{&find_or_make_stage(
+        state.vertex, VK_SHADER_STAGE_VERTEX_BIT, state.constants, state.features)};
     if (!state.fragment.empty())
-        stages.emplace_back(pipeline_device_, variant_of(state.fragment),
-                            VK_SHADER_STAGE_FRAGMENT_BIT, state.constants, state.features);
+        stages.push_back(&find_or_make_stage(state.fragment, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                             state.constants, state.features));
     make_pipeline_layout(pipeline_device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
-    for (const ShaderStage& stage : stages) infos.push_back(stage.make_create_info());
+    for (const ShaderStage* stage : stages) infos.push_back(stage->make_create_info());
     pipeline.pipeline = {pipeline_device_.device_handle(),
                          make_raster_pipeline(pipeline_device_, cache_.cache_handle(), infos,
                                               attachments, state, pipeline.layout, name)};
@@ -261,11 +275,11 @@ const Pipeline& PipelineStore::find_or_make_compute(const ComputeState& state) {
                              format_shader_constants(state.features);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-    ShaderStage stage(pipeline_device_, variant_of(state.shader), VK_SHADER_STAGE_COMPUTE_BIT,
-                      state.constants, state.features);
+    const ShaderStage* stage = &find_or_make_stage(state.shader, VK_SHADER_STAGE_COMPUTE_BIT,
+                                                   state.constants, state.features);
     make_pipeline_layout(pipeline_device_, name, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    create.stage = stage.make_create_info();
+    create.stage = stage->make_create_info();
     create.layout = pipeline.layout;
     VkPipeline handle = VK_NULL_HANDLE;
     throw_unless_vk_success(vkCreateComputePipelines(pipeline_device_.device_handle(),

@@ -53,16 +53,19 @@ struct Pipeline {
     VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
 };
 
-/// Makes each pipeline once. References stay valid as long as this object lives. On a software
-/// driver the first use of a pipeline still compiles it inside the frame.
+struct ShaderStage;
+
+/// Makes each pipeline once, and each stage of a pipeline once. References stay valid as long as
+/// this object lives. On a software driver the first use of a pipeline still compiles it inside the
+/// frame.
 class PipelineStore {
 public:
     /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
     /// for benchmarks that compare two builds of one shader.
     /// `cache`: folder for compiled pipelines; empty: none.
     explicit PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants = {},
-                           const std::filesystem::path& cache = {})
-        : pipeline_device_(device), variants_(std::move(variants)), cache_(device, cache) {}
+                           const std::filesystem::path& cache = {});
+    ~PipelineStore();
     const Pipeline& find_or_make_raster(const RasterState& state,
                                         const AttachmentFormats& attachments);
     const Pipeline& find_or_make_compute(const ComputeState& state);
@@ -82,10 +85,16 @@ private:
         bool operator()(const ComputeState& a, const ComputeState& b) const;
     };
 
-    const std::string& variant_of(const std::string& shader) const;
+    /// Returns the stage of this shader or of its variant with these constants.
+    const ShaderStage& find_or_make_stage(const std::string& shader, VkShaderStageFlagBits bit,
+                                          const ShaderConstants& constants,
+                                          const ShaderConstants& features);
     GpuDevice& pipeline_device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
+    /// Pipelines that differ in attachments or fixed functions share stages. Keyed by the shader's
+    /// name and the bits of its constants by constant_id.
+    std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>, ShaderStage> stages_;
     std::map<RasterKey, Pipeline, ShaderConstantsOrder> rasters_;
     std::map<ComputeState, Pipeline, ShaderConstantsOrder> computes_;
     double ms_ = 0;

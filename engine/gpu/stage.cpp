@@ -2,8 +2,6 @@
 
 #include "gpu/specialise.hpp"
 
-#include <map>
-
 namespace catoptric::gpu {
 
 namespace {
@@ -19,25 +17,32 @@ ShaderConstants make_feature_constants(const GpuDevice& device) {
 
 } // namespace
 
+ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderReflection& shader,
+                                      const ShaderConstants& constants,
+                                      const ShaderConstants& features) {
+    ShaderConstantBits bits;
+    const ShaderConstants of_device = make_feature_constants(device);
+    for (const ShaderConstants* list : {&of_device, &constants, &features})
+        for (const auto& [constant, value] : *list) {
+            const auto known = std::ranges::find(shader.constants, constant,
+                                                 &SpecialisationConstant::name);
+            if (known != shader.constants.end()) bits[known->id] = bits_of_constant(value);
+        }
+    return bits;
+}
+
 ShaderStage::ShaderStage(const GpuDevice& device, const std::string& name,
-                         VkShaderStageFlagBits stage, const ShaderConstants& constants,
-                         const ShaderConstants& features)
-    : bit(stage) {
-    const EmbeddedShader& shader = find_shader(name);
-    reflection = reflect_spirv(name, shader.words);
+                         VkShaderStageFlagBits stage, ShaderReflection whole,
+                         const ShaderConstantBits& constants)
+    : bit(stage), reflection(std::move(whole)) {
     check(!reflection.doubles || device.supports_doubles(), Failure::no_device, "shader '", name,
           "' computes with doubles, which device '", device.device_properties().name, "' cannot");
     check(!reflection.triangle_numbers || device.supports_primitive_ids(), Failure::no_device,
           "shader '", name, "' reads the number of a triangle, which device '",
           device.device_properties().name,
           "' does not give; the technique raytrace with first=ray needs none");
-    std::map<std::uint32_t, std::uint32_t> values;
-    const ShaderConstants of_device = make_feature_constants(device);
-    for (const ShaderConstants* list : {&of_device, &constants, &features})
-        for (const auto& [constant, value] : *list)
-            if (const SpecialisationConstant* known = find_constant(constant))
-                values[known->id] = bits_of_constant(value);
-    const std::vector<std::uint32_t> words = specialise_shader(name, shader.words, values);
+    const std::vector<std::uint32_t> words = specialise_shader(name, find_shader(name).words,
+                                                               constants);
     // Only the bindings that are still used with these constants.
     reflection.bindings = reflect_spirv(name, words).bindings;
     VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};

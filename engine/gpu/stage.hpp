@@ -13,10 +13,20 @@ inline std::uint32_t bits_of_constant(const std::variant<std::uint32_t, float>& 
     return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
 }
 
+/// Bits of a shader's constants by their constant_id.
+using ShaderConstantBits = std::map<std::uint32_t, std::uint32_t>;
+
+/// Returns the values of all constants that `shader` has: first those of features that the device
+/// lacks, then `constants`, then `features`.
+ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderReflection& shader,
+                                      const ShaderConstants& constants,
+                                      const ShaderConstants& features);
+
 /// One stage of a pipeline. Its module must outlive the call that creates the pipeline.
 struct ShaderStage {
+    /// `whole`: what the shader declares before its constants are set.
     ShaderStage(const GpuDevice& device, const std::string& name, VkShaderStageFlagBits stage,
-                const ShaderConstants& constants, const ShaderConstants& features);
+                ShaderReflection whole, const ShaderConstantBits& constants);
     VkPipelineShaderStageCreateInfo make_create_info() const {
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;

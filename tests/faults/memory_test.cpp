@@ -128,7 +128,7 @@ protected:
 /// as an exception, and the next engine of the same process works.
 TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
     // The scene is small, because the whole run is repeated for each failing call: each of the
-    // first eight calls of a name, and every fourth call after these.
+    // first four calls of a name, and every eighth call after these.
     const catoptric::app::Request request = test::make_test_request(
         test::make_lit_room(2, 1), {"hybrid:face=16,shadow_map=16"}, {16, 16});
     const auto render = [&](catoptric::app::Engine& engine) {
@@ -136,7 +136,7 @@ TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
     };
     const auto most = [](int calls) {
         std::vector<int> numbers;
-        for (int k = 1; k <= calls; k += k < 8 ? 1 : 4) numbers.push_back(k);
+        for (int k = 1; k <= calls; k += k < 4 ? 1 : 8) numbers.push_back(k);
         return numbers;
     };
     constexpr std::size_t kChildProcessCount = 2;

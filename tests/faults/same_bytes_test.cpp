@@ -29,7 +29,7 @@ TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
         const char* threads;
         bool validate;
     };
-    const std::vector<SameBytesWay> ways = {{"2", false}, {"2", false}, {"1", false}, {"2", true}};
+    const std::vector<SameBytesWay> ways = {{"2", false}, {"1", false}, {"2", true}};
     std::vector<std::map<std::string, std::string>> pictures(ways.size());
     run_on_two_threads(ways.size(), [&](std::size_t i) {
         const fs::path place = folder / std::to_string(i);
