@@ -131,11 +131,13 @@ struct Probe {
     vec3 reflectance; // reflectance of the mirror; for a metal, seen head-on
     vec3 lowest;      // lowest corner of the mirror's bounds
     vec3 highest;     // highest corner of the mirror's bounds
-    uint kind;        // kind of mirror, kProbe...
+    uint kind;        // kind of mirror, kMirror...
 };
 // Kinds of mirror: constant, with the same reflectance at any angle; metal, by Schlick's approximation; lit, which also
-// has diffuse or emitted light that only captures show.
-const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorLit = 2u;
+// has diffuse or emitted light that only captures show. Bodies of glass are lit mirrors, told apart by the model of the
+// body that comes closest (engine/scene/glass_body.hpp).
+const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorLit = 2u, kMirrorThinGlass = 3u, kMirrorGlassSphere = 4u,
+           kMirrorGlassBox = 5u;
 
 // One cube array with captures of one size and format, and the encoding of its distances.
 struct CaptureArray {

@@ -53,6 +53,8 @@ SharedKnobs read_shared_knobs(const KnobSettings& settings) {
     }
     if (settings.has_knob(kBlurLawKnob))
         knobs.law = settings.knob_value_as_enum<SharedKnobs::DistanceLaw>(kBlurLawKnob);
+    if (settings.has_knob(kRefractKnob))
+        knobs.refract = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRefractKnob));
     knobs.capture = find_knob_number(settings, kCaptureContentKnob);
     knobs.is_black_in_others = settings.has_knob(kCaptureContentKnob) && !knobs.capture;
     return knobs;
@@ -100,7 +102,8 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
     for (const auto& [knob, constant] : {std::pair{&kContinuedSearchesKnob, "hops"},
                                          {&kLookupKnob, "by_object"},
                                          {&kLookedUpCapturesKnob, "asks_others"},
-                                         {&kShownPictureKnob, "show"}})
+                                         {&kShownPictureKnob, "show"},
+                                         {&kRefractKnob, "refract_model"}})
         if (settings.has_knob(*knob)) set(constant, settings.knob_value_as_integer(*knob));
     // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
     // mirrors may have no capture, so all are checked.

@@ -135,12 +135,24 @@ inline constexpr TechniqueKnob kBlurLawKnob{
     .value = 4,
     .choices = kBlurLawChoices};
 
+/// In the order of kRefract... in shaders/lib/refraction.glsl.
+inline constexpr std::array<std::string_view, 6> kRefractChoices{"none",   "auto", "thin",
+                                                                 "sphere", "box",  "traced"};
+inline constexpr TechniqueKnob kRefractKnob{
+    .name = "refract",
+    .help = "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
+            "body: thin, sphere or box), thin (rays are not bent), sphere (a ball at each point), "
+            "box (the body's bounds), traced (rays where a tracer completes the search, else auto)",
+    .high = 5,
+    .value = 1,
+    .choices = kRefractChoices};
+
 /// Knobs that every search has, in lists after the search's own knobs.
 inline constexpr std::array kCommonSearchKnobs{
     kCaptureFaceKnob,       kCaptureColourKnob, kCaptureDistanceKnob,  kDistanceRangeKnob,
     kContinuedSearchesKnob, kLookupKnob,        kLookedUpCapturesKnob, kMirrorsInCapturesKnob,
     kShownPictureKnob,      kRoughKnob,         kBlurLawKnob,          kFilterTapsKnob,
-    kRoughRaysKnob,         kShadowKnob,        kShadowMapEdgeKnob};
+    kRoughRaysKnob,         kRefractKnob,       kShadowKnob,           kShadowMapEdgeKnob};
 
 template <std::size_t N>
 constexpr std::array<TechniqueKnob, N + kCommonSearchKnobs.size()>
@@ -166,7 +178,8 @@ inline bool reads_other_captures(const SharedKnobs& knobs) {
 }
 
 /// Returns a mirror shading that looks into the captures with the fragment shader `fragment`. The
-/// knobs `continue`, `lookup`, `captures` and `show`, where they exist, become shader constants.
+/// knobs `continue`, `lookup`, `captures`, `show` and `refract`, where they exist, become shader
+/// constants.
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
                                          const KnobSettings& settings);
 

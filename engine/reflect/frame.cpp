@@ -111,6 +111,7 @@ render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
             (feeding.was_there[i] || !is_kept)) {
             look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
             look.captures = feeding.last;
+            look.constants.emplace_back("refract_model", choice.shared.refract);
             look.blank = !feeding.was_there[i];
             const auto mirror = static_cast<std::uint32_t>(i);
             if (!look.blank)

@@ -14,7 +14,11 @@ constexpr TechniqueKnob kForcedLookupKnob{
     .help = "pixels to trace: those for which the search answers unknown, or all",
     .high = 1,
     .choices = kForcedLookupChoices};
-constexpr auto kHybridKnobs = list_search_knobs(std::array{kForcedLookupKnob});
+constexpr auto kHybridKnobs = [] {
+    auto knobs = list_search_knobs(std::array{kForcedLookupKnob});
+    std::ranges::find(knobs, kRefractKnob.name, &TechniqueKnob::name)->value = 5; // traced
+    return knobs;
+}();
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)

@@ -14,8 +14,9 @@ constexpr TechniqueKnob kBouncesKnob{
     .low = 0,
     .high = 8,
     .value = 3};
-constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob, kCaptureFaceKnob,   kCaptureColourKnob,
-                                         kShadowKnob,  kShadowMapEdgeKnob, kCaptureContentKnob};
+constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,
+                                         kRefractKnob,       kShadowKnob,      kShadowMapEdgeKnob,
+                                         kCaptureContentKnob};
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.

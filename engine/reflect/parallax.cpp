@@ -17,9 +17,9 @@ constexpr TechniqueKnob kWithoutParallaxRuleKnob{
     .high = 2,
     .choices = kDroppedParallaxRuleChoices};
 constexpr TechniqueKnob kParallaxKnobs[] = {
-    kCaptureFaceKnob, kCaptureColourKnob, kCaptureDistanceKnob,    kDistanceRangeKnob,
-    kRoughKnob,       kBlurLawKnob,       kFilterTapsKnob,         kRoughRaysKnob,
-    kShadowKnob,      kShadowMapEdgeKnob, kWithoutParallaxRuleKnob};
+    kCaptureFaceKnob, kCaptureColourKnob, kCaptureDistanceKnob, kDistanceRangeKnob,
+    kRoughKnob,       kBlurLawKnob,       kFilterTapsKnob,      kRoughRaysKnob,
+    kRefractKnob,     kShadowKnob,        kShadowMapEdgeKnob,   kWithoutParallaxRuleKnob};
 
 render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
                                                      const KnobSettings& settings) {

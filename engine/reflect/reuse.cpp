@@ -7,9 +7,9 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
-constexpr TechniqueKnob kReuseKnobs[] = {kCaptureFaceKnob,  kCaptureColourKnob, kRoughKnob,
-                                         kFilterTapsKnob,   kRoughRaysKnob,     kShadowKnob,
-                                         kShadowMapEdgeKnob};
+constexpr TechniqueKnob kReuseKnobs[] = {kCaptureFaceKnob, kCaptureColourKnob, kRoughKnob,
+                                         kFilterTapsKnob,  kRoughRaysKnob,     kRefractKnob,
+                                         kShadowKnob,      kShadowMapEdgeKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 

@@ -142,8 +142,9 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && !range.glass && scene::is_one_sided(material);
     range.varies = has_varying_colour(mesh, material);
-    // A mirror reflects on both sides, even if its material is one-sided.
-    range.turns = (material.two_sided || range.mirror) &&
+    // A mirror reflects on both sides, even if its material is one-sided. The normals of solid
+    // glass say which side is inside.
+    range.turns = (material.two_sided || (range.mirror && !range.glass)) &&
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::has_alpha_mask(material);
     range.has_normal_texture = material.normal_texture.has_value();

@@ -17,6 +17,16 @@ namespace catoptric::render {
 
 namespace {
 
+/// Returns the kind of mirror (Probe::kind) of such a body.
+std::uint32_t probe_kind_of_glass(scene::GlassBody body) {
+    switch (body) {
+    case scene::GlassBody::sphere: return shared::kMirrorGlassSphere;
+    case scene::GlassBody::box: return shared::kMirrorGlassBox;
+    case scene::GlassBody::thin: break;
+    }
+    return shared::kMirrorThinGlass;
+}
+
 constexpr std::uint32_t kNoMirrorNumber = 0;
 
 shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
@@ -239,6 +249,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     flats_.resize(mirror_objects_.size()), inner_balls_.resize(mirror_objects_.size());
+    glass_bodies_.resize(mirror_objects_.size());
     scene_views_.clear();
     for (std::size_t mirror = 0; mirror < mirror_objects_.size(); ++mirror) {
         const std::size_t object = mirror_objects_[mirror];
@@ -249,6 +260,9 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
             flats_[mirror] = flat_mirror_faces_in_scene_units(space_, now, object);
             inner_balls_[mirror] = make_inner_ball(object, probe_places_[mirror]);
         }
+        if (mirror >= known || changes.materials ||
+            std::ranges::binary_search(changes.moved, object))
+            glass_bodies_[mirror] = scene::model_glass_body(now, now.objects[object]);
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
         probe.sphere = surface.centre, probe.radius = surface.radius;
@@ -258,6 +272,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         probe.kind = is_lit ? shared::kMirrorLit
                             : (material.mirror ? shared::kMirrorConstantReflectance
                                                : shared::kMirrorMetal);
+        if (glass_bodies_[mirror]) probe.kind = probe_kind_of_glass(*glass_bodies_[mirror]);
         if (is_lit) probe.radius = 0; // no ray is followed through the mirror
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;

@@ -12,6 +12,7 @@
 #include "render/sky.hpp"
 #include "render/tracing.hpp"
 #include "render/vertices.hpp"
+#include "scene/glass_body.hpp"
 #include "scene/light.hpp"
 
 #include <algorithm>
@@ -200,7 +201,8 @@ private:
     std::vector<shared::Light> lights_;
     std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
     std::vector<std::size_t> mirror_objects_;
-    std::vector<InnerOccluderBall> inner_balls_; ///< ball inside each mirror
+    std::vector<InnerOccluderBall> inner_balls_;                ///< ball inside each mirror
+    std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< of each mirror of glass
     std::vector<bool> hides_all_; ///< result of hides_everything_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update

@@ -205,7 +205,9 @@ constexpr CellTextWriter kCellTextWriters[] = {
                          "mirrors of those that are smooth enough"},
     {"rough-glass",
      "rough or partly metallic: its diffuse part is drawn, and it casts a full shadow"},
-    {"glass-as-diffuse", "its diffuse part is drawn where rays are not traced"},
+    {"glass-approximated",
+     "where rays are not traced, light that passes it bends by a model of the body (knob "
+     "`refract`) and is not reflected inside"},
     {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},

@@ -83,7 +83,8 @@ FaceBits RequiredWorkModelBuilder::Impl::faces_of(const PictureFrustum& picture,
                                                   std::size_t mirror) {
     const VisibilityWorldObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
     const dvec3 flat = world.list_mesh_shapes()[thing.mesh].flat_normal;
-    if (flat == dvec3(0) || !model.mirrors[mirror].is_captured) return kAllFaceBits;
+    if (flat == dvec3(0) || thing.is_glass || !model.mirrors[mirror].is_captured)
+        return kAllFaceBits;
     viewers.clear();
     // The rays of an orthographic picture start in a plane, not at one eye.
     if (!findings.camera[mirror] && picture.is_orthographic()) return kAllFaceBits;

@@ -2,6 +2,7 @@
 
 #include "scene/flat_mirror.hpp"
 #include "scene/mirror_shape.hpp"
+#include "scene/material_facts.hpp"
 #include "scene/rough_reflectors.hpp"
 
 #include <algorithm>
@@ -28,11 +29,11 @@ constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may n
 /// Facts about a picture's mirrors that the choice depends on.
 struct MirrorCostFacts {
     MirrorPathCounts paths;
-    std::vector<bool> is_flat, is_seen; ///< one entry per mirror
-    double triangles = 0;               ///< number of triangles in the scene
-    double pixels = 0;                  ///< number of pixels in the picture
-    double on_mirrors = 0;              ///< paths whose first hit is a mirror; at least 1
-    int bounces = kMinPlanarBounces;    ///< knob `bounces` of `planar`
+    std::vector<bool> is_flat, is_seen, is_glass; ///< one entry per mirror
+    double triangles = 0;                         ///< number of triangles in the scene
+    double pixels = 0;                            ///< number of pixels in the picture
+    double on_mirrors = 0;                        ///< paths whose first hit is a mirror; at least 1
+    int bounces = kMinPlanarBounces;              ///< knob `bounces` of `planar`
 
     std::size_t mirror_count() const { return is_flat.size(); }
     /// Returns how many pixels of the picture this number of paths stands for.
@@ -70,8 +71,11 @@ int count_bounces_between_flat_mirrors(const MirrorCostFacts& known) {
 
 MirrorCostFacts gather_mirror_cost_facts(const RequiredWorkModelInput& question) {
     MirrorCostFacts known{.paths = trace_mirror_paths(question)};
-    for (const std::size_t object : scene::mirrors(question.now))
+    for (const std::size_t object : scene::mirrors(question.now)) {
         known.is_flat.push_back(is_mirror_flat(question, question.now.objects[object]));
+        known.is_glass.push_back(
+            scene::is_glass(question.now.materials[question.now.objects[object].material]));
+    }
     known.triangles = static_cast<double>(scene::triangle_count(question.now));
     known.pixels = 1.0 * question.size.x * question.size.y;
     known.on_mirrors = static_cast<double>(
@@ -97,6 +101,7 @@ enum class MirrorDrawingMethod { planes, hybrid, march, small };
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
 bool should_trace_mirror(const MirrorCostFacts& known, std::size_t mirror) {
+    if (known.is_glass[mirror]) return true; // captures only approximate what passes the body
     const auto first = static_cast<double>(known.paths.first[mirror]),
                hidden = static_cast<double>(known.paths.hidden[mirror]);
     return hidden * (kTechniqueErrors.unknown - kTechniqueErrors.search) >
@@ -145,7 +150,8 @@ void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostFact
                               known.estimate_pixels_of_paths(known.paths.first[i]);
         if (ways[i] == MirrorDrawingMethod::hybrid)
             candidate.cost += kPictureCosts.traced *
-                              known.estimate_pixels_of_paths(known.paths.hidden[i]);
+                              known.estimate_pixels_of_paths(
+                                  known.is_glass[i] ? known.paths.first[i] : known.paths.hidden[i]);
         if (ways[i] == MirrorDrawingMethod::march)
             candidate.error += static_cast<double>(known.paths.hidden[i]) *
                                (kTechniqueErrors.unknown - kTechniqueErrors.search);
@@ -244,7 +250,8 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
     if (reached == first && first > 0) seen = share(first) + " of the picture";
     const scene::MirrorShape::ShapeKind kind =
         scene::classify_mirror_shape(question.now, object).kind;
-    const char* shape = scene::may_reflect_by_lobe(question.now, object)         ? "rough"
+    const char* shape = known.is_glass[mirror]                                   ? "glass"
+                        : scene::may_reflect_by_lobe(question.now, object)       ? "rough"
                         : question.now.materials[object.material].normal_texture ? "bumpy"
                         : known.is_flat[mirror]
                             ? kind == scene::MirrorShape::ShapeKind::flat ? "flat" : "flat faces"
@@ -253,7 +260,9 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
                                                                         : "curved";
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
-    if (technique == "march" && hidden == 0)
+    if (known.is_glass[mirror] && technique == "hybrid")
+        reason += "; rays pass it";
+    else if (technique == "march" && hidden == 0)
         reason += "; its centre sees all that it shows";
     else if (technique == "march" || technique == "hybrid")
         reason += "; its centre does not see what " + share(hidden) + " of the picture show";

@@ -60,7 +60,7 @@ bool are_equal_spheres(const std::optional<scene::Sphere>& a,
 
 bool can_object_be_wall(const scene::Material& material, bool is_mirror) {
     // A lamp is invisible from behind, and the order of its corners does not tell where behind is.
-    return !scene::has_alpha_mask(material) &&
+    return !scene::has_alpha_mask(material) && !scene::is_glass(material) &&
            (is_mirror || material.front_only || !scene::is_one_sided(material)) &&
            scene::emitted_radiance(material) == vec3(0);
 }
@@ -89,8 +89,9 @@ void VisibilityWorld::set_layout(const scene::Scene& now) {
         thing.rest = object.world_from_object;
         thing.seen_by_camera = object.seen_by_camera;
         thing.is_mirror = scene::is_mirror(now, object);
+        thing.is_glass = scene::is_glass(now.materials[object.material]);
         thing.casts_shadow = scene::emitted_radiance(now.materials[object.material]) == vec3(0) &&
-                             !scene::is_glass(now.materials[object.material]);
+                             !thing.is_glass;
         thing.tight_rest = scene::bounds(now, object);
         if (thing.is_mover)
             movers_.push_back(i);

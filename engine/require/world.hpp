@@ -37,6 +37,7 @@ struct VisibilityWorldObject {
     dmat4 rest{1}, place{1}; ///< world from object: at rest, and now
     std::optional<scene::Sphere> sphere;
     bool seen_by_camera = true, is_mirror = false, casts_shadow = true;
+    bool is_glass = false;          ///< rays pass through (scene::is_glass)
     bool is_mover = false;          ///< whether the object has a motion or was ever moved
     bool has_moved = false;         ///< whether the object moved since the previous instant
     Bounds<double> tight_rest;      ///< bounds of its vertices at rest

@@ -214,7 +214,8 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
         } else {
             surface = measure_surface_kinds(scene, object);
         }
-        object.mirror = surface.mirror >= kMinMirrorAreaShare ||
+        object.mirror = is_glass(scene.materials[object.material]) ||
+                        surface.mirror >= kMinMirrorAreaShare ||
                         (dielectric_mirrors && surface.mirror_dielectric >= kMinMirrorAreaShare);
         if (!object.mirror && surface.smooth_dielectric >= kMinMirrorAreaShare)
             smooth_dielectrics.insert(object.material);

@@ -30,6 +30,7 @@ struct SurfaceKindShares {
 SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
+/// Objects of glass are mirrors, too: their captures show what they reflect and what is behind.
 /// Adds the unsupported features "smooth-dielectric", "rough-dielectric" and "rough-metal", counted
 /// once per material. With `dielectric_mirrors`, dielectrics that are no rougher than mirrors
 /// become mirrors and are not listed. Then finds which mirrors are spheres (find_spheres). May be

@@ -189,6 +189,7 @@ FlatFaces find_flat_faces(const Scene& scene, const Object& object) {
     FlatFaces none;
     if (may_reflect_by_lobe(scene, object)) none.misfit = "rough";
     if (scene.materials[object.material].normal_texture) none.misfit = "bumpy";
+    if (is_glass(scene.materials[object.material])) none.misfit = "glass";
     if (none.misfit.empty()) return find_flat_faces(mesh, object.world_from_object);
     if (!mesh.triangles.empty())
         none.bent = {{0, static_cast<std::uint32_t>(mesh.triangles.size())}};

@@ -205,7 +205,7 @@ void MaterialReader::transmission() {
     if (find_material_extension("KHR_materials_transmission")->has_member("transmissionTexture"))
         report_unsupported_feature("material-extension");
     if (!is_glass(material_)) return report_unsupported_feature("rough-glass");
-    report_unsupported_feature("glass-as-diffuse"), report_unsupported_feature("glass-shadow");
+    report_unsupported_feature("glass-approximated"), report_unsupported_feature("glass-shadow");
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.

@@ -1,5 +1,7 @@
 #include "scene/mirror_shape.hpp"
 
+#include "scene/material_facts.hpp"
+
 #include "scene/moved_sphere.hpp"
 #include "scene/pose.hpp"
 #include "scene/topology.hpp"
@@ -220,6 +222,7 @@ void find_exact_spheres(Scene& scene) {
         const RigAttachment* follows = find_followed_node(object.motion);
         if (object.sphere || !is_mirror(scene, object) ||
             scene.materials[object.material].normal_texture ||
+            is_glass(scene.materials[object.material]) ||
             (follows && !preserves_spheres(*follows)) || !may_be_sphere(scene, object))
             continue;
         const MirrorShape shape = classify_mirror_shape(scene, object);

@@ -259,7 +259,7 @@ private:
                               (alpha < 1 && mtl_material_.ior.value_or(1) > 1.01);
         if (is_glass) {
             is_glass_ = true;
-            return report_unsupported_feature("glass-as-diffuse"),
+            return report_unsupported_feature("glass-approximated"),
                    report_unsupported_feature("glass-shadow");
         }
         const bool is_cut = mtl_material_.cut && material_.albedo_texture &&

@@ -26,6 +26,7 @@ std::string classify_material(const scene::Material& material,
                               const scene::SurfaceKindShares& surface) {
     if (material.mirror) return "mirror";
     if (material.unlit) return "unlit";
+    if (scene::is_glass(material)) return "glass";
     if (surface.mirror >= scene::kMinMirrorAreaShare)
         return surface.smoothest > shared::kMaxSharpRoughness ? "rough mirror" : "sharp";
     if (surface.smooth_dielectric >= scene::kMinMirrorAreaShare) return "smooth dielectric";

@@ -18,8 +18,8 @@ namespace catoptric::app {
 /// A material as the engine interprets it.
 struct MaterialInfo {
     std::string name;
-    /// "mirror" (constant reflectance), "sharp" (Schlick), "rough mirror", "smooth dielectric",
-    /// "rough metal", "rough dielectric", "diffuse" or "unlit". If textures vary the material, the
+    /// "mirror" (constant reflectance), "sharp" (Schlick), "rough mirror", "glass", "smooth
+    /// dielectric", "rough metal", "rough dielectric", "diffuse" or "unlit". If textures vary the material, the
     /// first object with it decides the kind.
     std::string kind;
     std::size_t objects = 0; ///< number of objects with this material

@@ -10,6 +10,7 @@
 #include "lib/first_hit.glsl"
 #include "lib/next_mirror.glsl"
 #include "lib/probe.glsl"
+#include "lib/refraction.glsl"
 #include "lib/surface.glsl"
 #ifndef ABLATE
 #include "lib/lit.glsl"
@@ -88,7 +89,7 @@ bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
     // Exact sphere: reflect_at_exact_sphere has found that the ray misses the sphere.
     if (read_probe(next).radius > 0.0) return false;
     // Only the capture knows the light of a lit mirror.
-    if (details != 0u && read_probe(next).kind == kMirrorLit) return false;
+    if (details != 0u && read_probe(next).kind >= kMirrorLit) return false;
     vec3 n = normalize(surface.yzw);
     vec3 seen = path.centre + lookup.direction * captured_distance(path.mirror, lookup.direction);
     float t = dot(seen - path.at, n) / dot(path.direction, n);
@@ -209,9 +210,23 @@ void main() {
     vec3 seen = normalize(direction_from_viewer());
     MirrorPath path = MirrorPath(drawn_mirror_number() - 1u, fragment_surface_position(), reflect_above_facet(seen, n, facet),
                                  read_probe(drawn_mirror_number() - 1u).centre, surface.reflectance, 0u);
+    bool is_glass = is_refracting(surface.detail);
+    // The conditions repeat the constants, because only branches on constants are removed with what they use.
+    bool is_traced_glass = has_glass != 0u && refract_model == kRefractTraced && tracer != 0u && is_glass;
+    RefractedRay behind;
+    if (has_glass != 0u && refract_model != kRefractNone && is_glass) {
+        Probe body = read_probe(path.mirror);
+        behind = refract_through_body(surface.detail, path.at, seen, n, body);
+        path.weight = vec3(behind.reflected);
+        surface.albedo = vec3(0); // light that is not reflected passes, and none is scattered
+    }
+    MirrorPath passing = path;
 #ifdef ABLATE
     Lookup lookup = follow_path_through_mirrors(path, hops);
-    vec3 colour = find_ablated_radiance(path, lookup);
+    // No cause of error is removed from glass: the exact rays of the ablation follow reflections alone.
+    vec3 colour;
+    if (is_glass) colour = path.weight * lookup_colour(path.mirror, lookup) + surface.emission;
+    else colour = find_ablated_radiance(path, lookup);
 #else
     bool is_rough = rough != kRoughNone && has_rough_lobe() && surface.reflectance != vec3(0), is_stopped = false;
     bool looks_up_level = is_rough && rough != kRoughRays;
@@ -220,7 +235,6 @@ void main() {
     // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
     Lookup lookup = follow_path_through_mirrors(path, looks_up_level ? 0u : hops);
     vec3 colour;
-    // The conditions repeat the constant, because only branches on a constant are removed with the bindings they use.
     if (rough == kRoughNone || !is_rough)
         colour = path.weight * lookup_colour(path.mirror, lookup);
     else if (rough != kRoughRays)
@@ -247,11 +261,19 @@ void main() {
     }
     if (lights_mirrors != 0u) colour += shade_drawn_fragment(surface, n, facet);
 #endif
+    if (has_glass != 0u && refract_model != kRefractNone && is_glass && !is_traced_glass) {
+        passing.at = behind.origin;
+        passing.direction = behind.direction;
+        passing.weight = behind.weight;
+        Lookup passed = follow_path_through_mirrors(passing, hops);
+        colour += passing.weight * lookup_colour(passing.mirror, passed);
+        if (passed.state == kUnknown) lookup.state = kUnknown;
+    }
     write_captured_surface(apply_shown_picture_mode(colour, lookup));
 #ifndef ABLATE
     if (rough == kRoughRays && is_stopped) out_colour.rgb = vec3(uintBitsToFloat(0x7fc00000u)); // the pixel is NaN
 #endif
-    if (tracer != 0u && (trusts_none != 0u || lookup.state == kUnknown)) {
+    if (tracer != 0u && (trusts_none != 0u || is_traced_glass || lookup.state == kUnknown)) {
         out_distance = float(tracer);
 #ifdef FIRST_HIT
         out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), drawn_mirror_number(), tracer);

@@ -169,7 +169,7 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
         const Scene scene = load_obj_statements(glass);
         EXPECT_FALSE(has_alpha_mask(scene.materials[0])) << glass;
         EXPECT_THAT(list_unsupported_feature_ids(scene),
-                    ElementsAre("glass-as-diffuse", "glass-shadow"))
+                    ElementsAre("glass-approximated", "glass-shadow"))
             << glass;
     }
     const Material dense = load_obj_statements("illum 7\nNi 1e300\n").materials[0];

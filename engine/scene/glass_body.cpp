@@ -1,0 +1,52 @@
+#include "scene/glass_body.hpp"
+
+#include "scene/material_facts.hpp"
+#include "scene/topology.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace catoptric::scene {
+
+namespace {
+
+/// Below this share of its bounds a body is hollow or oblique, so rays leave it nearly unbent.
+constexpr double kMinSolidShare = .3;
+/// A ball fills pi / 6 = .524 of its bounds, a cube 1.
+constexpr double kMaxBallShare = .65;
+constexpr double kMaxBallStretch = 1.25; ///< longest by shortest side of the bounds of a ball
+
+/// Returns the volume of a closed mesh in its own space: the sum of signed tetrahedra.
+double compute_volume(const Mesh& mesh) {
+    double volume = 0;
+    const dvec3 origin = mesh.positions.empty() ? dvec3(0) : dvec3(mesh.positions.front());
+    for (const uvec3& t : mesh.triangles) {
+        const dvec3 a = dvec3(mesh.positions[t.x]) - origin,
+                    b = dvec3(mesh.positions[t.y]) - origin,
+                    c = dvec3(mesh.positions[t.z]) - origin;
+        volume += glm::dot(a, glm::cross(b, c)) / 6;
+    }
+    return std::abs(volume);
+}
+
+} // namespace
+
+std::optional<GlassBody> model_glass_body(const Scene& scene, const Object& object) {
+    const Material& material = scene.materials[object.material];
+    if (!is_glass(material)) return std::nullopt;
+    const Mesh& mesh = scene.meshes[object.mesh];
+    if (!material.solid || !is_closed_surface(mesh.positions, mesh.triangles))
+        return GlassBody::thin;
+    const dvec3 size = bounds(scene, object).extent();
+    const double longest = std::max({size.x, size.y, size.z}),
+                 shortest = std::min({size.x, size.y, size.z}), whole = size.x * size.y * size.z;
+    if (!(whole > 0)) return GlassBody::thin;
+    const double volume = compute_volume(mesh) *
+                          std::abs(glm::determinant(dmat3(object.world_from_object)));
+    const double share = volume / whole;
+    if (!(share >= kMinSolidShare)) return GlassBody::thin;
+    return share <= kMaxBallShare && longest <= kMaxBallStretch * shortest ? GlassBody::sphere
+                                                                           : GlassBody::box;
+}
+
+} // namespace catoptric::scene

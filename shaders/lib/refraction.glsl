@@ -1,0 +1,82 @@
+// Light that passes a glass body, for mirrors that look it up in their capture (knob `refract`). The capture leaves the body
+// out, so it shows what is behind. A ray bends where it enters the body and once more where it leaves. Light that is
+// reflected inside the body is left out.
+#ifndef CATOPTRIC_REFRACTION_GLSL
+#define CATOPTRIC_REFRACTION_GLSL
+
+#include "lib/material.glsl"
+
+// Models of the body behind the drawn surface. None: no light passes. Auto: the model that Probe::kind names. Thin: rays are
+// not bent. Sphere: a ball that touches the surface, as thick as the body's bounds at their thinnest (Guy and Agopian,
+// "Physically Based Rendering in Filament", section 6.3). Box: the body's bounds. Traced: a tracer draws the pixel; shaders
+// without a tracer take auto.
+const uint kRefractNone = 0u, kRefractAuto = 1u, kRefractThin = 2u, kRefractSphere = 3u, kRefractBox = 4u, kRefractTraced = 5u;
+layout(constant_id = REFRACT_CONSTANT) const uint refract_model = kRefractNone;
+
+// Returns whether light passes the surface that was evaluated last.
+bool is_refracting(uint detail) {
+    return has_glass != 0u && refract_model != kRefractNone && details != 0u &&
+           (read_material_parameters(detail).flags & kMaterialGlassFlag) != 0u;
+}
+
+// A ray of light behind a glass surface.
+struct RefractedRay {
+    vec3 origin;    // where it leaves the body, scene units
+    vec3 direction; // unit direction in which it leaves
+    vec3 weight;    // share of its light that reaches the viewer
+    float reflected; // share of the light that the drawn surface reflects instead
+};
+
+// Returns the way along `direction` from `at` to where the ray leaves the box, and the normal there, which points inwards.
+float find_way_out_of_box(vec3 at, vec3 direction, vec3 lowest, vec3 highest, out vec3 normal) {
+    float way = kLargestFloat;
+    normal = -direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        float end = direction[axis] > 0.0 ? highest[axis] : lowest[axis], t = (end - at[axis]) / direction[axis];
+        if (direction[axis] == 0.0 || !(t < way)) continue;
+        way = max(t, 0.0);
+        normal = vec3(0);
+        normal[axis] = direction[axis] > 0.0 ? -1.0 : 1.0;
+    }
+    return way;
+}
+
+// Returns the ray that meets the glass at `at` along the unit vector `seen`, behind the glass. `n` is the surface's unit
+// normal; that of a solid body points outwards.
+RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, Probe body) {
+    MaterialParameters glass = read_material_parameters(detail);
+    bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced;
+    bool is_thin = is_auto ? body.kind == kMirrorThinGlass : refract_model == kRefractThin;
+    bool is_box = is_auto ? body.kind == kMirrorGlassBox : refract_model == kRefractBox;
+    bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_solid && dot(seen, n) > 0.0;
+    vec3 normal = dot(seen, n) > 0.0 ? -n : n;
+    float ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine = min(-dot(seen, normal), 1.0), cosine_behind;
+    float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);
+    RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected);
+    if (!is_solid || reflected == 1.0) return ray;
+    if (is_thin && !is_inside) {
+        ray.weight *= ray.weight;
+        return ray;
+    }
+    if (!is_thin) ray.direction = refract_direction(seen, normal, cosine, ratio, cosine_behind);
+    if (is_inside) return ray;
+    vec3 inside = ray.direction, far_normal, size = body.highest - body.lowest;
+    float way;
+    if (is_box) {
+        way = find_way_out_of_box(at, inside, body.lowest, body.highest, far_normal);
+    } else {
+        float along = dot(normal, inside);
+        way = -along * min(size.x, min(size.y, size.z));
+        far_normal = normalize(along * inside - 0.5 * normal);
+    }
+    ray.origin += way * inside;
+    ray.weight *= exp(-glass.absorption * way);
+    float far_cosine = min(-dot(inside, far_normal), 1.0);
+    reflected = fresnel_dielectric(far_cosine, 1.0 / glass.ior, cosine_behind);
+    if (reflected == 1.0) return ray; // totally reflected light would go on inside; it is shown as if it left unbent
+    ray.weight *= (1.0 - reflected) * glass_tint;
+    ray.direction = refract_direction(inside, far_normal, far_cosine, 1.0 / glass.ior, cosine_behind);
+    return ray;
+}
+
+#endif

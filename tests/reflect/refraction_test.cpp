@@ -1,0 +1,270 @@
+// Tests of glass whose light is looked up in captures (knob `refract`). Witnesses are closed forms
+// in double precision below an environment, which has no parallax, and the ray tracer.
+#include "core/shader_math.hpp"
+#include "scene/classify.hpp"
+#include "scene/glass_body.hpp"
+#include "scene/load.hpp"
+#include "scene/surroundings.hpp"
+#include "support/numbers.hpp"
+#include "support/rendering.hpp"
+#include "support/smooth_environment.hpp"
+#include "support/special_values.hpp"
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr int kRefractionEdge = 48;
+
+scene::Material make_tinted_glass(bool solid = true) {
+    return {.name = "glass",
+            .albedo = {.95f, .9f, .8f},
+            .roughness = 0,
+            .dielectric_f0 = vec3(.04f),
+            .dielectric_f90 = vec3(1),
+            .transmission = 1,
+            .ior = 1.5f,
+            .solid = solid,
+            .absorption = {.05f, .2f, .4f}};
+}
+
+/// Returns a body below a smooth sky. Rays that leave the body see the sky alone.
+scene::Scene make_body_below_sky(scene::Mesh mesh, const scene::Material& glass, const dvec3& eye) {
+    scene::Scene scene{.name = "body"};
+    scene::add_mesh(scene, std::move(mesh), test::add_material(scene, glass));
+    scene.environment = test::make_smooth_environment();
+    scene.cameras.push_back({.eye = eye, .target = {0, 0, 0}, .vertical_fov_degrees = 30});
+    scene::find_mirrors(scene);
+    return scene;
+}
+
+/// What a body does to a ray: where it is entered and left. Nothing: the ray misses the body.
+struct BodyCrossing {
+    dvec3 near_normal, far_normal; ///< unit, outwards
+    double way;                    ///< through the glass
+};
+/// `into` bends a ray into the glass at a surface of the given normal.
+using FindCrossing = std::function<std::optional<BodyCrossing>(
+    const dvec3& eye, const dvec3& direction,
+    const std::function<dvec3(const dvec3& normal)>& into)>;
+
+/// Returns the textbook's refracted direction, by the law of sines in vectors.
+dvec3 bend(const dvec3& direction, const dvec3& normal, double ratio) {
+    const dvec3 across = (direction - glm::dot(direction, normal) * normal) / ratio;
+    return across - std::sqrt(1 - glm::dot(across, across)) * normal;
+}
+
+/// Returns the radiance of a pixel of make_body_below_sky: the light reflected at the near surface
+/// and the light that passes both surfaces without being reflected inside. Nothing if light is
+/// totally reflected at the far surface.
+std::optional<dvec3> radiance_of_body(const scene::Scene& scene, const dvec3& direction,
+                                      const BodyCrossing& crossing) {
+    const scene::Material& glass = scene.materials[0];
+    const auto sky = [&](const dvec3& to) {
+        return dvec3(scene::environment_radiance(*scene.environment, to));
+    };
+    const double ior = glass.ior;
+    double behind;
+    const double cosine = -glm::dot(direction, crossing.near_normal),
+                 reflected = f64::fresnel_dielectric(cosine, ior, behind);
+    const dvec3 inside = bend(direction, crossing.near_normal, ior);
+    const double far_cosine = glm::dot(inside, crossing.far_normal),
+                 kept = f64::fresnel_dielectric(far_cosine, 1 / ior, behind);
+    if (kept == 1) return std::nullopt;
+    const dvec3 tint = dvec3(glass.albedo) * dvec3(glass.albedo) *
+                       glm::exp(-dvec3(glass.absorption) * crossing.way);
+    return reflected * sky(direction + 2 * cosine * crossing.near_normal) +
+           (1 - reflected) * (1 - kept) * tint * sky(bend(inside, -crossing.far_normal, 1 / ior));
+}
+
+std::optional<BodyCrossing> cross_ball(const dvec3& eye, const dvec3& direction,
+                                       const std::function<dvec3(const dvec3&)>& into) {
+    const double b = glm::dot(eye, direction), c = glm::dot(eye, eye) - 1;
+    // Near the outline a pixel of the mesh differs from one of the ball.
+    if (b * b - c < .05) return std::nullopt;
+    const dvec3 near = eye + (-b - std::sqrt(b * b - c)) * direction, inside = into(near);
+    const double way = -2 * glm::dot(near, inside);
+    return BodyCrossing{near, near + way * inside, way};
+}
+
+/// Crossing of the box [-half, half].
+std::optional<BodyCrossing> cross_box(const dvec3& half, const dvec3& eye, const dvec3& direction,
+                                      const std::function<dvec3(const dvec3&)>& into) {
+    BodyCrossing crossing{};
+    double enters = 0, leaves = 1e9;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = direction[axis] < 0 ? 1 : -1,
+                     t = (side * half[axis] - eye[axis]) / direction[axis],
+                     out = (-side * half[axis] - eye[axis]) / direction[axis];
+        if (t > enters)
+            enters = t, crossing.near_normal = dvec3(0), crossing.near_normal[axis] = side;
+        leaves = std::min(leaves, out);
+    }
+    if (enters > leaves - .05) return std::nullopt;
+    const dvec3 at = eye + enters * direction, inside = into(crossing.near_normal);
+    crossing.way = 1e9;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double side = inside[axis] < 0 ? -1 : 1,
+                     t = (side * half[axis] - at[axis]) / inside[axis];
+        if (t < crossing.way)
+            crossing.way = t, crossing.far_normal = dvec3(0), crossing.far_normal[axis] = side;
+    }
+    return crossing;
+}
+
+void expect_radiance_by_closed_form(const scene::Scene& scene, const std::string& technique,
+                                    double tolerance, const FindCrossing& find_crossing) {
+    const measure::Picture found =
+        test::render_technique(scene, technique, {kRefractionEdge, kRefractionEdge}, 2).hdr;
+    int compared = 0, off = 0;
+    double largest = 0;
+    const scene::Camera& camera = scene.cameras.front();
+    for (int y = 0; y < kRefractionEdge; ++y)
+        for (int x = 0; x < kRefractionEdge; ++x) {
+            const dvec3 direction = test::camera_direction_of_pixel(camera, x, y, kRefractionEdge);
+            const auto crossing = find_crossing(camera.eye, direction, [&](const dvec3& normal) {
+                return bend(direction, normal, scene.materials[0].ior);
+            });
+            if (!crossing) continue;
+            const std::optional<dvec3> wanted = radiance_of_body(scene, direction, *crossing);
+            if (!wanted) continue;
+            const dvec3 apart = glm::abs(dvec3(found.at(x, y)) - *wanted);
+            const double difference = std::max({apart.x, apart.y, apart.z});
+            ++compared;
+            off += difference > tolerance;
+            largest = std::max(largest, difference);
+        }
+    std::cout << "[ MEASURED ] " << technique << ": " << off << " of " << compared
+              << " pixels off, largest difference " << largest << '\n';
+    EXPECT_GT(compared, 300) << technique;
+    EXPECT_LE(off, compared / 100) << technique;
+}
+
+TEST(Refraction, BallBendsLightAsTheClosedForm) {
+    const scene::Scene scene = make_body_below_sky(scene::ball("ball", 6), make_tinted_glass(),
+                                                   {.6, .5, 4.5});
+    for (const char* technique : {"secant:refract=sphere", "parallax", "hybrid:refract=auto",
+                                  "layered:refract=traced", "reuse:refract=sphere,face=512"})
+        expect_radiance_by_closed_form(scene, technique, .02, cross_ball);
+}
+
+TEST(Refraction, BoxBendsLightAsTheClosedForm) {
+    const dvec3 half(.9, .7, .4);
+    const scene::Scene scene = make_body_below_sky(scene::box("box", -half, half),
+                                                   make_tinted_glass(), {2.5, 2.1, 3.4});
+    for (const char* technique : {"secant:refract=box", "march", "pyramid:refract=box"})
+        expect_radiance_by_closed_form(scene, technique, .02,
+                                       [&](const dvec3& eye, const dvec3& direction,
+                                           const std::function<dvec3(const dvec3&)>& into) {
+                                           return cross_box(half, eye, direction, into);
+                                       });
+}
+
+/// A wall before which a pane stands. Straight through the pane the wall is seen where it is.
+TEST(Refraction, ThinGlassShowsWhatIsBehindIt) {
+    for (const bool solid : {false, true}) {
+        scene::Scene scene{.name = "pane"};
+        scene::Material glass = make_tinted_glass(solid);
+        glass.absorption = vec3(0);
+        const std::size_t pane = test::add_material(scene, glass),
+                          wall = test::add_material(scene,
+                                                    {.name = "wall", .emission = {.8f, .4f, .2f}});
+        if (solid)
+            scene::add_mesh(scene, scene::box("pane", {-9, -9, -.1}, {9, 9, 0}), pane);
+        else
+            test::add_quad(scene, "pane", pane, {-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0});
+        test::add_quad(scene, "wall", wall, {-9, -9, -3}, {9, -9, -3}, {9, 9, -3}, {-9, 9, -3});
+        scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+        scene::find_mirrors(scene);
+        app::Request asked = test::make_test_request(scene, {"secant:refract=thin"}, {1, 1});
+        asked.ambient = 0, asked.warmup = 1;
+        const vec3 seen = app::run(test::get_test_engine(), asked).parts.front().hdr.at(0, 0);
+        const dvec3 once = .96 * dvec3(glass.albedo), all = solid ? once * once : once;
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(seen[channel], all[channel] * dvec3(.8, .4, .2)[channel], 2e-3)
+                << (solid ? "solid" : "sheet");
+    }
+}
+
+TEST(Refraction, TracerTakesGlassOver) {
+    const scene::Scene scene = scene::load("glass");
+    const uvec2 size{96, 72};
+    const measure::Picture traced = test::render_technique(scene, "raytrace:depth=8", size).hdr,
+                           hybrid = test::render_technique(scene, "hybrid", size, 4).hdr;
+    const std::vector<std::uint32_t> hits =
+        test::render_technique(scene, "raytrace:depth=1", size).hits;
+    int off = 0, glass = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const MirrorId mirror = measure::first_mirror_of_hit_word(hits[i]);
+        if (!mirror || mirror == MirrorId::of_list_index(4)) continue; // the mirror ball
+        ++glass;
+        off += test::max_channel_difference(traced.pixels[i], hybrid.pixels[i]) > .02f;
+    }
+    EXPECT_GT(glass, 1000);
+    EXPECT_LE(off, glass / 100); // outlines, which the rasteriser places on other pixels
+}
+
+TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
+    const scene::Scene scene = scene::load("glass");
+    const uvec2 size{96, 72};
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
+    const auto error = [&](const char* technique) {
+        const measure::Picture found = test::render_technique(scene, technique, size, 4).hdr;
+        double sum = 0;
+        for (std::size_t i = 0; i < traced.hits.size(); ++i)
+            if (measure::first_mirror_of_hit_word(traced.hits[i]))
+                sum += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]);
+        return sum;
+    };
+    const double diffuse = error("secant:refract=none"), refracted = error("secant"),
+                 unbent = error("secant:refract=thin");
+    std::cout << "[ MEASURED ] sum of errors: diffuse " << diffuse << ", unbent " << unbent
+              << ", by the body " << refracted << '\n';
+    EXPECT_LT(refracted, .4 * diffuse);
+    EXPECT_LT(refracted, unbent);
+}
+
+/// A capture of glass may be read in any direction, even by a flat pane.
+TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
+    const scene::Scene scene = scene::load("glass");
+    for (const char* technique : {"secant:refract=box,face=64", "hybrid:refract=thin,face=32"}) {
+        app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
+        asked.warmup = 3;
+        asked.model = app::RenderedWork::everything;
+        const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
+        asked.model = app::RenderedWork::required;
+        const measure::Picture required =
+            app::run(test::get_test_engine(), asked).parts.front().hdr;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(all, required)) << technique;
+    }
+}
+
+TEST(GlassBody, SimpleBodyFollowsFromShapeAndPlace) {
+    using enum scene::GlassBody;
+    const auto model = [](scene::Mesh mesh, const dmat4& place, const scene::Material& material) {
+        scene::Scene scene{.name = "body"};
+        scene::add_mesh(scene, std::move(mesh), test::add_material(scene, material));
+        scene.objects.back().world_from_object = place;
+        return scene::model_glass_body(scene, scene.objects.back());
+    };
+    const scene::Material glass = make_tinted_glass();
+    const double c = std::sqrt(.5);
+    const dmat4 still(1),
+        turned(dvec4(c, 0, c, 0), dvec4(0, 1, 0, 0), dvec4(-c, 0, c, 0), dvec4(3, 0, 0, 1));
+    const scene::Mesh pane = scene::box("pane", {-1, -1, -.02}, {1, 1, .02});
+    EXPECT_EQ(model(scene::ball("ball", 3), turned, glass), sphere);
+    EXPECT_EQ(model(pane, still, glass), box);
+    EXPECT_EQ(model(pane, turned, glass), thin);
+    EXPECT_EQ(model(scene::torus("ring", 1, .1, 24), still, glass), thin);
+    EXPECT_EQ(model(pane, still, make_tinted_glass(false)), thin) << "a sheet";
+    EXPECT_EQ(model(scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}), still, glass),
+              thin)
+        << "open";
+    EXPECT_EQ(model(pane, still, {.name = "paint"}), std::nullopt);
+}
+
+} // namespace
