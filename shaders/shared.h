@@ -94,6 +94,7 @@ const uint kMaterialTestsFacetSideFlag = 32u;
 const uint kMaterialMultipleScatteringFlag = 64u;
 const uint kMaterialGlassFlag = 128u; // material flag: rays pass through
 const uint kMaterialSolidFlag = 256u; // material flag: the glass is a solid body, else a thin sheet
+const uint kMaterialBlendedFlag = 512u; // material flag: the surface covers what is behind it by its alpha
 
 // The data of a vertex other than position and normal.
 struct VertexAttribute {

@@ -99,6 +99,9 @@ public:
     /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
     /// geometry shaders.
     bool supports_primitive_ids() const { return numbers_triangles_; }
+    /// Returns whether a pass can blend its first attachment, of 32-bit floats, and leave the
+    /// others.
+    bool supports_blending() const { return blends_; }
     /// Returns whether the device counts vertices, fragments and other invocations.
     bool has_pipeline_statistics() const { return pipeline_statistics_; }
     bool needs_staged_uploads() const { return staged_; }
@@ -178,7 +181,7 @@ private:
     DeviceProperties info_;
     VariantChoices choices_{};
     bool layered_ = true;
-    bool doubles_ = false, numbers_triangles_ = false;
+    bool doubles_ = false, numbers_triangles_ = false, blends_ = false;
     bool pipeline_statistics_ = false;
     bool filters_floats_ = false;
     bool staged_ = false;

@@ -269,6 +269,7 @@ void DeviceFeatures::enable_features(VkPhysicalDevice device) {
     core.features.fragmentStoresAndAtomics = true;
     core.features.shaderClipDistance = true;
     core.features.shaderFloat64 = has.core.features.shaderFloat64;
+    core.features.independentBlend = has.core.features.independentBlend;
     core.features.pipelineStatisticsQuery = has.core.features.pipelineStatisticsQuery;
     core.features.geometryShader = has.core.features.geometryShader; // for gl_PrimitiveID
     v12.scalarBlockLayout = true;
@@ -294,6 +295,12 @@ bool DeviceFeatures::has_float_filtering(VkPhysicalDevice device) {
         VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     return format_allows_features(device, VK_FORMAT_R32_SFLOAT, kLinearFilterFeature) &&
            format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kLinearFilterFeature);
+}
+
+bool DeviceFeatures::has_float_blending(VkPhysicalDevice device) {
+    constexpr VkFormatFeatureFlags kBlendFeature = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
+    return format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kBlendFeature) &&
+           format_allows_features(device, VK_FORMAT_R16G16B16A16_SFLOAT, kBlendFeature);
 }
 
 std::string DeviceFeatures::describe_missing_features(VkPhysicalDevice device) {

@@ -44,6 +44,8 @@ struct DeviceFeatures {
     /// Returns whether images of 32-bit floats can be sampled with linear filtering, which is
     /// optional in Vulkan.
     static bool has_float_filtering(VkPhysicalDevice device);
+    /// Returns whether colour attachments of floats, of 16 and of 32 bits, can be blended.
+    static bool has_float_blending(VkPhysicalDevice device);
     VkPhysicalDeviceFeatures2 core{};
     VkPhysicalDeviceVulkan11Features v11{};
     VkPhysicalDeviceVulkan12Features v12{};

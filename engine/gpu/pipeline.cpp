@@ -161,7 +161,8 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     VkPipelineDepthStencilStateCreateInfo depth{
         VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = depth.depthWriteEnable = attachments.depth;
+    depth.depthTestEnable = attachments.depth;
+    depth.depthWriteEnable = attachments.depth && !state.blended;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER;
     VkPipelineColorBlendAttachmentState write{};
     write.colorWriteMask = 0xf;
@@ -169,7 +170,9 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
     write.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
     write.dstColorBlendFactor = write.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
     write.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    const std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
+    std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
+    if (state.blended && !writes.empty())
+        std::fill(writes.begin() + 1, writes.end(), decltype(write){});
     VkPipelineColorBlendStateCreateInfo blend{
         VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = static_cast<std::uint32_t>(writes.size());

@@ -25,7 +25,8 @@ struct RasterState {
     ShaderConstants constants;
     TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
     ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
-    bool blended = false;          ///< blended over the attachment by alpha
+    /// Blended over the first attachment by alpha. Other attachments and depth are not written.
+    bool blended = false;
 };
 
 struct ComputeState {

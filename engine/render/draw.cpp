@@ -130,6 +130,42 @@ bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::s
     return range.shell && !range.flipped && !within && view.parallel == 0 && view.clip == vec4(0);
 }
 
+/// Draws the parts of the wanted objects that are not opaque over the picture, the farthest object
+/// first, and of each object first what faces away. `state`: that of opaque objects.
+void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
+                          const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                          const DrawnObjectParts& parts) {
+    const shared::View& view = scene.list_views()[drawing.first_view];
+    std::vector<std::pair<float, std::size_t>> order; // distance, object
+    for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
+        const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+        if (!range.blended || !wanted(i)) continue;
+        const vec3 to_object = range.bounds.centre() - view.eye;
+        order.emplace_back(view.parallel ? dot(view.forward, to_object) : length(to_object), i);
+    }
+    std::ranges::stable_sort(order, std::ranges::greater(), &std::pair<float, std::size_t>::first);
+    state.blended = true;
+    state.constants.emplace_back("drawn_parts", 1u);
+    std::ranges::copy(scene.shader_features(drawing.first_view),
+                      std::back_inserter(state.features));
+    const std::string build = view.clip == vec4(0) ? "" : "#clipped";
+    const gpu::TriangleWinding backs = find_back_face_winding(view),
+                               fronts = backs == gpu::TriangleWinding::clockwise
+                                            ? gpu::TriangleWinding::counterclockwise
+                                            : gpu::TriangleWinding::clockwise;
+    for (const auto& [distance, object] : order) {
+        const ObjectDrawRange& range = scene.list_draw_ranges()[object];
+        state.vertex = (range.own ? "placed.vert" : "scene.vert") + build;
+        for (const gpu::TriangleWinding hidden : {fronts, backs}) {
+            if (hidden == fronts && range.one_sided) continue;
+            state.hidden = hidden;
+            commands.bind_pipeline(state);
+            commands.push_constants(shared::DrawParameters{drawing.first_view, 0});
+            draw_object(commands, scene, object, drawing.first_view, drawing.layers, parts);
+        }
+    }
+}
+
 } // namespace
 
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
@@ -182,6 +218,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
         diffuse.fragment += "#first";
         diffuse.constants.emplace_back("tracer", completing_tracer.number);
         diffuse.constants.emplace_back("traces_lobes", completing_tracer.traces_lobes ? 1u : 0u);
+        diffuse.constants.emplace_back("drawn_parts", 2u); // the tracer goes on behind them
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;
@@ -223,6 +260,8 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     if (std::ranges::any_of(scene.list_draw_ranges(), &ObjectDrawRange::one_sided))
         draw_diffuse(true, find_back_face_winding(scene.list_views()[first_view]));
     if (!mirrors_first) draw_all_mirrors();
+    if (scene.blends_surfaces() && completing_tracer.number == 0 && !peeled)
+        draw_blended_objects(commands, scene, diffuse, drawing, wanted, whole);
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i)
         if (is_shut(i))

@@ -44,8 +44,8 @@ struct SceneDrawSettings {
     std::optional<graph::ImageHandle> peeled;
 };
 
-/// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
-/// draw the mirrors first. `layers`: see DrawnObjectParts.
+/// Draws all wanted objects: non-mirrors first, then mirrors, then what is blended over them.
+/// Captures in scenes with many mirrors draw the mirrors first. `layers`: see DrawnObjectParts.
 void draw_scene(graph::PassCommands& commands, const GpuScene& scene,
                 const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                 std::span<const std::uint8_t> layers = {});

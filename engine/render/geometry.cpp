@@ -147,6 +147,7 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.turns = (material.two_sided || (range.mirror && !range.glass)) &&
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::has_alpha_mask(material);
+    range.blended = material.blended && !range.mirror;
     range.has_normal_texture = material.normal_texture.has_value();
     range.has_lobe = scene::may_reflect_by_lobe(now, object);
     range.rough = range.mirror && range.has_lobe;

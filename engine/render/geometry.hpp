@@ -38,6 +38,7 @@ struct ObjectDrawRange {
     float lobe_alpha = 0;  ///< of a rough mirror, the width of its lobe; 0: a texture varies it
     bool turns = false;    ///< the normal turns to the viewer's side
     bool masked = false;   ///< whether an alpha mask may cut out parts of the object
+    bool blended = false;  ///< no mirror, and covers by its alpha what is behind
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
     bool glass = false;   ///< rays pass through (scene::is_glass)

@@ -332,6 +332,7 @@ gpu::ShaderConstants GpuScene::shader_features(std::uint32_t view) const {
             {"masks", material_details_.has_cut_out_surfaces() ? 1u : 0u},
             {"has_lobes", material_details_.has_lobe_surfaces() ? 1u : 0u},
             {"has_glass", material_details_.any_glass() ? 1u : 0u},
+            {"has_blending", blends_surfaces() ? 1u : 0u},
             {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},

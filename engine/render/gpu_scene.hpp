@@ -105,6 +105,11 @@ public:
     /// Returns `shader_features` for the tracer, plus the device's choices that are not the default
     /// (gpu/variants.hpp). Call it after `bind_tracing` with the same spheres.
     gpu::ShaderConstants tracing_features(SphereIntersectionMode spheres) const;
+    /// Returns whether some surface is drawn over what is behind it. On devices that cannot blend
+    /// one attachment alone, such surfaces are cut out where their alpha is small.
+    bool blends_surfaces() const {
+        return material_details_.any_blended() && scene_device_.supports_blending();
+    }
     /// Returns whether some surface has more than one colour.
     bool has_varying_colours() const { return material_details_.has_varying_colours(); }
     /// Returns whether rays can aim at points drawn on lamps. Valid from `prepare_frame` on, in

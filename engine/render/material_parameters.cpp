@@ -64,7 +64,8 @@ shared::MaterialParameters make_material_parameters(const scene::Material& mater
                    flag_if_set(material.mirror, shared::kMaterialConstantReflectanceFlag) |
                    flag_if_set(material.unlit, shared::kMaterialUnlitFlag) |
                    flag_if_set(range.turns, shared::kMaterialTwoSidedFlag) |
-                   flag_if_set(range.glass, shared::kMaterialGlassFlag);
+                   flag_if_set(range.glass, shared::kMaterialGlassFlag) |
+                   flag_if_set(range.blended, shared::kMaterialBlendedFlag);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -135,6 +136,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
                                   std::uint64_t most) {
     any_lobes_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::has_lobe);
     any_glass_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::glass);
+    any_blended_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::blended);
     fill_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters

@@ -23,6 +23,7 @@ public:
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
     bool any_glass() const { return any_glass_; }         ///< rays pass through some surface
+    bool any_blended() const { return any_blended_; }     ///< some surface covers by its alpha
     bool has_varying_colours() const { return any_; }     ///< some surface has more than one colour
     bool has_cut_out_surfaces() const { return masks_; }  ///< some surface is partly cut out
     bool has_lobe_surfaces() const { return any_lobes_; } ///< some surface reflects by a lobe
@@ -39,7 +40,7 @@ private:
     std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
     std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
     bool any_ = false, masks_ = false, any_normal_textures_ = false;
-    bool any_lobes_ = false, any_glass_ = false;
+    bool any_lobes_ = false, any_glass_ = false, any_blended_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
     bool texels_filled_ = false;  ///< `fill_texels` was called
     DeviceDataList detail_words_, attributes_, texels_;

@@ -193,7 +193,8 @@ constexpr CellTextWriter kCellTextWriters[] = {
     {"sheen", "left out"},
     {"anisotropy", "left out"},
     {"iridescence", "left out"},
-    {"blend-as-mask", "there or not there, cut at half their alpha"},
+    {"blend-shadow", "blended over what is behind, but shadows and mirrors are cut at half their "
+                     "alpha, and overlapping parts of one object are not sorted"},
     {"indirect-left-out", "light from one diffuse surface to another is not computed; --ambient "
                           "stands in for it"},
     {"environment-unshadowed", "lit by the whole environment, whatever stands in its way"},

@@ -163,10 +163,8 @@ void MaterialReader::alpha() {
     material_json_.require_condition(cutoff >= 0, "alphaCutoff: wanted at least 0, found ", cutoff);
     if (mode == "MASK") material_.alpha_cutoff = static_cast<float>(cutoff);
     if (mode != "BLEND") return;
-    material_.alpha_cutoff = .5f;
-    source_.notes.add_note("materials with alphaMode BLEND, cut where half is left",
-                           material_json_.describe_place());
-    report_unsupported_feature("blend-as-mask");
+    material_.blended = true, material_.alpha_cutoff = .5f;
+    report_unsupported_feature("blend-shadow");
 }
 
 /// Returns whether the whole surface is metal, without any dielectric part.

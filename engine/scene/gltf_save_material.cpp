@@ -169,7 +169,9 @@ void GltfWriter::add_material(const Material& material) {
         to.normalTexture.scale = float_to_shortest_double(material.normal_scale);
     }
     to.doubleSided = !is_one_sided(material);
-    if (has_alpha_mask(material))
+    if (material.blended)
+        to.alphaMode = "BLEND";
+    else if (has_alpha_mask(material))
         to.alphaMode = "MASK", to.alphaCutoff = float_to_shortest_double(material.alpha_cutoff);
     write_emission(*this, material, to);
     write_dielectric_reflectance(*this, material, to);

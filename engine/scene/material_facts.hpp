@@ -35,12 +35,12 @@ template <typename Visit>
 inline void visit_material_members(const Material& material, Visit&& visit) {
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
                  metallic, roughness, dielectric_f0, dielectric_f90, transmission, ior, solid,
-                 absorption, alpha, alpha_cutoff, albedo_texture, emission_texture,
+                 absorption, alpha, alpha_cutoff, blended, albedo_texture, emission_texture,
                  roughness_texture, normal_texture, normal_scale, light] = material;
     visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
     visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
     visit(dielectric_f0), visit(dielectric_f90), visit(transmission), visit(ior), visit(solid);
-    visit(absorption), visit(alpha), visit(alpha_cutoff);
+    visit(absorption), visit(alpha), visit(alpha_cutoff), visit(blended);
     visit(albedo_texture), visit(emission_texture), visit(roughness_texture);
     visit(normal_texture), visit(normal_scale), visit(light);
 }

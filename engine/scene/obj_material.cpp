@@ -266,11 +266,9 @@ private:
                             mtl_material_.cut->real == mtl_material_.colour->real;
         if (mtl_material_.cut && !is_cut) report_unsupported_feature("material-extension");
         if (alpha == 1 && !is_cut) return;
-        context_.notes.add_note("materials that let light through, cut where half is left",
-                                mtl_material_.place);
-        report_unsupported_feature("blend-as-mask");
+        report_unsupported_feature("blend-shadow");
         material_.alpha = static_cast<float>(alpha);
-        material_.alpha_cutoff = .5f;
+        material_.blended = true, material_.alpha_cutoff = .5f;
     }
 
     /// Makes a smooth body of glass. Kd tints it, unless Kd is black.

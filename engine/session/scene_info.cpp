@@ -67,6 +67,7 @@ std::vector<MaterialInfo> list_material_info(const scene::Scene& scene) {
         info.light = scene::emitted_radiance(material);
         info.glows = scene::is_visibly_emissive(material),
         info.is_masked = scene::has_alpha_mask(material);
+        info.is_blended = material.blended;
         info.is_two_sided = !scene::is_one_sided(material);
         add_texture_info(info, "base colour", material.albedo_texture);
         add_texture_info(info, "emission", material.emission_texture);

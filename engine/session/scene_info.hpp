@@ -28,7 +28,7 @@ struct MaterialInfo {
     std::array<float, std::size(scene::kMaterialFactors)> factors{};
     vec3 f0{0};    ///< F0 of the material's factors; a mirror's reflectance
     vec3 light{0}; ///< light that the material emits onto other surfaces; 0: none
-    bool glows = false, is_masked = false, is_two_sided = false;
+    bool glows = false, is_masked = false, is_blended = false, is_two_sided = false;
     std::vector<std::string> textures; ///< "base colour 256x256" ...
 };
 

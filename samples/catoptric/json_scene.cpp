@@ -28,6 +28,7 @@ Json make_material_json(const app::MaterialInfo& material) {
     json["f0"] = make_colour_json(material.f0);
     json["light"] = material.light == vec3(0) ? Json() : make_colour_json(material.light);
     json["glows"] = material.glows, json["masked"] = material.is_masked;
+    json["blended"] = material.is_blended;
     json["two_sided"] = material.is_two_sided, json["textures"] = material.textures;
     return json;
 }

@@ -46,7 +46,7 @@ std::string describe_surface_kind(const app::MaterialInfo& material) {
     const auto add = [&](const std::string& word) { text += (text.empty() ? "" : ", ") + word; };
     if (material.light != vec3(0)) add("lights " + format_colour(material.light));
     if (material.light == vec3(0) && material.glows) add("glows, lights nothing");
-    if (material.is_masked) add("cut by alpha");
+    if (material.is_masked) add(material.is_blended ? "blended by alpha" : "cut by alpha");
     if (!material.is_two_sided) add("front only");
     for (std::size_t i = kMaterialFactorColumns; i < material.factors.size(); ++i)
         if (const auto& factor = scene::kMaterialFactors[i];

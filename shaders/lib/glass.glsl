@@ -1,5 +1,6 @@
-// Smooth glass in rays. At each surface a ray splits into a reflected ray and one that passes through. The path goes on with
-// the one that passes, and follows the reflected ones afterwards.
+// Smooth glass and blended surfaces in rays. At each surface of glass a ray splits into a reflected ray and one that passes
+// through. The path goes on with the one that passes, and follows the reflected ones afterwards. At a blended surface the
+// path goes on as at an opaque one, and the ray behind the surface is followed afterwards.
 #ifndef CATOPTRIC_GLASS_GLSL
 #define CATOPTRIC_GLASS_GLSL
 
@@ -54,10 +55,24 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
     leave_point(p, is_solid ? refract_direction(direction, normal, cosine, ratio, cosine_behind) : direction, ray);
 }
 
+// Splits the ray, which has met a blended surface at the point, at its `bounce`th surface. The share `alpha` of the weight
+// stays with the path, and the rest becomes a pending ray straight on. Rays below kMinGlassWeight are left out.
+void split_at_blended_surface(SurfacePoint p, uint detail, uint bounce, Ray ray, inout vec3 weight) {
+    float alpha = surface_alpha(detail, p.at);
+    if (alpha >= kOpaqueAlpha) return;
+    vec3 passing_weight = weight * (1.0 - alpha);
+    weight *= alpha;
+    if (!(largest_vector_component(passing_weight) > kMinGlassWeight) || pending_count == kMaxPendingRays) return;
+    Ray behind;
+    leave_point(p, ray.direction, behind);
+    pending_rays[pending_count++] = PendingRay(behind, trace_low, passing_weight, bounce);
+    trace_low = vec3(0);
+}
+
 // Goes on with a pending ray after the path has ended. Returns false if there is none. No ray to a lamp accompanies the
 // pending ray, so its density is 0 (counted_share_of_met_emission in lib/whitted.glsl).
 bool resume_pending_ray(inout Ray ray, inout vec3 weight, inout uint bounce, inout float ray_density, inout bool done) {
-    if (has_glass == 0u || pending_count == 0u) return false;
+    if ((has_glass == 0u && has_blending == 0u) || pending_count == 0u) return false;
     PendingRay next = pending_rays[--pending_count];
     ray = next.ray;
     trace_low = next.low;

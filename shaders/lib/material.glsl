@@ -74,12 +74,25 @@ vec4 sample_texture(TextureUse use, vec4 uv) {
                mix(read_texel_colour(use, left, bottom), read_texel_colour(use, right, bottom), across), down);
 }
 
-// Returns whether the alpha test cuts the surface out at a point. `number` is the index of its MaterialParameters.
+// Returns the alpha of the surface at a point. `number` is the index of its MaterialParameters.
+float surface_alpha(uint number, VertexAttribute at) {
+    MaterialParameters detail = read_material_parameters(number);
+    return detail.alpha * at.colour.a * sample_texture(detail.albedo, at.uv).a;
+}
+
+// Returns whether the alpha test cuts the surface out at a point.
 bool fails_alpha_test(uint number, VertexAttribute at) {
     MaterialParameters detail = read_material_parameters(number);
     float alpha = detail.alpha * at.colour.a;
     if (detail.alpha_cutoff <= 0.0) return false;
     return !(alpha * sample_texture(detail.albedo, at.uv).a >= detail.alpha_cutoff);
+}
+
+// 1: some surface is blended: it covers the share `alpha` of the light that comes from behind it.
+layout(constant_id = HAS_BLENDING_CONSTANT) const uint has_blending = 0u;
+const float kOpaqueAlpha = 511.0 / 512.0; // from here on a blended surface counts as opaque
+bool is_blended(uint detail) {
+    return has_blending != 0u && (read_material_parameters(detail).flags & kMaterialBlendedFlag) != 0u;
 }
 
 // Returns the shading normal. For a two-sided material, the normal is turned to the side of the facet from which

@@ -60,9 +60,24 @@ bool is_peeled_from_second_layer() {
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
 
-// Discards fragments that fail the alpha test. Shaders call this function after their derivatives, before any output.
+// The parts of blended surfaces that the pass draws: those that are opaque, with all other surfaces; those that are not,
+// over the finished picture; or all, as if they were opaque.
+const uint kDrawOpaqueParts = 0u, kDrawBlendedParts = 1u, kDrawAllParts = 2u;
+layout(constant_id = DRAWN_PARTS_CONSTANT) const uint drawn_parts = kDrawOpaqueParts;
+
+float fragment_alpha() { return surface_alpha(drawn_material_parameters(), VertexAttribute(in_uv, in_colour)); }
+
+// Discards fragments that are cut out or belong to another pass. Shaders call this function after their derivatives, before
+// any output.
 void discard_cut_out_fragments() {
-    if (masks != 0u && fails_alpha_test(drawn_material_parameters(), VertexAttribute(in_uv, in_colour))) discard;
+    if (masks == 0u) return;
+    if (has_blending != 0u && is_blended(drawn_material_parameters())) {
+        float alpha = fragment_alpha();
+        if (!(alpha > 0.0) || (drawn_parts != kDrawAllParts && (alpha >= kOpaqueAlpha) != (drawn_parts == kDrawOpaqueParts)))
+            discard;
+    } else if (fails_alpha_test(drawn_material_parameters(), VertexAttribute(in_uv, in_colour))) {
+        discard;
+    }
 }
 
 // The triangle's sides between neighbouring fragments. Derivatives come before any discard.

@@ -142,7 +142,7 @@ void intersect_stored_triangle(uint place, TreeWalkState walked, uint skipped_fl
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
 #ifdef TRACE_IS_THERE
     if (masks != 0u && hit && seen && nearer && (flags & kBvhAlphaMasked) != 0u)
-        seen = TRACE_IS_THERE(triangle - walked.shift, object, normalise_barycentric(weights));
+        seen = TRACE_IS_THERE(triangle - walked.shift, object, normalise_barycentric(weights), (skipped_flags & kBvhCastsNoShadow) != 0u);
 #endif
     if (hit && seen && nearer) {
         best = TraceHit(t, weights, triangle, object, place, walked.record);

@@ -32,11 +32,15 @@ VertexAttribute interpolate_attribute(uint corner, vec3 barycentric) {
                      barycentric.x * a.colour + barycentric.y * b.colour + barycentric.z * c.colour);
 }
 bool has_vertex_attributes(uint detail) { return (read_material_parameters(detail).flags & kMaterialHasAttributesFlag) != 0u; }
-bool passes_alpha_test(uint triangle, uint object, vec3 barycentric) {
+// Returns whether a ray meets the surface there. Of blended surfaces, only shadow rays ask for half of the alpha.
+bool passes_alpha_test(uint triangle, uint object, vec3 barycentric, bool is_shadow_ray) {
     uint detail = read_surface(object).detail;
-    return !fails_alpha_test(detail, has_vertex_attributes(detail) ? interpolate_attribute(3u * triangle, barycentric) : kNoAttribute);
+    VertexAttribute at = kNoAttribute;
+    if (has_vertex_attributes(detail)) at = interpolate_attribute(3u * triangle, barycentric);
+    if (has_blending != 0u && !is_shadow_ray && is_blended(detail)) return surface_alpha(detail, at) > 0.0;
+    return !fails_alpha_test(detail, at);
 }
-#define TRACE_IS_THERE(triangle, object, barycentric) passes_alpha_test(triangle, object, barycentric)
+#define TRACE_IS_THERE(triangle, object, barycentric, is_shadow_ray) passes_alpha_test(triangle, object, barycentric, is_shadow_ray)
 layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #define TRACE_BALLS (exact_spheres != 0u)
 
@@ -400,6 +404,8 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     if (first_raster != 0u && first == 0u) known = intersect_rasterised_triangle(ray, hit);
     if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
+        // A camera ray that passes a blended surface stays one.
+        if (has_blending != 0u && first == 0u && bounce == 0u) skipped = kBvhHiddenFromCamera;
         bool found = trace_ray(ray, skipped, known, hit, point);
         known = kUnknownHit;
         bool is_to_lamp = samples_lamps != 0u && traces_to_lamp;
@@ -421,7 +427,10 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             continue;
         }
         if (samples_lamps != 0u) surface.emission *= counted_share_of_met_emission(point, ray.origin, ray_density);
+        if (has_blending != 0u && details != 0u && is_blended(surface.detail)) split_at_blended_surface(point, surface.detail, bounce, ray, weight);
         bool is_recorded = bounce < first + 2u && met < kHitRoughSurface << kHitMirrorBits;
+        // Of the branches of a path, the first to meet a mirror is recorded.
+        if (has_glass != 0u || has_blending != 0u) is_recorded = is_recorded && (met >> (kHitMirrorBits * (bounce - first)) & kMaxMirrors) == 0u;
         if (is_recorded) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);

@@ -178,7 +178,8 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
     const Scene thin = load_obj_statements("d .25\n");
     EXPECT_EQ(thin.materials[0].alpha, .25f);
     EXPECT_EQ(thin.materials[0].alpha_cutoff, .5f);
-    EXPECT_THAT(list_unsupported_feature_ids(thin), ElementsAre("blend-as-mask"));
+    EXPECT_TRUE(thin.materials[0].blended);
+    EXPECT_THAT(list_unsupported_feature_ids(thin), ElementsAre("blend-shadow"));
     EXPECT_EQ(load_mtl_material("Tr .25\nNi 1\n").alpha, .75f);
     EXPECT_FALSE(has_alpha_mask(load_mtl_material("d 1\nNi 1.5\n")));
     // The loader does not read a separate mask (map_d), so nothing is cut out.
@@ -188,7 +189,7 @@ TEST_F(LoadObj, GlassIsListedAndTransparencyBecomesAMask) {
     EXPECT_FALSE(has_alpha_mask(other.materials[0]));
     EXPECT_THAT(list_unsupported_feature_ids(other), testing::Contains("material-extension"));
     EXPECT_THAT(list_unsupported_feature_ids(other),
-                testing::Not(testing::Contains("blend-as-mask")));
+                testing::Not(testing::Contains("blend-shadow")));
 }
 
 TEST_F(LoadObj, IlluminationModelMustBeAWholeNumberUpTo10) {

@@ -151,7 +151,8 @@ TEST_F(LoadSurface, AlphaModeDecidesTheCutoff) {
     EXPECT_EQ(load_gltf_material({{"alphaMode", "OPAQUE"}, {"alphaCutoff", .25}}).alpha_cutoff, 0);
     const Scene blended = load_surface_gltf(make_gltf_with_material({{"alphaMode", "BLEND"}}));
     EXPECT_EQ(blended.materials[0].alpha_cutoff, .5f);
-    ASSERT_THAT(list_unsupported_feature_ids(blended), ElementsAre("blend-as-mask"));
+    EXPECT_TRUE(blended.materials[0].blended);
+    ASSERT_THAT(list_unsupported_feature_ids(blended), ElementsAre("blend-shadow"));
     EXPECT_EQ(blended.unsupported[0].first, "materials[0]");
     EXPECT_THAT(blended.unsupported[0].materials, ElementsAre(0));
 }

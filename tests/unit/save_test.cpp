@@ -49,6 +49,8 @@ TEST_F(Save, SavedMaterialsLoadUnchanged) {
     material.alpha = .75f, material.alpha_cutoff = .3f;
     scene.materials.push_back(
         {.name = "flat", .albedo = {1, 0, .5f}, .front_only = true, .unlit = true});
+    scene.materials.push_back(
+        {.name = "veil", .albedo = vec3(1), .alpha = .3f, .alpha_cutoff = .5f, .blended = true});
     scene.materials.push_back({.name = "sides", .albedo = vec3(.25f), .two_sided = true});
     scene.materials.push_back(
         {.name = "constant", .albedo = vec3(.5f), .mirror = true, .reflectance = vec3(.25f)});

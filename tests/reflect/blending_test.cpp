@@ -1,0 +1,137 @@
+// Tests of surfaces that cover a part of what is behind them (Material::blended), against closed
+// forms and against rays.
+#include "scene/build.hpp"
+#include "scene/pattern.hpp"
+#include "support/lit.hpp"
+#include "support/numbers.hpp"
+#include "support/rendering.hpp"
+#include "support/scenes.hpp"
+#include "support/special_values.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+scene::Material make_veil(const char* name, vec3 emission, float alpha) {
+    return {.name = name,
+            .albedo = vec3(0),
+            .emission = emission,
+            .two_sided = true,
+            .alpha = alpha,
+            .alpha_cutoff = .5f,
+            .blended = true};
+}
+
+/// Two glowing veils before a glowing wall, all across the view. They are listed from the nearest
+/// to the farthest, so that drawing them in the order of the list would be wrong.
+scene::Scene make_two_veils() {
+    scene::Scene scene{.name = "veils"};
+    const auto add = [&](const char* name, scene::Material material, double z) {
+        test::add_quad(scene, name, test::add_material(scene, std::move(material)), {-9, -9, z},
+                       {9, -9, z}, {9, 9, z}, {-9, 9, z});
+    };
+    add("near", make_veil("red", {.8f, 0, 0}, .25f), 1);
+    add("far", make_veil("green", {0, .8f, 0}, .75f), 0);
+    add("wall", {.name = "wall", .emission = {.1f, .2f, .8f}}, -3);
+    scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+    return scene;
+}
+
+TEST(Blending, VeilsCoverWhatIsBehindThemInOrder) {
+    const vec3 wanted = .25f * vec3(.8f, 0, 0) +
+                        .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
+    for (const char* technique : {"naive:bounces=0", "secant", "hybrid:force=unknown", "raytrace",
+                                  "raytrace:first=raster", "raytrace:rays=64,indirect=paths"}) {
+        const vec3 seen =
+            test::render_without_ambient(make_two_veils(), technique, {1, 1}).hdr.at(0, 0);
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(seen[channel], wanted[channel], 1e-5) << technique << " " << channel;
+    }
+}
+
+/// Veils of any alpha between 1/512 and 1, drawn places, seen directly.
+scene::Scene make_room_with_veils(std::uint64_t seed, bool has_mirrors) {
+    scene::Scene scene = test::make_lit_room(has_mirrors ? 2 : 0, 1);
+    test::RandomNumbers numbers(seed);
+    const auto draw = [&](double low, double high) {
+        return low + (high - low) * double(numbers.random_unit_fraction());
+    };
+    for (int k = 0; k < 4; ++k) {
+        scene::Material veil{.name = "veil " + std::to_string(k),
+                             .albedo = {float(draw(.1, .9)), float(draw(.1, .9)), .5f},
+                             .two_sided = true,
+                             .unlit = k % 2 == 0,
+                             .alpha = float(draw(.1, .95)),
+                             .alpha_cutoff = .5f,
+                             .blended = true};
+        if (k == 0) {
+            veil.alpha = 1;
+            veil.albedo_texture = scene::make_checker_texture({250, 90, 60}, {60, 90, 250}, 8);
+        }
+        const std::size_t material = test::add_material(scene, veil);
+        const dvec3 low(draw(-1.4, .2), draw(-1.4, .2), draw(-1, .5));
+        test::add_quad(scene, veil.name, material, low, low + dvec3(1.2, 0, draw(-.1, .1)),
+                       low + dvec3(1.2, 1.2, draw(-.1, .1)), low + dvec3(0, 1.2, 0));
+        scene.objects.back().name = veil.name;
+    }
+    return scene;
+}
+
+TEST(Blending, RasterShowsWhatRaysShow) {
+    const uvec2 size{64, 48};
+    int off = 0, all = 0, other = 0;
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+        scene::Scene scene = make_room_with_veils(seed, false);
+        scene::Scene without = scene;
+        for (scene::Material& material : without.materials)
+            if (material.blended) material.blended = false; // cut at half of the alpha
+        const measure::Picture raster = test::render_technique(scene, "naive:bounces=0", size).hdr,
+                               cut = test::render_technique(without, "naive:bounces=0", size).hdr,
+                               traced = test::render_technique(scene, "raytrace", size).hdr,
+                               listed =
+                                   test::render_technique(scene, "raytrace:first=raster", size).hdr;
+        for (std::size_t i = 0; i < raster.pixels.size(); ++i) {
+            ++all;
+            off += test::max_channel_difference(raster.pixels[i], traced.pixels[i]) > .02f ||
+                   test::max_channel_difference(listed.pixels[i], traced.pixels[i]) > .02f;
+            other += test::max_channel_difference(cut.pixels[i], raster.pixels[i]) > .02f;
+        }
+    }
+    std::cout << "[ MEASURED ] " << off << " of " << all << " pixels off, " << other
+              << " other than cut at half\n";
+    EXPECT_LE(off, all / 50); // outlines and shadow edges
+    EXPECT_GT(other, all / 30);
+}
+
+/// A mirror shows a veil and what is behind it.
+TEST(Blending, CapturesShowVeils) {
+    const uvec2 size{64, 48};
+    const scene::Scene scene = make_room_with_veils(5, true);
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
+    const measure::Picture found = test::render_technique(scene, "pyramid", size, 6).hdr;
+    int off = 0, mirrors = 0;
+    for (std::size_t i = 0; i < traced.hits.size(); ++i) {
+        if (!measure::first_mirror_of_hit_word(traced.hits[i])) continue;
+        ++mirrors;
+        off += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]) > .1f;
+    }
+    std::cout << "[ MEASURED ] " << off << " of " << mirrors << " pixels of mirrors off\n";
+    EXPECT_GT(mirrors, 100);
+    EXPECT_LE(off, mirrors / 5);
+}
+
+/// What is opaque in a blended surface hides what is behind it and writes depth, whatever the
+/// order.
+TEST(Blending, AlphaOfOneIsOpaque) {
+    scene::Scene scene = make_two_veils();
+    scene.materials[0].alpha = 1;
+    for (const char* technique : {"naive:bounces=0", "raytrace"}) {
+        const vec3 seen = test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0);
+        EXPECT_NEAR(seen.x, .8, 1e-5) << technique;
+        EXPECT_NEAR(seen.y, 0, 1e-5) << technique;
+    }
+}
+
+} // namespace
