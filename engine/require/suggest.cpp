@@ -1,8 +1,8 @@
 #include "require/suggest.hpp"
 
 #include "scene/flat_mirror.hpp"
-#include "scene/mirror_shape.hpp"
 #include "scene/material_facts.hpp"
+#include "scene/mirror_shape.hpp"
 #include "scene/rough_reflectors.hpp"
 
 #include <algorithm>
@@ -94,6 +94,8 @@ double estimate_pass_cost(const MirrorCostFacts& known, double pixels) {
     return kPictureCosts.pass + kPictureCosts.triangle * known.triangles +
            kPictureCosts.pixel * pixels;
 }
+
+constexpr const char* kTracedGlassTechnique = "raytrace";
 
 /// The ways to draw a mirror.
 enum class MirrorDrawingMethod { planes, hybrid, march, small };
@@ -230,6 +232,23 @@ PlanCandidate make_plan_candidate(const MirrorCostFacts& known, bool planes) {
     return candidate;
 }
 
+/// Returns whether glass is all that is to be seen of the mirrors.
+bool is_all_seen_glass(const MirrorCostFacts& known) {
+    for (std::size_t i = 0; i < known.mirror_count(); ++i)
+        if (known.is_seen[i] && !known.is_glass[i]) return false;
+    return true;
+}
+
+/// Returns the candidate that traces the whole picture. It needs no captures.
+PlanCandidate make_traced_candidate(const MirrorCostFacts& known) {
+    PlanCandidate candidate{.name = "raytrace"};
+    candidate.techniques.assign(known.mirror_count(), kTracedGlassTechnique);
+    candidate.cost = estimate_pass_cost(known, known.pixels);
+    for (const std::size_t paths : known.paths.first)
+        candidate.cost += kPictureCosts.traced * known.estimate_pixels_of_paths(paths);
+    return candidate;
+}
+
 std::string format_percent(double share) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
@@ -260,7 +279,7 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
                                                                         : "curved";
     std::string reason = std::string(shape) + ", " + seen;
     const std::size_t hidden = known.paths.hidden[mirror];
-    if (known.is_glass[mirror] && technique == "hybrid")
+    if (known.is_glass[mirror] && (technique == "hybrid" || technique == kTracedGlassTechnique))
         reason += "; rays pass it";
     else if (technique == "march" && hidden == 0)
         reason += "; its centre sees all that it shows";
@@ -298,9 +317,11 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
         return suggestion;
     }
     const MirrorCostFacts known = gather_mirror_cost_facts(question);
-    suggestion.candidates.push_back(make_plan_candidate(known, true));
+    const bool traces_all = is_all_seen_glass(known);
+    suggestion.candidates.push_back(traces_all ? make_traced_candidate(known)
+                                               : make_plan_candidate(known, true));
     if (PlanCandidate searched = make_plan_candidate(known, false);
-        searched.techniques != suggestion.candidates.front().techniques) {
+        !traces_all && searched.techniques != suggestion.candidates.front().techniques) {
         const PlanCandidate& planes = suggestion.candidates.front();
         const bool is_cheaper = searched.cost < planes.cost,
                    is_better =

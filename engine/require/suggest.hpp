@@ -57,6 +57,8 @@ struct PlanSuggestion {
 /// if tracing what captures do not show (Paths::hidden) would reduce the mirror's estimated error
 /// by less than a tenth.
 ///
+/// Glass is traced: by `hybrid`, or by `raytrace` without captures if no other mirror is seen.
+///
 /// The candidate with the smaller estimated error wins. If the errors differ by less than a tenth,
 /// the cheaper candidate wins.
 PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question);

@@ -5,6 +5,7 @@
 #include "require/suggest.hpp"
 #include "scene/built_in.hpp"
 #include "scene/light.hpp"
+#include "scene/load.hpp"
 #include "session/seeded_camera.hpp"
 #include "support/scenes.hpp"
 
@@ -126,6 +127,10 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     EXPECT_EQ(plan(scene::make_gallery()),
               "1,4=march 3,12,13,14,15=planar 10=reuse:face=64 *=hybrid");
     EXPECT_EQ(plan(scene::make_courtyard()), "hybrid");
+    EXPECT_EQ(plan(scene::load("glass")), "raytrace") << "no other mirror is seen";
+    scene::Scene glass = scene::load("glass");
+    test::add_ball(glass, "ball", glass.objects.back().material - 1, {.1, .3, -1.2}, .3, 3);
+    EXPECT_THAT(plan(glass), HasSubstr("hybrid"));
 }
 
 /// One mirror is behind a screen. Its bounds are in the camera's picture, but no pixel shows it.
