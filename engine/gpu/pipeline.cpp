@@ -225,9 +225,10 @@ const ShaderStage& PipelineStore::find_or_make_stage(const std::string& shader,
     ShaderReflection whole = reflect_spirv(name, find_shader(name).words);
     std::pair key(name, find_constant_bits(pipeline_device_, whole, constants, features));
     const auto found = stages_.find(key);
-    if (found != stages_.end()) return found->second;
-    ShaderStage stage(pipeline_device_, name, bit, std::move(whole), key.second);
-    return stages_.emplace(std::move(key), std::move(stage)).first->second;
+    if (found != stages_.end()) return *found->second;
+    auto stage = std::make_unique<ShaderStage>(pipeline_device_, name, bit, std::move(whole),
+                                               key.second);
+    return *stages_.emplace(std::move(key), std::move(stage)).first->second;
 }
 
 bool PipelineStore::ShaderConstantsOrder::operator()(const RasterKeyView& a,

@@ -5,6 +5,7 @@
 #include "gpu/shader.hpp"
 
 #include <map>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -95,7 +96,9 @@ private:
     PipelineCache cache_;
     /// Pipelines that differ in attachments or fixed functions share stages. Keyed by the shader's
     /// name and the bits of its constants by constant_id.
-    std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>, ShaderStage> stages_;
+    std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>,
+             std::unique_ptr<ShaderStage>>
+        stages_;
     std::map<RasterKey, Pipeline, ShaderConstantsOrder> rasters_;
     std::map<ComputeState, Pipeline, ShaderConstantsOrder> computes_;
     double ms_ = 0;

@@ -194,6 +194,7 @@ render::MirrorShaders choose_shaders_in_mirrored_views(const TechniqueOutputs& o
         look = {};
         if (assignment.choices[i].shared.is_black_in_others || !outputs.captures) continue;
         look.fragment = "reflect/parallax.frag";
+        look.constants.emplace_back("refract_model", assignment.choices[i].shared.refract);
         look.captures = outputs.captures;
     }
     return looks;
@@ -230,7 +231,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
             outputs.captures,
             completes ? lighting
                       : maps.find_or_add_shadow_map(choose_shadow_map_edge(choices[i].shared)),
-            list_mirrors_of_choice(i, assignment)};
+            list_mirrors_of_choice(i, assignment), completes};
         MirrorShading look = technique.search
                                  ? MirrorShading{make_search_shader(technique, around, settings),
                                                  {}}

@@ -35,7 +35,9 @@ MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs
     if (is_rough && knobs.rough != SharedKnobs::RoughLookup::none)
         look.tracer->rays = knobs.lobe_rays;
     // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
-    if (traces_all && inputs.scene.scene_device().supports_primitive_ids()) {
+    // Blended surfaces would be drawn over the number.
+    if (traces_all && !inputs.scene.blends_surfaces() &&
+        inputs.scene.scene_device().supports_primitive_ids()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }

@@ -160,12 +160,14 @@ TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::Frame
     return {traced.hdr, true, {traced.counters}, {}, {}};
 }
 
-MirrorShading make_ray_traced_shading(graph::Graph&, const render::FrameInputs&,
+MirrorShading make_ray_traced_shading(graph::Graph&, const render::FrameInputs& inputs,
                                       const KnobSettings& settings,
                                       const MirrorShadingInputs& around) {
     MirrorShading look;
     look.tracer = make_tracer_settings(settings, around.lighting);
     look.mirror.fragment = "reflect/traced.frag";
+    // In a view that others draw, blended surfaces would be drawn over the triangle's number.
+    if (!around.completes_view && inputs.scene.blends_surfaces()) look.tracer->first_raster = false;
     if (look.tracer->first_raster) look.mirror.variant = "#first";
     return look;
 }

@@ -17,8 +17,12 @@ constexpr auto kSecantKnobs = list_search_knobs(std::array{kSearchStepsKnob});
 MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
                                   const KnobSettings& settings, const MirrorShadingInputs& around) {
     const int steps = settings.knob_value_as_integer(kSearchStepsKnob);
-    if (steps == 0) // without the knobs of a search, which `parallax` does not have
-        return {make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})), {}};
+    if (steps == 0) { // without the knobs of a search, which `parallax` does not have
+        MirrorShading look{make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})),
+                           {}};
+        look.mirror.constants.emplace_back("refract_model", read_shared_knobs(settings).refract);
+        return look;
+    }
     MirrorShading look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
     return look;

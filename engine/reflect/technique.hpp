@@ -38,6 +38,7 @@ struct MirrorShadingInputs {
         captures;                       ///< of all mirrors; null if no technique asks for captures
     render::ShadingLights lighting;     ///< as the settings ask for
     std::vector<std::uint32_t> mirrors; ///< the mirrors that share the technique, from 0
+    bool completes_view = false;        ///< see Technique::completes_view
 };
 
 /// Shaders and resources with which the view draws mirrors.

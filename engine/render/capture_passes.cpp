@@ -105,10 +105,10 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                 std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
                 {edge, scene.scene_device().vulkan_limits().subPixelPrecisionBits},
                 scene.list_draw_ranges(), list_hiding_balls(scene, *drawing.looks), is_wanted);
-            draw_scene(
-                commands, scene, drawing, [&](std::size_t object) { return shown[object] != 0; },
-                shown);
+            const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
+            draw_scene(commands, scene, drawing, is_shown, shown);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+            draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
         });
 }
 

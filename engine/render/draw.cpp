@@ -260,8 +260,6 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     if (std::ranges::any_of(scene.list_draw_ranges(), &ObjectDrawRange::one_sided))
         draw_diffuse(true, find_back_face_winding(scene.list_views()[first_view]));
     if (!mirrors_first) draw_all_mirrors();
-    if (scene.blends_surfaces() && completing_tracer.number == 0 && !peeled)
-        draw_blended_objects(commands, scene, diffuse, drawing, wanted, whole);
     const auto is_shut = [&](std::size_t i) { return is_black(i) && wanted(i); };
     for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i)
         if (is_shut(i))
@@ -269,6 +267,19 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
                 commands, scene,
                 {"", kBlackMirrorShader, store, gpu::TriangleWinding::none, features}, first_view,
                 layers, 0, is_shut, whole);
+}
+
+void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
+                           const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                           std::span<const std::uint8_t> shown) {
+    if (!scene.blends_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled) return;
+    scene.bind(commands);
+    if (drawing.lighting.shadow_map)
+        commands.bind_resource("shadow_map", *drawing.lighting.shadow_map, TextureFilter::compare);
+    draw_blended_objects(commands, scene,
+                         {"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
+                          make_fragment_shader_constants(scene, drawing)},
+                         drawing, wanted, {nullptr, shown});
 }
 
 } // namespace catoptric::render

@@ -44,10 +44,17 @@ struct SceneDrawSettings {
     std::optional<graph::ImageHandle> peeled;
 };
 
-/// Draws all wanted objects: non-mirrors first, then mirrors, then what is blended over them.
-/// Captures in scenes with many mirrors draw the mirrors first. `layers`: see DrawnObjectParts.
+/// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
+/// draw the mirrors first. `layers`: see DrawnObjectParts.
 void draw_scene(graph::PassCommands& commands, const GpuScene& scene,
                 const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                 std::span<const std::uint8_t> layers = {});
+
+/// Draws the parts of blended objects that are not opaque over the finished picture. Call it after
+/// draw_scene and draw_sky, with the same arguments. Draws nothing in a second layer, or if a
+/// tracer completes the picture.
+void draw_blended_surfaces(graph::PassCommands& commands, const GpuScene& scene,
+                           const SceneDrawSettings& drawing, const ObjectFilter& wanted,
+                           std::span<const std::uint8_t> layers = {});
 
 } // namespace catoptric::render

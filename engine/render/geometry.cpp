@@ -144,7 +144,8 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.varies = has_varying_colour(mesh, material);
     // A mirror reflects on both sides, even if its material is one-sided. The normals of solid
     // glass say which side is inside.
-    range.turns = (material.two_sided || (range.mirror && !range.glass)) &&
+    range.turns = (range.glass ? material.two_sided && !material.solid
+                               : material.two_sided || range.mirror) &&
                   (material.albedo != vec3(0) || range.varies);
     range.masked = scene::has_alpha_mask(material);
     range.blended = material.blended && !range.mirror;

@@ -19,7 +19,7 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
     views_.insert(views_.end(), scene_views_.begin(), scene_views_.end());
     hides_all_.clear();
     for (const ObjectDrawRange& range : geometry_.ranges)
-        hides_all_.push_back(range.mirror && !is_parallel &&
+        hides_all_.push_back(range.mirror && !range.glass && !is_parallel &&
                              does_object_enclose_point(geometry_, range, eye_));
     camera_ = camera, size_ = size;
     view_buffer_.set_list_contents(views_);

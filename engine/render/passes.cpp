@@ -68,10 +68,12 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
     if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .record([&scene = inputs.scene, drawing = std::move(drawing)](PassCommands& commands) {
-            draw_scene(commands, scene, drawing, [&](std::size_t object) {
+            const auto is_seen = [&](std::size_t object) {
                 return scene.list_draw_ranges()[object].seen_by_camera;
-            });
+            };
+            draw_scene(commands, scene, drawing, is_seen);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+            draw_blended_surfaces(commands, scene, drawing, is_seen);
         });
     return view;
 }
@@ -101,11 +103,13 @@ ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
             const auto is_left_out = [&](std::size_t object) {
                 return left_out && object == scene.object_of_mirror(*left_out);
             };
-            draw_scene(commands, scene, drawing, [&](std::size_t object) {
+            const auto is_shown = [&](std::size_t object) {
                 return !is_left_out(object) &&
                        may_view_show_box(view, size, scene.list_draw_ranges()[object].bounds);
-            });
+            };
+            draw_scene(commands, scene, drawing, is_shown);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+            draw_blended_surfaces(commands, scene, drawing, is_shown);
         });
     return hdr;
 }

@@ -243,9 +243,7 @@ bool is_all_seen_glass(const MirrorCostFacts& known) {
 PlanCandidate make_traced_candidate(const MirrorCostFacts& known) {
     PlanCandidate candidate{.name = "raytrace"};
     candidate.techniques.assign(known.mirror_count(), kTracedGlassTechnique);
-    candidate.cost = estimate_pass_cost(known, known.pixels);
-    for (const std::size_t paths : known.paths.first)
-        candidate.cost += kPictureCosts.traced * known.estimate_pixels_of_paths(paths);
+    candidate.cost = kPictureCosts.whole * known.pixels;
     return candidate;
 }
 
@@ -317,11 +315,9 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
         return suggestion;
     }
     const MirrorCostFacts known = gather_mirror_cost_facts(question);
-    const bool traces_all = is_all_seen_glass(known);
-    suggestion.candidates.push_back(traces_all ? make_traced_candidate(known)
-                                               : make_plan_candidate(known, true));
+    suggestion.candidates.push_back(make_plan_candidate(known, true));
     if (PlanCandidate searched = make_plan_candidate(known, false);
-        !traces_all && searched.techniques != suggestion.candidates.front().techniques) {
+        searched.techniques != suggestion.candidates.front().techniques) {
         const PlanCandidate& planes = suggestion.candidates.front();
         const bool is_cheaper = searched.cost < planes.cost,
                    is_better =
@@ -333,6 +329,10 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
                                           : suggestion.candidates.end(),
                                      std::move(searched));
     }
+    if (known.paths.count_paths_on_mirrors() > 0 && is_all_seen_glass(known))
+        if (PlanCandidate traced = make_traced_candidate(known);
+            traced.cost < suggestion.candidates.front().cost)
+            suggestion.candidates.insert(suggestion.candidates.begin(), std::move(traced));
     std::map<std::string, std::vector<std::size_t>> of_technique;
     for (std::size_t i = 0; i < mirrors.size(); ++i) {
         const std::string& technique = suggestion.candidates.front().techniques[i];

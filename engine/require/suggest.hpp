@@ -27,6 +27,7 @@ struct PictureCostTable {
     double bounds = .12;  ///< additional cost per capture pixel that `hybrid` searches
     /// Per pixel that `hybrid` traces, because the capture does not show the surface.
     double traced = 40;
+    double whole = 15; ///< per pixel of a picture that is traced as a whole
 };
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
 struct TechniqueErrorTable {
@@ -57,7 +58,8 @@ struct PlanSuggestion {
 /// if tracing what captures do not show (Paths::hidden) would reduce the mirror's estimated error
 /// by less than a tenth.
 ///
-/// Glass is traced: by `hybrid`, or by `raytrace` without captures if no other mirror is seen.
+/// Glass is traced: by `hybrid`, or by `raytrace` without captures if no other mirror is seen and
+/// the estimated cost is less.
 ///
 /// The candidate with the smaller estimated error wins. If the errors differ by less than a tenth,
 /// the cheaper candidate wins.

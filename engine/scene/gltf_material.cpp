@@ -204,6 +204,9 @@ void MaterialReader::transmission() {
         report_unsupported_feature("material-extension");
     if (!is_glass(material_)) return report_unsupported_feature("rough-glass");
     report_unsupported_feature("glass-approximated"), report_unsupported_feature("glass-shadow");
+    if (material_.alpha_cutoff == 0) return;
+    material_.blended = false, material_.alpha_cutoff = 0; // light passes glass, whatever its alpha
+    report_unsupported_feature("material-extension");
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.

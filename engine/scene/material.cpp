@@ -28,6 +28,8 @@ vec3 emitted_radiance(const Material& material) {
     return material.light.value_or(material.emission_texture ? vec3(0) : material.emission);
 }
 
-bool has_alpha_mask(const Material& material) { return material.alpha_cutoff > 0; }
+bool has_alpha_mask(const Material& material) {
+    return material.blended || material.alpha_cutoff > 0;
+}
 
 } // namespace catoptric::scene

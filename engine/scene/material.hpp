@@ -58,8 +58,7 @@ struct Material {
     vec3 absorption{0};     ///< in solid bodies, per world unit: light falls by e^-absorption
     float alpha = 1;
     float alpha_cutoff = 0; ///< parts with less alpha are cut out; 0: none are
-    /// Covers the share `alpha` of what is behind. Shadows and mirrors are cut at `alpha_cutoff`.
-    bool blended = false;
+    bool blended = false;   ///< covers the share `alpha`; shadows and mirrors are cut at the cutoff
     /// `albedo_texture` holds base colour and alpha. It and `emission_texture` are sRGB.
     /// `roughness_texture` is linear: metallic in blue, roughness in green.
     std::optional<Texture> albedo_texture, emission_texture, roughness_texture;

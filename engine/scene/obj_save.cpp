@@ -120,6 +120,8 @@ std::string format_material_library(const std::vector<Material>& materials,
         text += "\nnewmtl " + names[i] + "\nKd " + format_vector(material.albedo) + "\n";
         if (material.mirror) text += "Ks " + format_vector(material.reflectance) + "\n";
         if (material.emission != vec3(0)) text += "Ke " + format_vector(material.emission) + "\n";
+        if (material.blended && !is_glass(material))
+            text += "d " + format_shortest_number(material.alpha) + "\n";
         if (is_glass(material)) text += "Ni " + format_shortest_number(material.ior) + "\n";
         text += material.mirror ? "illum 3\n" : is_glass(material) ? "illum 7\n" : "illum 1\n";
         const bool is_lamp = material.emission != vec3(0);

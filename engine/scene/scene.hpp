@@ -113,9 +113,8 @@ struct Object {
     std::optional<Sphere> sphere; ///< set when the mesh stands for this sphere
     /// False: camera rays pass through the object, and all other rays meet it.
     bool seen_by_camera = true;
-    /// True if enough of the surface is smooth and reflects enough for a mirror (classify.hpp). The
-    /// reflectance of such a mirror depends on the angle. Material::mirror marks mirrors whose
-    /// reflectance is the same at every angle.
+    /// True for glass, and for what reflects enough for a mirror (classify.hpp), depending on the
+    /// angle. Material::mirror marks mirrors whose reflectance is the same at every angle.
     bool mirror = false;
 };
 

@@ -13,13 +13,22 @@ namespace catoptric::app {
 /// their totals, so that a long run takes little memory.
 constexpr std::size_t kMaxDetailedFrames = 1000;
 
-/// The frames of a request, one after the other, from cold history:
+/// What the first frame of a FrameLoop knows of the frames before it.
+enum class FrameHistory {
+    none, ///< nothing: the loop begins with a cut
+    /// The captures of the session's last frame, which must have had the same techniques, instant
+    /// and size. For settled pictures of one instant by several cameras.
+    of_last_frame
+};
+
+/// The frames of a request, one after the other:
 /// `for (FrameLoop frames(session, request); frames.render_next();) ...`
 class FrameLoop {
 public:
-    /// Begins with a cut. Throws `usage` for less than one frame or a negative warm-up. The session
-    /// shows the request's scene; session and request must outlive this object.
-    FrameLoop(Session& session, const Request& request, const FrameHooks& hooks = {});
+    /// Throws `usage` for less than one frame or a negative warm-up. The session shows the
+    /// request's scene; session and request must outlive this object.
+    FrameLoop(Session& session, const Request& request, const FrameHooks& hooks = {},
+              FrameHistory history = FrameHistory::none);
 
     /// Renders the next frame. Returns false after the last.
     bool render_next();
@@ -49,5 +58,9 @@ private:
     std::vector<std::byte>
         state_; ///< Access::next_frame_state of the frame before, with `until_settled`
 };
+
+/// Renders all frames of a request, as app::run does, with this history.
+RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
+                           FrameHistory history);
 
 } // namespace catoptric::app

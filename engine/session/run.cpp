@@ -12,12 +12,13 @@
 
 namespace catoptric::app {
 
-FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks)
+FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks,
+                     FrameHistory history)
     : loop_session_(session), request_(request), hooks_(hooks) {
     check(request.frames > 0 && request.warmup >= 0, Failure::usage,
           "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
           request.warmup);
-    session.forget();
+    if (history == FrameHistory::none) session.forget();
 }
 
 bool FrameLoop::render_next() {
@@ -57,12 +58,17 @@ int FrameLoop::max_frame_count() const {
 
 RunResult FrameLoop::result() const { return {frame_->read_all(), times_, settled_}; }
 
-RunResult run(Session& session, const Request& request, const Watcher& watcher) {
-    FrameLoop frames(session, request);
+RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
+                           FrameHistory history) {
+    FrameLoop frames(session, request, {}, history);
     throw_if_stopped(watcher);
     while (frames.render_next())
         report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     return frames.result();
+}
+
+RunResult run(Session& session, const Request& request, const Watcher& watcher) {
+    return run_with_history(session, request, watcher, FrameHistory::none);
 }
 
 RunResult run(Engine& engine, const Request& request) {

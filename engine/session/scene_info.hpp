@@ -19,8 +19,8 @@ namespace catoptric::app {
 struct MaterialInfo {
     std::string name;
     /// "mirror" (constant reflectance), "sharp" (Schlick), "rough mirror", "glass", "smooth
-    /// dielectric", "rough metal", "rough dielectric", "diffuse" or "unlit". If textures vary the material, the
-    /// first object with it decides the kind.
+    /// dielectric", "rough metal", "rough dielectric", "diffuse" or "unlit". If textures vary the
+    /// material, the first object with it decides the kind.
     std::string kind;
     std::size_t objects = 0; ///< number of objects with this material
     vec3 albedo{0};

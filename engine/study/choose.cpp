@@ -65,7 +65,7 @@ void tell_step(const ChooseRequest& request, const std::string& sentence) {
 /// Compares plans with the reference in the own view, and in `views` drawn ones if there are any.
 measure::Comparison compare_plans(Engine& engine, const ChooseRequest& request,
                                   const std::vector<std::string>& plans, int views,
-                                  std::uint64_t seed) {
+                                  std::uint64_t seed, int cameras_per_instant = 1) {
     CompareRequest compared;
     compared.base = request.base;
     compared.base.techniques = plans;
@@ -73,6 +73,7 @@ measure::Comparison compare_plans(Engine& engine, const ChooseRequest& request,
     compared.reference = request.reference;
     compared.reference_seconds = request.reference_seconds;
     compared.watcher = request.watcher;
+    compared.cameras_per_instant = cameras_per_instant;
     if (views > 0) compared.studies.push_back({"views", views});
     if (request.costs) compared.studies.push_back({"work"});
     measure::Comparison comparison = compare(engine, compared);
@@ -337,7 +338,8 @@ PlanChoice choose_plan(Engine& engine, const ChooseRequest& request) {
     tell_step(request, fmt::format("judging {} candidates in {} training views", texts.size(),
                                    request.training_views));
     const measure::Comparison training = compare_plans(engine, request, texts,
-                                                       request.training_views, request.base.seed);
+                                                       request.training_views, request.base.seed,
+                                                       request.cameras_per_instant);
     choice.candidates = list_judged_plans(request, training, texts);
     const std::vector<std::string> chain = list_plans_to_prove(engine, request, training,
                                                                choice.candidates);

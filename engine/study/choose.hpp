@@ -34,8 +34,11 @@ struct ChooseRequest {
     double share = .95;              ///< share of views that must keep the limit, between 0 and 1
     double confidence = .95;         ///< between 0 and 1
     int training_views = 12;         ///< views of the search, at least 6
-    int proof_views = 0;             ///< views of the proof; 0: as few as can prove the share
-    std::uint64_t proof_seed = 2;    ///< seed of the proof's views; must differ from base.seed
+    /// Training views that share an instant, whose captures settle once. Proofs draw an instant for
+    /// each view.
+    int cameras_per_instant = 3;
+    int proof_views = 0;          ///< views of the proof; 0: as few as can prove the share
+    std::uint64_t proof_seed = 2; ///< seed of the proof's views; must differ from base.seed
     /// Costs of another device, from which times are predicted; empty: measured here.
     std::optional<measure::DeviceCosts> costs;
     Watcher watcher;

@@ -5,6 +5,7 @@
 #include "report/comparison.hpp"
 #include "scene/pose.hpp"
 #include "session/access.hpp"
+#include "session/frames.hpp"
 #include "session/scene_facts.hpp"
 #include "session/seeded_camera.hpp"
 #include "session/technique_choice.hpp"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <set>
 
@@ -79,6 +81,41 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
                      place_pictures_side_by_side(part.display, truth.part.display)};
 }
 
+/// The reference of a view, and what its rays meet.
+struct ViewTruth {
+    Request at_view;
+    ReferenceCache cache;
+    std::vector<std::uint32_t> hits;
+
+    ViewTruth(Session& session, const ViewsRequest& request, const measure::View& view)
+        : at_view(make_view_request(request.base, view)),
+          cache(session, at_view, request.reference, request.watcher),
+          hits(cache.find_mirror_hits()) {}
+    /// Renders the references of all rows, for `seconds` together, down to the floor of noise.
+    void render(const std::vector<std::string>& rows, double seconds, double floor) {
+        std::set<std::string> sample_counts;
+        for (const std::string& text : rows)
+            sample_counts.insert(find_sample_count(parse_technique(text)));
+        for (const std::string& samples : sample_counts)
+            cache.grow_reference(samples, seconds / static_cast<double>(sample_counts.size()),
+                                 floor);
+        // No reference may be rendered later, between frames that share captures.
+        for (const std::string& samples : sample_counts) cache.get_reference(samples);
+    }
+};
+
+/// Returns the number after the last of the views that follow view `first` at its instant. At these
+/// instants captures settle once for all views. Each view keeps its reference until then, so there
+/// are at most kMaxViewsOfInstant.
+std::size_t find_end_of_instant(const std::vector<measure::View>& views, std::size_t first) {
+    constexpr std::size_t kMaxViewsOfInstant = 8;
+    std::size_t end = first + 1;
+    while (end < views.size() && end - first < kMaxViewsOfInstant &&
+           views[end].time == views[first].time)
+        ++end;
+    return end;
+}
+
 constexpr int kMaxViewWarnings = 3; // of all rows of files
 
 /// Adds the errors of the picture that a row of files has for view `view`, from 1, if it has one.
@@ -131,14 +168,17 @@ const RegisteredStudy kViewsStudy{
      .check_count = check_view_count,
      .prepare =
          [](const CompareRequest& request, int count, report::Comparison& comparison) {
-             comparison.views = draw_random_views(request.base, count);
+             comparison.views = draw_random_views(request.base, count, request.cameras_per_instant);
          },
      .run = measure_drawn_views}};
 
 } // namespace
 
-std::vector<measure::View> draw_random_views(const Request& request, int count) {
+std::vector<measure::View> draw_random_views(const Request& request, int count,
+                                             int cameras_per_instant) {
     check_view_count("views", count);
+    check(cameras_per_instant >= 1, Failure::usage,
+          "cameras per instant: wanted at least 1, found ", cameras_per_instant);
     std::vector<measure::View> views(count > 1 ? static_cast<std::size_t>(count) : 0);
     if (views.empty()) return views;
     const double period = scene::compute_scene_period(request.scene);
@@ -149,6 +189,8 @@ std::vector<measure::View> draw_random_views(const Request& request, int count) 
         seeds.push_back(view.seed);
         const double share = static_cast<double>(random() >> 32) * 0x1p-32;
         view.time = period > 0 ? compute_view_instant(request.time, period, share) : request.time;
+        const auto index = &view - views.data();
+        if (index % cameras_per_instant != 0) view.time = views[index - 1].time;
     }
     std::vector<scene::Camera> cameras;
     if (!(period > 0)) cameras = make_seeded_cameras(request.scene, request.time, seeds);
@@ -165,41 +207,50 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
           " techniques and pictures: wanted as many rows, found ", comparison.rows.size());
     const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
+    int warned = 0;
+    std::size_t finished = 0; // pictures
+    const auto report_picture = [&](std::size_t view, const std::string& what) {
+        report_row_to_watcher(request.watcher,
+                              "view " + std::to_string(view + 1) + " of " + std::to_string(count) +
+                                  ": " + what,
+                              finished++, count * pictures);
+    };
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
-    int warned = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::string label = "view " + std::to_string(i + 1) + " of " + std::to_string(count);
-        Request at_view = make_view_request(request.base, comparison.views[i]);
-        ReferenceCache truths(session, at_view, request.reference, request.watcher);
-        report_row_to_watcher(request.watcher, label + ": reference", i * pictures,
-                              count * pictures);
-        const std::vector<std::uint32_t> hits = truths.find_mirror_hits();
-        std::set<std::string> sample_counts;
-        for (const std::string& text : texts)
-            sample_counts.insert(find_sample_count(parse_technique(text)));
-        for (const std::string& samples : sample_counts)
-            truths.grow_reference(samples,
-                                  request.reference_seconds /
-                                      static_cast<double>(count * sample_counts.size()),
+    for (std::size_t first = 0; first < count;) {
+        const std::size_t end = find_end_of_instant(comparison.views, first);
+        std::vector<std::unique_ptr<ViewTruth>> truths;
+        for (std::size_t i = first; i < end; ++i) {
+            report_picture(i, "reference");
+            truths.push_back(std::make_unique<ViewTruth>(session, request, comparison.views[i]));
+            truths.back()->render(texts, request.reference_seconds / static_cast<double>(count),
                                   measure::choose_target_noise_floor(rows));
-        for (std::size_t k = 0; k < texts.size(); ++k) {
-            report_row_to_watcher(request.watcher, label + ": " + comparison.rows[k].label,
-                                  i * pictures + k + 1, count * pictures);
-            Request one = at_view;
-            one.techniques = {texts[k]};
-            one.model = comparison.rows[k].model == rendered_work_name(RenderedWork::required)
-                            ? RenderedWork::required
-                            : RenderedWork::everything;
-            const RunResult result = run(session, one, request.watcher);
-            add_view_errors(comparison.rows[k], result.parts.front(),
-                            truths.get_reference(find_sample_count(parse_technique(texts[k]))),
-                            hits, mirrors, request.base.exposure);
         }
-        for (std::size_t k = 0; k < request.pictures.size(); ++k)
-            add_errors_of_view_picture(request, k, i + 1, truths.get_reference("1"), hits, mirrors,
-                                       comparison.rows[texts.size() + k], warned);
+        for (std::size_t k = 0; k < texts.size(); ++k)
+            for (std::size_t i = first; i < end; ++i) {
+                report_picture(i, comparison.rows[k].label);
+                ViewTruth& truth = *truths[i - first];
+                Request one = truth.at_view;
+                one.techniques = {texts[k]};
+                // Both models draw the same picture. This one keeps what no camera changes.
+                one.model = RenderedWork::required;
+                const RunResult result = run_with_history(session, one, request.watcher,
+                                                          i == first ? FrameHistory::none
+                                                                     : FrameHistory::of_last_frame);
+                add_view_errors(
+                    comparison.rows[k], result.parts.front(),
+                    truth.cache.get_reference(find_sample_count(parse_technique(texts[k]))),
+                    truth.hits, mirrors, request.base.exposure);
+            }
+        for (std::size_t i = first; i < end; ++i) {
+            ViewTruth& truth = *truths[i - first];
+            for (std::size_t k = 0; k < request.pictures.size(); ++k)
+                add_errors_of_view_picture(request, k, i + 1, truth.cache.get_reference("1"),
+                                           truth.hits, mirrors, comparison.rows[texts.size() + k],
+                                           warned);
+        }
         if (request.on_finished_view) request.on_finished_view();
+        first = end;
     }
     if (warned > kMaxViewWarnings && request.on_warning)
         request.on_warning(std::to_string(warned - kMaxViewWarnings) +

@@ -16,7 +16,11 @@ namespace catoptric::app {
 /// from `request.time` on, rounded so that it can be typed. Returns no views for a count of 1.
 /// Throws `usage` for other counts that give no confidence interval of the median
 /// (measure::kMinIntervalSamples), and if no camera sees a mirror.
-std::vector<measure::View> draw_random_views(const Request& request, int count);
+/// `cameras_per_instant`, at least 1: as many neighbouring views share an instant, the first one's.
+/// Such views depend on each other: intervals and proofs that take them for independent are too
+/// narrow.
+std::vector<measure::View> draw_random_views(const Request& request, int count,
+                                             int cameras_per_instant = 1);
 
 struct ViewsRequest {
     const Request&
@@ -28,8 +32,7 @@ struct ViewsRequest {
     /// Rows of files: name, and folder of pictures (study/picture_rows.hpp). They are the last rows
     /// of the comparison. A row of a single picture gets no errors in views.
     std::vector<std::pair<std::string, std::string>> pictures = {};
-    /// Called after each view, as soon as every row has its errors in that view. The function may
-    /// be empty.
+    /// Called when every row has its errors in the views of one instant. The function may be empty.
     std::function<void()> on_finished_view;
     /// Called with what is suspicious about the pictures of rows of files. The function may be
     /// empty.
@@ -38,9 +41,9 @@ struct ViewsRequest {
 
 /// Renders the reference and every row of the comparison from each view of the comparison, and
 /// fills Row::views and Row::worst. Each picture is rendered until nothing changes any more, as
-/// `render` does. The session must show the scene of `request.base`. After an exception (a signal,
-/// a failure of the engine) the finished views stay in the rows. Costs a picture and its FLIP per
-/// row and view.
+/// `render` does. Neighbouring views of one instant share their captures, which settle once. The
+/// session must show the scene of `request.base`. After an exception (a signal, a failure of the
+/// engine) the finished views stay in the rows. Costs a picture and its FLIP per row and view.
 void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison);
 
 } // namespace catoptric::app

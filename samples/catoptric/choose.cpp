@@ -345,6 +345,12 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
 
 void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
     app::ChooseRequest& limits = options.limits;
+    verb.option("--cameras-per-instant", "M",
+                "neighbouring training views of one instant, which share captures (3)",
+                [&limits](const std::string& text) {
+                    limits.cameras_per_instant = static_cast<int>(
+                        parse_integer("--cameras-per-instant", text, 1, 10'000));
+                });
     verb.option("--training-views", "N", "views on which plans are found, at least 6 (12)",
                 [&limits](const std::string& text) {
                     limits.training_views = static_cast<int>(

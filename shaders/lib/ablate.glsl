@@ -53,6 +53,13 @@ RayEndPoint find_ray_end(Ray ray, uint skipped) {
     return end;
 }
 
+// Returns whether the ray ends on a blended surface, behind which light goes on. No cause is removed from such pixels.
+bool ends_on_blended_surface(RayEndPoint end) {
+    if (has_blending == 0u || details == 0u || !end.meets) return false;
+    uint detail = read_surface(end.point.object).detail;
+    return is_blended(detail) && surface_alpha(detail, end.point.at) < kOpaqueAlpha;
+}
+
 Ray reflect_ray_at_surface_point(Ray ray, SurfacePoint at) {
     vec3 direction = reflect_above_facet(ray.direction, at.normal, at.facet);
     return Ray(find_leaving_ray_origin(at, direction), direction, at.leaves);
@@ -94,6 +101,7 @@ vec3 find_ablated_lookup_colour(MirrorPath path, Lookup lookup, RayEndPoint targ
     RayEndPoint captured = target;
     if (!is_target) captured = find_captured_ray_end(path.mirror, lookup);
     if (captured.mirror != 0u) return colour; // a captured mirror keeps the colour from the capture
+    if (ends_on_blended_surface(captured)) return colour;
     if (!captured.meets) return is_cause_ablated(kAblateTexelColour) ? environment_radiance(lookup.direction) : colour;
     if (is_cause_ablated(kAblateTexelColour)) colour = vec3(0);
     // The captured texels were lit through the shadow map. Adds the difference that shadow rays would have made.
@@ -117,6 +125,7 @@ vec3 find_ablated_radiance(MirrorPath path, Lookup lookup) {
     do {
         left_out = i == 2u ? path.mirror + 1u : 0u;
         target = find_ray_end(search_ray, i == 0u ? kBvhHiddenFromCamera : 0u);
+        if (ends_on_blended_surface(target)) return path.weight * lookup_colour(path.mirror, lookup);
         if (i == 0u) {
             // The rasteriser and the ray see different mirrors at this pixel, an error that no ablation removes.
             if (target.mirror != drawn_mirror_number()) return path.weight * lookup_colour(path.mirror, lookup);

@@ -59,7 +59,6 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
 // stays with the path, and the rest becomes a pending ray straight on. Rays below kMinGlassWeight are left out.
 void split_at_blended_surface(SurfacePoint p, uint detail, uint bounce, Ray ray, inout vec3 weight) {
     float alpha = surface_alpha(detail, p.at);
-    if (alpha >= kOpaqueAlpha) return;
     vec3 passing_weight = weight * (1.0 - alpha);
     weight *= alpha;
     if (!(largest_vector_component(passing_weight) > kMinGlassWeight) || pending_count == kMaxPendingRays) return;

@@ -216,7 +216,7 @@ void main() {
     RefractedRay behind;
     if (has_glass != 0u && refract_model != kRefractNone && is_glass) {
         Probe body = read_probe(path.mirror);
-        behind = refract_through_body(surface.detail, path.at, seen, n, body);
+        behind = refract_through_body(surface.detail, path.at, seen, n, length(from_eye), body);
         path.weight = vec3(behind.reflected);
         surface.albedo = vec3(0); // light that is not reflected passes, and none is scattered
     }
@@ -267,7 +267,10 @@ void main() {
         passing.weight = behind.weight;
         Lookup passed = follow_path_through_mirrors(passing, hops);
         colour += passing.weight * lookup_colour(passing.mirror, passed);
-        if (passed.state == kUnknown) lookup.state = kUnknown;
+        if (passed.state == kUnknown) {
+            lookup.state = kUnknown;
+            lookup.layer = 0.0;
+        }
     }
     write_captured_surface(apply_shown_picture_mode(colour, lookup));
 #ifndef ABLATE

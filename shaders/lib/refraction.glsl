@@ -42,8 +42,8 @@ float find_way_out_of_box(vec3 at, vec3 direction, vec3 lowest, vec3 highest, ou
 }
 
 // Returns the ray that meets the glass at `at` along the unit vector `seen`, behind the glass. `n` is the surface's unit
-// normal; that of a solid body points outwards.
-RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, Probe body) {
+// normal; that of a solid body points outwards. `from_viewer`: the distance to the viewer, who may be inside the body.
+RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float from_viewer, Probe body) {
     MaterialParameters glass = read_material_parameters(detail);
     bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced;
     bool is_thin = is_auto ? body.kind == kMirrorThinGlass : refract_model == kRefractThin;
@@ -53,6 +53,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, Probe
     float ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine = min(-dot(seen, normal), 1.0), cosine_behind;
     float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);
     RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected);
+    if (is_inside) ray.weight *= exp(-glass.absorption * from_viewer);
     if (!is_solid || reflected == 1.0) return ray;
     if (is_thin && !is_inside) {
         ray.weight *= ray.weight;

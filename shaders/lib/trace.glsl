@@ -6,7 +6,8 @@
 // TRACE_PRIVATE_STACK: puts the stack into a private array, for shader stages without shared memory.
 // TRACE_SEES(object): returns false for objects that rays pass through.
 // TRACE_BALLS: whether the BVH may hold spheres in place of triangles.
-// TRACE_IS_THERE(stored triangle, object, barycentric): returns false where a kBvhAlphaMasked triangle is cut out.
+// TRACE_IS_THERE(stored triangle, object, barycentric, is shadow ray): returns false where rays of this kind pass a
+// kBvhAlphaMasked triangle.
 // Four choices make the walk fast on a processor: uniform texel buffers, the stack in shared memory, divergent lanes,
 // and loops that test their condition at the end. The software driver jumps only at a loop's end, so it runs the body
 // of a loop that tests first once more than needed. NAIVE selects storage buffers and a private stack, the obvious

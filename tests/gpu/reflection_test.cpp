@@ -79,6 +79,7 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
                                                                     "first_raster",
                                                                     "fixed_offset",
                                                                     "groups_in_order",
+                                                                    "has_blending",
                                                                     "has_glass",
                                                                     "has_lobes",
                                                                     "has_normal_textures",

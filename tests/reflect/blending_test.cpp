@@ -122,6 +122,52 @@ TEST(Blending, CapturesShowVeils) {
     EXPECT_LE(off, mirrors / 5);
 }
 
+/// A veil before the sky, which is drawn after all opaque surfaces.
+TEST(Blending, VeilsCoverTheSky) {
+    scene::Scene scene = make_two_veils();
+    scene.objects.pop_back(); // the wall
+    auto sky = std::make_shared<scene::Environment>();
+    sky->size = {16, 8};
+    sky->texels.assign(16 * 8, vec3(.1f, .2f, .8f));
+    scene.environment = sky;
+    for (const float cutoff : {.5f, 0.f}) {
+        for (scene::Material& material : scene.materials)
+            if (material.blended) material.alpha_cutoff = cutoff;
+        const vec3 wanted = .25f * vec3(.8f, 0, 0) +
+                            .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
+        for (const char* technique : {"naive:bounces=0", "raytrace", "raytrace:first=raster"}) {
+            const vec3 seen = test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0);
+            for (int channel = 0; channel < 3; ++channel)
+                EXPECT_NEAR(seen[channel], wanted[channel], 1e-4)
+                    << technique << " " << channel << ", cutoff " << cutoff;
+        }
+    }
+}
+
+/// Rays that start at the triangle that the rasteriser drew must not start at a veil's.
+TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
+    const uvec2 size{64, 48};
+    scene::Scene scene = test::make_lit_room(2, 1);
+    scene::Material veil = make_veil("veil", {0, 0, 0}, .4f);
+    veil.emission = vec3(0), veil.albedo = {.9f, .5f, .1f}, veil.unlit = true;
+    veil.dielectric_f0 = vec3(.04f), veil.dielectric_f90 = vec3(1), veil.roughness = .8f;
+    test::add_quad(scene, "veil", test::add_material(scene, veil), {-1.5, -1.8, -1.2},
+                   {1.5, -1.8, -1.2}, {1.5, .6, -1.2}, {-1.5, .6, -1.2});
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=4", size);
+    std::size_t mirrors = 0;
+    for (const std::uint32_t hit : traced.hits)
+        mirrors += bool(measure::first_mirror_of_hit_word(hit));
+    EXPECT_GT(mirrors, 300u) << "the mask shows mirrors behind the veil";
+    for (const char* technique :
+         {"hybrid:force=unknown", "1=raytrace:depth=4,first=raster *=hybrid:force=unknown"}) {
+        const measure::Picture found = test::render_technique(scene, technique, size, 4).hdr;
+        int off = 0;
+        for (std::size_t i = 0; i < found.pixels.size(); ++i)
+            off += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]) > .05f;
+        EXPECT_LE(off, int(found.pixels.size()) / 50) << technique;
+    }
+}
+
 /// What is opaque in a blended surface hides what is behind it and writes depth, whatever the
 /// order.
 TEST(Blending, AlphaOfOneIsOpaque) {

@@ -228,9 +228,31 @@ TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
     EXPECT_LT(refracted, unbent);
 }
 
-/// A capture of glass may be read in any direction, even by a flat pane.
+/// A camera inside glass sees the world through it, not black.
+TEST(Refraction, CameraInsideGlassSeesOut) {
+    for (const bool two_sided : {false, true}) {
+        scene::Material glass = make_tinted_glass();
+        glass.two_sided = two_sided;
+        const scene::Scene scene = make_body_below_sky(scene::ball("ball", 4), glass, {0, .1, .2});
+        const uvec2 size{24, 24};
+        const measure::Picture traced = test::render_technique(scene, "raytrace:depth=8", size).hdr;
+        for (const char* technique : {"hybrid", "secant"}) {
+            const measure::Picture found = test::render_technique(scene, technique, size, 3).hdr;
+            double sum = 0, wanted = 0;
+            for (std::size_t i = 0; i < found.pixels.size(); ++i)
+                sum += found.pixels[i].x, wanted += traced.pixels[i].x;
+            EXPECT_NEAR(sum, wanted, .15 * wanted) << technique << (two_sided ? ", two-sided" : "");
+        }
+    }
+}
+
+/// A capture of glass may be read in any direction, even that of a flat sheet.
 TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
-    const scene::Scene scene = scene::load("glass");
+    scene::Scene scene = scene::load("glass");
+    const std::size_t sheet = test::add_material(scene, make_tinted_glass(false));
+    test::add_quad(scene, "sheet", sheet, {-.8, .2, -1.2}, {.8, .2, -1.2}, {.8, 1.4, -1.2},
+                   {-.8, 1.4, -1.2});
+    scene::find_mirrors(scene);
     for (const char* technique : {"secant:refract=box,face=64", "hybrid:refract=thin,face=32"}) {
         app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
         asked.warmup = 3;

@@ -385,6 +385,12 @@ TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
     EXPECT_THAT(gaps({{"metallicFactor", 0}}), ElementsAre("rough-glass")) << "roughness is 1";
     EXPECT_THAT(gaps({{"metallicFactor", 0}, {"roughnessFactor", 0}}),
                 ElementsAre("glass-approximated", "glass-shadow"));
+    const Material clear = load_gltf_material(
+        {{"alphaMode", "BLEND"},
+         {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0}}},
+         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}});
+    EXPECT_FALSE(clear.blended || has_alpha_mask(clear))
+        << "light passes glass, whatever its alpha";
     EXPECT_THAT(gaps({{"metallicFactor", 1}, {"metallicRoughnessTexture", {{"index", 0}}}}),
                 ElementsAre("rough-glass"))
         << "blue is below 1 in some texels";

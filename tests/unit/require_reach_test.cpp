@@ -131,6 +131,9 @@ TEST(RequireSuggest, EachBuiltInSceneGetsTheExpectedPlan) {
     scene::Scene glass = scene::load("glass");
     test::add_ball(glass, "ball", glass.objects.back().material - 1, {.1, .3, -1.2}, .3, 3);
     EXPECT_THAT(plan(glass), HasSubstr("hybrid"));
+    scene::Scene turned = scene::load("glass");
+    turned.cameras[0].target = turned.cameras[0].eye + dvec3(0, 0, -1);
+    EXPECT_THAT(plan(turned), testing::Not(HasSubstr("raytrace"))) << "no glass is seen";
 }
 
 /// One mirror is behind a screen. Its bounds are in the camera's picture, but no pixel shows it.

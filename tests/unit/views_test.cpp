@@ -315,6 +315,15 @@ TEST(DrawnViews, DrawnViewsAreAtInstantsOfOnePeriod) {
     EXPECT_EQ(times.size(), 12u);
     EXPECT_LT(*times.begin(), .9);
     EXPECT_GT(*times.rbegin(), 1.7);
+    const std::vector<measure::View> shared = app::draw_random_views(
+        make_request_of_scene(scene, 1), 12, 4);
+    std::set<std::string> cameras;
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        EXPECT_EQ(shared[i].time, shared[i / 4 * 4].time) << i;
+        cameras.insert(shared[i].camera.name);
+    }
+    EXPECT_NE(shared[0].time, shared[4].time);
+    EXPECT_EQ(cameras.size(), 12u);
 }
 
 TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
