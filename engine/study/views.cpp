@@ -104,15 +104,12 @@ struct ViewTruth {
     }
 };
 
-/// Returns the number after the last of the views that follow view `first` at its instant. At these
-/// instants captures settle once for all views. Each view keeps its reference until then, so there
-/// are at most kMaxViewsOfInstant.
-std::size_t find_end_of_instant(const std::vector<measure::View>& views, std::size_t first) {
-    constexpr std::size_t kMaxViewsOfInstant = 8;
+/// Returns the number after the last of at most `most` views that follow view `first` at its
+/// instant. Captures settle once for all of them, and each keeps its reference until then.
+std::size_t find_end_of_instant(const std::vector<measure::View>& views, std::size_t first,
+                                std::size_t most) {
     std::size_t end = first + 1;
-    while (end < views.size() && end - first < kMaxViewsOfInstant &&
-           views[end].time == views[first].time)
-        ++end;
+    while (end < views.size() && end - first < most && views[end].time == views[first].time) ++end;
     return end;
 }
 
@@ -153,6 +150,7 @@ void measure_drawn_views(const StudyInput& input) {
                        .reference_seconds = input.request.reference_seconds,
                        .watcher = input.request.watcher,
                        .pictures = input.request.pictures,
+                       .cameras_per_instant = input.request.cameras_per_instant,
                        .on_finished_view = input.tell,
                        .on_warning = input.warn},
                       input.comparison);
@@ -218,7 +216,8 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
     for (std::size_t first = 0; first < count;) {
-        const std::size_t end = find_end_of_instant(comparison.views, first);
+        const std::size_t end = find_end_of_instant(
+            comparison.views, first, static_cast<std::size_t>(request.cameras_per_instant));
         std::vector<std::unique_ptr<ViewTruth>> truths;
         for (std::size_t i = first; i < end; ++i) {
             report_picture(i, "reference");

@@ -32,6 +32,9 @@ struct ViewsRequest {
     /// Rows of files: name, and folder of pictures (study/picture_rows.hpp). They are the last rows
     /// of the comparison. A row of a single picture gets no errors in views.
     std::vector<std::pair<std::string, std::string>> pictures = {};
+    /// Most neighbouring views of one instant that share captures, at least 1. All of them finish
+    /// at once.
+    int cameras_per_instant = 1;
     /// Called when every row has its errors in the views of one instant. The function may be empty.
     std::function<void()> on_finished_view;
     /// Called with what is suspicious about the pictures of rows of files. The function may be
@@ -41,7 +44,7 @@ struct ViewsRequest {
 
 /// Renders the reference and every row of the comparison from each view of the comparison, and
 /// fills Row::views and Row::worst. Each picture is rendered until nothing changes any more, as
-/// `render` does. Neighbouring views of one instant share their captures, which settle once. The
+/// `render` does. The
 /// session must show the scene of `request.base`. After an exception (a signal, a failure of the
 /// engine) the finished views stay in the rows. Costs a picture and its FLIP per row and view.
 void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison);
