@@ -34,7 +34,7 @@ struct CompareRequest {
     bool both_models = false;
     /// Studies in addition to time and error, such as {{"causes"}, {"views", 30}, {"lag"}}.
     std::vector<StudyChoice> studies;
-    int cameras_per_instant = 1; ///< neighbouring drawn views that share an instant
+    int cameras_per_instant = 1;      ///< neighbouring drawn views that share an instant
     std::vector<std::string> command; ///< command line that the report quotes
     std::string images;               ///< see measure::Comparison::images
     std::vector<std::pair<std::string, std::string>> pictures; ///< more rows: name, picture file
