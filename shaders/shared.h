@@ -140,6 +140,16 @@ struct Probe {
 const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorLit = 2u, kMirrorThinGlass = 3u, kMirrorGlassSphere = 4u,
            kMirrorGlassBox = 5u;
 
+// Models of the glass body behind the drawn surface (shaders/lib/refraction.glsl). None: no light passes. Auto: the model that
+// Probe::kind names. Thin: rays are not bent. Sphere: a ball that touches the surface, as thick as the body's bounds at their
+// thinnest (Guy and Agopian, "Physically Based Rendering in Filament", section 6.3). Box: the body's bounds. Traced: a tracer
+// draws the pixel; shaders without a tracer take auto.
+const uint kRefractNone = 0u, kRefractAuto = 1u, kRefractThin = 2u, kRefractSphere = 3u, kRefractBox = 4u, kRefractTraced = 5u;
+
+// The parts of blended surfaces that a pass draws: those that are opaque, with all other surfaces; those that are not, over
+// the finished picture; or all, as if they were opaque.
+const uint kDrawOpaqueParts = 0u, kDrawBlendedParts = 1u, kDrawAllParts = 2u;
+
 // One cube array with captures of one size and format, and the encoding of its distances.
 struct CaptureArray {
     float stored_unit; // stored distance 1 in scene units

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reflect/technique.hpp"
+#include "shared.h"
 
 #include <algorithm>
 #include <array>
@@ -135,7 +136,7 @@ inline constexpr TechniqueKnob kBlurLawKnob{
     .value = 4,
     .choices = kBlurLawChoices};
 
-/// In the order of kRefract... in shaders/lib/refraction.glsl.
+/// In the order of shared::kRefract....
 inline constexpr std::array<std::string_view, 6> kRefractChoices{"none",   "auto", "thin",
                                                                  "sphere", "box",  "traced"};
 inline constexpr TechniqueKnob kRefractKnob{
@@ -143,8 +144,8 @@ inline constexpr TechniqueKnob kRefractKnob{
     .help = "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
             "body: thin, sphere or box), thin (rays are not bent), sphere (a ball at each point), "
             "box (the body's bounds), traced (rays where a tracer completes the search, else auto)",
-    .high = 5,
-    .value = 1,
+    .high = shared::kRefractTraced,
+    .value = shared::kRefractAuto,
     .choices = kRefractChoices};
 
 /// Knobs that every search has, in lists after the search's own knobs.

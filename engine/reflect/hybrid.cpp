@@ -16,7 +16,8 @@ constexpr TechniqueKnob kForcedLookupKnob{
     .choices = kForcedLookupChoices};
 constexpr auto kHybridKnobs = [] {
     auto knobs = list_search_knobs(std::array{kForcedLookupKnob});
-    std::ranges::find(knobs, kRefractKnob.name, &TechniqueKnob::name)->value = 5; // traced
+    std::ranges::find(knobs, kRefractKnob.name, &TechniqueKnob::name)->value =
+        shared::kRefractTraced;
     return knobs;
 }();
 

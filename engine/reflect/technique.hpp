@@ -5,6 +5,7 @@
 #include "reflect/tracer.hpp"
 #include "render/capture_cache.hpp"
 #include "scene/flat_mirror.hpp"
+#include "shared.h"
 
 #include <memory>
 #include <optional>
@@ -80,7 +81,7 @@ struct SharedKnobs {
     bool are_levels_filtered_by_lobe() const {
         return rough == RoughLookup::prefilter || rough == RoughLookup::fast;
     }
-    std::uint32_t refract = 1; ///< how light passes glass; numbered as kRefractChoices
+    std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
     /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
     /// `capture=none`, or the technique has no such knob.
     std::optional<std::uint32_t> capture;

@@ -23,6 +23,12 @@ gpu::TriangleWinding find_back_face_winding(const shared::View& view) {
                : gpu::TriangleWinding::counterclockwise;
 }
 
+/// Returns the vertex shader for objects with an object space (`own`) or without, in this view.
+std::string choose_vertex_shader(bool own, const shared::View& view) {
+    return std::string(own ? "placed.vert" : "scene.vert") +
+           (view.clip == vec4(0) ? "" : "#clipped");
+}
+
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
@@ -145,17 +151,16 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::Ra
     }
     std::ranges::stable_sort(order, std::ranges::greater(), &std::pair<float, std::size_t>::first);
     state.blended = true;
-    state.constants.emplace_back("drawn_parts", 1u);
+    state.constants.emplace_back("drawn_parts", shared::kDrawBlendedParts);
     std::ranges::copy(scene.shader_features(drawing.first_view),
                       std::back_inserter(state.features));
-    const std::string build = view.clip == vec4(0) ? "" : "#clipped";
     const gpu::TriangleWinding backs = find_back_face_winding(view),
                                fronts = backs == gpu::TriangleWinding::clockwise
                                             ? gpu::TriangleWinding::counterclockwise
                                             : gpu::TriangleWinding::clockwise;
     for (const auto& [distance, object] : order) {
         const ObjectDrawRange& range = scene.list_draw_ranges()[object];
-        state.vertex = (range.own ? "placed.vert" : "scene.vert") + build;
+        state.vertex = choose_vertex_shader(range.own.has_value(), view);
         for (const gpu::TriangleWinding hidden : {fronts, backs}) {
             if (hidden == fronts && range.one_sided) continue;
             state.hidden = hidden;
@@ -172,10 +177,9 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterStat
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const ObjectFilter& wanted, const DrawnObjectParts& parts) {
     std::ranges::copy(scene.shader_features(first_view), std::back_inserter(state.features));
-    const char* const build = scene.list_views()[first_view].clip == vec4(0) ? "" : "#clipped";
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
-        state.vertex = (own ? "placed.vert" : "scene.vert") + std::string(build);
+        state.vertex = choose_vertex_shader(own, scene.list_views()[first_view]);
         bool in_use = false; // avoids creating a pipeline that draws nothing
         for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
             if (scene.list_draw_ranges()[i].own.has_value() != own || !wanted(i)) continue;
@@ -218,7 +222,8 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
         diffuse.fragment += "#first";
         diffuse.constants.emplace_back("tracer", completing_tracer.number);
         diffuse.constants.emplace_back("traces_lobes", completing_tracer.traces_lobes ? 1u : 0u);
-        diffuse.constants.emplace_back("drawn_parts", 2u); // the tracer goes on behind them
+        diffuse.constants.emplace_back("drawn_parts",
+                                       shared::kDrawAllParts); // the tracer goes on behind them
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;

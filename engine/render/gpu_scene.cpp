@@ -17,16 +17,6 @@ namespace catoptric::render {
 
 namespace {
 
-/// Returns the kind of mirror (Probe::kind) of such a body.
-std::uint32_t probe_kind_of_glass(scene::GlassBody body) {
-    switch (body) {
-    case scene::GlassBody::sphere: return shared::kMirrorGlassSphere;
-    case scene::GlassBody::box: return shared::kMirrorGlassBox;
-    case scene::GlassBody::thin: break;
-    }
-    return shared::kMirrorThinGlass;
-}
-
 constexpr std::uint32_t kNoMirrorNumber = 0;
 
 shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
@@ -152,6 +142,7 @@ void GpuScene::rebuild_layout(const scene::Scene& now) {
     has_object_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const ObjectDrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
+    closed_volumes_.clear();
     find_closed_shells(now);
     nearest_.set_geometry(geometry_);
     tracing_->record_layout_change();
@@ -244,6 +235,14 @@ InnerOccluderBall GpuScene::make_inner_ball(std::size_t object, const dvec3& cen
     return ball;
 }
 
+std::optional<scene::GlassBody> GpuScene::find_glass_body(const scene::Scene& now,
+                                                          const scene::Object& object) {
+    if (!scene::is_glass(now.materials[object.material])) return std::nullopt;
+    const auto [volume, is_new] = closed_volumes_.try_emplace(object.mesh);
+    if (is_new) volume->second = scene::compute_closed_volume(now.meshes[object.mesh]);
+    return scene::model_glass_body(now, object, volume->second);
+}
+
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
 void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
@@ -262,7 +261,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         }
         if (mirror >= known || changes.materials ||
             std::ranges::binary_search(changes.moved, object))
-            glass_bodies_[mirror] = scene::model_glass_body(now, now.objects[object]);
+            glass_bodies_[mirror] = find_glass_body(now, now.objects[object]);
         probe.centre = vec3(probe_places_[mirror]);
         const shared::Surface& surface = surfaces_[object];
         probe.sphere = surface.centre, probe.radius = surface.radius;
@@ -272,7 +271,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         probe.kind = is_lit ? shared::kMirrorLit
                             : (material.mirror ? shared::kMirrorConstantReflectance
                                                : shared::kMirrorMetal);
-        if (glass_bodies_[mirror]) probe.kind = probe_kind_of_glass(*glass_bodies_[mirror]);
+        if (glass_bodies_[mirror]) probe.kind = static_cast<std::uint32_t>(*glass_bodies_[mirror]);
         if (is_lit) probe.radius = 0; // no ray is followed through the mirror
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;

@@ -16,7 +16,9 @@
 #include "scene/light.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <optional>
 
 namespace catoptric::render {
 
@@ -182,6 +184,9 @@ private:
     void fill_lights(const scene::Scene& now, bool others);
     void fill_lamp_table() const;
     void fill_probes(const scene::Scene& now, const SceneChanges& changes);
+    /// Returns the body that stands for an object of glass, or nothing for other objects.
+    std::optional<scene::GlassBody> find_glass_body(const scene::Scene& now,
+                                                    const scene::Object& object);
     InnerOccluderBall make_inner_ball(std::size_t object, const dvec3& centre);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
     void fill_views(const scene::Camera& camera, uvec2 size);
@@ -208,6 +213,7 @@ private:
     std::vector<std::size_t> mirror_objects_;
     std::vector<InnerOccluderBall> inner_balls_;                ///< ball inside each mirror
     std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< of each mirror of glass
+    std::map<std::size_t, double> closed_volumes_;              ///< of meshes of glass, by mesh
     std::vector<bool> hides_all_; ///< result of hides_everything_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update

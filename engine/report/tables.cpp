@@ -209,6 +209,8 @@ constexpr CellTextWriter kCellTextWriters[] = {
     {"glass-approximated",
      "where rays are not traced, light that passes it bends by a model of the body (knob "
      "`refract`) and is not reflected inside"},
+    {"glass-as-diffuse", "more objects of glass than the 64 largest: their diffuse part is drawn "
+                         "where rays are not traced"},
     {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},

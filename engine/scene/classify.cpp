@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t kMaterialSampleCount = 4096;
 constexpr const char* kIndirectGapId = "indirect-left-out";
+constexpr const char* kGlassAsDiffuseGapId = "glass-as-diffuse";
 constexpr const char* kUnshadowedGapId = "environment-unshadowed";
 
 /// Values of a material at one place.
@@ -170,6 +171,26 @@ void add_unsupported_materials(Scene& scene, const char* id,
             gltf::format_list_item_label("materials", i, scene.materials[i].name), i);
 }
 
+/// Makes all but the kMaxGlassMirrors largest objects of glass no mirrors.
+void keep_largest_glass_mirrors(Scene& scene) {
+    std::vector<std::pair<double, std::size_t>> sizes; // negative length of the bounds, object
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (!object.mirror || !is_glass(scene.materials[object.material])) continue;
+        const Bounds<double> box = bounds(scene, object);
+        sizes.emplace_back(box.empty() ? 0 : -glm::length(box.extent()), i);
+    }
+    if (sizes.size() <= kMaxGlassMirrors) return;
+    std::ranges::sort(sizes);
+    std::set<std::size_t> materials;
+    for (std::size_t i = kMaxGlassMirrors; i < sizes.size(); ++i) {
+        Object& object = scene.objects[sizes[i].second];
+        object.mirror = false;
+        materials.insert(object.material);
+    }
+    add_unsupported_materials(scene, kGlassAsDiffuseGapId, materials);
+}
+
 /// Returns whether part of the material reflects the light of surrounding surfaces in all
 /// directions.
 bool has_diffuse_part(const Material& material) {
@@ -199,7 +220,7 @@ SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object
 void find_mirrors(Scene& scene, bool dielectric_mirrors) {
     std::erase_if(scene.unsupported, [](const UnsupportedFeature& gap) {
         return gap.id == "smooth-dielectric" || gap.id == "rough-dielectric" ||
-               gap.id == "rough-metal";
+               gap.id == "rough-metal" || gap.id == kGlassAsDiffuseGapId;
     });
     std::map<std::pair<std::size_t, std::size_t>, SurfaceKindShares> known; // by mesh and material
     std::set<std::size_t> smooth_dielectrics, rough_dielectrics, rough_metals; // materials
@@ -223,6 +244,7 @@ void find_mirrors(Scene& scene, bool dielectric_mirrors) {
             rough_dielectrics.insert(object.material);
         if (surface.rough_metal > 0) rough_metals.insert(object.material);
     }
+    keep_largest_glass_mirrors(scene);
     add_unsupported_materials(scene, "rough-dielectric", rough_dielectrics);
     add_unsupported_materials(scene, "smooth-dielectric", smooth_dielectrics);
     add_unsupported_materials(scene, "rough-metal", rough_metals);

@@ -10,6 +10,9 @@ inline constexpr float kMinMirrorF0 = .2f;
 /// Least share of an object's area that makes the object a mirror or a dielectric.
 inline constexpr double kMinMirrorAreaShare = .05;
 
+/// Most objects of glass that are mirrors. Each mirror needs a capture, some MiB at face=256.
+inline constexpr std::size_t kMaxGlassMirrors = 64;
+
 /// Returns F0, the reflectance seen head-on, by channel, for this base colour and metallic value.
 vec3 compute_f0(const Material& material, const vec3& colour, float metallic);
 /// Returns the largest channel, for comparisons that need one number.
@@ -30,7 +33,9 @@ struct SurfaceKindShares {
 SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object);
 
 /// Sets Object::mirror of every object whose material is no mirror by itself (Material::mirror).
-/// Objects of glass are mirrors, too: their captures show what they reflect and what is behind.
+/// Objects of glass are mirrors, too: their captures show what they reflect and what is behind. If
+/// there are more than kMaxGlassMirrors, the largest ones are, and the materials of the others get
+/// the unsupported feature "glass-as-diffuse".
 /// Adds the unsupported features "smooth-dielectric", "rough-dielectric" and "rough-metal", counted
 /// once per material. With `dielectric_mirrors`, dielectrics that are no rougher than mirrors
 /// become mirrors and are not listed. Then finds which mirrors are spheres (find_spheres). May be

@@ -16,9 +16,11 @@ constexpr double kMinSolidShare = .3;
 constexpr double kMaxBallShare = .65;
 constexpr double kMaxBallStretch = 1.25; ///< longest by shortest side of the bounds of a ball
 
-/// Returns the volume of a closed mesh in its own space: the sum of signed tetrahedra.
-double compute_volume(const Mesh& mesh) {
-    double volume = 0;
+} // namespace
+
+double compute_closed_volume(const Mesh& mesh) {
+    if (!is_closed_surface(mesh.positions, mesh.triangles)) return 0;
+    double volume = 0; // sum of signed tetrahedra
     const dvec3 origin = mesh.positions.empty() ? dvec3(0) : dvec3(mesh.positions.front());
     for (const uvec3& t : mesh.triangles) {
         const dvec3 a = dvec3(mesh.positions[t.x]) - origin,
@@ -29,21 +31,16 @@ double compute_volume(const Mesh& mesh) {
     return std::abs(volume);
 }
 
-} // namespace
-
-std::optional<GlassBody> model_glass_body(const Scene& scene, const Object& object) {
+std::optional<GlassBody> model_glass_body(const Scene& scene, const Object& object, double volume) {
     const Material& material = scene.materials[object.material];
     if (!is_glass(material)) return std::nullopt;
-    const Mesh& mesh = scene.meshes[object.mesh];
-    if (!material.solid || !is_closed_surface(mesh.positions, mesh.triangles))
-        return GlassBody::thin;
+    if (!material.solid || volume == 0) return GlassBody::thin;
     const dvec3 size = bounds(scene, object).extent();
     const double longest = std::max({size.x, size.y, size.z}),
                  shortest = std::min({size.x, size.y, size.z}), whole = size.x * size.y * size.z;
     if (!(whole > 0)) return GlassBody::thin;
-    const double volume = compute_volume(mesh) *
-                          std::abs(glm::determinant(dmat3(object.world_from_object)));
-    const double share = volume / whole;
+    const double scale = std::abs(glm::determinant(dmat3(object.world_from_object))),
+                 share = volume * scale / whole;
     if (!(share >= kMinSolidShare)) return GlassBody::thin;
     return share <= kMaxBallShare && longest <= kMaxBallStretch * shortest ? GlassBody::sphere
                                                                            : GlassBody::box;

@@ -3,7 +3,6 @@
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
 #include "scene/load.hpp"
-#include "scene/pattern.hpp"
 #include "scene/shapes.hpp"
 
 #include <cmath>
@@ -53,28 +52,8 @@ Mesh make_bottle(std::string name, double wall) {
 
 Scene make_glass_room() {
     Scene scene{.name = "glass"};
-    const dvec3 lo(-2.6, 0, -3), hi(2.6, 2.6, 2.4);
-    const auto paint = [&](const char* name, vec3 albedo) {
-        return add_material(scene, {.name = name, .albedo = albedo});
-    };
-    const std::size_t floor = add_material(
-        scene, {.name = "floor",
-                .albedo = vec3(1),
-                .albedo_texture = make_checker_texture({70, 62, 56}, {205, 200, 190}, 8)});
-    const std::size_t white = paint("white", {.72f, .71f, .68f}),
-                      orange = paint("orange", {.7f, .3f, .08f}),
-                      blue = paint("blue", {.1f, .22f, .5f});
-    const std::size_t wallpaper = add_material(
-        scene, {.name = "wallpaper",
-                .albedo = vec3(1),
-                .albedo_texture = make_wallpaper_texture({196, 190, 170}, {60, 110, 80})});
-    for (int face = 0; face < 6; ++face)
-        add_mesh(scene, make_box_wall(face, lo, hi),
-                 face == 0   ? orange
-                 : face == 1 ? blue
-                 : face == 3 ? floor
-                 : face == 4 ? wallpaper
-                             : white);
+    const auto [orange, blue] = add_papered_room(scene, {-2.6, 0, -3}, {2.6, 2.6, 2.4},
+                                                 {70, 62, 56}, {205, 200, 190}, 4);
     const auto glass = [&](const char* name, float ior, vec3 absorption) {
         const float root = (ior - 1) / (ior + 1);
         return add_material(scene, {.name = name,

@@ -29,28 +29,8 @@ void add_slanted_slab(Scene& scene, const std::string& name, std::size_t materia
 Scene make_roughness_room() {
     Scene scene{.name = "roughness"};
     scene.mirror_max_roughness = .6f;
-    const dvec3 lo(-3.2, 0, -3), hi(3.2, 3, 3);
-    const auto add_paint_material = [&](const char* name, vec3 albedo) {
-        return add_material(scene, {.name = name, .albedo = albedo});
-    };
-    const std::size_t floor = add_material(
-        scene, {.name = "floor",
-                .albedo = vec3(1),
-                .albedo_texture = make_checker_texture({58, 62, 70}, {205, 200, 190}, 8)});
-    const std::size_t white = add_paint_material("white", {.72f, .71f, .68f}),
-                      orange = add_paint_material("orange", {.7f, .3f, .08f}),
-                      blue = add_paint_material("blue", {.1f, .22f, .5f});
-    const std::size_t wallpaper = add_material(
-        scene, {.name = "wallpaper",
-                .albedo = vec3(1),
-                .albedo_texture = make_wallpaper_texture({196, 190, 170}, {60, 110, 80})});
-    for (int face = 0; face < 6; ++face)
-        add_mesh(scene, make_box_wall(face, lo, hi),
-                 face == 0   ? orange
-                 : face == 1 ? blue
-                 : face == 3 ? floor
-                 : face == 5 ? wallpaper
-                             : white);
+    const auto [orange, blue] = add_papered_room(scene, {-3.2, 0, -3}, {3.2, 3, 3}, {58, 62, 70},
+                                                 {205, 200, 190}, 5);
     for (std::size_t i = 0; i < kMirrorRoughnesses.size(); ++i) {
         const auto metal = [&](const char* what, vec3 colour) {
             return add_material(scene, {.name = std::string(what) + " of roughness " + kNames[i],

@@ -1,5 +1,7 @@
 #include "scene/shapes.hpp"
 
+#include "scene/pattern.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,6 +139,29 @@ Mesh ball(std::string name, int levels) {
     for (int level = 0; level < levels; ++level) subdivide_sphere_triangles(mesh);
     mesh.normals.assign(mesh.positions.begin(), mesh.positions.end());
     return mesh;
+}
+
+PaperedRoomPaints add_papered_room(Scene& scene, dvec3 lo, dvec3 hi, uvec3 dark_floor,
+                                   uvec3 light_floor, int papered) {
+    const auto paint = [&](const char* name, vec3 albedo) {
+        return add_material(scene, {.name = name, .albedo = albedo});
+    };
+    const std::size_t floor = add_material(
+        scene, {.name = "floor",
+                .albedo = vec3(1),
+                .albedo_texture = make_checker_texture(dark_floor, light_floor, 8)});
+    const std::size_t white = paint("white", {.72f, .71f, .68f}),
+                      orange = paint("orange", {.7f, .3f, .08f}),
+                      blue = paint("blue", {.1f, .22f, .5f});
+    const std::size_t wallpaper = add_material(
+        scene, {.name = "wallpaper",
+                .albedo = vec3(1),
+                .albedo_texture = make_wallpaper_texture({196, 190, 170}, {60, 110, 80})});
+    const std::array<std::size_t, 6> walls{orange, blue, white, floor, white, white};
+    for (int face = 0; face < 6; ++face)
+        add_mesh(scene, make_box_wall(face, lo, hi),
+                 face == papered ? wallpaper : walls[static_cast<std::size_t>(face)]);
+    return {orange, blue};
 }
 
 } // namespace catoptric::scene

@@ -44,9 +44,9 @@ struct ViewsRequest {
 
 /// Renders the reference and every row of the comparison from each view of the comparison, and
 /// fills Row::views and Row::worst. Each picture is rendered until nothing changes any more, as
-/// `render` does. The
-/// session must show the scene of `request.base`. After an exception (a signal, a failure of the
-/// engine) the finished views stay in the rows. Costs a picture and its FLIP per row and view.
+/// `render` does. The session must show the scene of `request.base`. After an exception (a signal,
+/// a failure of the engine) the finished views stay in the rows. Costs a picture and its FLIP per
+/// row and view.
 void measure_views(Session& session, const ViewsRequest& request, report::Comparison& comparison);
 
 } // namespace catoptric::app

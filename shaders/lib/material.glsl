@@ -82,10 +82,8 @@ float surface_alpha(uint number, VertexAttribute at) {
 
 // Returns whether the alpha test cuts the surface out at a point.
 bool fails_alpha_test(uint number, VertexAttribute at) {
-    MaterialParameters detail = read_material_parameters(number);
-    float alpha = detail.alpha * at.colour.a;
-    if (detail.alpha_cutoff <= 0.0) return false;
-    return !(alpha * sample_texture(detail.albedo, at.uv).a >= detail.alpha_cutoff);
+    float cutoff = read_material_parameters(number).alpha_cutoff;
+    return cutoff > 0.0 && !(surface_alpha(number, at) >= cutoff);
 }
 
 // 1: some surface is blended: it covers the share `alpha` of the light that comes from behind it.

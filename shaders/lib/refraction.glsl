@@ -6,11 +6,6 @@
 
 #include "lib/material.glsl"
 
-// Models of the body behind the drawn surface. None: no light passes. Auto: the model that Probe::kind names. Thin: rays are
-// not bent. Sphere: a ball that touches the surface, as thick as the body's bounds at their thinnest (Guy and Agopian,
-// "Physically Based Rendering in Filament", section 6.3). Box: the body's bounds. Traced: a tracer draws the pixel; shaders
-// without a tracer take auto.
-const uint kRefractNone = 0u, kRefractAuto = 1u, kRefractThin = 2u, kRefractSphere = 3u, kRefractBox = 4u, kRefractTraced = 5u;
 layout(constant_id = REFRACT_CONSTANT) const uint refract_model = kRefractNone;
 
 // Returns whether light passes the surface that was evaluated last.

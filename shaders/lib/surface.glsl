@@ -60,9 +60,6 @@ bool is_peeled_from_second_layer() {
     return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
 }
 
-// The parts of blended surfaces that the pass draws: those that are opaque, with all other surfaces; those that are not,
-// over the finished picture; or all, as if they were opaque.
-const uint kDrawOpaqueParts = 0u, kDrawBlendedParts = 1u, kDrawAllParts = 2u;
 layout(constant_id = DRAWN_PARTS_CONSTANT) const uint drawn_parts = kDrawOpaqueParts;
 
 float fragment_alpha() { return surface_alpha(drawn_material_parameters(), VertexAttribute(in_uv, in_colour)); }

@@ -427,8 +427,8 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             continue;
         }
         if (samples_lamps != 0u) surface.emission *= counted_share_of_met_emission(point, ray.origin, ray_density);
-        bool is_veil = has_blending != 0u && details != 0u && is_blended(surface.detail) && surface_alpha(surface.detail, point.at) < kOpaqueAlpha;
-        if (has_blending != 0u && is_veil) split_at_blended_surface(point, surface.detail, bounce, ray, weight);
+        bool is_see_through = has_blending != 0u && details != 0u && is_blended(surface.detail) && surface_alpha(surface.detail, point.at) < kOpaqueAlpha;
+        if (has_blending != 0u && is_see_through) split_at_blended_surface(point, surface.detail, bounce, ray, weight);
         bool is_recorded = bounce < first + 2u && met < kHitRoughSurface << kHitMirrorBits;
         // Of the branches of a path, the first to meet a mirror is recorded. Behind a blended surface the pixel counts as what
         // it would be without that surface.
@@ -436,7 +436,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         if (is_recorded) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
-        if (details != 0u && bounce == 0u && surface.mirror == 0u && !is_veil && met == 0u) {
+        if (details != 0u && bounce == 0u && surface.mirror == 0u && !is_see_through && met == 0u) {
             if (reflects) met = kHitSmoothSurface << kHitMirrorBits;
             else if (has_rough_lobe()) met = kHitRoughSurface << kHitMirrorBits;
         }

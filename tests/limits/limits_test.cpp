@@ -69,6 +69,30 @@ TEST_F(SmallLimits, SceneOfManyTrianglesIsDrawn) {
     expect_same_picture({"render", "many.obj", "--technique", "raytrace"});
 }
 
+/// The small device blends all attachments of a pass alike, so surfaces of an alpha below .5 are
+/// cut out, in rasterised and in traced pictures.
+TEST_F(SmallLimits, BlendedSurfacesAreCutAtHalf) {
+    const std::string wall = "mtllib m.mtl\nv -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\n"
+                             "usemtl white\nf 1 2 3 4\n",
+                      veil = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl veil\nf 5 6 7 8\n";
+    write_input_file("m.mtl", "newmtl white\nKd .8 .7 .6\nnewmtl veil\nKd .9 .1 .1\nd .3\n");
+    write_input_file("veil.obj", wall + veil), write_input_file("wall.obj", wall);
+    for (const std::string technique : {"naive:bounces=0", "raytrace", "raytrace:first=raster"}) {
+        const auto make_words = [&](const char* file, const char* picture) {
+            return with_small_quick_frame({"render", file, "--technique", technique, "--camera",
+                                           "0,0,4:0,0,0:40", "--validate", "-o", picture});
+        };
+        for (const auto& [file, picture] :
+             {std::pair{"veil.obj", "small.exr"}, {"wall.obj", "usual.exr"}}) {
+            const test::ProcessResult ended = run_on_small_device(make_words(file, picture));
+            ASSERT_EQ(ended.exit_code, 0) << technique << ": " << ended.err;
+        }
+        EXPECT_LT(difference_of_pictures(), 1e-4) << technique << ": the veil is cut out";
+        ASSERT_EQ(run_cli(make_words("veil.obj", "small.exr")).exit_code, 0);
+        EXPECT_GT(difference_of_pictures(), .01) << technique << ": the usual device blends it";
+    }
+}
+
 TEST_F(SmallLimits, ColourOf32BitFloatsIsRefused) {
     expect_exit_code(
         run_on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}), 69,

@@ -144,6 +144,41 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
 }
 
 // The error that is split must be the error that the report gives for the row.
+/// Rays of the ablation stop at blended surfaces and follow reflections alone, so no cause is
+/// removed from such pixels. Removing all causes must not make them worse.
+TEST(Causes, ErrorBesideGlassAndVeilsIsTheRest) {
+    scene::Scene scene = test::make_lit_room(2, 1);
+    const scene::Scene plain = scene;
+    const std::size_t veil = test::add_material(scene, {.name = "veil",
+                                                        .albedo = {.9f, .5f, .1f},
+                                                        .two_sided = true,
+                                                        .unlit = true,
+                                                        .alpha = .4f,
+                                                        .blended = true});
+    test::add_quad(scene, "veil", veil, {-1.6, -1.9, -1}, {.2, -1.9, -1}, {.2, -.4, -1},
+                   {-1.6, -.4, -1});
+    scene::add_mesh(scene, scene::ball("glass", 4),
+                    test::add_material(scene, {.name = "glass",
+                                               .albedo = vec3(1),
+                                               .roughness = 0,
+                                               .dielectric_f0 = vec3(.04f),
+                                               .dielectric_f90 = vec3(1),
+                                               .transmission = 1,
+                                               .solid = true}));
+    scene.objects.back().world_from_object = dmat4(dvec4(.4, 0, 0, 0), dvec4(0, .4, 0, 0),
+                                                   dvec4(0, 0, .4, 0), dvec4(.9, -.2, -.7, 1));
+    scene.objects.back().mirror = true;
+    const ErrorCauseSplit found = split_error_by_causes(scene, "secant:face=32",
+                                                        kSmallCausesPictureSize);
+    expect_adds_up(found);
+    EXPECT_GT(found.error_share_of_cause("rest"), .05);
+    EXPECT_LE(found.error_share_of_cause("rest"), 1);
+    EXPECT_LE(
+        split_error_by_causes(plain, "secant:face=32", kSmallCausesPictureSize).causes.rest_rmse,
+        1e-3)
+        << "the same room without them";
+}
+
 TEST(Causes, SplitErrorIsTheErrorOfTheRow) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
                                                    {"parallax:face=32"}, kCausesPictureSize);

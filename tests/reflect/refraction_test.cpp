@@ -265,13 +265,56 @@ TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
     }
 }
 
+TEST(GlassBody, VolumeOfClosedMeshesIsThatOfTheirBody) {
+    EXPECT_NEAR(scene::compute_closed_volume(scene::box("box", {1, 2, 3}, {2, 4, 6})), 6, 1e-12);
+    EXPECT_NEAR(scene::compute_closed_volume(scene::ball("ball", 6)), 4 * test::kPi / 3, .01);
+    EXPECT_EQ(scene::compute_closed_volume(
+                  scene::quad("quad", {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0})),
+              0);
+}
+
+/// A flat mirror shows a glass ball that stands before it.
+TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
+    scene::Scene scene = test::make_lit_room(0, 1);
+    const std::size_t mirror = test::add_material(scene, {.name = "flat", .mirror = true});
+    test::add_quad(scene, "flat", mirror, {-1.6, -1.6, 1.9}, {-1.6, 1.6, 1.9}, {1.6, 1.6, 1.9},
+                   {1.6, -1.6, 1.9});
+    scene::Material glass = make_tinted_glass();
+    glass.absorption = vec3(0);
+    scene::Mesh ball = scene::ball("ball", 5);
+    scene::add_mesh(scene, ball, test::add_material(scene, glass));
+    scene.objects.back().world_from_object = dmat4(dvec4(.6, 0, 0, 0), dvec4(0, .6, 0, 0),
+                                                   dvec4(0, 0, .6, 0), dvec4(.7, -.3, .4, 1));
+    scene.cameras.front().eye = {-.9, .3, -2.5};
+    scene::find_mirrors(scene);
+    scene::Scene plaster = scene;
+    plaster.materials.back() = {.name = "plaster", .albedo = vec3(.9f)};
+    scene::find_mirrors(plaster);
+    const uvec2 size{96, 96};
+    const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
+    const measure::Mask shown = measure::mask_mirror_in_mirror(traced.hits);
+    EXPECT_GT(measure::count_mask_pixels(shown), 200u);
+    const auto error = [&](const scene::Scene& of, const std::string& technique) {
+        return test::rmse_of_pictures(test::render_technique(of, technique, size, 5).hdr,
+                                      traced.hdr, shown);
+    };
+    const double diffuse = error(plaster, "planar");
+    for (const std::string rest : {"secant", "raytrace", "hybrid"}) {
+        const double found = error(scene, "planar:rest=" + rest);
+        std::cout << "[ MEASURED ] glass in a flat mirror by " << rest << ": rmse " << found
+                  << ", plaster " << diffuse << '\n';
+        EXPECT_LT(found, .6 * diffuse) << rest;
+    }
+}
+
 TEST(GlassBody, SimpleBodyFollowsFromShapeAndPlace) {
     using enum scene::GlassBody;
     const auto model = [](scene::Mesh mesh, const dmat4& place, const scene::Material& material) {
         scene::Scene scene{.name = "body"};
         scene::add_mesh(scene, std::move(mesh), test::add_material(scene, material));
         scene.objects.back().world_from_object = place;
-        return scene::model_glass_body(scene, scene.objects.back());
+        return scene::model_glass_body(scene, scene.objects.back(),
+                                       scene::compute_closed_volume(scene.meshes.back()));
     };
     const scene::Material glass = make_tinted_glass();
     const double c = std::sqrt(.5);

@@ -1,4 +1,4 @@
-// Tests of the secant search: without steps it must equal `parallax`.
+// Tests of the secant search: without steps it must equal `parallax`, for glass as well.
 #include "scene/built_in.hpp"
 #include "support/searches.hpp"
 
@@ -7,7 +7,17 @@ namespace {
 using namespace catoptric;
 
 TEST(Secant, WithoutStepsEqualsParallax) {
-    const scene::Scene scene = scene::make_cornell_mirrors();
+    scene::Scene scene = scene::make_cornell_mirrors();
+    scene.materials.push_back({.name = "glass",
+                               .albedo = vec3(1),
+                               .roughness = 0,
+                               .dielectric_f0 = vec3(.04f),
+                               .dielectric_f90 = vec3(1),
+                               .transmission = 1,
+                               .solid = true});
+    const std::size_t first = scene::mirrors(scene)[0];
+    scene.objects[first].material = scene.materials.size() - 1;
+    scene.objects[first].mirror = true;
     for (const std::string settings :
          {"face=64", "face=37,distance=r16f", "face=64,distance=unorm8,shadow=none"}) {
         const app::TechniqueResult parallax = test::render_technique(scene, "parallax:" + settings,

@@ -106,7 +106,12 @@ SurfaceSight::meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut
         met.alpha = material.alpha * colour.a;
         if (material.albedo_texture)
             met.alpha *= sample_texture_filtered(*material.albedo_texture, met.uv).a;
-        if (!(material.alpha_cutoff > 0) || met.alpha >= material.alpha_cutoff) return met;
+        // Shadow rays stop where half of a blended surface is left. Other rays pass all that is not
+        // opaque.
+        constexpr float kOpaqueAlpha = 511.f / 512; // as in shaders/lib/material.glsl
+        const bool is_blended = material.blended && skipped != bvh::kCastsNoShadowFlag;
+        const float least = is_blended ? kOpaqueAlpha : material.alpha_cutoff;
+        if (!(least > 0) || met.alpha >= least) return met;
         ray.origin += ray.direction * hit->t, ray.leaves = hit->triangle + 1;
         farthest -= hit->t;
     }

@@ -94,6 +94,35 @@ TEST(Classify, DielectricsAreMirrorsOnlyOnRequestAndIfSmoothEnough) {
     }
 }
 
+TEST(Classify, LargestObjectsOfGlassAreMirrors) {
+    const Material glass{.name = "glass",
+                         .albedo = vec3(1),
+                         .roughness = 0,
+                         .dielectric_f0 = vec3(.04f),
+                         .dielectric_f90 = vec3(1),
+                         .transmission = 1};
+    Scene scene = make_panel_scene(glass);
+    find_mirrors(scene);
+    EXPECT_TRUE(scene.objects[0].mirror);
+    EXPECT_TRUE(scene.unsupported.empty());
+    for (std::size_t i = 1; i <= kMaxGlassMirrors; ++i) {
+        Object object = scene.objects[0];
+        // The object in the middle of the list is the smallest.
+        const double size = i == kMaxGlassMirrors / 2 ? .5 : 1 + static_cast<double>(i);
+        object.world_from_object = dmat4(size);
+        object.world_from_object[3][3] = 1;
+        scene.objects.push_back(object);
+    }
+    find_mirrors(scene);
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        EXPECT_EQ(scene.objects[i].mirror, i != kMaxGlassMirrors / 2) << i;
+    ASSERT_EQ(scene.unsupported.size(), 1u);
+    EXPECT_EQ(scene.unsupported[0].id, "glass-as-diffuse");
+    scene.objects.pop_back();
+    find_mirrors(scene);
+    EXPECT_TRUE(scene.unsupported.empty()) << "found again, not added up";
+}
+
 TEST(Classify, LambertianSurfacesReflectNothing) {
     Scene scene = make_panel_scene({.name = "wall", .albedo = vec3(.5f), .roughness = .02f});
     find_mirrors(scene, true);

@@ -169,6 +169,20 @@ TEST_F(Load, TwoSidedLampsSurviveBothFormats) {
     }
 }
 
+TEST_F(Load, AlphaOfBlendedSurfacesSurvivesBothFormats) {
+    Scene scene = make_cornell_mirrors();
+    scene.materials[1].blended = true;
+    scene.materials[1].alpha = .3f, scene.materials[1].alpha_cutoff = .5f;
+    save_glb(scene, folder / "x.glb");
+    save_obj(scene, folder / "x.obj");
+    for (const char* file : {"x.glb", "x.obj"}) {
+        const Scene found = load((folder / file).string());
+        EXPECT_TRUE(found.materials[1].blended) << file;
+        EXPECT_EQ(found.materials[1].alpha, .3f) << file;
+        EXPECT_FALSE(found.materials[2].blended) << file;
+    }
+}
+
 TEST_F(Load, HiddenFrontWallSurvivesBothFormats) {
     const Scene wanted = make_closed_cornell_mirrors();
     save_glb(wanted, folder / "x.glb");

@@ -2,6 +2,7 @@
 // graphics card may have:
 // - 65,536 elements in a texel buffer, 128 bytes of push constants, 128 MiB in a storage buffer,
 // - no linear filtering of 32-bit float images,
+// - one way of blending for all attachments of a pass,
 // - device memory of which the host can map only 256 MiB, called the window.
 // The layer ends a program with a message if the program exceeds one of these limits.
 //
@@ -79,6 +80,11 @@ void hook_device_properties(VkPhysicalDevice device, VkPhysicalDeviceProperties*
 void hook_device_properties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* result) {
     NEXT(instances, device, vkGetPhysicalDeviceProperties2)(device, result);
     reduce_device_limits(result->properties.limits);
+}
+
+void hook_device_features2(VkPhysicalDevice device, VkPhysicalDeviceFeatures2* result) {
+    NEXT(instances, device, vkGetPhysicalDeviceFeatures2)(device, result);
+    result->features.independentBlend = VK_FALSE;
 }
 
 bool is_float_format(VkFormat format) {
@@ -284,6 +290,7 @@ const FunctionHook kInstanceHooks[] = {
     {"vkCreateDevice", to_void_function(hook_create_device)},
     {"vkGetPhysicalDeviceProperties", to_void_function(hook_device_properties)},
     {"vkGetPhysicalDeviceProperties2", to_void_function(hook_device_properties2)},
+    {"vkGetPhysicalDeviceFeatures2", to_void_function(hook_device_features2)},
     {"vkGetPhysicalDeviceFormatProperties", to_void_function(hook_format_properties)},
     {"vkGetPhysicalDeviceMemoryProperties", to_void_function(hook_memory_properties)},
 };
