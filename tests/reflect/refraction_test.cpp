@@ -246,23 +246,25 @@ TEST(Refraction, CameraInsideGlassSeesOut) {
     }
 }
 
-/// A capture of glass may be read in any direction, even that of a flat sheet.
+/// A capture of glass may be read in any direction, even that of a flat sheet, seen from one side.
 TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
-    scene::Scene scene = scene::load("glass");
-    const std::size_t sheet = test::add_material(scene, make_tinted_glass(false));
-    test::add_quad(scene, "sheet", sheet, {-.8, .2, -1.2}, {.8, .2, -1.2}, {.8, 1.4, -1.2},
-                   {-.8, 1.4, -1.2});
-    scene::find_mirrors(scene);
-    for (const char* technique : {"secant:refract=box,face=64", "hybrid:refract=thin,face=32"}) {
-        app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
-        asked.warmup = 3;
-        asked.model = app::RenderedWork::everything;
-        const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
-        asked.model = app::RenderedWork::required;
-        const measure::Picture required =
-            app::run(test::get_test_engine(), asked).parts.front().hdr;
-        EXPECT_TRUE(test::have_equal_pixel_bytes(all, required)) << technique;
-    }
+    scene::Scene room = test::make_lit_room(0, 1);
+    test::add_quad(room, "sheet", test::add_material(room, make_tinted_glass(false)),
+                   {-.8, -1.2, -1}, {-.8, .8, -1}, {.8, .8, -1}, {.8, -1.2, -1});
+    scene::find_mirrors(room);
+    for (const scene::Scene& scene : {room, scene::load("glass")})
+        for (const char* technique :
+             {"secant:refract=box,face=64", "hybrid:refract=thin,face=32"}) {
+            app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
+            asked.warmup = 3;
+            asked.model = app::RenderedWork::everything;
+            const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
+            asked.model = app::RenderedWork::required;
+            const measure::Picture required =
+                app::run(test::get_test_engine(), asked).parts.front().hdr;
+            EXPECT_TRUE(test::have_equal_pixel_bytes(all, required))
+                << scene.name << ", " << technique;
+        }
 }
 
 TEST(GlassBody, VolumeOfClosedMeshesIsThatOfTheirBody) {
@@ -299,11 +301,12 @@ TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
                                       traced.hdr, shown);
     };
     const double diffuse = error(plaster, "planar");
-    for (const std::string rest : {"secant", "raytrace", "hybrid"}) {
+    for (const auto& [rest, share] :
+         {std::pair{std::string("secant"), .3}, {"raytrace", .15}, {"hybrid", .15}}) {
         const double found = error(scene, "planar:rest=" + rest);
         std::cout << "[ MEASURED ] glass in a flat mirror by " << rest << ": rmse " << found
                   << ", plaster " << diffuse << '\n';
-        EXPECT_LT(found, .6 * diffuse) << rest;
+        EXPECT_LT(found, share * diffuse) << rest;
     }
 }
 
