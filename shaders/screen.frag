@@ -21,7 +21,7 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(screening.size)))) return;
     vec3 a = (screening.from_canvas & 1u) != 0u ? draw_window_pixel(pixel) : texelFetch(first, pixel, 0).rgb;
     out_colour = vec4(a, 1);
-    if (screening.kind == kDisplayFirst) return;
+    if (screening.kind == kDisplayFirstPicture) return;
     vec3 b = (screening.from_canvas & 2u) != 0u ? draw_window_pixel(pixel) : texelFetch(second, pixel, 0).rgb;
     if (screening.kind == kDisplayDifference) {
         out_colour = vec4(abs(a - b) * screening.gain, 1);

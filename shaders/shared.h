@@ -137,7 +137,7 @@ struct Probe {
 // Kinds of mirror: constant, with the same reflectance at any angle; metal, by Schlick's approximation; lit, which also
 // has diffuse or emitted light that only captures show. Bodies of glass are lit mirrors, told apart by the model of the
 // body that comes closest (engine/scene/glass_body.hpp).
-const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorLit = 2u, kMirrorThinGlass = 3u, kMirrorGlassSphere = 4u,
+const uint kMirrorConstantReflectance = 0u, kMirrorMetal = 1u, kMirrorNeedsDiffuseLight = 2u, kMirrorThinGlass = 3u, kMirrorGlassSphere = 4u,
            kMirrorGlassBox = 5u;
 
 // Models of the glass body behind the drawn surface (shaders/lib/refraction.glsl). None: no light passes. Auto: the model that
@@ -151,7 +151,7 @@ const uint kRefractNone = 0u, kRefractAuto = 1u, kRefractThin = 2u, kRefractSphe
 const uint kDrawOpaqueParts = 0u, kDrawBlendedParts = 1u, kDrawAllParts = 2u;
 
 // One cube array with captures of one size and format, and the encoding of its distances.
-struct CaptureArray {
+struct CaptureArrayEntry {
     float stored_unit; // stored distance 1 in scene units
     uint range_ends;   // 1: the stored distance 1 means either the end of the range or no surface
 };
@@ -159,8 +159,8 @@ const uint kMaxCubeArrays = 8u;
 const uint kMaxCapturedMirrors = 2048u; // most mirrors with captures: a 16-bit float holds their numbers exactly
 // The place of each mirror's capture, for mirrors counted from 0: array << 16 | cube, both from 0. The array number
 // kMaxCubeArrays means that the mirror has no capture.
-struct CaptureTable {
-    CaptureArray arrays[kMaxCubeArrays];
+struct CaptureLookupTable {
+    CaptureArrayEntry arrays[kMaxCubeArrays];
     uint places[kMaxCapturedMirrors];
 };
 
@@ -238,9 +238,9 @@ struct TraceParameters {
 };
 
 // A traced picture's alpha is a word of engine/bvh/words.hpp: the number, from 1, of the mirror that the pixel's first
-// ray meets, and the number of the next mirror << kHitMirrorBits. 0 means no mirror. If the first surface reflects but
+// ray meets, and the number of the next mirror << kBitsPerMirrorHit. 0 means no mirror. If the first surface reflects but
 // is no mirror, the first number is 0, and the second says whether the surface is smooth or rough.
-const uint kHitMirrorBits = 15u, kMaxMirrors = 32767u, kHitSmoothSurface = kMaxMirrors, kHitRoughSurface = kMaxMirrors - 1u;
+const uint kBitsPerMirrorHit = 15u, kMaxMirrors = 32767u, kHitSmoothDielectric = kMaxMirrors, kHitRoughNonMirror = kMaxMirrors - 1u;
 
 // Counters of ray tracing, summed over all dispatches of the frame.
 struct Counters {
@@ -254,9 +254,9 @@ struct Counters {
 };
 
 // Work that shaders count in frames that count work (lib/work.glsl). engine/core/work.hpp explains each kind.
-const uint kWorkCameraRays = 0u, kWorkMirrorRays = 1u, kWorkShadowRays = 2u, kWorkNodes = 3u, kWorkTriangles = 4u,
+const uint kWorkCameraRays = 0u, kWorkMirrorRays = 1u, kWorkShadowRays = 2u, kWorkBvhNodes = 3u, kWorkTriangleTests = 4u,
            kWorkNodeLanes = 5u, kWorkTriangleLanes = 6u, kWorkShadowLookups = 7u, kWorkColourLookups = 8u,
-           kWorkDistanceLookups = 9u, kWorkTextureLookups = 10u, kWorkMaterials = 11u, kWorkLights = 12u;
+           kWorkDistanceLookups = 9u, kWorkTextureLookups = 10u, kWorkMaterialReads = 11u, kWorkLightEvaluations = 12u;
 const uint kShaderWorkKindCount = 13u;
 
 // Push constants of the pass that shows pictures in a window (engine/session/screen.cpp).
@@ -267,7 +267,7 @@ struct ScreenParameters {
     float divider;   // column that divides a split display: the first picture is left of this pixel
     float gain;      // factor that a difference of two pictures is multiplied by
 };
-const uint kDisplayFirst = 0u, kDisplaySplit = 1u, kDisplayDifference = 2u;
+const uint kDisplayFirstPicture = 0u, kDisplaySplitPictures = 1u, kDisplayDifference = 2u;
 
 // A vertex of the triangles that draw controls and text over the window's picture.
 struct OverlayVertex {
@@ -293,7 +293,7 @@ static_assert(sizeof(TextureUse) == 36);
 static_assert(sizeof(MaterialParameters) == 16 * kQuadsPerMaterial);
 static_assert(sizeof(VertexAttribute) == 32);
 static_assert(sizeof(Probe) == 68);
-static_assert(sizeof(CaptureTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
+static_assert(sizeof(CaptureLookupTable) == 8256); // fits into 16 KiB, the uniform buffer size that every device allows
 static_assert(sizeof(View) == 84);
 static_assert(sizeof(Sky) == 192);
 static_assert(sizeof(Frame) == 20);

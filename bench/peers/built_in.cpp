@@ -17,70 +17,70 @@ using measure::BenchmarkResult;
 
 namespace {
 
-const TracedPicturePair kPairs[] = {{"mesh", "raytrace:depth=4", false},
-                                    {"exact", "raytrace:depth=4,sphere=exact", true}};
+const EnginePeerPicturePair kTracedPicturePairs[] = {
+    {"mesh", "raytrace:depth=4", false}, {"exact", "raytrace:depth=4,sphere=exact", true}};
 /// Our rows with captures, and the edges of their faces. Embree's single rays are only a unit of
 /// time for these rows.
-constexpr std::pair<const char*, int> kOthers[] = {
+constexpr std::pair<const char*, int> kCaptureRowsAndFaceEdges[] = {
     {"parallax:face=64", 64}, {"parallax", 256}, {"parallax:face=512", 512}};
 constexpr int kSettlingFrames = 14; // frames until mirrors seen in mirrors no longer change
 
 /// Prints how much the prototypes' pictures differ from ours. Returns whether the pictures of the
 /// prototypes that trace rays equal ours.
-bool check_prototype_pictures(app::Session& session, app::Request request,
-                              PrototypeFrames& prototypes) {
+bool compare_prototype_and_engine_pictures(app::Session& session, app::Request request,
+                                           PrototypeFrameRenderer& prototypes) {
     for (app::BenchmarkSubject& subject : prototypes.subjects(0))
         for (int i = 0; i < kSettlingFrames; ++i) subject.work();
-    request.techniques = {kPairs[0].technique};
+    request.techniques = {kTracedPicturePairs[0].technique};
     const measure::Picture traced = session.frame(request).read().hdr;
     bool same = true;
-    for (const std::string& name : PrototypeFrames::tracers()) {
+    for (const std::string& name : PrototypeFrameRenderer::tracers()) {
         const std::size_t other = count_differing_pixels(traced, prototypes.read(name));
         std::printf("%-23s %zu pixels differ by more than %g\n", name.c_str(), other,
-                    static_cast<double>(kEqualPixelTolerance));
+                    static_cast<double>(kMaxEqualPixelDifference));
         same = same && other <= kMaxDifferingPixels;
     }
     request.frames = kSettlingFrames;
-    for (const auto& [technique, face] : kOthers) {
+    for (const auto& [technique, face] : kCaptureRowsAndFaceEdges) {
         request.techniques = {technique};
         const measure::Picture ours = app::run(session, request).parts.front().hdr;
-        const std::vector<PeerVector> theirs = prototypes.read(
-            PrototypeFrames::prototype_name_of_edge(face));
+        const std::vector<PeerVector3> theirs = prototypes.read(
+            PrototypeFrameRenderer::prototype_benchmark_name(face));
         double squares = 0;
         for (std::size_t i = 0; i < theirs.size(); ++i) {
             const vec3 apart = ours.pixels[i] - vec3(theirs[i].x, theirs[i].y, theirs[i].z);
             squares += dot(dvec3(apart), dvec3(apart)) / 3;
         }
         std::printf("%-23s rmse %.4f from %s, %zu pixels differ by more than %g\n",
-                    PrototypeFrames::prototype_name_of_edge(face).c_str(),
+                    PrototypeFrameRenderer::prototype_benchmark_name(face).c_str(),
                     std::sqrt(squares / static_cast<double>(theirs.size())), technique,
                     count_differing_pixels(ours, theirs),
-                    static_cast<double>(kEqualPixelTolerance));
+                    static_cast<double>(kMaxEqualPixelDifference));
     }
     return same;
 }
 
 } // namespace
 
-bool compare_built_in_scene_pictures(const PeerBench& bench) {
+bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench) {
     app::Request request = make_request_of_scene(scene::make_cornell_mirrors());
     const auto session = std::make_shared<app::Session>(bench.engine, request.scene);
     const int frames = bench.rounds * kFramesPerRound;
     std::vector<app::BenchmarkSubject> subjects;
     bool same = true;
     double rays = 0;
-    for (const TracedPicturePair& pair : kPairs) {
-        PairBenchmarks shown = trace_pair_and_print_differences(bench.device, session, request,
-                                                                pair, bench.threads, frames);
+    for (const EnginePeerPicturePair& pair : kTracedPicturePairs) {
+        EngineAndEmbreeBenchmarks shown = trace_pair_and_print_differences(
+            bench.device, session, request, pair, bench.threads, frames);
         std::ranges::move(shown.subjects, std::back_inserter(subjects));
         rays = shown.rays;
         same = same && shown.same;
     }
-    const EmbreePeerScene mesh(bench.device, request, kMirrorBounces, false);
-    PrototypeFrames prototypes(request, mesh);
-    same = check_prototype_pictures(*session, request, prototypes) && same;
+    const EmbreeWhittedTracer mesh(bench.device, request, kMirrorBounces, false);
+    PrototypeFrameRenderer prototypes(request, mesh);
+    same = compare_prototype_and_engine_pictures(*session, request, prototypes) && same;
     std::ranges::move(prototypes.subjects(kWarmupFrameCount), std::back_inserter(subjects));
-    for (const auto& [technique, face] : kOthers) {
+    for (const auto& [technique, face] : kCaptureRowsAndFaceEdges) {
         request.techniques = {technique};
         subjects.push_back(app::make_frame_benchmark_subject(session, request, frames));
         subjects.back().name = technique, subjects.back().caller.clear();
@@ -91,19 +91,20 @@ bool compare_built_in_scene_pictures(const PeerBench& bench) {
     for (const BenchmarkResult& benchmark : list)
         print_benchmark(benchmark, "rays", benchmark.name.starts_with("parallax") ? 0 : rays / 1e6);
     std::printf("\n");
-    for (const TracedPicturePair& pair : kPairs) print_cost_ratios_of_pair(list, pair.name);
+    for (const EnginePeerPicturePair& pair : kTracedPicturePairs)
+        print_cost_ratios_of_pair(list, pair.name);
     print_cost_ratio(find_benchmark_by_name(list, "ours/exact"),
                      find_benchmark_by_name(list, "ours/mesh"));
-    for (const auto& [technique, face] : kOthers)
+    for (const auto& [technique, face] : kCaptureRowsAndFaceEdges)
         print_cost_ratio(find_benchmark_by_name(list, technique),
                          find_benchmark_by_name(list, embree_benchmark_name("mesh", 1)));
-    for (const std::string& prototype : PrototypeFrames::tracers())
+    for (const std::string& prototype : PrototypeFrameRenderer::tracers())
         print_cost_ratio(find_benchmark_by_name(list, "ours/mesh"),
                          find_benchmark_by_name(list, prototype));
-    for (const auto& [technique, face] : kOthers)
+    for (const auto& [technique, face] : kCaptureRowsAndFaceEdges)
         print_cost_ratio(
             find_benchmark_by_name(list, technique),
-            find_benchmark_by_name(list, PrototypeFrames::prototype_name_of_edge(face)));
+            find_benchmark_by_name(list, PrototypeFrameRenderer::prototype_benchmark_name(face)));
     return same;
 }
 

@@ -15,13 +15,13 @@ namespace {
 constexpr std::uint32_t kShadowMapEdge = 1024;
 constexpr float kNearDistance = .002f;     // near distance of all views, scene units
 constexpr float kNoSurfaceDistance = 1000; // stored distance where no surface is seen, scene units
-constexpr std::uint32_t kMirrorCount = 4, kLightView = 1 + 6 * kMirrorCount;
+constexpr std::uint32_t kMirrorCount = 4, kLightViewIndex = 1 + 6 * kMirrorCount;
 // The light shines down, so its shadow map needs no face +Y.
 constexpr std::uint32_t kShadowMapFaceCount = 5;
 
 /// The uniform block Frame of shaders/draw.glsl.
 struct FrameUniforms {
-    glm::mat4 clip_from_scene[kLightView + kShadowMapFaceCount];
+    glm::mat4 clip_from_scene[kLightViewIndex + kShadowMapFaceCount];
     vec4 light, light_normal, intensity;
 };
 
@@ -35,8 +35,10 @@ glm::mat4 make_clip_from_scene_matrix(const shared::View& view) {
 
 } // namespace
 
-CapturePrototype::CapturePrototype(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
-                                   const app::Request& request, std::uint32_t face)
+CubeCapturePrototypeRenderer::CubeCapturePrototypeRenderer(gpu::GpuDevice& device,
+                                                           gpu::PipelineStore& pipelines,
+                                                           const app::Request& request,
+                                                           std::uint32_t face)
     : peer_device_(device), face_(face), linear_(make_linear_sampler(device, false)),
       compare_(make_linear_sampler(device, true)), sets_(device) {
     add_scene(request);
@@ -44,8 +46,8 @@ CapturePrototype::CapturePrototype(gpu::GpuDevice& device, gpu::PipelineStore& p
     make_programs(pipelines);
 }
 
-void CapturePrototype::add_scene(const app::Request& request) {
-    const render::SceneUnits space = render::make_scene_units(request.scene);
+void CubeCapturePrototypeRenderer::add_scene(const app::Request& request) {
+    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const scene::Scene now = scene::scene_at_time(request.scene, request.time);
     geometry_ = render::make_frame_geometry(now, space);
     const scene::PointLight light = scene::list_lights(now).at(0);
@@ -80,37 +82,38 @@ void CapturePrototype::add_scene(const app::Request& request) {
                           BufferUsage::uniform);
 }
 
-void CapturePrototype::make_images(uvec2 size) {
+void CubeCapturePrototypeRenderer::make_images(uvec2 size) {
     constexpr VkImageUsageFlags kSampledUsage = VK_IMAGE_USAGE_SAMPLED_BIT,
                                 kColour = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
                                 kDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     constexpr VkImageViewType kArrayViewType = VK_IMAGE_VIEW_TYPE_2D_ARRAY,
                               kOne = VK_IMAGE_VIEW_TYPE_2D;
-    shadow_map_ = GeneralLayoutImage(peer_device_, TexelFormat::d32f, uvec2(kShadowMapEdge),
-                                     kShadowMapFaceCount, kDepthUsage | kSampledUsage);
+    shadow_map_ = GeneralLayoutVulkanImage(peer_device_, TexelFormat::d32f, uvec2(kShadowMapEdge),
+                                           kShadowMapFaceCount, kDepthUsage | kSampledUsage);
     shadow_faces_ = shadow_map_.view(kArrayViewType, 0, kShadowMapFaceCount);
-    depth_ = GeneralLayoutImage(peer_device_, TexelFormat::d32f, uvec2(face_), 6, kDepthUsage);
+    depth_ = GeneralLayoutVulkanImage(peer_device_, TexelFormat::d32f, uvec2(face_), 6,
+                                      kDepthUsage);
     depth_faces_ = depth_.view(kArrayViewType, 0, 6);
-    view_ = GeneralLayoutImage(peer_device_, TexelFormat::rgba32f, size, 1,
-                               kColour | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    view_ = GeneralLayoutVulkanImage(peer_device_, TexelFormat::rgba32f, size, 1,
+                                     kColour | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     picture_ = view_.view(kOne);
-    view_depth_ = GeneralLayoutImage(peer_device_, TexelFormat::d32f, size, 1, kDepthUsage);
+    view_depth_ = GeneralLayoutVulkanImage(peer_device_, TexelFormat::d32f, size, 1, kDepthUsage);
     picture_depth_ = view_depth_.view(kOne);
     pixels_ = gpu::GpuBuffer(peer_device_, "pixels", sizeof(vec4) * size.x * size.y,
                              BufferUsage::read_back);
     const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
     for (std::size_t i = 0; i < 2; ++i) {
-        cubes_[i] = {GeneralLayoutImage(peer_device_, TexelFormat::rgba16f, uvec2(face_), layers,
-                                        kColour | kSampledUsage),
-                     GeneralLayoutImage(peer_device_, TexelFormat::r32f, uvec2(face_), layers,
-                                        kColour | kSampledUsage)};
+        cubes_[i] = {GeneralLayoutVulkanImage(peer_device_, TexelFormat::rgba16f, uvec2(face_),
+                                              layers, kColour | kSampledUsage),
+                     GeneralLayoutVulkanImage(peer_device_, TexelFormat::r32f, uvec2(face_), layers,
+                                              kColour | kSampledUsage)};
         for (std::uint32_t first = 0; first < layers; first += 6)
             faces_[i].push_back({cubes_[i].colour.view(kArrayViewType, first, 6),
                                  cubes_[i].distance.view(kArrayViewType, first, 6)});
     }
 }
 
-void CapturePrototype::make_programs(gpu::PipelineStore& pipelines) {
+void CubeCapturePrototypeRenderer::make_programs(gpu::PipelineStore& pipelines) {
     const gpu::AttachmentFormats faces{{TexelFormat::rgba16f, TexelFormat::r32f}, true},
         picture{{TexelFormat::rgba32f}, true};
     const auto layers = static_cast<std::uint32_t>(6 * mirrors_.size());
@@ -119,7 +122,7 @@ void CapturePrototype::make_programs(gpu::PipelineStore& pipelines) {
     constexpr gpu::TriangleWinding kBackFaceWinding = gpu::TriangleWinding::clockwise,
                                    kAwayInFaces = gpu::TriangleWinding::counterclockwise;
     const auto state = [](const char* fragment, gpu::TriangleWinding hidden) {
-        return gpu::RasterState{"peers/surface.vert", fragment, {}, hidden};
+        return gpu::RasterPipelineState{"peers/surface.vert", fragment, {}, hidden};
     };
     for (std::size_t i = 0; i < 2; ++i) {
         const VkImageViewType cubes = VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
@@ -130,7 +133,7 @@ void CapturePrototype::make_programs(gpu::PipelineStore& pipelines) {
             {"distances", {nullptr, cubes_[i].distance.view(cubes, 0, layers), linear_}}};
         const auto bind = [&](const char* fragment, gpu::TriangleWinding hidden,
                               const gpu::AttachmentFormats& to) {
-            return sets_.bind(pipelines.find_or_make_raster(state(fragment, hidden), to),
+            return sets_.bind(pipelines.find_or_make_raster_pipeline(state(fragment, hidden), to),
                               resources);
         };
         capture_[i] = {bind("peers/diffuse.frag", gpu::TriangleWinding::none, faces),
@@ -143,9 +146,10 @@ void CapturePrototype::make_programs(gpu::PipelineStore& pipelines) {
 
 /// Draws an object into the layers whose view it may intersect. One draw call covers a run of
 /// neighbouring layers.
-void CapturePrototype::draw_object(VkCommandBuffer commands, const BoundPlainPipeline& program,
-                                   std::size_t object, std::uint32_t first_view,
-                                   std::uint32_t layers) const {
+void CubeCapturePrototypeRenderer::draw_object(VkCommandBuffer commands,
+                                               const BoundPrototypePipeline& program,
+                                               std::size_t object, std::uint32_t first_view,
+                                               std::uint32_t layers) const {
     const render::ObjectDrawRange& range = geometry_.ranges[object];
     const auto mirror = std::ranges::find(mirrors_, object);
     const vec3 centre = mirror == mirrors_.end() ? vec3(0) : range.bounds.centre();
@@ -183,26 +187,27 @@ void record_rendering_scope(VkCommandBuffer commands, VkExtent2D extent, std::ui
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     body();
     vkCmdEndRendering(commands);
-    record_plain_barrier(commands);
+    record_full_memory_barrier(commands);
 }
 
 } // namespace
 
 /// Draws only the balls into the shadow map, because the walls of the room cast no shadow that
 /// falls on a surface.
-void CapturePrototype::draw_shadows(VkCommandBuffer commands) {
+void CubeCapturePrototypeRenderer::draw_shadows(VkCommandBuffer commands) {
     record_rendering_scope(commands, shadow_map_.image_extent(), kShadowMapFaceCount, {},
                            make_cleared_attachment(shadow_faces_, 0), [&] {
                                shadow_.bind(commands);
                                for (const std::size_t mirror : mirrors_)
-                                   draw_object(commands, shadow_, mirror, kLightView,
+                                   draw_object(commands, shadow_, mirror, kLightViewIndex,
                                                kShadowMapFaceCount);
                            });
 }
 
-void CapturePrototype::draw_surfaces(VkCommandBuffer commands, const PrototypePipelines& programs,
-                                     std::uint32_t first_view, std::uint32_t layers,
-                                     std::size_t except) const {
+void CubeCapturePrototypeRenderer::draw_surfaces(VkCommandBuffer commands,
+                                                 const PrototypeGraphicsPipelines& programs,
+                                                 std::uint32_t first_view, std::uint32_t layers,
+                                                 std::size_t except) const {
     programs.diffuse.bind(commands);
     for (std::size_t i = 0; i < geometry_.ranges.size(); ++i)
         if (!geometry_.ranges[i].mirror)
@@ -212,32 +217,34 @@ void CapturePrototype::draw_surfaces(VkCommandBuffer commands, const PrototypePi
         if (mirror != except) draw_object(commands, programs.mirror, mirror, first_view, layers);
 }
 
-void CapturePrototype::draw() {
+void CubeCapturePrototypeRenderer::draw() {
     const std::size_t now = ++frame_number_ % 2, before = 1 - now;
-    peer_device_.submit_now("draw the prototype's frame", [&](VkCommandBuffer commands) {
-        const VkDeviceSize zero = 0;
-        const VkBuffer vertices = vertices_.buffer_handle();
-        vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
-        vkCmdBindIndexBuffer(commands, indices_.buffer_handle(), 0, VK_INDEX_TYPE_UINT32);
-        draw_shadows(commands);
-        for (std::uint32_t i = 0; i < mirrors_.size(); ++i)
+    peer_device_.submit_one_time_commands(
+        "draw the prototype's frame", [&](VkCommandBuffer commands) {
+            const VkDeviceSize zero = 0;
+            const VkBuffer vertices = vertices_.buffer_handle();
+            vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &zero);
+            vkCmdBindIndexBuffer(commands, indices_.buffer_handle(), 0, VK_INDEX_TYPE_UINT32);
+            draw_shadows(commands);
+            for (std::uint32_t i = 0; i < mirrors_.size(); ++i)
+                record_rendering_scope(
+                    commands, depth_.image_extent(), 6,
+                    {make_cleared_attachment(faces_[now][i][0], 0),
+                     make_cleared_attachment(faces_[now][i][1], kNoSurfaceDistance)},
+                    make_cleared_attachment(depth_faces_, 0, false),
+                    [&] { draw_surfaces(commands, capture_[before], 1 + 6 * i, 6, mirrors_[i]); });
             record_rendering_scope(
-                commands, depth_.image_extent(), 6,
-                {make_cleared_attachment(faces_[now][i][0], 0),
-                 make_cleared_attachment(faces_[now][i][1], kNoSurfaceDistance)},
-                make_cleared_attachment(depth_faces_, 0, false),
-                [&] { draw_surfaces(commands, capture_[before], 1 + 6 * i, 6, mirrors_[i]); });
-        record_rendering_scope(
-            commands, view_.image_extent(), 1, {make_cleared_attachment(picture_, 0)},
-            make_cleared_attachment(picture_depth_, 0, false),
-            [&] { draw_surfaces(commands, camera_[now], 0, 1, geometry_.ranges.size()); });
-    });
+                commands, view_.image_extent(), 1, {make_cleared_attachment(picture_, 0)},
+                make_cleared_attachment(picture_depth_, 0, false),
+                [&] { draw_surfaces(commands, camera_[now], 0, 1, geometry_.ranges.size()); });
+        });
 }
 
-std::vector<PeerVector> CapturePrototype::read() {
-    peer_device_.submit_now("read the prototype's picture",
-                            [&](VkCommandBuffer commands) { view_.copy(commands, pixels_); });
-    return read_image_vectors(pixels_);
+std::vector<PeerVector3> CubeCapturePrototypeRenderer::read() {
+    peer_device_.submit_one_time_commands(
+        "read the prototype's picture",
+        [&](VkCommandBuffer commands) { view_.copy(commands, pixels_); });
+    return read_texel_colours_from_buffer(pixels_);
 }
 
 } // namespace peers

@@ -12,15 +12,16 @@ namespace peers {
 /// draws a shadow map of the mirror balls, a capture of each mirror, and the camera's view.
 /// Mirrors in a capture show the captures of the frame before. Reflected directions get one step of
 /// parallax correction. Supports only the features of the built-in scene.
-class CapturePrototype {
+class CubeCapturePrototypeRenderer {
 public:
     /// Sets up the request's scene. `face` is the edge of the captures' faces, texels.
-    CapturePrototype(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
-                     const catoptric::app::Request& request, std::uint32_t face);
+    CubeCapturePrototypeRenderer(catoptric::gpu::GpuDevice& device,
+                                 catoptric::gpu::PipelineStore& pipelines,
+                                 const catoptric::app::Request& request, std::uint32_t face);
 
     /// Draws a frame and waits for the device.
     void draw();
-    std::vector<PeerVector> read(); ///< returns the camera's view of the last frame, linear
+    std::vector<PeerVector3> read(); ///< returns the camera's view of the last frame, linear
 
 private:
     struct PrototypeMaterial {
@@ -33,21 +34,21 @@ private:
         float cube;
     };
     /// The captures of all mirrors: cube maps of colour and of distance.
-    struct MirrorCaptureCubes {
-        GeneralLayoutImage colour, distance;
+    struct MirrorCaptureCubeMaps {
+        GeneralLayoutVulkanImage colour, distance;
     };
     /// The pipelines of a pass, with descriptor sets for even or for odd frames.
-    struct PrototypePipelines {
-        BoundPlainPipeline diffuse, mirror;
+    struct PrototypeGraphicsPipelines {
+        BoundPrototypePipeline diffuse, mirror;
     };
 
     void add_scene(const catoptric::app::Request& request);
     void make_images(catoptric::uvec2 size);
     void make_programs(catoptric::gpu::PipelineStore& pipelines);
-    void draw_object(VkCommandBuffer commands, const BoundPlainPipeline& program,
+    void draw_object(VkCommandBuffer commands, const BoundPrototypePipeline& program,
                      std::size_t object, std::uint32_t first_view, std::uint32_t layers) const;
     void draw_shadows(VkCommandBuffer commands);
-    void draw_surfaces(VkCommandBuffer commands, const PrototypePipelines& programs,
+    void draw_surfaces(VkCommandBuffer commands, const PrototypeGraphicsPipelines& programs,
                        std::uint32_t first_view, std::uint32_t layers, std::size_t except) const;
 
     catoptric::gpu::GpuDevice& peer_device_;
@@ -58,12 +59,12 @@ private:
     std::vector<catoptric::shared::View> views_; ///< in the order of Frame in shaders/draw.glsl
     catoptric::gpu::GpuBuffer vertices_, indices_, frame_, pixels_;
     catoptric::gpu::UniqueSampler linear_, compare_;
-    GeneralLayoutImage shadow_map_, depth_, view_, view_depth_;
-    std::array<MirrorCaptureCubes, 2>
+    GeneralLayoutVulkanImage shadow_map_, depth_, view_, view_depth_;
+    std::array<MirrorCaptureCubeMaps, 2>
         cubes_; ///< captures of the current frame and of the frame before, in turn
-    PlainDescriptorSets sets_;
-    BoundPlainPipeline shadow_;
-    std::array<PrototypePipelines, 2> capture_,
+    PrototypeDescriptorSets sets_;
+    BoundPrototypePipeline shadow_;
+    std::array<PrototypeGraphicsPipelines, 2> capture_,
         camera_; ///< by the element of `cubes_` that they read
     /// The capture's faces as attachments, by element of `cubes_` and by mirror: colour, distance.
     std::array<std::vector<std::array<VkImageView, 2>>, 2> faces_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embree_scene.hpp"
+#include "embree_scene_handle.hpp"
 #include "scene/scene.hpp"
 #include "session/engine.hpp"
 #include "session/usage.hpp"
@@ -10,7 +10,7 @@
 namespace peers {
 
 /// The devices and settings that all comparisons use.
-struct PeerBench {
+struct EmbreeComparisonBench {
     catoptric::app::Engine& engine;
     const catoptric::app::ProcessorUsageMeter& meter; ///< measures the whole process
     const EmbreeDevice& device;
@@ -18,26 +18,28 @@ struct PeerBench {
     int rounds = 0;
 };
 
-struct NamedScene {
+struct NamedSceneFactory {
     const char* name;
     catoptric::scene::Scene (*make)();
 };
 /// Returns the scenes of the comparisons: the built-in scene; two variants of it with finer balls
 /// and a ring, with 100,144 and 1,001,756 triangles; and the scene `room`.
-std::span<const NamedScene> list_named_scenes();
+std::span<const NamedSceneFactory> list_named_scene_factories();
 
 /// Compares pictures of the built-in scene: traced with mesh balls and with exact spheres, by
 /// captures, and by prototypes. Prints times and differences. Returns whether all traced pictures
 /// agree.
-bool compare_built_in_scene_pictures(const PeerBench& bench);
+bool compare_built_in_scene_pictures(const EmbreeComparisonBench& bench);
 /// Compares our traced picture of a scene with Embree's. Prints times and differences. Returns
 /// whether the pictures agree.
-bool compare_pictures(const PeerBench& bench, const NamedScene& of);
+bool compare_whitted_pictures_with_embree(const EmbreeComparisonBench& bench,
+                                          const NamedSceneFactory& of);
 /// Compares the first hits of rays with random origins and directions in a scene. Prints times and
 /// differences. Returns whether our hits and Embree's agree.
-bool compare_rays(const PeerBench& bench, const NamedScene& of);
+bool compare_random_rays_with_embree(const EmbreeComparisonBench& bench,
+                                     const NamedSceneFactory& of);
 /// Compares with Embree the build times of trees of a million triangles, and the expected cost of
 /// rays in the trees of all built-in scenes. Prints both.
-void compare_trees(const PeerBench& bench);
+void compare_bvhs_with_embree(const EmbreeComparisonBench& bench);
 
 } // namespace peers

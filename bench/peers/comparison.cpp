@@ -9,10 +9,10 @@
 namespace peers {
 
 using namespace catoptric;
+using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
-using measure::CostKind;
 
-std::string our_benchmark_name(const std::string& pair) { return "ours/" + pair; }
+std::string engine_benchmark_name(const std::string& pair) { return "ours/" + pair; }
 std::string embree_benchmark_name(const std::string& pair, int width) {
     return "embree/" + pair + "/" + std::to_string(width);
 }
@@ -26,39 +26,40 @@ app::Request make_request_of_scene(scene::Scene scene) {
 }
 
 std::size_t count_differing_pixels(const measure::Picture& ours,
-                                   const std::vector<PeerVector>& theirs) {
+                                   const std::vector<PeerVector3>& theirs) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < theirs.size(); ++i) {
         const auto& [x, y, z] = theirs[i];
         const vec3 apart = abs(ours.pixels[i] - vec3(x, y, z));
-        count += !(std::max({apart.x, apart.y, apart.z}) <= kEqualPixelTolerance);
+        count += !(std::max({apart.x, apart.y, apart.z}) <= kMaxEqualPixelDifference);
     }
     return count;
 }
 
-PairBenchmarks trace_pair_and_print_differences(const EmbreeDevice& device,
-                                                std::shared_ptr<app::Session> session,
-                                                app::Request request, const TracedPicturePair& pair,
-                                                int threads, int frames) {
+EngineAndEmbreeBenchmarks trace_pair_and_print_differences(const EmbreeDevice& device,
+                                                           std::shared_ptr<app::Session> session,
+                                                           app::Request request,
+                                                           const EnginePeerPicturePair& pair,
+                                                           int threads, int frames) {
     request.techniques = {pair.technique};
     const app::TechniqueResult ours = session->frame(request).read();
     const catoptric::RayCounts rays = ours.rays.value();
-    std::printf("%-23s %llu rays\n", our_benchmark_name(pair.name).c_str(),
+    std::printf("%-23s %llu rays\n", engine_benchmark_name(pair.name).c_str(),
                 static_cast<unsigned long long>(rays.primary + rays.mirror + rays.shadow));
-    PairBenchmarks shown{.same = true};
+    EngineAndEmbreeBenchmarks shown{.same = true};
     shown.subjects.push_back(
         app::make_frame_benchmark_subject(std::move(session), request, frames));
-    shown.subjects.back().name = our_benchmark_name(pair.name),
+    shown.subjects.back().name = engine_benchmark_name(pair.name),
     shown.subjects.back().caller.clear();
-    const auto peer = std::make_shared<EmbreePeerScene>(device, request, kMirrorBounces,
-                                                        pair.exact);
-    for (const int width : kPacketWidths) {
-        const TracedPeerPicture theirs = peer->trace_picture(width, threads);
+    const auto peer = std::make_shared<EmbreeWhittedTracer>(device, request, kMirrorBounces,
+                                                            pair.exact);
+    for (const int width : kEmbreePacketWidths) {
+        const PeerTracedPicture theirs = peer->trace_picture(width, threads);
         const std::size_t other = count_differing_pixels(ours.hdr, theirs.pixels);
         const std::string name = embree_benchmark_name(pair.name, width);
         std::printf("%-23s %llu rays, %zu pixels differ by more than %g\n", name.c_str(),
                     static_cast<unsigned long long>(theirs.rays.total_ray_count()), other,
-                    static_cast<double>(kEqualPixelTolerance));
+                    static_cast<double>(kMaxEqualPixelDifference));
         shown.same = shown.same && other <= kMaxDifferingPixels;
         shown.rays = static_cast<double>(theirs.rays.total_ray_count());
         shown.subjects.push_back(app::make_benchmark_subject(
@@ -69,32 +70,36 @@ PairBenchmarks trace_pair_and_print_differences(const EmbreeDevice& device,
 }
 
 void print_benchmark(const BenchmarkResult& benchmark, const char* what, double millions) {
-    const double ms = measure::compute_percentile(list_round_costs(benchmark, CostKind::real_time),
-                                                  .5);
+    const double ms = measure::compute_percentile(
+        list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time), .5);
     std::printf("%-23s %9.2f ms %9.2f ms of processors", benchmark.name.c_str(), ms,
-                measure::compute_percentile(list_round_costs(benchmark, CostKind::cpu_time), .5));
+                measure::compute_percentile(
+                    list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time), .5));
     if (benchmark.rounds.front().cycles)
         std::printf(" %9.1f Mcycles",
-                    measure::compute_percentile(list_round_costs(benchmark, CostKind::cycles), .5) /
+                    measure::compute_percentile(
+                        list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cycles), .5) /
                         1e6);
     if (millions > 0) std::printf(" %8.2f M%s/s", 1e3 * millions / ms, what);
     std::printf("\n");
 }
 
 void print_cost_ratio(const BenchmarkResult& a, const BenchmarkResult& b) {
-    const CostKind cost = a.rounds.front().cycles ? CostKind::cycles : CostKind::cpu_time;
-    const measure::CostRatio ratio = measure::compute_cost_ratio(list_round_costs(a, cost),
-                                                                 list_round_costs(b, cost));
-    const measure::CostRatio real = measure::compute_cost_ratio(
-        list_round_costs(a, CostKind::real_time), list_round_costs(b, CostKind::real_time));
+    const BenchmarkCostKind cost = a.rounds.front().cycles ? BenchmarkCostKind::cycles
+                                                           : BenchmarkCostKind::cpu_time;
+    const measure::BenchmarkCostRatio ratio = measure::compute_cost_ratio(
+        list_benchmark_cost_per_round(a, cost), list_benchmark_cost_per_round(b, cost));
+    const measure::BenchmarkCostRatio real = measure::compute_cost_ratio(
+        list_benchmark_cost_per_round(a, BenchmarkCostKind::real_time),
+        list_benchmark_cost_per_round(b, BenchmarkCostKind::real_time));
     std::printf("%-19s / %-23s %6.3f [%.3f - %.3f] of %s, %6.3f [%.3f - %.3f] on the clock\n",
                 a.name.c_str(), b.name.c_str(), ratio.median, ratio.ci95.low, ratio.ci95.high,
                 measure::cost_kind_name(cost).c_str(), real.median, real.ci95.low, real.ci95.high);
 }
 
 void print_cost_ratios_of_pair(const std::vector<BenchmarkResult>& list, const std::string& pair) {
-    for (const int width : kPacketWidths)
-        print_cost_ratio(find_benchmark_by_name(list, our_benchmark_name(pair)),
+    for (const int width : kEmbreePacketWidths)
+        print_cost_ratio(find_benchmark_by_name(list, engine_benchmark_name(pair)),
                          find_benchmark_by_name(list, embree_benchmark_name(pair, width)));
 }
 

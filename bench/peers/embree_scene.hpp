@@ -20,7 +20,7 @@ public:
     EmbreeDevice(const EmbreeDevice&) = delete;
     EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
-    RTCDevice embree_device() const { return peer_device_; }
+    RTCDevice embree_device_handle() const { return peer_device_; }
     /// Throws if Embree had an error since the last call.
     void throw_on_embree_error() const {
         if (const RTCError error = rtcGetDeviceError(peer_device_); error != RTC_ERROR_NONE)
@@ -36,7 +36,8 @@ private:
 inline RTCGeometry make_triangle_geometry(const EmbreeDevice& device,
                                           std::span<const catoptric::bvh::Triangle> triangles) {
     using catoptric::vec3;
-    RTCGeometry geometry = rtcNewGeometry(device.embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(device.embree_device_handle(),
+                                          RTC_GEOMETRY_TYPE_TRIANGLE);
     const std::size_t count = triangles.size();
     auto* corners = static_cast<vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), 3 * count));
@@ -55,7 +56,7 @@ inline RTCGeometry make_triangle_geometry(const EmbreeDevice& device,
 class EmbreeScene {
 public:
     EmbreeScene(const EmbreeDevice& device, RTCSceneFlags flags, RTCBuildQuality quality)
-        : peer_device_(device), embree_scene_(rtcNewScene(device.embree_device())) {
+        : peer_device_(device), embree_scene_(rtcNewScene(device.embree_device_handle())) {
         rtcSetSceneFlags(embree_scene_, flags);
         rtcSetSceneBuildQuality(embree_scene_, quality);
     }
@@ -63,7 +64,7 @@ public:
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-    RTCScene embree_scene() const { return embree_scene_; }
+    RTCScene embree_scene_handle() const { return embree_scene_; }
 
     /// Adds a geometry. `number` identifies the geometry in a hit and must be unique in the scene.
     void add_geometry(RTCGeometry geometry, unsigned number = 0) {

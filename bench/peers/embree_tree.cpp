@@ -14,7 +14,8 @@ using bvh::BoundingBox;
 namespace {
 
 constexpr unsigned kMaxEmbreeTreeDepth = 48; // greatest tree depth that Embree's builder accepts
-constexpr std::size_t kPrimitiveRoomPerTriangle = 2; // most primitives per triangle after splits
+constexpr std::size_t kMaxSplitPrimitivesPerTriangle =
+    2; // most primitives per triangle after splits
 
 struct EmbreeTreeNode {
     std::size_t triangles = 0; ///< number of triangles of a leaf; 0: an inner node
@@ -22,28 +23,28 @@ struct EmbreeTreeNode {
     EmbreeTreeNode* children[2] = {};
 };
 
-double compute_node_cost(const EmbreeTreeNode& node) {
+double compute_bvh_node_sah_cost(const EmbreeTreeNode& node) {
     double sum = 0;
     for (int side = 0; side < 2; ++side) {
         const EmbreeTreeNode& child = *node.children[side];
         const bool is_leaf = child.triangles > 0;
-        sum += bvh::box_area(node.boxes[side]) *
-                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kNodeVisitCost) +
-               (is_leaf ? 0 : compute_node_cost(child));
+        sum += bvh::bounding_box_surface_area(node.boxes[side]) *
+                   (is_leaf ? static_cast<double>(child.triangles) : bvh::kBvhNodeVisitCost) +
+               (is_leaf ? 0 : compute_bvh_node_sah_cost(child));
     }
     return sum;
 }
 
-BoundingBox embree_bounds_to_box(const RTCBounds& bounds) {
+BoundingBox embree_bounds_to_bounding_box(const RTCBounds& bounds) {
     return {{bounds.lower_x, bounds.lower_y, bounds.lower_z},
             {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
 }
 
-RTCBounds box_to_embree_bounds(const BoundingBox& box) {
+RTCBounds bounding_box_to_embree_bounds(const BoundingBox& box) {
     return {box.lo.x, box.lo.y, box.lo.z, 0, box.hi.x, box.hi.y, box.hi.z, 0};
 }
 
-EmbreeTreeNode* make_embree_node(RTCThreadLocalAllocator allocator) {
+EmbreeTreeNode* allocate_embree_bvh_node(RTCThreadLocalAllocator allocator) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(EmbreeTreeNode), alignof(EmbreeTreeNode)))
         EmbreeTreeNode;
 }
@@ -68,15 +69,16 @@ void split_primitive_at_plane(const RTCBuildPrimitive* primitive, unsigned axis_
     const vec3 lo(primitive->lower_x, primitive->lower_y, primitive->lower_z),
         hi(primitive->upper_x, primitive->upper_y, primitive->upper_z);
     for (BoundingBox& side : sides) side = {max(side.lo, lo), min(side.hi, hi)};
-    *left = box_to_embree_bounds(sides[0]), *right = box_to_embree_bounds(sides[1]);
+    *left = bounding_box_to_embree_bounds(sides[0]),
+    *right = bounding_box_to_embree_bounds(sides[1]);
 }
 
-void set_build_arguments(RTCBuildArguments& arguments) {
+void set_embree_bvh_build_arguments(RTCBuildArguments& arguments) {
     arguments.maxDepth = kMaxEmbreeTreeDepth;
     arguments.maxLeafSize = bvh::kMaxLeafTriangles;
-    arguments.traversalCost = static_cast<float>(bvh::kNodeVisitCost);
+    arguments.traversalCost = static_cast<float>(bvh::kBvhNodeVisitCost);
     arguments.createNode = [](RTCThreadLocalAllocator allocator, unsigned, void*) -> void* {
-        return make_embree_node(allocator);
+        return allocate_embree_bvh_node(allocator);
     };
     arguments.setNodeChildren = [](void* node, void** children, unsigned, void*) {
         for (int side = 0; side < 2; ++side)
@@ -85,11 +87,12 @@ void set_build_arguments(RTCBuildArguments& arguments) {
     };
     arguments.setNodeBounds = [](void* node, const RTCBounds** bounds, unsigned, void*) {
         for (int side = 0; side < 2; ++side)
-            static_cast<EmbreeTreeNode*>(node)->boxes[side] = embree_bounds_to_box(*bounds[side]);
+            static_cast<EmbreeTreeNode*>(node)->boxes[side] = embree_bounds_to_bounding_box(
+                *bounds[side]);
     };
     arguments.createLeaf = [](RTCThreadLocalAllocator allocator, const RTCBuildPrimitive*,
                               std::size_t count, void*) -> void* {
-        EmbreeTreeNode* const leaf = make_embree_node(allocator);
+        EmbreeTreeNode* const leaf = allocate_embree_bvh_node(allocator);
         leaf->triangles = count;
         return leaf;
     };
@@ -98,9 +101,10 @@ void set_build_arguments(RTCBuildArguments& arguments) {
 
 } // namespace
 
-double compute_embree_tree_cost(const EmbreeDevice& device,
-                                std::span<const bvh::Triangle> triangles, RTCBuildQuality quality) {
-    std::vector<RTCBuildPrimitive> primitives(kPrimitiveRoomPerTriangle * triangles.size());
+double compute_embree_bvh_sah_cost(const EmbreeDevice& device,
+                                   std::span<const bvh::Triangle> triangles,
+                                   RTCBuildQuality quality) {
+    std::vector<RTCBuildPrimitive> primitives(kMaxSplitPrimitivesPerTriangle * triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const bvh::Triangle& t = triangles[i];
         const BoundingBox box = bvh::compute_triangle_bounds(t.a, t.b, t.c, t.flags);
@@ -108,9 +112,9 @@ double compute_embree_tree_cost(const EmbreeDevice& device,
                          box.hi.x, box.hi.y, box.hi.z, static_cast<unsigned>(i)};
     }
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    set_build_arguments(arguments);
+    set_embree_bvh_build_arguments(arguments);
     arguments.buildQuality = quality;
-    arguments.bvh = rtcNewBVH(device.embree_device());
+    arguments.bvh = rtcNewBVH(device.embree_device_handle());
     arguments.primitives = primitives.data();
     arguments.primitiveCount = triangles.size();
     arguments.primitiveArrayCapacity = primitives.size();
@@ -119,7 +123,7 @@ double compute_embree_tree_cost(const EmbreeDevice& device,
     const auto* root = static_cast<const EmbreeTreeNode*>(rtcBuildBVH(&arguments));
     device.throw_on_embree_error();
     // A root that is a leaf needs no walk.
-    const double cost = root->triangles > 0 ? 0 : compute_node_cost(*root);
+    const double cost = root->triangles > 0 ? 0 : compute_bvh_node_sah_cost(*root);
     rtcReleaseBVH(arguments.bvh);
     return cost;
 }

@@ -42,7 +42,7 @@ std::size_t count_hits(const std::vector<FirstRayHit>& met) {
                                                                     &FirstRayHit::triangle));
 }
 
-bool is_hit_at_other_place(const FirstRayHit& a, const FirstRayHit& b) {
+bool do_hits_differ_in_position(const FirstRayHit& a, const FirstRayHit& b) {
     if (a.triangle == FirstRayHit::kNoTriangle || b.triangle == FirstRayHit::kNoTriangle)
         return a.triangle != b.triangle;
     return !(std::abs(a.t - b.t) <= kEqualHitTolerance * std::max(1.0F, a.t));
@@ -50,12 +50,13 @@ bool is_hit_at_other_place(const FirstRayHit& a, const FirstRayHit& b) {
 
 /// Prints how Embree's hits differ from ours. Returns whether at most kMaxDifferingPixels rays have
 /// hits at different positions.
-bool print_and_check_hit_differences(const std::string& name, const std::vector<FirstRayHit>& ours,
-                                     const std::vector<FirstRayHit>& theirs) {
+bool print_and_check_ray_hit_differences(const std::string& name,
+                                         const std::vector<FirstRayHit>& ours,
+                                         const std::vector<FirstRayHit>& theirs) {
     std::size_t triangles = 0, places = 0;
     for (std::size_t i = 0; i < theirs.size(); ++i) {
         triangles += theirs[i].triangle != ours[i].triangle;
-        places += is_hit_at_other_place(theirs[i], ours[i]);
+        places += do_hits_differ_in_position(theirs[i], ours[i]);
     }
     std::printf("%-23s %zu rays, %zu hits; %zu another triangle, %zu another place\n", name.c_str(),
                 theirs.size(), count_hits(theirs), triangles, places);
@@ -64,30 +65,32 @@ bool print_and_check_hit_differences(const std::string& name, const std::vector<
 
 } // namespace
 
-bool compare_rays(const PeerBench& bench, const NamedScene& of) {
+bool compare_random_rays_with_embree(const EmbreeComparisonBench& bench,
+                                     const NamedSceneFactory& of) {
     const std::string name = std::string("rays/") + of.name;
-    const std::vector<bvh::Triangle> triangles = list_scene_triangles(of.make());
+    const std::vector<bvh::Triangle> triangles = make_bvh_triangles_of_scene(of.make());
     const std::vector<Ray> rays = make_random_rays_in_bounds(triangles);
     std::printf("\nrays in any direction, %s: %zu triangles\n", of.name, triangles.size());
     gpu::GpuDevice device{{}};
     gpu::PipelineStore pipelines(device);
-    TracedRayList list(device, pipelines, triangles, rays);
+    RayListBenchmark list(device, pipelines, triangles, rays);
     list.trace_all_rays();
     const std::vector<FirstRayHit> ours = list.read();
-    std::printf("%-23s %zu rays, %zu hits\n", our_benchmark_name(name).c_str(), ours.size(),
+    std::printf("%-23s %zu rays, %zu hits\n", engine_benchmark_name(name).c_str(), ours.size(),
                 count_hits(ours));
     bool same = std::ranges::count(ours, FirstRayHit::kUntraced, &FirstRayHit::triangle) == 0;
     EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     tree.add_geometry_and_release(make_triangle_geometry(bench.device, triangles));
     tree.build_tree();
     std::vector<app::BenchmarkSubject> subjects{app::make_benchmark_subject(
-        our_benchmark_name(name), [&] { list.trace_all_rays(); }, kWarmupFrameCount)};
-    for (const int width : kPacketWidths) {
+        engine_benchmark_name(name), [&] { list.trace_all_rays(); }, kWarmupFrameCount)};
+    for (const int width : kEmbreePacketWidths) {
         const auto theirs = [&, width] {
-            return find_closest_hits_of_rays(tree.embree_scene(), rays, width, bench.threads);
+            return find_closest_hits_of_rays(tree.embree_scene_handle(), rays, width,
+                                             bench.threads);
         };
-        same = print_and_check_hit_differences(embree_benchmark_name(name, width), ours,
-                                               theirs()) &&
+        same = print_and_check_ray_hit_differences(embree_benchmark_name(name, width), ours,
+                                                   theirs()) &&
                same;
         subjects.push_back(app::make_benchmark_subject(embree_benchmark_name(name, width), theirs,
                                                        kWarmupFrameCount));

@@ -10,7 +10,7 @@ namespace peers {
 
 /// The types and Embree calls for single rays. `EightRayPacket` and `SixteenRayPacket` are the same
 /// for packets of 8 and 16 rays. A mask has all bits set, or 0, in each lane.
-struct SingleRayPacket {
+struct OneRayPacket {
     using Real = float;
     using Mask = int;
     using Hits = RTCRayHit;
@@ -20,8 +20,8 @@ struct SingleRayPacket {
                                   Hits& hits) {
         rtcIntersect1(tree, context, &hits);
     }
-    static void find_occlusion(const Mask&, RTCScene tree, RTCIntersectContext* context,
-                               Rays& rays) {
+    static void find_occluded_packet_lanes(const Mask&, RTCScene tree, RTCIntersectContext* context,
+                                           Rays& rays) {
         rtcOccluded1(tree, context, &rays);
     }
 };
@@ -35,8 +35,8 @@ struct EightRayPacket {
                                   Hits& hits) {
         rtcIntersect8(reinterpret_cast<const int*>(&valid), tree, context, &hits);
     }
-    static void find_occlusion(const Mask& valid, RTCScene tree, RTCIntersectContext* context,
-                               Rays& rays) {
+    static void find_occluded_packet_lanes(const Mask& valid, RTCScene tree,
+                                           RTCIntersectContext* context, Rays& rays) {
         rtcOccluded8(reinterpret_cast<const int*>(&valid), tree, context, &rays);
     }
 };
@@ -50,15 +50,15 @@ struct SixteenRayPacket {
                                   Hits& hits) {
         rtcIntersect16(reinterpret_cast<const int*>(&valid), tree, context, &hits);
     }
-    static void find_occlusion(const Mask& valid, RTCScene tree, RTCIntersectContext* context,
-                               Rays& rays) {
+    static void find_occluded_packet_lanes(const Mask& valid, RTCScene tree,
+                                           RTCIntersectContext* context, Rays& rays) {
         rtcOccluded16(reinterpret_cast<const int*>(&valid), tree, context, &rays);
     }
 };
 
-inline int is_greater(float a, float b) { return a > b ? -1 : 0; }
+inline int is_lane_greater(float a, float b) { return a > b ? -1 : 0; }
 template <typename Real>
-auto is_greater(Real a, Real b) -> decltype(a > b) {
+auto is_lane_greater(Real a, Real b) -> decltype(a > b) {
     return a > b;
 }
 inline float select_lanes(int mask, float a, float b) { return mask ? a : b; }
@@ -128,17 +128,17 @@ PacketVector<Real> select_lanes(Mask mask, PacketVector<Real> a, PacketVector<Re
             select_lanes(mask, a.z, b.z)};
 }
 template <typename Real>
-PacketVector<Real> broadcast_vector(PeerVector v) {
+PacketVector<Real> broadcast_vector(PeerVector3 v) {
     return {Real{} + v.x, Real{} + v.y, Real{} + v.z};
 }
 template <typename Real>
-void write_lane(PacketVector<Real>& to, int i, PeerVector v) {
+void write_lane(PacketVector<Real>& to, int i, PeerVector3 v) {
     write_lane(to.x, i, v.x), write_lane(to.y, i, v.y), write_lane(to.z, i, v.z);
 }
 template <typename Real>
 PacketVector<float> read_lane(const PacketVector<Real>& a, int i) {
     return {read_lane(a.x, i), read_lane(a.y, i), read_lane(a.z, i)};
 }
-inline PeerVector packet_to_peer_vector(PacketVector<float> a) { return {a.x, a.y, a.z}; }
+inline PeerVector3 packet_lane_to_vector(PacketVector<float> a) { return {a.x, a.y, a.z}; }
 
 } // namespace peers

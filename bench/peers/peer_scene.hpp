@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embree_scene.hpp"
+#include "embree_scene_handle.hpp"
 #include "render/geometry.hpp"
 #include "session/run.hpp"
 #include "whitted.hpp"
@@ -11,13 +11,13 @@ namespace peers {
 /// Supports only the features of the scenes `cornell-mirrors` and `room`. These are lamps, spots
 /// without a range, mirrors with the same reflectance at any angle and smooth dielectrics. Further
 /// features are bilinear repeating sRGB textures of albedo, and a perspective camera.
-class EmbreePeerScene {
+class EmbreeWhittedTracer {
 public:
-    EmbreePeerScene(const EmbreeDevice& device, const catoptric::app::Request& request, int depth,
-                    bool exact);
+    EmbreeWhittedTracer(const EmbreeDevice& device, const catoptric::app::Request& request,
+                        int depth, bool exact);
 
-    const WhittedScene& whitted_scene() const { return whitted_; }
-    TracedPeerPicture trace_picture(int width, int threads) const {
+    const WhittedTracerScene& whitted_tracer_scene() const { return whitted_; }
+    PeerTracedPicture trace_picture(int width, int threads) const {
         return peers::trace_whitted_picture(whitted_, width, threads);
     }
 
@@ -29,10 +29,11 @@ private:
     void add_view(const catoptric::app::Request& request);
 
     EmbreeScene embree_tree_;
-    WhittedScene whitted_;
+    WhittedTracerScene whitted_;
 };
 
 /// Returns all triangles of a scene at time 0, in scene units.
-std::vector<catoptric::bvh::Triangle> list_scene_triangles(const catoptric::scene::Scene& scene);
+std::vector<catoptric::bvh::Triangle>
+make_bvh_triangles_of_scene(const catoptric::scene::Scene& scene);
 
 } // namespace peers

@@ -19,40 +19,43 @@
 namespace {
 
 using namespace catoptric;
-using peers::PeerBench;
+using peers::EmbreeComparisonBench;
 
-struct PeerCase {
+struct EmbreeComparisonCase {
     std::string name;
-    std::function<bool(const PeerBench&)> compare;
+    std::function<bool(const EmbreeComparisonBench&)> compare;
 };
 
-std::vector<PeerCase> list_all_cases() {
-    std::vector<PeerCase> cases{{"built-in", peers::compare_built_in_scene_pictures}};
-    for (const peers::NamedScene& scene : peers::list_named_scenes().subspan(1))
-        cases.push_back({scene.name, [&scene](const PeerBench& bench) {
-                             return peers::compare_pictures(bench, scene);
+std::vector<EmbreeComparisonCase> list_embree_comparison_cases() {
+    std::vector<EmbreeComparisonCase> cases{{"built-in", peers::compare_built_in_scene_pictures}};
+    for (const peers::NamedSceneFactory& scene : peers::list_named_scene_factories().subspan(1))
+        cases.push_back({scene.name, [&scene](const EmbreeComparisonBench& bench) {
+                             return peers::compare_whitted_pictures_with_embree(bench, scene);
                          }});
-    cases.push_back({"rays", [](const PeerBench& bench) {
-                         return std::ranges::count_if(peers::list_named_scenes(),
-                                                      [&](const peers::NamedScene& scene) {
-                                                          return !peers::compare_rays(bench, scene);
-                                                      }) == 0;
+    cases.push_back({"rays", [](const EmbreeComparisonBench& bench) {
+                         return std::ranges::count_if(
+                                    peers::list_named_scene_factories(),
+                                    [&](const peers::NamedSceneFactory& scene) {
+                                        return !peers::compare_random_rays_with_embree(bench,
+                                                                                       scene);
+                                    }) == 0;
                      }});
-    cases.push_back({"trees", [](const PeerBench& bench) {
-                         peers::compare_trees(bench);
+    cases.push_back({"trees", [](const EmbreeComparisonBench& bench) {
+                         peers::compare_bvhs_with_embree(bench);
                          return true;
                      }});
     return cases;
 }
 
 /// Returns the cases that the words name, or all cases if `words` is empty.
-std::vector<PeerCase> choose_cases_by_words(const std::vector<std::string>& words) {
-    const std::vector<PeerCase> all = list_all_cases();
-    std::vector<PeerCase> chosen;
+std::vector<EmbreeComparisonCase>
+select_comparison_cases_by_name(const std::vector<std::string>& words) {
+    const std::vector<EmbreeComparisonCase> all = list_embree_comparison_cases();
+    std::vector<EmbreeComparisonCase> chosen;
     for (const std::string& word : words) {
-        const auto found = std::ranges::find(all, word, &PeerCase::name);
+        const auto found = std::ranges::find(all, word, &EmbreeComparisonCase::name);
         std::string names;
-        for (const PeerCase& one : all) names += " " + one.name;
+        for (const EmbreeComparisonCase& one : all) names += " " + one.name;
         check(found != all.end(), Failure::usage, "no case '", word, "': there are", names);
         chosen.push_back(*found);
     }
@@ -61,7 +64,7 @@ std::vector<PeerCase> choose_cases_by_words(const std::vector<std::string>& word
 
 /// Returns the number of rounds in the first word and removes this word. Returns 0 if the first
 /// word is no number.
-int parse_round_count(std::vector<std::string>& words) {
+int parse_benchmark_round_count(std::vector<std::string>& words) {
     int rounds = 0;
     if (words.empty()) return 0;
     const char* const end = words[0].data() + words[0].size();
@@ -79,24 +82,24 @@ int main(int argc, char** argv) try {
                                                                  // start
     std::vector<std::string> words(argv + 1, argv + argc);
     const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples),
-                                parse_round_count(words));
-    const std::vector<PeerCase> cases = choose_cases_by_words(words);
+                                parse_benchmark_round_count(words));
+    const std::vector<EmbreeComparisonCase> cases = select_comparison_cases_by_name(words);
     if (!meter.why_not_counted().empty())
         std::printf("cycles are not counted: %s\n", meter.why_not_counted().c_str());
     for (const gpu::EmbeddedShader& shader : peers::prototype_shaders()) gpu::add_shader(shader);
     const peers::EmbreeDevice device;
     app::Engine engine({});
     const int threads = std::max(1, engine.device().threads);
-    std::printf(
-        "%s, %s; Embree %s, packets of 16 %s; %d threads each\n", engine.device().name.c_str(),
-        engine.device().driver.c_str(), RTC_VERSION_STRING,
-        rtcGetDeviceProperty(device.embree_device(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)
-            ? "native"
-            : "emulated",
-        threads);
-    const PeerBench bench{engine, meter, device, threads, rounds};
+    std::printf("%s, %s; Embree %s, packets of 16 %s; %d threads each\n",
+                engine.device().name.c_str(), engine.device().driver.c_str(), RTC_VERSION_STRING,
+                rtcGetDeviceProperty(device.embree_device_handle(),
+                                     RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)
+                    ? "native"
+                    : "emulated",
+                threads);
+    const EmbreeComparisonBench bench{engine, meter, device, threads, rounds};
     bool same = true;
-    for (const PeerCase& one : cases) same = one.compare(bench) && same;
+    for (const EmbreeComparisonCase& one : cases) same = one.compare(bench) && same;
     return same ? 0 : 1;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "catoptric_peers: %s\n", error.what());

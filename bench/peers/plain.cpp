@@ -16,8 +16,9 @@ VkImageAspectFlags image_aspect_of_format(TexelFormat format) {
 
 } // namespace
 
-GeneralLayoutImage::GeneralLayoutImage(gpu::GpuDevice& device, TexelFormat format, uvec2 size,
-                                       std::uint32_t layers, VkImageUsageFlags usage)
+GeneralLayoutVulkanImage::GeneralLayoutVulkanImage(gpu::GpuDevice& device, TexelFormat format,
+                                                   uvec2 size, std::uint32_t layers,
+                                                   VkImageUsageFlags usage)
     : peer_device_(device.device_handle()), format_(format), extent_{size.x, size.y} {
     VkImageCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     create.flags = layers % 6 == 0 ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
@@ -35,12 +36,12 @@ GeneralLayoutImage::GeneralLayoutImage(gpu::GpuDevice& device, TexelFormat forma
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(peer_device_, image, &needs);
     memory_ = device.allocate(needs.size,
-                              static_cast<std::uint32_t>(device.memory_type(
+                              static_cast<std::uint32_t>(device.find_memory_type_index(
                                   needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)),
                               "a plain image");
     throw_unless_vk_success(vkBindImageMemory(peer_device_, image, memory_, 0),
                             "bind a plain image");
-    device.submit_now("lay out a plain image", [&](VkCommandBuffer commands) {
+    device.submit_one_time_commands("lay out a plain image", [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
         barrier.newLayout = VK_IMAGE_LAYOUT_GENERAL;
         barrier.image = image;
@@ -51,8 +52,8 @@ GeneralLayoutImage::GeneralLayoutImage(gpu::GpuDevice& device, TexelFormat forma
     });
 }
 
-VkImageView GeneralLayoutImage::view(VkImageViewType type, std::uint32_t first,
-                                     std::uint32_t count) {
+VkImageView GeneralLayoutVulkanImage::view(VkImageViewType type, std::uint32_t first,
+                                           std::uint32_t count) {
     VkImageViewCreateInfo create{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     create.image = image_;
     create.viewType = type;
@@ -65,7 +66,7 @@ VkImageView GeneralLayoutImage::view(VkImageViewType type, std::uint32_t first,
     return view;
 }
 
-void GeneralLayoutImage::copy(VkCommandBuffer commands, const gpu::GpuBuffer& to) const {
+void GeneralLayoutVulkanImage::copy(VkCommandBuffer commands, const gpu::GpuBuffer& to) const {
     VkBufferImageCopy region{};
     region.imageSubresource = {image_aspect_of_format(format_), 0, 0, 1};
     region.imageExtent = {extent_.width, extent_.height, 1};
@@ -73,21 +74,22 @@ void GeneralLayoutImage::copy(VkCommandBuffer commands, const gpu::GpuBuffer& to
                            &region);
 }
 
-std::vector<PeerVector> read_image_vectors(const gpu::GpuBuffer& texels) {
+std::vector<PeerVector3> read_texel_colours_from_buffer(const gpu::GpuBuffer& texels) {
     const std::vector<std::byte> bytes = texels.read_contents();
-    std::vector<PeerVector> vectors(bytes.size() / sizeof(vec4));
+    std::vector<PeerVector3> vectors(bytes.size() / sizeof(vec4));
     for (std::size_t i = 0; i < vectors.size(); ++i)
-        std::memcpy(&vectors[i], &bytes[i * sizeof(vec4)], sizeof(PeerVector));
+        std::memcpy(&vectors[i], &bytes[i * sizeof(vec4)], sizeof(PeerVector3));
     return vectors;
 }
 
-void BoundPlainPipeline::bind(VkCommandBuffer commands) const {
+void BoundPrototypePipeline::bind(VkCommandBuffer commands) const {
     vkCmdBindPipeline(commands, pipeline->bind_point, pipeline->pipeline);
     vkCmdBindDescriptorSets(commands, pipeline->bind_point, pipeline->layout, 0, 1, &set, 0,
                             nullptr);
 }
 
-PlainDescriptorSets::PlainDescriptorSets(const gpu::GpuDevice& device) : peer_device_(device) {
+PrototypeDescriptorSets::PrototypeDescriptorSets(const gpu::GpuDevice& device)
+    : peer_device_(device) {
     constexpr std::uint32_t kMaxDescriptorSets = 64;
     const std::array<VkDescriptorPoolSize, 5> sizes{
         {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kMaxDescriptorSets},
@@ -105,8 +107,8 @@ PlainDescriptorSets::PlainDescriptorSets(const gpu::GpuDevice& device) : peer_de
     pool_ = {device.device_handle(), pool};
 }
 
-BoundPlainPipeline PlainDescriptorSets::bind(const gpu::Pipeline& pipeline,
-                                             const Resources& resources) {
+BoundPrototypePipeline PrototypeDescriptorSets::bind(const gpu::Pipeline& pipeline,
+                                                     const Resources& resources) {
     const VkDescriptorSetLayout layout = pipeline.set_layout;
     VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
     allocate.descriptorPool = pool_;
@@ -148,7 +150,7 @@ gpu::UniqueSampler make_linear_sampler(const gpu::GpuDevice& device, bool compar
     return {device.device_handle(), sampler};
 }
 
-void record_plain_barrier(VkCommandBuffer commands) {
+void record_full_memory_barrier(VkCommandBuffer commands) {
     const VkMemoryBarrier barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
                                   VK_ACCESS_MEMORY_WRITE_BIT,
                                   VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT};

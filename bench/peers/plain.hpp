@@ -12,11 +12,11 @@
 namespace peers {
 
 /// An image that is always in VK_IMAGE_LAYOUT_GENERAL.
-class GeneralLayoutImage {
+class GeneralLayoutVulkanImage {
 public:
-    GeneralLayoutImage() = default;
-    GeneralLayoutImage(catoptric::gpu::GpuDevice& device, catoptric::TexelFormat format,
-                       catoptric::uvec2 size, std::uint32_t layers, VkImageUsageFlags usage);
+    GeneralLayoutVulkanImage() = default;
+    GeneralLayoutVulkanImage(catoptric::gpu::GpuDevice& device, catoptric::TexelFormat format,
+                             catoptric::uvec2 size, std::uint32_t layers, VkImageUsageFlags usage);
 
     /// Returns a view of `count` layers from layer `first`. The view is valid as long as the image.
     VkImageView view(VkImageViewType type, std::uint32_t first = 0, std::uint32_t count = 1);
@@ -33,9 +33,9 @@ private:
     std::vector<catoptric::gpu::UniqueImageView> views_;
 };
 
-/// Returns the texels, without alpha, of an rgba32f image that GeneralLayoutImage::copy copied to a
-/// buffer.
-std::vector<PeerVector> read_image_vectors(const catoptric::gpu::GpuBuffer& texels);
+/// Returns the texels, without alpha, of an rgba32f image that GeneralLayoutVulkanImage::copy
+/// copied to a buffer.
+std::vector<PeerVector3> read_texel_colours_from_buffer(const catoptric::gpu::GpuBuffer& texels);
 
 /// The resource of a named shader binding: a buffer, or an image view with or without a sampler.
 struct BoundResource {
@@ -46,7 +46,7 @@ struct BoundResource {
 using Resources = std::map<std::string, BoundResource>;
 
 /// A pipeline with its descriptor set.
-struct BoundPlainPipeline {
+struct BoundPrototypePipeline {
     const catoptric::gpu::Pipeline* pipeline = nullptr;
     VkDescriptorSet set = VK_NULL_HANDLE;
 
@@ -58,11 +58,12 @@ struct BoundPlainPipeline {
 };
 
 /// Allocates and owns the descriptor sets of a program.
-class PlainDescriptorSets {
+class PrototypeDescriptorSets {
 public:
-    explicit PlainDescriptorSets(const catoptric::gpu::GpuDevice& device);
+    explicit PrototypeDescriptorSets(const catoptric::gpu::GpuDevice& device);
     /// Writes a descriptor set with the resources that the pipeline uses, by the bindings' names.
-    BoundPlainPipeline bind(const catoptric::gpu::Pipeline& pipeline, const Resources& resources);
+    BoundPrototypePipeline bind(const catoptric::gpu::Pipeline& pipeline,
+                                const Resources& resources);
 
 private:
     const catoptric::gpu::GpuDevice& peer_device_;
@@ -74,7 +75,7 @@ catoptric::gpu::UniqueSampler make_linear_sampler(const catoptric::gpu::GpuDevic
                                                   bool compares);
 
 /// Records a barrier that makes all writes before it visible to all commands after it.
-void record_plain_barrier(VkCommandBuffer commands);
+void record_full_memory_barrier(VkCommandBuffer commands);
 
 /// Returns an attachment that is cleared to `red` (of a depth image, the depth).
 VkRenderingAttachmentInfo make_cleared_attachment(VkImageView view, float red, bool stored = true);

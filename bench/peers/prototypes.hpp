@@ -13,19 +13,19 @@ namespace peers {
 
 /// The prototypes: "prototype/stack" and "prototype/links" trace rays with two forms of tree.
 /// "prototype/FACE" draws captures with faces of FACE texels.
-class PrototypeFrames {
+class PrototypeFrameRenderer {
 public:
     /// Sets up all prototypes for the request's scene and view. `mesh` is the same scene without
     /// exact spheres.
-    PrototypeFrames(const catoptric::app::Request& request, const EmbreePeerScene& mesh);
-    ~PrototypeFrames();
-    PrototypeFrames(const PrototypeFrames&) = delete;
-    PrototypeFrames& operator=(const PrototypeFrames&) = delete;
+    PrototypeFrameRenderer(const catoptric::app::Request& request, const EmbreeWhittedTracer& mesh);
+    ~PrototypeFrameRenderer();
+    PrototypeFrameRenderer(const PrototypeFrameRenderer&) = delete;
+    PrototypeFrameRenderer& operator=(const PrototypeFrameRenderer&) = delete;
 
     /// Returns the names of the prototypes that trace rays.
     static std::vector<std::string> tracers();
     /// Returns the name of the prototype with captures of this edge, texels.
-    static std::string prototype_name_of_edge(int face) {
+    static std::string prototype_benchmark_name(int face) {
         return "prototype/" + std::to_string(face);
     }
 
@@ -34,7 +34,7 @@ public:
     std::vector<catoptric::app::BenchmarkSubject> subjects(int warmup);
     /// Returns a prototype's picture of its last frame, linear. Throws if no prototype has the
     /// name.
-    std::vector<PeerVector> read(const std::string& name);
+    std::vector<PeerVector3> read(const std::string& name);
 
 private:
     struct Impl;

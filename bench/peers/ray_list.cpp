@@ -7,8 +7,9 @@ namespace peers {
 using namespace catoptric;
 using gpu::BufferUsage;
 
-TracedRayList::TracedRayList(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
-                             std::span<const bvh::Triangle> triangles, std::span<const Ray> rays)
+RayListBenchmark::RayListBenchmark(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+                                   std::span<const bvh::Triangle> triangles,
+                                   std::span<const Ray> rays)
     : peer_device_(device),
       met_(device, "met", rays.size() * sizeof(FirstRayHit), BufferUsage::read_back), sets_(device),
       groups_(static_cast<std::uint32_t>(rays.size() / 64)) {
@@ -23,22 +24,22 @@ TracedRayList::TracedRayList(gpu::GpuDevice& device, gpu::PipelineStore& pipelin
                           BufferUsage::texels);
     gpu::upload_to_buffer(peer_device_, rays_, "rays", texels, BufferUsage::texels);
     met_.write_contents(std::span<const FirstRayHit>(std::vector<FirstRayHit>(rays.size())));
-    bound_ = sets_.bind(pipelines.find_or_make_compute({"peers/rays.comp", {}}),
+    bound_ = sets_.bind(pipelines.find_or_make_compute_pipeline({"peers/rays.comp", {}}),
                         {{"bvh_nodes", {&nodes_}},
                          {"bvh_triangles", {&triangles_}},
                          {"rays", {&rays_}},
                          {"Met", {&met_}}});
 }
 
-void TracedRayList::trace_all_rays() {
-    peer_device_.submit_now("trace a list of rays", [&](VkCommandBuffer commands) {
+void RayListBenchmark::trace_all_rays() {
+    peer_device_.submit_one_time_commands("trace a list of rays", [&](VkCommandBuffer commands) {
         bound_.bind(commands);
         vkCmdDispatch(commands, groups_, 1, 1);
-        record_plain_barrier(commands);
+        record_full_memory_barrier(commands);
     });
 }
 
-std::vector<FirstRayHit> TracedRayList::read() const {
+std::vector<FirstRayHit> RayListBenchmark::read() const {
     const std::vector<std::byte> bytes = met_.read_contents();
     std::vector<FirstRayHit> met(bytes.size() / sizeof(FirstRayHit));
     std::memcpy(met.data(), bytes.data(), bytes.size());

@@ -7,11 +7,12 @@
 namespace peers {
 
 /// Traces a list of rays with the engine's BVH walk (shaders/lib/trace.glsl).
-class TracedRayList {
+class RayListBenchmark {
 public:
     /// Builds the tree and uploads the rays. The number of rays must be a multiple of 64.
-    TracedRayList(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
-                  std::span<const catoptric::bvh::Triangle> triangles, std::span<const Ray> rays);
+    RayListBenchmark(catoptric::gpu::GpuDevice& device, catoptric::gpu::PipelineStore& pipelines,
+                     std::span<const catoptric::bvh::Triangle> triangles,
+                     std::span<const Ray> rays);
 
     /// Traces all rays and waits for the device.
     void trace_all_rays();
@@ -20,8 +21,8 @@ public:
 private:
     catoptric::gpu::GpuDevice& peer_device_;
     catoptric::gpu::GpuBuffer nodes_, triangles_, rays_, met_;
-    PlainDescriptorSets sets_;
-    BoundPlainPipeline bound_;
+    PrototypeDescriptorSets sets_;
+    BoundPrototypePipeline bound_;
     std::uint32_t groups_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kRaysPerTask = 256;
 
 template <typename Kind>
-void trace_run_of_rays(RTCScene tree, std::span<const Ray> rays, FirstRayHit* met) {
+void trace_consecutive_rays(RTCScene tree, std::span<const Ray> rays, FirstRayHit* met) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context); // default flags: the rays of a call are incoherent
     using Real = typename Kind::Real;
@@ -54,9 +54,9 @@ void trace_run_of_rays(RTCScene tree, std::span<const Ray> rays, FirstRayHit* me
 
 std::vector<FirstRayHit> find_closest_hits_of_rays(RTCScene tree, std::span<const Ray> rays,
                                                    int width, int threads) {
-    const auto some = width == 1   ? trace_run_of_rays<SingleRayPacket>
-                      : width == 8 ? trace_run_of_rays<EightRayPacket>
-                                   : trace_run_of_rays<SixteenRayPacket>;
+    const auto some = width == 1   ? trace_consecutive_rays<OneRayPacket>
+                      : width == 8 ? trace_consecutive_rays<EightRayPacket>
+                                   : trace_consecutive_rays<SixteenRayPacket>;
     std::vector<FirstRayHit> met(rays.size());
     std::atomic<std::size_t> next{0};
     std::vector<std::thread> workers;

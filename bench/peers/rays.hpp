@@ -9,7 +9,7 @@
 namespace peers {
 
 struct Ray {
-    PeerVector origin, direction; ///< the direction has length 1
+    PeerVector3 origin, direction; ///< the direction has length 1
 };
 
 /// The first hit of a ray.

@@ -11,7 +11,7 @@ namespace {
 
 /// Returns the built-in scene with more triangles: balls of 4^(levels+1) triangles, and a diffuse
 /// torus of around^2 triangles.
-scene::Scene make_finer_built_in_scene(int levels, int around) {
+scene::Scene make_finely_tessellated_cornell_mirrors(int levels, int around) {
     scene::Scene scene = scene::make_cornell_mirrors();
     // All four balls share this mesh.
     scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels);
@@ -21,13 +21,14 @@ scene::Scene make_finer_built_in_scene(int levels, int around) {
     return scene;
 }
 
-constexpr NamedScene kNamedScenes[] = {{"built-in", scene::make_cornell_mirrors},
-                                       {"100k", [] { return make_finer_built_in_scene(6, 186); }},
-                                       {"1M", [] { return make_finer_built_in_scene(7, 860); }},
-                                       {"room", [] { return scene::load("room"); }}};
+constexpr NamedSceneFactory kNamedSceneFactories[] = {
+    {"built-in", scene::make_cornell_mirrors},
+    {"100k", [] { return make_finely_tessellated_cornell_mirrors(6, 186); }},
+    {"1M", [] { return make_finely_tessellated_cornell_mirrors(7, 860); }},
+    {"room", [] { return scene::load("room"); }}};
 
 } // namespace
 
-std::span<const NamedScene> list_named_scenes() { return kNamedScenes; }
+std::span<const NamedSceneFactory> list_named_scene_factories() { return kNamedSceneFactories; }
 
 } // namespace peers

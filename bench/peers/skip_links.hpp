@@ -6,7 +6,7 @@ namespace peers {
 
 /// A tree as a list of nodes in the order of the walk, one texel each. A walk of this list needs no
 /// stack.
-struct SkipLinkTree {
+struct SkipLinkBvh {
     /// Node 0 holds the number of nodes, itself included, in w. Each other node holds its box in
     /// x, y and z: the low plane, counted in steps, in bits 0 to 15, and the high plane in bits 16
     /// to 31. The word w of a leaf is 1 << 31 | number of triangles << 27 | place of the first
@@ -19,6 +19,6 @@ struct SkipLinkTree {
 
 /// Converts a tree to skip links. Rounding widens a box by up to two steps on each side, where the
 /// scene's longest side has 65535 steps. A tree whose root is a leaf gets no nodes.
-SkipLinkTree make_skip_links(const catoptric::bvh::Bvh& tree);
+SkipLinkBvh convert_bvh_to_skip_links(const catoptric::bvh::Bvh& tree);
 
 } // namespace peers

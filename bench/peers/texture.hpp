@@ -8,11 +8,11 @@ namespace peers {
 
 /// The two texels whose centres lie on both sides of a texture coordinate, and the weight of the
 /// second texel. The axis has `size` texels and repeats.
-struct BilinearTexelPair {
+struct BilinearTexelIndexPair {
     int first, second;
     float share;
 
-    BilinearTexelPair(float u, int size) {
+    BilinearTexelIndexPair(float u, int size) {
         const float place = (u - std::floor(u)) * static_cast<float>(size) - .5F;
         const float below = std::floor(place);
         share = place - below;
@@ -21,14 +21,14 @@ struct BilinearTexelPair {
     }
 };
 
-inline PeerVector interpolate_vectors(const PeerVector& a, const PeerVector& b, float share) {
+inline PeerVector3 interpolate_vectors(const PeerVector3& a, const PeerVector3& b, float share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-inline PeerVector sample_texture_bilinear(const PeerTexture& texture, TextureCoordinates place) {
-    const BilinearTexelPair across(place.u, texture.width), down(place.v, texture.height);
+inline PeerVector3 sample_texture_bilinear(const PeerAlbedoTexture& texture, UvCoordinates place) {
+    const BilinearTexelIndexPair across(place.u, texture.width), down(place.v, texture.height);
     const auto row = [&](int y) {
-        const PeerVector* const texels =
+        const PeerVector3* const texels =
             &texture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width)];
         return interpolate_vectors(texels[across.first], texels[across.second], across.share);
     };

@@ -13,10 +13,10 @@ using gpu::BufferUsage;
 
 namespace {
 
-vec4 make_texel(const PeerVector& v, float w = 0) { return {v.x, v.y, v.z, w}; }
+vec4 make_texel(const PeerVector3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
 
 /// Returns the tree's nodes with the tag bit removed from the words of children.
-std::vector<vec4> copy_nodes_without_tags(const bvh::Bvh& tree) {
+std::vector<vec4> copy_bvh_nodes_without_tags(const bvh::Bvh& tree) {
     std::vector<vec4> nodes = tree.nodes;
     for (vec4& node : nodes)
         node.w = std::bit_cast<float>(std::bit_cast<std::uint32_t>(node.w) &
@@ -26,16 +26,18 @@ std::vector<vec4> copy_nodes_without_tags(const bvh::Bvh& tree) {
 
 } // namespace
 
-TracePrototype::TracePrototype(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
-                               const EmbreePeerScene& peer,
-                               std::span<const bvh::Triangle> triangles, PrototypeTreeKind tree)
+RayTracingPrototype::RayTracingPrototype(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
+                                         const EmbreeWhittedTracer& peer,
+                                         std::span<const bvh::Triangle> triangles,
+                                         PrototypeBvhKind tree)
     : peer_device_(device), sets_(device) {
-    const WhittedScene& scene = peer.whitted_scene();
-    const PeerLight& light = scene.lights.front();
+    const WhittedTracerScene& scene = peer.whitted_tracer_scene();
+    const PeerSceneLight& light = scene.lights.front();
     const auto width = static_cast<std::uint32_t>(scene.width),
                height = static_cast<std::uint32_t>(scene.height);
-    picture_ = GeneralLayoutImage(device, TexelFormat::rgba32f, {width, height}, 1,
-                                  VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+    picture_ = GeneralLayoutVulkanImage(device, TexelFormat::rgba32f, {width, height}, 1,
+                                        VK_IMAGE_USAGE_STORAGE_BIT |
+                                            VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     pixels_ = gpu::GpuBuffer(device, "pixels", sizeof(vec4) * width * height,
                              BufferUsage::read_back);
     view_ = {make_texel(scene.eye, scene.ambient),
@@ -47,9 +49,9 @@ TracePrototype::TracePrototype(gpu::GpuDevice& device, gpu::PipelineStore& pipel
              make_texel(light.intensity),
              {}};
     upload(scene, triangles, tree);
-    const char* const shader = tree == PrototypeTreeKind::stack ? "peers/trace.comp"
-                                                                : "peers/trace.comp#skip_links";
-    bound_ = sets_.bind(pipelines.find_or_make_compute({shader, {}}),
+    const char* const shader = tree == PrototypeBvhKind::stack ? "peers/trace.comp"
+                                                               : "peers/trace.comp#skip_links";
+    bound_ = sets_.bind(pipelines.find_or_make_compute_pipeline({shader, {}}),
                         {{"nodes", {&nodes_}},
                          {"triangles", {&triangles_}},
                          {"normals", {&normals_}},
@@ -57,27 +59,27 @@ TracePrototype::TracePrototype(gpu::GpuDevice& device, gpu::PipelineStore& pipel
                          {"picture", {nullptr, picture_.view(VK_IMAGE_VIEW_TYPE_2D)}}});
 }
 
-void TracePrototype::upload(const WhittedScene& scene, std::span<const bvh::Triangle> triangles,
-                            PrototypeTreeKind tree) {
+void RayTracingPrototype::upload(const WhittedTracerScene& scene,
+                                 std::span<const bvh::Triangle> triangles, PrototypeBvhKind tree) {
     const bvh::Bvh hierarchy = bvh::build_bvh(triangles);
     std::vector<vec4> corners, normals, surfaces;
     for (std::size_t i = 0; i < hierarchy.triangles.size(); i += 3) {
         const vec4* const at = &hierarchy.triangles[i];
-        const std::size_t number = bvh::float_word_to_integer(at[1].w);
+        const std::size_t number = bvh::integer_from_float_bits(at[1].w);
         const vec3 a(at[0]);
         corners.emplace_back(a, static_cast<float>(scene.triangle_objects[number]));
         corners.emplace_back(vec3(at[1]) - a, 0), corners.emplace_back(vec3(at[2]) - a, 0);
-        for (const PeerVector& normal : scene.normals[number])
+        for (const PeerVector3& normal : scene.normals[number])
             normals.push_back(make_texel(normal));
     }
-    for (const PeerSurface& surface : scene.surfaces) {
+    for (const PeerSurfaceMaterial& surface : scene.surfaces) {
         surfaces.push_back(make_texel(surface.albedo, surface.is_mirror ? 1 : 0));
         surfaces.push_back(make_texel(surface.emission));
         surfaces.push_back(make_texel(surface.reflectance));
     }
-    std::vector<vec4> nodes = copy_nodes_without_tags(hierarchy);
-    if (tree == PrototypeTreeKind::skip_links) {
-        SkipLinkTree list = make_skip_links(hierarchy);
+    std::vector<vec4> nodes = copy_bvh_nodes_without_tags(hierarchy);
+    if (tree == PrototypeBvhKind::skip_links) {
+        SkipLinkBvh list = convert_bvh_to_skip_links(hierarchy);
         view_.grid = vec4(list.lowest, list.steps);
         nodes = std::move(list.nodes);
     }
@@ -87,20 +89,22 @@ void TracePrototype::upload(const WhittedScene& scene, std::span<const bvh::Tria
     gpu::upload_to_buffer(peer_device_, surfaces_, "surfaces", surfaces, BufferUsage::texels);
 }
 
-void TracePrototype::trace_prototype_picture() {
-    peer_device_.submit_now("trace the prototype's picture", [&](VkCommandBuffer commands) {
-        bound_.bind(commands);
-        bound_.push_draw_constants(commands, view_);
-        vkCmdDispatch(commands, picture_.image_extent().width / 8,
-                      picture_.image_extent().height / 8, 1);
-        record_plain_barrier(commands);
-    });
+void RayTracingPrototype::trace_picture_with_prototype() {
+    peer_device_.submit_one_time_commands(
+        "trace the prototype's picture", [&](VkCommandBuffer commands) {
+            bound_.bind(commands);
+            bound_.push_draw_constants(commands, view_);
+            vkCmdDispatch(commands, picture_.image_extent().width / 8,
+                          picture_.image_extent().height / 8, 1);
+            record_full_memory_barrier(commands);
+        });
 }
 
-std::vector<PeerVector> TracePrototype::read() {
-    peer_device_.submit_now("read the prototype's picture",
-                            [&](VkCommandBuffer commands) { picture_.copy(commands, pixels_); });
-    return read_image_vectors(pixels_);
+std::vector<PeerVector3> RayTracingPrototype::read() {
+    peer_device_.submit_one_time_commands(
+        "read the prototype's picture",
+        [&](VkCommandBuffer commands) { picture_.copy(commands, pixels_); });
+    return read_texel_colours_from_buffer(pixels_);
 }
 
 } // namespace peers

@@ -16,7 +16,8 @@ namespace {
 
 constexpr int kTorusSegments = 1000; // segments of the torus, which has kTorusSegments^2 triangles
 
-void compare_tree_build_times(const PeerBench& bench, const std::vector<bvh::Triangle>& triangles) {
+void compare_bvh_build_times_with_embree(const EmbreeComparisonBench& bench,
+                                         const std::vector<bvh::Triangle>& triangles) {
     RTCGeometry geometry = make_triangle_geometry(bench.device, triangles);
     const auto theirs = [&] {
         EmbreeScene tree(bench.device, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
@@ -43,32 +44,33 @@ void compare_tree_build_times(const PeerBench& bench, const std::vector<bvh::Tri
 
 /// Prints the ratios of a ray's expected cost in our tree to that in Embree's trees of two build
 /// qualities.
-void compare_tree_costs(const EmbreeDevice& device, const std::string& name,
-                        const std::vector<bvh::Triangle>& triangles) {
+void compare_bvh_sah_costs_with_embree(const EmbreeDevice& device, const std::string& name,
+                                       const std::vector<bvh::Triangle>& triangles) {
     const double ours = bvh::compute_sah_cost(bvh::build_bvh(triangles));
     std::printf("%-24s %8zu triangles, cost of the tree / Embree's: medium %.3f, high %.3f\n",
                 name.c_str(), triangles.size(),
-                ours / compute_embree_tree_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),
-                ours / compute_embree_tree_cost(device, triangles, RTC_BUILD_QUALITY_HIGH));
+                ours / compute_embree_bvh_sah_cost(device, triangles, RTC_BUILD_QUALITY_MEDIUM),
+                ours / compute_embree_bvh_sah_cost(device, triangles, RTC_BUILD_QUALITY_HIGH));
 }
 
-std::vector<bvh::Triangle> make_torus_triangles() {
+std::vector<bvh::Triangle> make_torus_triangle_list() {
     scene::Scene scene;
     scene.meshes.push_back(scene::torus("torus", 1, .4, kTorusSegments));
     scene.materials.emplace_back();
     scene.objects.emplace_back();
-    return list_scene_triangles(scene);
+    return make_bvh_triangles_of_scene(scene);
 }
 
 } // namespace
 
-void compare_trees(const PeerBench& bench) {
-    const std::vector<bvh::Triangle> million = make_torus_triangles();
-    compare_tree_build_times(bench, million);
+void compare_bvhs_with_embree(const EmbreeComparisonBench& bench) {
+    const std::vector<bvh::Triangle> million = make_torus_triangle_list();
+    compare_bvh_build_times_with_embree(bench, million);
     std::printf("\n");
-    compare_tree_costs(bench.device, "torus", million);
+    compare_bvh_sah_costs_with_embree(bench.device, "torus", million);
     for (const scene::BuiltInScene& scene : scene::list_built_in_scenes())
-        compare_tree_costs(bench.device, scene.name, list_scene_triangles(scene.make()));
+        compare_bvh_sah_costs_with_embree(bench.device, scene.name,
+                                          make_bvh_triangles_of_scene(scene.make()));
 }
 
 } // namespace peers

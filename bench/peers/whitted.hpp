@@ -12,31 +12,31 @@
 /// header of the engine, because whitted.cpp is compiled for this machine's processor alone.
 namespace peers {
 
-struct PeerVector {
+struct PeerVector3 {
     float x = 0, y = 0, z = 0;
 };
 
 struct PeerSphere {
-    PeerVector centre;
+    PeerVector3 centre;
     float radius = 0;
 };
 
 /// Texture coordinates.
-struct TextureCoordinates {
+struct UvCoordinates {
     float u = 0, v = 0;
 };
 
 /// A texture of linear colours, row by row, which repeats along both axes and is sampled
 /// bilinearly.
-struct PeerTexture {
-    std::vector<PeerVector> texels;
+struct PeerAlbedoTexture {
+    std::vector<PeerVector3> texels;
     int width = 0, height = 0;
 };
 
 /// The reflection and emission of an object's surface.
-struct PeerSurface {
-    PeerVector albedo, emission;
-    PeerVector reflectance; ///< of a mirror at any angle, of a smooth dielectric head-on; else 0
+struct PeerSurfaceMaterial {
+    PeerVector3 albedo, emission;
+    PeerVector3 reflectance; ///< of a mirror at any angle, of a smooth dielectric head-on; else 0
     bool is_mirror = false;
     bool is_sharp = false;              ///< a smooth dielectric, whose F90 is 1
     bool turns = false;                 ///< two-sided: the normal turns to the viewer's side
@@ -44,10 +44,10 @@ struct PeerSurface {
     std::optional<std::size_t> texture; ///< texture that multiplies the albedo
 };
 
-struct PeerLight {
-    PeerVector position, normal, intensity; ///< a zero normal means no cosine factor at the light
+struct PeerSceneLight {
+    PeerVector3 position, normal, intensity; ///< a zero normal means no cosine factor at the light
     bool is_spot = false;
-    PeerVector axis;                    ///< direction in which a spot shines
+    PeerVector3 axis;                   ///< direction in which a spot shines
     float cos_outer = 0, sharpness = 1; ///< sharpness: 1 / (cos inner - cos outer) of a spot
 };
 
@@ -55,21 +55,22 @@ struct PeerLight {
 enum EmbreeGeometryNumber { kTriangles, kSpheres, kLamps };
 
 /// A scene with point lights and spots.
-struct WhittedScene {
+struct WhittedTracerScene {
     RTCScene tree = nullptr;
-    std::vector<std::array<PeerVector, 3>> corners; ///< corners of each triangle
-    std::vector<std::array<PeerVector, 3>> normals; ///< normals at the corners of each triangle
-    std::vector<std::array<TextureCoordinates, 3>>
+    std::vector<std::array<PeerVector3, 3>> corners; ///< corners of each triangle
+    std::vector<std::array<PeerVector3, 3>> normals; ///< normals at the corners of each triangle
+    std::vector<std::array<UvCoordinates, 3>>
         places; ///< texture coordinates of each triangle's corners
     std::vector<std::uint32_t> triangle_objects;
     std::size_t first_lamp = 0; ///< first triangle of a lamp; lamps' triangles follow all others
     std::vector<PeerSphere> spheres;
     std::vector<std::uint32_t> sphere_objects;
-    std::vector<PeerSurface> surfaces; ///< by object
-    std::vector<PeerTexture> textures; ///< by material; empty for a material without a texture
-    std::vector<PeerLight> lights;
+    std::vector<PeerSurfaceMaterial> surfaces; ///< by object
+    std::vector<PeerAlbedoTexture>
+        textures; ///< by material; empty for a material without a texture
+    std::vector<PeerSceneLight> lights;
     float ambient = 0;
-    PeerVector eye, forward, right,
+    PeerVector3 eye, forward, right,
         down;                  ///< camera ray: forward + right * x + down * y, x and y in [-1, 1]
     int width = 0, height = 0; ///< size of the picture, multiples of 16
     int depth = 0;             ///< most mirror bounces; a path with more mirrors ends black
@@ -83,14 +84,14 @@ struct PeerRayCounts {
     std::uint64_t total_ray_count() const { return primary + mirror + shadow; }
 };
 
-struct TracedPeerPicture {
-    std::vector<PeerVector> pixels; ///< linear radiance, row by row
+struct PeerTracedPicture {
+    std::vector<PeerVector3> pixels; ///< linear radiance, row by row
     PeerRayCounts rays;
 };
 
 /// Traces a picture with one camera ray through each pixel's centre. Each call to Embree traces
 /// `width` rays: 1, 8 or 16. Each of `threads` threads takes tiles of 16x16 pixels from a shared
 /// counter.
-TracedPeerPicture trace_whitted_picture(const WhittedScene& scene, int width, int threads);
+PeerTracedPicture trace_whitted_picture(const WhittedTracerScene& scene, int width, int threads);
 
 } // namespace peers

@@ -7,11 +7,11 @@ namespace catoptric::bvh {
 
 using BoundingBox = Bounds<float>;
 
-inline constexpr double kNodeVisitCost = 2; // cost of visiting a node, in triangle tests
+inline constexpr double kBvhNodeVisitCost = 2; // cost of visiting a node, in triangle tests
 
 /// Returns the surface area of a box. Computes in double, where the extents of finite floats cannot
 /// overflow.
-inline double box_area(const BoundingBox& box) {
+inline double bounding_box_surface_area(const BoundingBox& box) {
     return Bounds<double>{dvec3(box.lo), dvec3(box.hi)}.area();
 }
 
@@ -30,7 +30,7 @@ inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core
 }
 
 /// Returns the box, grown by `pad` on each side and clamped to the range of finite floats.
-inline BoundingBox pad_box(const BoundingBox& box, float pad) {
+inline BoundingBox expand_bounding_box(const BoundingBox& box, float pad) {
     return {max(box.lo - pad, vec3(-f32::kLargestFloat)),
             min(box.hi + pad, vec3(f32::kLargestFloat))};
 }

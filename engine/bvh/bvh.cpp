@@ -19,10 +19,10 @@ constexpr std::uint32_t kMaxBvhTriangles = f32::kBvhIndexMask;
 constexpr std::size_t kTrianglesPerTask = 8192; // triangles that one task of a thread reads
 
 /// The references that have been written for a list of triangles.
-struct WrittenTriangleReferences {
+struct PartitionedTriangleReferences {
     /// Those of triangles that cast shadows, and those of other triangles. The references of both
     /// lie in one run.
-    std::array<TriangleReferenceRange, 2> parts;
+    std::array<TriangleReferenceSpanRange, 2> parts;
     std::vector<std::size_t> shadowless; ///< places in the run of the second part, ascending
 
     std::size_t reference_count() const { return parts[0].count + parts[1].count; }
@@ -30,45 +30,46 @@ struct WrittenTriangleReferences {
 
 /// Writes a reference to each finite triangle. The first triangle has the number `first`. An empty
 /// `core` means that all triangles lie in the core.
-WrittenTriangleReferences write_triangle_references(std::span<const Triangle> triangles,
-                                                    std::size_t first, const BoundingBox& core,
-                                                    TriangleReference* into) {
-    WrittenTriangleReferences written;
+PartitionedTriangleReferences write_triangle_references(std::span<const Triangle> triangles,
+                                                        std::size_t first, const BoundingBox& core,
+                                                        TriangleReference* into) {
+    PartitionedTriangleReferences written;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Triangle& t = triangles[i];
         if (!is_finite_triangle(t)) continue;
         BoundingBox box = compute_triangle_bounds(t.a, t.b, t.c, t.flags);
-        if (!core.empty()) box = pad_box(box, compute_box_padding(box, core));
-        const TriangleReference r{load_simd_vector(box.lo, index_to_float_word(first + i)),
+        if (!core.empty()) box = expand_bounding_box(box, compute_box_padding(box, core));
+        const TriangleReference r{load_simd_vector(box.lo, index_to_bits_in_float(first + i)),
                                   load_simd_vector(box.hi, 0)};
         const bool is_shadowless = (t.flags & kCastsNoShadowFlag) != 0;
         if (is_shadowless) written.shadowless.push_back(written.reference_count());
-        written.parts[is_shadowless ? 1 : 0].add_reference(r);
+        written.parts[is_shadowless ? 1 : 0].add_triangle_reference_to_bin(r);
         *into++ = r;
     }
     return written;
 }
 
 /// Writes references to all finite triangles, on several threads.
-WrittenTriangleReferences write_references_in_parallel(std::span<const Triangle> triangles,
-                                                       const BoundingBox& core,
-                                                       TriangleReferences into, unsigned threads) {
-    std::vector<WrittenTriangleReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
-                                                kTrianglesPerTask);
+PartitionedTriangleReferences write_references_in_parallel(std::span<const Triangle> triangles,
+                                                           const BoundingBox& core,
+                                                           TriangleReferences into,
+                                                           unsigned threads) {
+    std::vector<PartitionedTriangleReferences> runs((triangles.size() + kTrianglesPerTask - 1) /
+                                                    kTrianglesPerTask);
     run_in_parallel(runs.size(), threads, [&](std::size_t i) {
         const std::size_t first = i * kTrianglesPerTask,
                           count = std::min(kTrianglesPerTask, triangles.size() - first);
         runs[i] = write_triangle_references(triangles.subspan(first, count), first, core,
                                             &into[first]);
     });
-    WrittenTriangleReferences all;
+    PartitionedTriangleReferences all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::size_t before = all.reference_count();
         if (before < i * kTrianglesPerTask) // an earlier task had triangles that are not finite
             std::copy_n(&into[i * kTrianglesPerTask], runs[i].reference_count(), &into[before]);
         for (const std::size_t place : runs[i].shadowless) all.shadowless.push_back(before + place);
         for (std::size_t k = 0; k < 2; ++k) {
-            const TriangleReferenceRange& part = runs[i].parts[k];
+            const TriangleReferenceSpanRange& part = runs[i].parts[k];
             all.parts[k].box.add_box(part.box), all.parts[k].centres.add_box(part.centres);
             all.parts[k].count += part.count;
         }
@@ -78,19 +79,20 @@ WrittenTriangleReferences write_references_in_parallel(std::span<const Triangle>
 
 /// Returns the parts that get a tree each: all references, or first those of triangles that cast
 /// shadows. In the latter case, moves the others behind them.
-std::vector<TriangleReferenceRange>
-separate_shadowless_triangles(const WrittenTriangleReferences& written,
-                              TriangleReferences references) {
+std::vector<TriangleReferenceSpanRange>
+partition_out_shadowless_triangles(const PartitionedTriangleReferences& written,
+                                   TriangleReferences references) {
     const auto& [casters, others] = written.parts;
-    if (casters.count == 0 || others.count == 0 || others.count > kMaxSeparateShadowlessTriangles) {
-        TriangleReferenceRange all = casters;
+    if (casters.count == 0 || others.count == 0 ||
+        others.count > kMaxShadowlessTriangleSubtreeSize) {
+        TriangleReferenceSpanRange all = casters;
         all.box.add_box(others.box), all.centres.add_box(others.centres), all.count += others.count;
         return {all};
     }
     std::size_t end = written.reference_count();
     for (auto place = written.shadowless.rbegin(); place != written.shadowless.rend(); ++place)
         std::swap(references[*place], references[--end]);
-    std::vector<TriangleReferenceRange> parts{casters, others};
+    std::vector<TriangleReferenceSpanRange> parts{casters, others};
     parts[1].first = casters.count;
     return parts;
 }
@@ -99,11 +101,11 @@ separate_shadowless_triangles(const WrittenTriangleReferences& written,
 
 Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core, std::uint32_t leaf,
               unsigned threads) {
-    return build_bvh(triangles, core, DuplicateSearchScope::within_object, leaf, threads);
+    return build_bvh(triangles, core, DuplicateTriangleSearchScope::within_object, leaf, threads);
 }
 
 Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core,
-              DuplicateSearchScope copies, std::uint32_t leaf, unsigned threads) {
+              DuplicateTriangleSearchScope copies, std::uint32_t leaf, unsigned threads) {
     check(triangles.size() <= kMaxBvhTriangles, Failure::exhausted,
           "bounding volume hierarchy wants ", triangles.size(), " triangles, its words hold ",
           kMaxBvhTriangles);
@@ -117,9 +119,9 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core,
                            nullptr,
                            leaf,
                            copies};
-    const WrittenTriangleReferences written = write_references_in_parallel(
+    const PartitionedTriangleReferences written = write_references_in_parallel(
         triangles, core, work.buffers[0], threads);
-    const std::vector<TriangleReferenceRange> parts = separate_shadowless_triangles(
+    const std::vector<TriangleReferenceSpanRange> parts = partition_out_shadowless_triangles(
         written, work.buffers[0]);
     Bvh bvh;
     bvh.dropped = triangles.size() - written.reference_count();
@@ -128,23 +130,24 @@ Bvh build_bvh(std::span<const Triangle> triangles, const Bounds<float>& core,
     bvh.triangles.resize(3 * written.reference_count());
     work.triangles = bvh.triangles.data();
     bvh.nodes.resize(4, vec4(0));
-    const std::size_t kept = build_tree_in_parallel(work, parts, threads, bvh.nodes);
+    const std::size_t kept = build_bvh_in_parallel(work, parts, threads, bvh.nodes);
     bvh.copies = written.reference_count() - kept;
     bvh.triangles.resize(3 * kept);
     SimdBox bounds;
-    for (const TriangleReferenceRange& part : parts) bounds.add_box(part.box);
+    for (const TriangleReferenceSpanRange& part : parts) bounds.add_box(part.box);
     const BoundingBox slack = core.empty() ? bounds.to_bounding_box() : core;
-    bvh.nodes[0] = vec4(slack.lo, index_to_float_word(count_triangles(bvh)));
-    bvh.nodes[1] = vec4(slack.hi, index_to_float_word(count_nodes(bvh)));
+    bvh.nodes[0] = vec4(slack.lo, index_to_bits_in_float(count_triangles(bvh)));
+    bvh.nodes[1] = vec4(slack.hi, index_to_bits_in_float(count_nodes(bvh)));
     if (parts.size() == 2)
-        set_walk_start(bvh, float_to_bits(bvh.nodes[4].w), float_to_bits(bvh.nodes[5].w));
+        write_bvh_traversal_start(bvh, float_to_bits(bvh.nodes[4].w),
+                                  float_to_bits(bvh.nodes[5].w));
     else
-        set_walk_start(bvh, f32::kBvhRoot, f32::kBvhEmptyChild);
+        write_bvh_traversal_start(bvh, f32::kBvhRoot, f32::kBvhEmptyChild);
     bvh.cost = compute_sah_cost(bvh);
     return bvh;
 }
 
-void set_walk_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others) {
+void write_bvh_traversal_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others) {
     bvh.nodes[3] = vec4(std::bit_cast<float>(casters), std::bit_cast<float>(others), 0, 0);
 }
 

@@ -12,15 +12,16 @@ namespace catoptric::bvh {
 struct Triangle {
     vec3 a{0}, b{0}, c{0};
     std::uint32_t object = 0; ///< below 2^29; a hit returns it
-    std::uint32_t flags = 0;  ///< kHiddenFromCameraFlag | kCastsNoShadowFlag | kStandsForSphereFlag
-                              ///< | kOneSidedFlag | kAlphaMaskedFlag | kSpherePrimitiveFlag
+    std::uint32_t flags =
+        0; ///< kHiddenFromCameraFlag | kCastsNoShadowFlag | kTriangleApproximatesSphereFlag
+           ///< | kOneSidedFlag | kAlphaMaskedFlag | kSpherePrimitiveFlag
 };
 
 inline constexpr std::uint32_t kHiddenFromCameraFlag =
     f32::kBvhHiddenFromCamera; ///< camera rays pass through
 inline constexpr std::uint32_t kCastsNoShadowFlag =
     f32::kBvhCastsNoShadow; ///< shadow rays pass through
-inline constexpr std::uint32_t kStandsForSphereFlag =
+inline constexpr std::uint32_t kTriangleApproximatesSphereFlag =
     f32::kBvhStandsForSphere; ///< stands for an exact sphere
 /// Rays that skip this flag hit the triangle from the front only.
 inline constexpr std::uint32_t kOneSidedFlag = f32::kBvhOneSided;
@@ -31,7 +32,7 @@ inline constexpr std::uint32_t kSpherePrimitiveFlag = f32::kBvhSpherePrimitive;
 inline constexpr std::uint32_t kMaxTreeDepth = f32::kBvhMaxDepth;
 inline constexpr std::uint32_t kMaxLeafTriangles = 4; ///< triangles in a leaf
 /// The most kCastsNoShadowFlag triangles that get a subtree of their own.
-inline constexpr std::size_t kMaxSeparateShadowlessTriangles = 256;
+inline constexpr std::size_t kMaxShadowlessTriangleSubtreeSize = 256;
 
 /// Returns a sphere that takes the place of a triangle. Only walks with TRACE_BALLS set
 /// (shaders/lib/trace.glsl) can intersect spheres.
@@ -66,7 +67,7 @@ inline Triangle make_sphere_primitive(const vec3& centre, float radius, std::uin
 /// words hold their number in bits 0..28.
 ///
 /// Walks begin at the first word of the header. If there are triangles that cast no shadow, but at
-/// most kMaxSeparateShadowlessTriangles, the first word is the root's first child, with all
+/// most kMaxShadowlessTriangleSubtreeSize, the first word is the root's first child, with all
 /// triangles that cast shadows, and the second word is the root's other child. Shadow rays walk the
 /// first child alone. Other rays walk it before the second child. Otherwise the first word is the
 /// root, and the second word is kBvhEmptyChild.
@@ -108,14 +109,14 @@ struct IndexRange {
 };
 
 /// The parts of a tree that a refit must visit when some objects move.
-struct BvhRefitRegion {
+struct ChangedBvhRegion {
     std::vector<std::uint32_t> triangles; ///< places in the order of the leaves, ascending
     std::vector<std::uint32_t> boxes; ///< 2 * node + side; descendants come before their ancestors
 };
 
 /// Returns the triangles of the moving objects and the boxes that hold some of them. `objects`: by
 /// object index, non-zero for an object that may move. Costs O(n).
-BvhRefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects);
+ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> objects);
 
 /// Updates the boxes of a tree after its triangles have moved. The structure of the tree stays.
 /// `triangles`: the list given to `build_bvh`, in the same order, with the new positions.
@@ -124,7 +125,7 @@ BvhRefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects);
 /// rebuilt tree give the same hits. Costs O(size of `reach`); refitting everything costs a tenth of
 /// a build. Throws `Failure::internal` if a triangle that was finite no longer is.
 IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
-                     const BvhRefitRegion* reach = nullptr);
+                     const ChangedBvhRegion* reach = nullptr);
 
 /// Returns the walk cost of a ray that the surface area heuristic expects, times the area of the
 /// whole tree. The value rises as the triangles of a refitted tree move away from their neighbours.
@@ -132,7 +133,7 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
 double compute_sah_cost(const Bvh& bvh);
 
 /// Writes the two words of the header at which walks begin.
-void set_walk_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
+void write_bvh_traversal_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
 
 std::size_t count_nodes(const Bvh& bvh);     ///< including the header
 std::size_t count_triangles(const Bvh& bvh); ///< of the triangles that the build kept

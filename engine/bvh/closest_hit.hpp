@@ -35,7 +35,7 @@ struct RayHit {
 struct BvhTraversalCounters {
     std::size_t nodes = 0;
     std::size_t triangles = 0;
-    std::size_t count_all_steps() const { return nodes + triangles; }
+    std::size_t count_traversal_steps_total() const { return nodes + triangles; }
 };
 
 namespace detail {
@@ -53,12 +53,12 @@ Vec3<Real> read_triangle_corner(const vec4& texel) {
 }
 
 template <typename Real>
-using InstancePlacement =
+using InstanceRayTransform =
     std::conditional_t<std::is_same_v<Real, float>, f32::ObjectPlacement, f64::ObjectPlacement>;
 
 /// Returns the position and axes that an instance's record stores (see tlas.hpp).
 template <typename Real>
-InstancePlacement<Real> read_instance_placement(const Bvh& bvh, std::uint32_t record) {
+InstanceRayTransform<Real> read_instance_ray_transform(const Bvh& bvh, std::uint32_t record) {
     const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
     return {read_triangle_corner<Real>(texel[0]), read_triangle_corner<Real>(texel[1]),
             read_triangle_corner<Real>(texel[2]), read_triangle_corner<Real>(texel[4]),
@@ -78,17 +78,17 @@ struct ClosestHitSearch {
     std::uint32_t record = 0;
 
     /// Continues in the tree of a record, or returns to the tree above (0).
-    void enter_tree_of_record(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
+    void enter_instance_subtree(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
         record = into, ray = as_it_sees_it;
         shear = make_ray_shear(ray.direction);
     }
 
-    void test_stored_triangle(std::uint32_t place) {
+    void intersect_ray_with_stored_triangle(std::uint32_t place) {
         const vec4* texel = &bvh.triangles[3 * std::size_t{place}];
         const vec4* of = &bvh.nodes[4 * std::size_t{record}];
-        const std::uint32_t triangle = float_word_to_integer(texel[1].w) +
-                                       (record ? float_word_to_integer(of[2].w) : 0);
-        const std::uint32_t flags = float_word_to_integer(record ? of[3].w : texel[2].w);
+        const std::uint32_t triangle = integer_from_float_bits(texel[1].w) +
+                                       (record ? integer_from_float_bits(of[2].w) : 0);
+        const std::uint32_t flags = integer_from_float_bits(record ? of[3].w : texel[2].w);
         const std::uint32_t skips = flags & skipped_flags;
         if ((skips & ~f32::kBvhOneSided) != 0 || triangle + 1 == ray.leaves) return;
         if (skips != 0 && hits_back_face(read_triangle_corner<Real>(texel[0]),
@@ -110,7 +110,7 @@ struct ClosestHitSearch {
         if (t < t_max || (best && t == t_max && triangle < best->triangle)) {
             t_max = t;
             best = RayHit<Real>{t,        normalise_barycentric_weights(weights),
-                                triangle, float_word_to_integer((record ? of[1] : texel[0]).w),
+                                triangle, integer_from_float_bits((record ? of[1] : texel[0]).w),
                                 place,    record};
         }
     }
@@ -121,12 +121,12 @@ struct ClosestHitSearch {
 };
 
 template <typename Real>
-bool is_ray_hittable(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
+bool is_ray_valid_for_traversal(const Bvh& bvh, const Ray<Real>& ray, Real t_max) {
     return is_valid_ray(ray) && t_max > 0 && !bvh.triangles.empty();
 }
 
 template <typename Real>
-auto make_box_rays_outside(const Bvh& bvh, const Ray<Real>& ray) {
+auto make_conservative_box_test_rays(const Bvh& bvh, const Ray<Real>& ray) {
     const vec4* header = bvh.nodes.data();
     const Real times = header[2].x > 0 ? Real{header[2].x} : Real{1};
     return make_box_ray(ray, read_triangle_corner<Real>(header[0]),
@@ -137,9 +137,9 @@ template <typename Real>
 std::optional<RayHit<Real>>
 find_hit_in_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low, Real t_max,
                 std::uint32_t skipped_flags, bool any, BvhTraversalCounters* steps) {
-    if (!is_ray_hittable(bvh, ray, t_max)) return {};
+    if (!is_ray_valid_for_traversal(bvh, ray, t_max)) return {};
     ClosestHitSearch<Real> search{bvh, ray, t_max, skipped_flags};
-    auto boxes = make_box_rays_outside<Real>(bvh, ray);
+    auto boxes = make_conservative_box_test_rays<Real>(bvh, ray);
     std::array<std::uint32_t, f32::kBvhMaxStack> stack;
     std::size_t waiting = 0;
     BvhTraversalCounters count;
@@ -168,15 +168,15 @@ find_hit_in_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low, Rea
             }
         } else if (child == f32::kBvhReturnFromInstance) {
             ++count.nodes;
-            search.enter_tree_of_record(0, ray);
-            boxes = make_box_rays_outside<Real>(bvh, ray);
+            search.enter_instance_subtree(0, ray);
+            boxes = make_conservative_box_test_rays<Real>(bvh, ray);
         } else if (f32::bvh_word_triangle_count(child) == f32::kBvhInstanceMarker) {
             ++count.nodes;
             const std::uint32_t record = f32::bvh_word_index(child);
             const vec4* texel = &bvh.nodes[4 * std::size_t{record}];
-            search.enter_tree_of_record(
-                record, transform_ray_to_object_space(read_instance_placement<Real>(bvh, record),
-                                                      ray, low));
+            search.enter_instance_subtree(
+                record, transform_ray_to_object_space(
+                            read_instance_ray_transform<Real>(bvh, record), ray, low));
             boxes = make_box_ray(search.ray, read_triangle_corner<Real>(texel[8]),
                                  read_triangle_corner<Real>(texel[9]), Real{1});
             stack.at(waiting++) = f32::kBvhReturnFromInstance;
@@ -185,7 +185,7 @@ find_hit_in_bvh(const Bvh& bvh, const Ray<Real>& ray, const Vec3<Real>& low, Rea
         } else {
             for (std::uint32_t i = 0; i < f32::bvh_word_triangle_count(child); ++i) {
                 ++count.triangles;
-                search.test_stored_triangle(f32::bvh_word_index(child) + i);
+                search.intersect_ray_with_stored_triangle(f32::bvh_word_index(child) + i);
                 if (any && search.best) break;
             }
             if (any && search.best) break;
@@ -221,9 +221,10 @@ bool has_any_hit(const Bvh& bvh, const Ray<Real>& ray, Real t_max, std::uint32_t
 template <typename Real>
 std::optional<RayHit<Real>> find_closest_hit_by_brute_force(const Bvh& bvh, const Ray<Real>& ray,
                                                             Real t_max, std::uint32_t skipped = 0) {
-    if (!detail::is_ray_hittable(bvh, ray, t_max)) return {};
+    if (!detail::is_ray_valid_for_traversal(bvh, ray, t_max)) return {};
     detail::ClosestHitSearch<Real> search{bvh, ray, t_max, skipped};
-    for (std::uint32_t i = 0; i < count_triangles(bvh); ++i) search.test_stored_triangle(i);
+    for (std::uint32_t i = 0; i < count_triangles(bvh); ++i)
+        search.intersect_ray_with_stored_triangle(i);
     return search.best;
 }
 

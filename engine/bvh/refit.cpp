@@ -11,7 +11,7 @@ namespace {
 
 BoundingBox decode_node_bounds(const vec4* stored) {
     return compute_triangle_bounds(vec3(stored[0]), vec3(stored[1]), vec3(stored[2]),
-                                   float_word_to_integer(stored[2].w));
+                                   integer_from_float_bits(stored[2].w));
 }
 
 /// Returns the bounds of a child, from the corners and nodes below it.
@@ -26,20 +26,21 @@ BoundingBox compute_child_bounds(const Bvh& bvh, std::uint32_t child, const Boun
     for (std::uint32_t i = 0; i < f32::bvh_word_triangle_count(child); ++i) {
         const BoundingBox triangle = decode_node_bounds(
             &bvh.triangles[3 * std::size_t{f32::bvh_word_index(child) + i}]);
-        box.add(pad_box(triangle, compute_box_padding(triangle, core)));
+        box.add(expand_bounding_box(triangle, compute_box_padding(triangle, core)));
     }
     return box;
 }
 
 /// Returns the cost of one child. The cost of a node is the sum over its two children.
-double compute_child_cost(std::uint32_t child, const BoundingBox& box) {
-    return box_area(box) * (f32::is_bvh_word_inner_node(child)
-                                ? kNodeVisitCost
-                                : static_cast<double>(f32::bvh_word_triangle_count(child)));
+double compute_bvh_child_sah_cost(std::uint32_t child, const BoundingBox& box) {
+    return bounding_box_surface_area(box) *
+           (f32::is_bvh_word_inner_node(child)
+                ? kBvhNodeVisitCost
+                : static_cast<double>(f32::bvh_word_triangle_count(child)));
 }
 
 /// Compares bits, because 0 and -0 count as different here.
-bool have_equal_float_bits(const vec3& a, const vec3& b) {
+bool have_bit_identical_vectors(const vec3& a, const vec3& b) {
     return float_to_bits(a.x) == float_to_bits(b.x) && float_to_bits(a.y) == float_to_bits(b.y) &&
            float_to_bits(a.z) == float_to_bits(b.z);
 }
@@ -48,14 +49,14 @@ bool have_equal_float_bits(const vec3& a, const vec3& b) {
 /// they changed.
 bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle> triangles) {
     vec4* texel = &bvh.triangles[3 * place];
-    const std::size_t number = float_word_to_integer(texel[1].w);
+    const std::size_t number = integer_from_float_bits(texel[1].w);
     check(number < triangles.size(), Failure::internal, "a hierarchy of ", triangles.size(),
           " triangles is refitted to number ", number);
     const Triangle& t = triangles[number];
     const std::array corners{t.a, t.b, t.c};
     bool moved = false;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (have_equal_float_bits(vec3(texel[k]), corners[k])) continue;
+        if (have_bit_identical_vectors(vec3(texel[k]), corners[k])) continue;
         texel[k] = vec4(corners[k], texel[k].w);
         moved = true;
     }
@@ -64,23 +65,24 @@ bool write_moved_triangle(Bvh& bvh, std::size_t place, std::span<const Triangle>
     return moved;
 }
 
-void update_stored_box(Bvh& bvh, std::uint32_t place, const BoundingBox& slack) {
+void refit_stored_node_box(Bvh& bvh, std::uint32_t place, const BoundingBox& slack) {
     vec4* texel = &bvh.nodes[4 * std::size_t{place / 2}];
     vec4 &lo = texel[2 * (place % 2)], &hi = texel[2 * (place % 2) + 1];
     const std::uint32_t child = float_to_bits(texel[place % 2].w);
     const BoundingBox box = compute_child_bounds(bvh, child, slack);
-    bvh.cost += compute_child_cost(child, box) - compute_child_cost(child, {vec3(lo), vec3(hi)});
+    bvh.cost += compute_bvh_child_sah_cost(child, box) -
+                compute_bvh_child_sah_cost(child, {vec3(lo), vec3(hi)});
     lo = vec4(box.lo, lo.w);
     hi = vec4(box.hi, hi.w);
 }
 
 } // namespace
 
-BvhRefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) {
-    BvhRefitRegion reach;
+ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> objects) {
+    ChangedBvhRegion reach;
     std::vector<char> moves(count_triangles(bvh)), holds(count_nodes(bvh));
     for (std::uint32_t place = 0; place < moves.size(); ++place) {
-        if (!objects[float_word_to_integer(bvh.triangles[3 * std::size_t{place}].w)]) continue;
+        if (!objects[integer_from_float_bits(bvh.triangles[3 * std::size_t{place}].w)]) continue;
         moves[place] = 1;
         reach.triangles.push_back(place);
     }
@@ -102,7 +104,7 @@ BvhRefitRegion find_refit_region(const Bvh& bvh, std::span<const char> objects) 
 }
 
 IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core,
-                     const BvhRefitRegion* reach) {
+                     const ChangedBvhRegion* reach) {
     IndexRange run;
     const auto move_one = [&](std::size_t place) {
         if (write_moved_triangle(bvh, place, triangles))
@@ -118,10 +120,10 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
             slack.add(decode_node_bounds(&bvh.triangles[i]));
     // The padding of far triangles depends on the core, so a new core changes every box.
     if (reach && vec3(bvh.nodes[0]) == slack.lo && vec3(bvh.nodes[1]) == slack.hi)
-        for (const std::uint32_t place : reach->boxes) update_stored_box(bvh, place, slack);
+        for (const std::uint32_t place : reach->boxes) refit_stored_node_box(bvh, place, slack);
     else
         for (auto place = 2 * static_cast<std::uint32_t>(count_nodes(bvh)); place-- > 2;)
-            update_stored_box(bvh, place, slack);
+            refit_stored_node_box(bvh, place, slack);
     bvh.nodes[0] = vec4(slack.lo, bvh.nodes[0].w);
     bvh.nodes[1] = vec4(slack.hi, bvh.nodes[1].w);
     return run;
@@ -132,8 +134,8 @@ double compute_sah_cost(const Bvh& bvh) {
     for (std::size_t node = 1; node < count_nodes(bvh); ++node) {
         const vec4* texel = &bvh.nodes[4 * node];
         for (int side = 0; side < 2; ++side) {
-            sum += compute_child_cost(float_to_bits(texel[side].w),
-                                      {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
+            sum += compute_bvh_child_sah_cost(float_to_bits(texel[side].w),
+                                              {vec3(texel[2 * side]), vec3(texel[2 * side + 1])});
         }
     }
     return sum;

@@ -18,38 +18,40 @@ double compute_split_cost(const SimdBox& extent, std::size_t count) {
     return extent.half_surface_area() * static_cast<double>(count);
 }
 
-bool is_centre_before(const TriangleReference& a, const TriangleReference& b, std::size_t axis) {
+bool is_centroid_before_on_axis(const TriangleReference& a, const TriangleReference& b,
+                                std::size_t axis) {
     const float place_a = a.lo[axis] * .5f + a.hi[axis] * .5f,
                 place_b = b.lo[axis] * .5f + b.hi[axis] * .5f;
-    return place_a != place_b ? place_a < place_b : a.triangle_number() < b.triangle_number();
+    return place_a != place_b ? place_a < place_b
+                              : a.triangle_index_of_reference() < b.triangle_index_of_reference();
 }
 
 } // namespace
 
-SplitBinMapping::SplitBinMapping(const SimdBox& centres)
+CentroidToBinMapping::CentroidToBinMapping(const SimdBox& centres)
     : lowest_centre(centres.lo),
       bins_per_unit(broadcast_simd(kSplitBinCount) / (centres.hi - centres.lo)) {
     lowest_centre[3] = bins_per_unit[3] = 0;
 }
 
-void SplitBins::add_references(std::span<const TriangleReference> references,
-                               const SplitBinMapping& binning) {
+void SahSplitBins::add_triangle_references_of_bins(std::span<const TriangleReference> references,
+                                                   const CentroidToBinMapping& binning) {
     for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kReferencePrefetchDistance);
         // The minimum also sends NaN to the last bin.
         const SimdInt4 bin = __builtin_convertvector(
             simd_min(broadcast_simd(kSplitBinCount - 1),
-                     binning.bin_position_of_centre(r.centre_of_box())),
+                     binning.fractional_bin_of_centroid(r.bounding_box_centre())),
             SimdInt4);
         for (int axis = 0; axis < 3; ++axis) {
             const auto k = static_cast<std::size_t>(bin[axis]);
-            extents_[axis][k].add_box(r.triangle_box());
+            extents_[axis][k].add_box(r.triangle_bounding_box());
             ++counts_[axis][k];
         }
     }
 }
 
-void SplitBins::add_references(const SplitBins& other) {
+void SahSplitBins::add_triangle_references_of_bins(const SahSplitBins& other) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t k = 0; k < kSplitBinCount; ++k) {
             extents_[axis][k].add_box(other.extents_[axis][k]);
@@ -57,38 +59,41 @@ void SplitBins::add_references(const SplitBins& other) {
         }
 }
 
-std::size_t SplitBins::left_count(const BinSplit& split) const {
+std::size_t SahSplitBins::left_triangle_count_of_split(const BinnedSahSplit& split) const {
     const auto& counts = counts_[split.axis];
     return std::accumulate(counts.begin(), counts.begin() + split.first_right, std::size_t{0});
 }
 
-std::array<SimdBox, 2> SplitBins::extents(const BinSplit& split) const {
+std::array<SimdBox, 2> SahSplitBins::extents(const BinnedSahSplit& split) const {
     std::array<SimdBox, 2> sides;
     for (int k = 0; k < kSplitBinCount; ++k)
         sides[k < split.first_right ? 0 : 1].add_box(extents_[split.axis][k]);
     return sides;
 }
 
-SplitRanges partition_range_by_split(const TriangleReferenceRange& part, const SplitBins& bins,
-                                     const BinSplit& split, const std::array<SimdBox, 2>& centres) {
-    const std::size_t left = bins.left_count(split);
+SplitTriangleRanges partition_triangles_by_bin_split(const TriangleReferenceSpanRange& part,
+                                                     const SahSplitBins& bins,
+                                                     const BinnedSahSplit& split,
+                                                     const std::array<SimdBox, 2>& centres) {
+    const std::size_t left = bins.left_triangle_count_of_split(split);
     const std::array<SimdBox, 2> boxes = bins.extents(split);
-    return {TriangleReferenceRange{part.first, left, !part.in_second, false, boxes[0], centres[0]},
-            TriangleReferenceRange{part.first + left, part.count - left, !part.in_second, false,
+    return {
+        TriangleReferenceSpanRange{part.first, left, !part.in_second, false, boxes[0], centres[0]},
+        TriangleReferenceSpanRange{part.first + left, part.count - left, !part.in_second, false,
                                    boxes[1], centres[1]}};
 }
 
-void BinSplit::scatter_references(std::span<const TriangleReference> references,
-                                  const SplitBinMapping& binning,
-                                  std::array<TriangleReference*, 2> to,
-                                  std::array<SimdBox, 2>& centres) const {
+void BinnedSahSplit::scatter_references_to_bins(std::span<const TriangleReference> references,
+                                                const CentroidToBinMapping& binning,
+                                                std::array<TriangleReference*, 2> to,
+                                                std::array<SimdBox, 2>& centres) const {
     const auto k = static_cast<std::size_t>(axis);
     const float lo = binning.lowest_centre[k], bins_per_unit = binning.bins_per_unit[k],
                 end = static_cast<float>(first_right);
     TriangleReference *left = to[0], *right = to[1];
     for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kReferencePrefetchDistance);
-        const SimdFloat4 centre = r.centre_of_box();
+        const SimdFloat4 centre = r.bounding_box_centre();
         // Without a branch, because no predictor could foresee it. Without sums in memory, too.
         const bool is_right = !((centre[k] - lo) * bins_per_unit < end);
         *(is_right ? right : left) = r;
@@ -99,8 +104,9 @@ void BinSplit::scatter_references(std::span<const TriangleReference> references,
     }
 }
 
-std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most) {
-    std::optional<BinSplit> best;
+std::optional<BinnedSahSplit> find_best_binned_sah_split(const SahSplitBins& bins,
+                                                         std::size_t most) {
+    std::optional<BinnedSahSplit> best;
     double least = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& extents = bins.extents_[axis];
@@ -122,39 +128,39 @@ std::optional<BinSplit> find_best_split(const SplitBins& bins, std::size_t most)
             if (count > most || right_count[i] > most) continue;
             const double cost = compute_split_cost(left, count) + right_cost[i];
             if (best && !(cost < least)) continue;
-            best = BinSplit{static_cast<int>(axis), static_cast<int>(i)};
+            best = BinnedSahSplit{static_cast<int>(axis), static_cast<int>(i)};
             least = cost;
         }
     }
     return best;
 }
 
-std::optional<SweepSplit> find_best_division_by_sweep(TriangleReferences references,
-                                                      std::size_t most) {
+std::optional<SweptSahSplit> find_best_sah_split_by_sweep(TriangleReferences references,
+                                                          std::size_t most) {
     const std::size_t count = references.size();
     std::array<TriangleReference, kMaxSweepTriangles> sorted, best_order;
-    std::optional<SweepSplit> best;
+    std::optional<SweptSahSplit> best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < count; ++i) {
             std::size_t k = i;
-            for (; k > 0 && is_centre_before(references[i], sorted[k - 1], axis); --k)
+            for (; k > 0 && is_centroid_before_on_axis(references[i], sorted[k - 1], axis); --k)
                 sorted[k] = sorted[k - 1];
             sorted[k] = references[i];
         }
         std::array<double, kMaxSweepTriangles> right_cost;
         SimdBox right;
         for (std::size_t i = count; i-- > 1;) {
-            right.add_box(sorted[i].triangle_box());
+            right.add_box(sorted[i].triangle_bounding_box());
             right_cost[i] = compute_split_cost(right, count - i);
         }
         SimdBox left;
         bool is_best = false;
         for (std::size_t i = 1; i < count; ++i) {
-            left.add_box(sorted[i - 1].triangle_box());
+            left.add_box(sorted[i - 1].triangle_bounding_box());
             if (i > most || count - i > most) continue;
             const double cost = compute_split_cost(left, i) + right_cost[i];
             if (best && !(cost < best->cost)) continue;
-            best = SweepSplit{cost, i};
+            best = SweptSahSplit{cost, i};
             is_best = true;
         }
         if (is_best) best_order = sorted;
@@ -163,41 +169,42 @@ std::optional<SweepSplit> find_best_division_by_sweep(TriangleReferences referen
     return best;
 }
 
-std::size_t partition_at_median(TriangleReferences references, const SimdBox& centres) {
+std::size_t partition_triangles_at_median(TriangleReferences references, const SimdBox& centres) {
     const vec3 size = centres.to_bounding_box().extent();
     const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t middle = references.size() / 2;
     std::nth_element(references.begin(), references.begin() + static_cast<std::ptrdiff_t>(middle),
                      references.end(),
                      [axis](const TriangleReference& a, const TriangleReference& b) {
-                         return is_centre_before(a, b, axis);
+                         return is_centroid_before_on_axis(a, b, axis);
                      });
     return middle;
 }
 
 TriangleReferences remove_duplicate_triangles(TriangleReferences references,
                                               std::span<const Triangle> triangles,
-                                              DuplicateSearchScope copies) {
+                                              DuplicateTriangleSearchScope copies) {
     const auto what = [&](const TriangleReference& r) {
-        const Triangle& t = triangles[r.triangle_number()];
+        const Triangle& t = triangles[r.triangle_index_of_reference()];
         return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
     };
     const auto whose = [&](const TriangleReference& r) {
-        const Triangle& t = triangles[r.triangle_number()];
-        const bool is_told_apart = copies == DuplicateSearchScope::within_object ||
-                                   (t.flags & (kAlphaMaskedFlag | kStandsForSphereFlag)) != 0;
+        const Triangle& t = triangles[r.triangle_index_of_reference()];
+        const bool is_told_apart = copies == DuplicateTriangleSearchScope::within_object ||
+                                   (t.flags &
+                                    (kAlphaMaskedFlag | kTriangleApproximatesSphereFlag)) != 0;
         return std::pair{is_told_apart ? t.object : 0, t.flags};
     };
     std::ranges::sort(references, [&](const TriangleReference& a, const TriangleReference& b) {
-        return std::tuple{what(a), whose(a), a.triangle_number()} <
-               std::tuple{what(b), whose(b), b.triangle_number()};
+        return std::tuple{what(a), whose(a), a.triangle_index_of_reference()} <
+               std::tuple{what(b), whose(b), b.triangle_index_of_reference()};
     });
     const auto left_out = std::ranges::unique(
         references, [&](const TriangleReference& a, const TriangleReference& b) {
             return what(a) == what(b) && whose(a) == whose(b);
         });
     references = references.first(references.size() - left_out.size());
-    std::ranges::sort(references, {}, &TriangleReference::triangle_number);
+    std::ranges::sort(references, {}, &TriangleReference::triangle_index_of_reference);
     return references;
 }
 

@@ -12,19 +12,20 @@ struct BvhBuildWorkspace {
     std::array<TriangleReferences, 2> buffers;
     vec4* triangles;    ///< Bvh::triangles, with room for all triangles
     std::uint32_t most; ///< the most triangles in a leaf
-    DuplicateSearchScope copies;
+    DuplicateTriangleSearchScope copies;
 
-    TriangleReferences references_of_range(const TriangleReferenceRange& part) const {
+    TriangleReferences references_of_range(const TriangleReferenceSpanRange& part) const {
         return buffers[part.in_second ? 1 : 0].subspan(part.first, part.count);
     }
     /// Returns the place in the other buffer that the two sides of the part will fill.
-    TriangleReferences other_buffer_of_range(const TriangleReferenceRange& part) const {
+    TriangleReferences scratch_buffer_of_range(const TriangleReferenceSpanRange& part) const {
         return buffers[part.in_second ? 0 : 1].subspan(part.first, part.count);
     }
 };
 
 /// Returns how many triangles fit into a subtree with `depth` inner nodes above it.
-inline std::size_t max_triangles_of_subtree(const BvhBuildWorkspace& work, std::uint32_t depth) {
+inline std::size_t max_triangles_below_tree_depth(const BvhBuildWorkspace& work,
+                                                  std::uint32_t depth) {
     return std::size_t{work.most} << (kMaxTreeDepth - depth);
 }
 
@@ -36,7 +37,7 @@ struct BvhSubtree {
 };
 
 /// Builds the subtree of a part with `depth` inner nodes above it. Costs O(n log^2 n).
-BvhSubtree build_subtree(const BvhBuildWorkspace& work, const TriangleReferenceRange& part,
+BvhSubtree build_subtree(const BvhBuildWorkspace& work, const TriangleReferenceSpanRange& part,
                          std::uint32_t depth);
 
 } // namespace catoptric::bvh

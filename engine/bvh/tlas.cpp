@@ -30,7 +30,7 @@ BoundingBox compute_node_bounds(const Bvh& bvh, std::size_t node) {
 }
 
 /// Appends a tree without its header. Returns the word of its root.
-std::uint32_t append_tree_without_header(Bvh& into, const Bvh& part) {
+std::uint32_t append_bvh_nodes_without_header(Bvh& into, const Bvh& part) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1),
                triangles = static_cast<std::uint32_t>(count_triangles(into));
     for (std::size_t node = 1; node < count_nodes(part); ++node)
@@ -56,13 +56,13 @@ void add_instance_record(Bvh& bvh, const BvhInstance& instance, std::uint32_t ro
     const BoundingBox own = compute_object_space_bounds(*instance.tree);
     const std::array<vec4, 4 * f32::kBvhNodesPerInstance> texels{
         vec4(row(0), std::bit_cast<float>(root)),
-        vec4(row(1), integer_to_float_word(instance.object)),
-        vec4(row(2), integer_to_float_word(instance.shift)),
-        vec4(centre, integer_to_float_word(instance.flags)),
+        vec4(row(1), integer_to_float_bits(instance.object)),
+        vec4(row(2), integer_to_float_bits(instance.shift)),
+        vec4(centre, integer_to_float_bits(instance.flags)),
         vec4(vec3(instance.scene_from_own[0]), 0),
         vec4(vec3(instance.scene_from_own[1]), 0),
         vec4(vec3(instance.scene_from_own[2]), 0),
-        vec4(float_rounding_error(instance.centre), 0),
+        vec4(double_to_float_rounding_error(instance.centre), 0),
         vec4(own.lo, 0),
         vec4(own.hi, instance.radius)};
     bvh.nodes.insert(bvh.nodes.end(), texels.begin(), texels.end());
@@ -106,16 +106,17 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
             float& child = top.nodes[4 * node + side].w;
             const std::uint32_t leaf = float_to_bits(child);
             if (leaf == f32::kBvhEmptyChild || f32::is_bvh_word_inner_node(leaf)) continue;
-            const std::uint32_t number = float_word_to_integer(
+            const std::uint32_t number = integer_from_float_bits(
                 top.triangles[3 * f32::bvh_word_index(leaf) + 1].w);
-            child = integer_to_float_word(f32::kBvhInstanceMarker << f32::kBvhCountShift |
+            child = integer_to_float_bits(f32::kBvhInstanceMarker << f32::kBvhCountShift |
                                           (first_record + f32::kBvhNodesPerInstance * number));
         }
     top.triangles.clear();
     return top;
 }
 
-/// Appends like `append_tree_without_header`, for a tree whose leaf words already refer to records.
+/// Appends like `append_bvh_nodes_without_header`, for a tree whose leaf words already refer to
+/// records.
 std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
     const auto nodes = static_cast<std::uint32_t>(count_nodes(into) - 1);
     for (std::size_t i = 4; i < top.nodes.size(); ++i) {
@@ -129,7 +130,7 @@ std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
 
 } // namespace
 
-vec3 float_rounding_error(const dvec3& v) {
+vec3 double_to_float_rounding_error(const dvec3& v) {
     vec3 low;
     for (int i = 0; i < 3; ++i) {
         // `volatile`, because g++ 12 otherwise vectorises this and drops the rounding.
@@ -139,7 +140,7 @@ vec3 float_rounding_error(const dvec3& v) {
     return low;
 }
 
-double max_rounding_amplification(const dmat3& matrix) {
+double max_matrix_rounding_amplification(const dmat3& matrix) {
     const dmat3 inverse = glm::inverse(matrix);
     double most = 0;
     for (int row = 0; row < 3; ++row) {
@@ -159,17 +160,17 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
     result.nodes.resize(8, vec4(0));
     const BoundingBox in_flat = compute_node_bounds(flat, 1);
     const std::uint32_t flat_root = count_triangles(flat) > 0
-                                        ? append_tree_without_header(result, flat)
+                                        ? append_bvh_nodes_without_header(result, flat)
                                         : f32::kBvhEmptyChild;
     std::map<const Bvh*, std::uint32_t> roots;
     double worst = 1;
     BoundingBox core = compute_object_space_bounds(flat);
     for (const BvhInstance& instance : instances) {
-        worst = std::max(worst, max_rounding_amplification(instance.scene_from_own));
+        worst = std::max(worst, max_matrix_rounding_amplification(instance.scene_from_own));
         if (count_triangles(flat) == 0 && flat.nodes[0].x > flat.nodes[1].x)
             core.add(compute_instance_bounds(instance));
         if (!roots.contains(instance.tree))
-            roots[instance.tree] = append_tree_without_header(result, *instance.tree);
+            roots[instance.tree] = append_bvh_nodes_without_header(result, *instance.tree);
     }
     const auto first_record = result.first_record = static_cast<std::uint32_t>(count_nodes(result));
     for (const BvhInstance& instance : instances)
@@ -182,10 +183,10 @@ Bvh assemble_two_level_bvh(const Bvh& flat, std::span<const BvhInstance> instanc
         count_nodes(result) <= f32::kBvhIndexMask && count_triangles(result) <= f32::kBvhIndexMask,
         Failure::exhausted, "bounding volume hierarchy wants ", count_nodes(result), " nodes and ",
         count_triangles(result), " triangles, its words hold ", f32::kBvhIndexMask, " each");
-    result.nodes[0] = vec4(core.lo, index_to_float_word(count_triangles(result)));
-    result.nodes[1] = vec4(core.hi, index_to_float_word(count_nodes(result)));
+    result.nodes[0] = vec4(core.lo, index_to_bits_in_float(count_triangles(result)));
+    result.nodes[1] = vec4(core.hi, index_to_bits_in_float(count_nodes(result)));
     result.nodes[2].x = static_cast<float>(times);
-    set_walk_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
+    write_bvh_traversal_start(result, f32::kBvhRoot, f32::kBvhEmptyChild);
     result.nodes[4] = vec4(in_flat.lo, std::bit_cast<float>(flat_root));
     result.nodes[5] = vec4(in_flat.hi, std::bit_cast<float>(top_root));
     result.nodes[6] = vec4(in_top.lo, 0);

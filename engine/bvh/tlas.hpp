@@ -17,12 +17,12 @@ struct BvhInstance {
 };
 
 /// Returns the rounding error of each component when it becomes a float, itself rounded to float.
-vec3 float_rounding_error(const dvec3& v);
+vec3 double_to_float_rounding_error(const dvec3& v);
 
 /// Returns how much a matrix and its inverse together may amplify roundings: the largest row sum of
 /// |m| |m^-1|. The value is 1 for a scale, at most 3 for a rotation and infinite for a singular
 /// matrix.
-double max_rounding_amplification(const dmat3& matrix);
+double max_matrix_rounding_amplification(const dmat3& matrix);
 
 /// Builds the tree of a scene in which some objects have an object space. The root has two
 /// children: the flat tree, and a top-level tree with one instance in each leaf. A word with the

@@ -10,13 +10,13 @@
 namespace catoptric::bvh {
 
 inline std::uint32_t float_to_bits(float value) { return std::bit_cast<std::uint32_t>(value); }
-inline float integer_to_float_word(std::uint32_t number) {
+inline float integer_to_float_bits(std::uint32_t number) {
     return std::bit_cast<float>(number | f32::kBvhNormalFloatBit);
 }
-inline float index_to_float_word(std::size_t number) {
-    return integer_to_float_word(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
+inline float index_to_bits_in_float(std::size_t number) {
+    return integer_to_float_bits(static_cast<std::uint32_t>(number) & f32::kBvhIdMask);
 }
-inline std::uint32_t float_word_to_integer(float word) {
+inline std::uint32_t integer_from_float_bits(float word) {
     return float_to_bits(word) & f32::kBvhIdMask;
 }
 

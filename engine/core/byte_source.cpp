@@ -16,7 +16,7 @@ namespace catoptric {
 
 namespace {
 
-class FileByteSource final : public ByteSource {
+class FileByteSource final : public RandomAccessByteSource {
 public:
     FileByteSource(int file, std::uint64_t size, std::string name)
         : file_descriptor_(file), size_(size), name_(std::move(name)) {}
@@ -44,9 +44,9 @@ private:
 };
 
 /// A source that owns its bytes.
-class OwningByteSource final : public ByteSource {
+class OwnedMemoryByteSource final : public RandomAccessByteSource {
 public:
-    explicit OwningByteSource(std::string bytes) : bytes_(std::move(bytes)) {}
+    explicit OwnedMemoryByteSource(std::string bytes) : bytes_(std::move(bytes)) {}
     std::uint64_t size() const override { return bytes_.size(); }
     std::size_t read(std::uint64_t offset, std::span<char> into) const override {
         return MemoryByteSource(bytes_).read(offset, into);
@@ -65,10 +65,10 @@ std::size_t MemoryByteSource::read(std::uint64_t offset, std::span<char> into) c
     return part.size();
 }
 
-std::unique_ptr<ByteSource> open_file_bytes(const std::filesystem::path& path) {
+std::unique_ptr<RandomAccessByteSource> open_file_bytes(const std::filesystem::path& path) {
     struct stat facts {};
     if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode))
-        return std::make_unique<OwningByteSource>(read_file(path));
+        return std::make_unique<OwnedMemoryByteSource>(read_file(path));
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const int error = errno;
     check(file >= 0, Failure::missing_input, path.string(),

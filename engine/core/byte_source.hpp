@@ -10,12 +10,12 @@ namespace catoptric {
 
 /// A source of bytes that are read piece by piece, so that a picture's header can be checked before
 /// the rest is in memory.
-class ByteSource {
+class RandomAccessByteSource {
 public:
-    ByteSource() = default;
-    ByteSource(const ByteSource&) = delete;
-    ByteSource& operator=(const ByteSource&) = delete;
-    virtual ~ByteSource() = default;
+    RandomAccessByteSource() = default;
+    RandomAccessByteSource(const RandomAccessByteSource&) = delete;
+    RandomAccessByteSource& operator=(const RandomAccessByteSource&) = delete;
+    virtual ~RandomAccessByteSource() = default;
 
     virtual std::uint64_t size() const = 0;
     /// Fills `into` with the bytes from `offset` on. Returns the number of bytes read, which is
@@ -24,7 +24,7 @@ public:
 };
 
 /// A source of bytes in memory. The memory must outlive it.
-class MemoryByteSource final : public ByteSource {
+class MemoryByteSource final : public RandomAccessByteSource {
 public:
     explicit MemoryByteSource(std::string_view bytes) : bytes_(bytes) {}
     std::uint64_t size() const override { return bytes_.size(); }
@@ -36,6 +36,6 @@ private:
 
 /// Opens a file without reading it. A pipe or a device cannot be read at an offset, so its bytes
 /// are read into memory. Throws `missing_input` if the file does not exist or cannot be opened.
-std::unique_ptr<ByteSource> open_file_bytes(const std::filesystem::path& path);
+std::unique_ptr<RandomAccessByteSource> open_file_bytes(const std::filesystem::path& path);
 
 } // namespace catoptric

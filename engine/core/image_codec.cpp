@@ -55,7 +55,7 @@ std::string detect_image_format(std::string_view bytes) {
 
 namespace {
 
-void check_image_sides(const ImageShape& shape, const std::string& name) {
+void check_image_side_lengths(const ImageSizeAndChannels& shape, const std::string& name) {
     const auto fits = [](std::uint32_t side) {
         return side > 0 && side <= ImageReader::kMaxImageSide;
     };
@@ -68,7 +68,8 @@ void check_image_sides(const ImageShape& shape, const std::string& name) {
 /// Reads a picture with OpenImageIO.
 class ImageCodecReader {
 public:
-    ImageCodecReader(const ByteSource& bytes, const std::string& format, const std::string& name)
+    ImageCodecReader(const RandomAccessByteSource& bytes, const std::string& format,
+                     const std::string& name)
         : image_format_(format), name_(name) {
         check_codec_result(codecs_.open(bytes, format, name, picture_, header_), name, format);
     }
@@ -79,7 +80,7 @@ public:
     ImageCodecReader& operator=(const ImageCodecReader&) = delete;
 
     /// Returns the picture's shape. Throws `bad_data` for a deep picture or one without pixels.
-    ImageShape image_shape() const {
+    ImageSizeAndChannels image_size_and_channels() const {
         check(!header_.is_deep && header_.size.x > 0 && header_.size.y > 0, Failure::bad_data,
               name_, ": wanted a flat picture of 1 to ", ImageReader::kMaxImageSide,
               " pixels a side, found ", header_.is_deep ? "a deep one of " : "", header_.size.x,
@@ -97,12 +98,12 @@ private:
     std::string image_format_, name_;
     const ImageCodecs& codecs_ = get_image_codecs();
     ImageCodecs::Picture* picture_ = nullptr;
-    ImageCodecs::PictureHeader header_;
+    ImageCodecs::CodecPictureHeader header_;
 };
 
 } // namespace
 
-struct ImageReader::ImageReadState {
+struct ImageReader::CodecImageReadState {
     void read_image_rows(std::uint32_t first, std::uint32_t row_count, ImageCodecValueType type,
                          void* values) {
         try {
@@ -115,7 +116,7 @@ struct ImageReader::ImageReadState {
         }
     }
     template <typename Value>
-    std::vector<Value> read_all_values(ImageCodecValueType type) {
+    std::vector<Value> read_all_pixel_values(ImageCodecValueType type) {
         std::vector<Value> values;
         try {
             values.resize(std::size_t(shape.size.x) * shape.size.y * shape.channel_count);
@@ -127,37 +128,40 @@ struct ImageReader::ImageReadState {
     }
 
     std::string name;
-    ImageShape shape;
+    ImageSizeAndChannels shape;
     std::optional<PngReader> png;
     std::optional<ImageCodecReader> codec; ///< set for all formats but PNG
 };
 
-ImageReader::ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
-                         const ImageShapeCheck& judge)
-    : image_state_(std::make_unique<ImageReadState>()) {
+ImageReader::ImageReader(const RandomAccessByteSource& bytes, const std::string& format,
+                         std::string name, const ImageShapeCheckCallback& judge)
+    : image_state_(std::make_unique<CodecImageReadState>()) {
     image_state_->name = std::move(name);
-    const auto accept = [&](const ImageShape& shape) {
-        check_image_sides(shape, image_state_->name);
+    const auto accept = [&](const ImageSizeAndChannels& shape) {
+        check_image_side_lengths(shape, image_state_->name);
         if (judge) judge(shape);
         image_state_->shape = shape;
     };
     if (format == "png") {
-        accept(image_state_->png.emplace(bytes, image_state_->name).image_shape());
+        accept(image_state_->png.emplace(bytes, image_state_->name).image_size_and_channels());
         image_state_->png->check_size_against_file();
         return;
     }
     if (const auto shape = read_image_header(bytes, format, image_state_->name)) accept(*shape);
-    accept(image_state_->codec.emplace(bytes, format, image_state_->name).image_shape());
+    accept(
+        image_state_->codec.emplace(bytes, format, image_state_->name).image_size_and_channels());
 }
 
 ImageReader::~ImageReader() = default;
 
-const ImageShape& ImageReader::image_shape() const { return image_state_->shape; }
+const ImageSizeAndChannels& ImageReader::image_size_and_channels() const {
+    return image_state_->shape;
+}
 std::vector<float> ImageReader::floats() {
-    return image_state_->read_all_values<float>(ImageCodecValueType::float32);
+    return image_state_->read_all_pixel_values<float>(ImageCodecValueType::float32);
 }
 std::vector<std::uint8_t> ImageReader::bytes() {
-    return image_state_->read_all_values<std::uint8_t>(ImageCodecValueType::uint8);
+    return image_state_->read_all_pixel_values<std::uint8_t>(ImageCodecValueType::uint8);
 }
 void ImageReader::read_image_rows(std::uint32_t first, std::span<float> values) {
     const std::size_t row = std::size_t(image_state_->shape.size.x) *
@@ -166,7 +170,7 @@ void ImageReader::read_image_rows(std::uint32_t first, std::span<float> values) 
                                   ImageCodecValueType::float32, values.data());
 }
 
-std::string encode_openexr(const ImageShape& shape, std::span<const float> values) {
+std::string encode_openexr(const ImageSizeAndChannels& shape, std::span<const float> values) {
     check(shape.size.x > 0 && shape.size.y > 0, Failure::internal, "a picture of ", shape.size.x,
           "x", shape.size.y, " cannot be written");
     std::string bytes;

@@ -23,12 +23,12 @@ std::string detect_image_format(std::string_view bytes);
 
 /// The shape of a picture: its size in pixels and `channel_count` values per pixel, row-major from
 /// the top.
-struct ImageShape {
+struct ImageSizeAndChannels {
     uvec2 size{0};
     std::size_t channel_count = 0;
     std::vector<std::string> channels; ///< channel names: "R", "G", "B", "A", "Y" ...
     std::string description;           ///< text in the header of an OpenEXR file; may be empty
-    bool has_8_bits = false;           ///< PNG: whether each value is stored in 8 bits or fewer
+    bool has_8_bit_channels = false;   ///< PNG: whether each value is stored in 8 bits or fewer
 };
 
 /// Reads a picture. At first only the header is read. `bytes` must outlive the reader.
@@ -37,18 +37,18 @@ public:
     static constexpr std::uint32_t kMaxImageSide = 1 << 16;
 
     /// Throws if the size or channels that a header claims are not acceptable.
-    using ImageShapeCheck = std::function<void(const ImageShape&)>;
+    using ImageShapeCheckCallback = std::function<void(const ImageSizeAndChannels&)>;
 
     /// Opens a picture. `format` is OpenImageIO's name of it, and `name` begins every message.
     /// `judge` is called before a decoder, which may allocate memory, is opened, and again with the
     /// decoder's shape. Throws `bad_data` if the picture cannot be opened, is not flat, or has a
     /// side of 0 or more than 65536 pixels. Also throws `bad_data` if the header claims more than a
     /// file of its size can hold.
-    ImageReader(const ByteSource& bytes, const std::string& format, std::string name,
-                const ImageShapeCheck& judge = {});
+    ImageReader(const RandomAccessByteSource& bytes, const std::string& format, std::string name,
+                const ImageShapeCheckCallback& judge = {});
     ~ImageReader();
 
-    const ImageShape& image_shape() const;
+    const ImageSizeAndChannels& image_size_and_channels() const;
     /// Returns all values. Colours are as stored, not multiplied by alpha. `floats` maps integers
     /// to [0,1]; `bytes` rounds to 8 bits. Throws `bad_data` if the picture cannot be decoded.
     std::vector<float> floats();
@@ -58,14 +58,14 @@ public:
     void read_image_rows(std::uint32_t first, std::span<float> values);
 
 private:
-    struct ImageReadState;
-    std::unique_ptr<ImageReadState> image_state_;
+    struct CodecImageReadState;
+    std::unique_ptr<CodecImageReadState> image_state_;
 };
 
 /// Returns the bytes of an OpenEXR file of floats, or of a PNG file of 8 bits in sRGB. A PNG has 1
 /// to 4 channels. Without names, an OpenEXR file has 1 to 4 channels as well. Equal values give
 /// equal bytes. Values are as ImageReader returns them.
-std::string encode_openexr(const ImageShape& shape, std::span<const float> values);
-std::string encode_png(const ImageShape& shape, std::span<const std::uint8_t> values);
+std::string encode_openexr(const ImageSizeAndChannels& shape, std::span<const float> values);
+std::string encode_png(const ImageSizeAndChannels& shape, std::span<const std::uint8_t> values);
 
 } // namespace catoptric

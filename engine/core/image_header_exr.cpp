@@ -14,15 +14,17 @@ namespace catoptric {
 
 namespace {
 
-constexpr std::size_t kMaxNameLength = 255;
-constexpr std::uint32_t kExrTiledFlag = 0x200, kDeepPartsFlag = 0x800, kMultiPartFlag = 0x1000;
+constexpr std::size_t kMaxExrNameLength = 255;
+constexpr std::uint32_t kExrTiledFlag = 0x200, kExrDeepPartsFlag = 0x800,
+                        kExrMultiPartFlag = 0x1000;
 
 /// Reads a file from front to end.
 class ExrFileCursor {
 public:
-    ExrFileCursor(const ByteSource& bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+    ExrFileCursor(const RandomAccessByteSource& bytes, const std::string& name)
+        : bytes_(bytes), name_(name) {}
 
-    [[noreturn]] void throw_bad_exr(const auto&... what) const {
+    [[noreturn]] void throw_bad_exr_file_error(const auto&... what) const {
         fail(Failure::bad_data, name_, ": cannot be decoded: byte ", at_, ": ", what...);
     }
     std::uint64_t count_bytes_left() const { return bytes_.size() - at_; }
@@ -43,26 +45,28 @@ public:
     }
     /// Returns the text up to a zero byte, and skips this byte.
     std::string read_string() {
-        std::array<char, kMaxNameLength + 1> read{};
+        std::array<char, kMaxExrNameLength + 1> read{};
         const std::string_view text(read.data(), bytes_.read(at_, read));
         const std::size_t end = text.find('\0');
-        if (end == text.npos) throw_bad_exr("wanted a name of at most ", kMaxNameLength, " bytes");
+        if (end == text.npos)
+            throw_bad_exr_file_error("wanted a name of at most ", kMaxExrNameLength, " bytes");
         at_ += end + 1;
         return std::string(text.substr(0, end));
     }
     /// Returns whether a zero byte comes next, and skips it if so.
-    bool skip_zero_byte() {
+    bool skip_exr_byte_if_zero() {
         const bool is_zero = read_byte() == 0;
         if (!is_zero) --at_;
         return is_zero;
     }
     /// Throws if fewer than `size` bytes are left.
-    void require_bytes_left(std::uint64_t size, const char* what) const {
+    void check_exr_bytes_left(std::uint64_t size, const char* what) const {
         if (size > count_bytes_left())
-            throw_bad_exr("wanted ", size, " bytes of ", what, ", found ", count_bytes_left());
+            throw_bad_exr_file_error("wanted ", size, " bytes of ", what, ", found ",
+                                     count_bytes_left());
     }
     void skip_bytes(std::uint64_t size) {
-        require_bytes_left(size, "an attribute");
+        check_exr_bytes_left(size, "an attribute");
         at_ += size;
     }
     std::uint64_t file_position() const { return at_; }
@@ -70,11 +74,12 @@ public:
 
 private:
     void read_bytes_into(std::span<char> into) {
-        if (bytes_.read(at_, into) < into.size()) throw_bad_exr("the file ends in its header");
+        if (bytes_.read(at_, into) < into.size())
+            throw_bad_exr_file_error("the file ends in its header");
         at_ += into.size();
     }
 
-    const ByteSource& bytes_;
+    const RandomAccessByteSource& bytes_;
     const std::string& name_;
     std::uint64_t at_ = 0;
 };
@@ -90,7 +95,7 @@ struct ExrPartHeader {
     bool is_tiled = false;
     std::uint64_t chunk_count = 0; ///< as the file claims; 0 if it claims none
 
-    std::uint64_t window_side(std::size_t axis) const {
+    std::uint64_t exr_data_window_side_length(std::size_t axis) const {
         const std::int64_t first = window[axis], last = window[axis + 2];
         return static_cast<std::uint64_t>(std::max<std::int64_t>(0, last - first + 1));
     }
@@ -110,11 +115,11 @@ void read_exr_channels(ExrFileCursor& file, ExrPartHeader& part, std::uint64_t e
 }
 
 /// Checks the strings of a vector, because OpenEXR trusts the length of each.
-void check_string_vector(ExrFileCursor& file, std::uint64_t end) {
+void check_exr_string_vector(ExrFileCursor& file, std::uint64_t end) {
     while (file.file_position() + 4 <= end) {
         const std::uint32_t size = file.read_uint32();
         if (size > end - std::min(end, file.file_position()))
-            file.throw_bad_exr("a string of ", size, " bytes");
+            file.throw_bad_exr_file_error("a string of ", size, " bytes");
         file.skip_bytes(size);
     }
 }
@@ -122,7 +127,7 @@ void check_string_vector(ExrFileCursor& file, std::uint64_t end) {
 void read_exr_attribute(ExrFileCursor& file, ExrPartHeader& part, const std::string& name,
                         const std::string& type) {
     const std::uint32_t size = file.read_uint32();
-    file.require_bytes_left(size, "an attribute");
+    file.check_exr_bytes_left(size, "an attribute");
     const std::uint64_t end = file.file_position() + size;
     if (name == "channels") {
         read_exr_channels(file, part, end);
@@ -136,16 +141,17 @@ void read_exr_attribute(ExrFileCursor& file, ExrPartHeader& part, const std::str
     } else if (name == "chunkCount" && size == 4) {
         part.chunk_count = file.read_uint32();
     } else if (type == "stringvector") {
-        check_string_vector(file, end);
+        check_exr_string_vector(file, end);
     } else if (type == "preview" && size >= 8) {
         const std::uint64_t width = file.read_uint32(), height = file.read_uint32();
         if (width * height > (size - 8) / 4)
-            file.throw_bad_exr("a preview of ", width, "x", height, " pixels in ", size, " bytes");
+            file.throw_bad_exr_file_error("a preview of ", width, "x", height, " pixels in ", size,
+                                          " bytes");
     }
     file.seek_to_offset(end);
 }
 
-ExrPartHeader read_part_header(ExrFileCursor& file, bool is_tiled) {
+ExrPartHeader read_exr_part_header(ExrFileCursor& file, bool is_tiled) {
     ExrPartHeader part;
     part.is_tiled = is_tiled;
     for (std::string name = file.read_string(); !name.empty(); name = file.read_string()) {
@@ -176,7 +182,8 @@ double exr_max_expansion_factor(std::uint32_t compression) {
 /// table and 8 before its values. The result is a double, because products of claimed sizes may
 /// overflow any integer.
 double min_exr_chunk_bytes(const ExrFileCursor& file, const ExrPartHeader& part) {
-    const auto width = double(part.window_side(0)), height = double(part.window_side(1));
+    const auto width = double(part.exr_data_window_side_length(0)),
+               height = double(part.exr_data_window_side_length(1));
     double chunks = std::ceil(height / exr_lines_per_chunk(part.compression));
     if (part.is_tiled) {
         // OpenEXR allocates a whole tile, however small the picture is.
@@ -184,9 +191,9 @@ double min_exr_chunk_bytes(const ExrFileCursor& file, const ExrPartHeader& part)
         const auto [across, down] = part.tile;
         if (across == 0 || down == 0 || across > std::max(kMaxTileSide, width) ||
             down > std::max(kMaxTileSide, height))
-            file.throw_bad_exr("wanted tiles of 1 to ", kMaxTileSide,
-                               " pixels a side or as large as the ", "picture, found ", across, "x",
-                               down, " for ", width, "x", height);
+            file.throw_bad_exr_file_error("wanted tiles of 1 to ", kMaxTileSide,
+                                          " pixels a side or as large as the ", "picture, found ",
+                                          across, "x", down, " for ", width, "x", height);
         chunks = std::ceil(width / across) * std::ceil(height / down);
     }
     const double values = part.is_subsampled ? 0 : width * height * double(part.pixel_bytes);
@@ -196,27 +203,29 @@ double min_exr_chunk_bytes(const ExrFileCursor& file, const ExrPartHeader& part)
 
 } // namespace
 
-ImageShape read_openexr_header(const ByteSource& bytes, const std::string& name) {
+ImageSizeAndChannels read_openexr_header(const RandomAccessByteSource& bytes,
+                                         const std::string& name) {
     ExrFileCursor file(bytes, name);
     file.read_uint32(); // skips the magic number
     const std::uint32_t flags = file.read_uint32();
-    check((flags & kDeepPartsFlag) == 0, Failure::bad_data, name,
+    check((flags & kExrDeepPartsFlag) == 0, Failure::bad_data, name,
           ": wanted a flat picture, found a deep one");
-    std::vector<ExrPartHeader> parts{read_part_header(file, (flags & kExrTiledFlag) != 0)};
-    if ((flags & kMultiPartFlag) != 0)
-        while (!file.skip_zero_byte()) parts.push_back(read_part_header(file, false));
+    std::vector<ExrPartHeader> parts{read_exr_part_header(file, (flags & kExrTiledFlag) != 0)};
+    if ((flags & kExrMultiPartFlag) != 0)
+        while (!file.skip_exr_byte_if_zero()) parts.push_back(read_exr_part_header(file, false));
     double least = 0;
     for (const ExrPartHeader& part : parts) least += min_exr_chunk_bytes(file, part);
     const ExrPartHeader& first = parts.front();
     check(least <= double(file.count_bytes_left()), Failure::bad_data, name, ": wanted at least ",
           static_cast<std::uint64_t>(std::min(least, 1e18)), " bytes behind its header for ",
-          first.window_side(0), "x", first.window_side(1), " pixels of ", first.channels.size(),
-          " channels, found ", file.count_bytes_left());
+          first.exr_data_window_side_length(0), "x", first.exr_data_window_side_length(1),
+          " pixels of ", first.channels.size(), " channels, found ", file.count_bytes_left());
     constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
-    return {{static_cast<std::uint32_t>(std::min(first.window_side(0), kMaxUint32)),
-             static_cast<std::uint32_t>(std::min(first.window_side(1), kMaxUint32))},
-            first.channels.size(),
-            first.channels};
+    return {
+        {static_cast<std::uint32_t>(std::min(first.exr_data_window_side_length(0), kMaxUint32)),
+         static_cast<std::uint32_t>(std::min(first.exr_data_window_side_length(1), kMaxUint32))},
+        first.channels.size(),
+        first.channels};
 }
 
 } // namespace catoptric

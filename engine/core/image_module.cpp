@@ -14,15 +14,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kModuleFileName = "catoptric-images.so";
+constexpr const char* kImageModuleFileName = "catoptric-images.so";
 // Bytes of address space for all its libraries.
 constexpr std::size_t kCodecModuleAddressSpace = std::size_t{512} << 20;
-constexpr const char* kModuleRequirementText =
+constexpr const char* kImageModuleRequirementText =
     "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
     "libopenimageio2.4)";
 
 /// Returns the folder of the library or program that contains this function.
-fs::path find_folder_of_this_library() {
+fs::path find_folder_of_loaded_library() {
     static const char kOwnAddress = 0;
     Dl_info info{};
     link_map* own = nullptr;
@@ -40,14 +40,14 @@ fs::path find_folder_of_this_library() {
 /// Returns the module's file. In a build tree it is beside the programs and the library. Installed,
 /// it is in its own folder beside the library.
 fs::path find_image_module_file() {
-    const fs::path own = find_folder_of_this_library();
+    const fs::path own = find_folder_of_loaded_library();
     const fs::path folders[] = {own, own / "catoptric",
                                 (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
     for (const fs::path& folder : folders)
-        if (fs::exists(folder / kModuleFileName)) return folder / kModuleFileName;
-    fail(Failure::internal, "pictures cannot be read or written: ", kModuleFileName,
+        if (fs::exists(folder / kImageModuleFileName)) return folder / kImageModuleFileName;
+    fail(Failure::internal, "pictures cannot be read or written: ", kImageModuleFileName,
          " is in none of ", folders[0].string(), ", ", folders[1].string(), ", ",
-         folders[2].string(), ". ", kModuleRequirementText);
+         folders[2].string(), ". ", kImageModuleRequirementText);
 }
 
 const ImageCodecs* load_image_module() {
@@ -56,7 +56,7 @@ const ImageCodecs* load_image_module() {
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(module != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(),
-          " cannot be loaded: ", module ? "" : dlerror(), ". ", kModuleRequirementText);
+          " cannot be loaded: ", module ? "" : dlerror(), ". ", kImageModuleRequirementText);
     const auto codecs = reinterpret_cast<ImageCodecsFunction>(dlsym(module, kImageCodecsSymbol));
     check(codecs != nullptr, Failure::internal,
           "pictures cannot be read or written: ", file.string(), " is of another version: wanted ",

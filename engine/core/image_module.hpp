@@ -31,12 +31,12 @@ enum class ImageCodecValueType { uint8, float32 };
 /// argument, except to the bytes of an open picture. `format` is OpenImageIO's name of a format.
 struct ImageCodecs {
     struct Picture; ///< an open picture; defined in the module
-    struct PictureHeader {
+    struct CodecPictureHeader {
         ivec2 size{0};
         int channel_count = 0;
         bool is_deep = false;
         std::vector<std::string> channels;
-        std::string description; ///< see ImageShape
+        std::string description; ///< see ImageSizeAndChannels
     };
     struct PixelValueBuffer {
         uvec2 size{0};
@@ -44,14 +44,14 @@ struct ImageCodecs {
         ImageCodecValueType type = ImageCodecValueType::uint8;
         const void* values = nullptr;
         std::vector<std::string> channels; ///< empty: named by the format
-        std::string description;           ///< see ImageShape
+        std::string description;           ///< see ImageSizeAndChannels
     };
 
     /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is
     /// null.
-    ImageCodecResult (*open)(const ByteSource& bytes, const std::string& format,
+    ImageCodecResult (*open)(const RandomAccessByteSource& bytes, const std::string& format,
                              const std::string& name, Picture*& picture,
-                             PictureHeader& header) noexcept;
+                             CodecPictureHeader& header) noexcept;
     /// Reads `row_count` rows from `first` on. Rows of tiled pictures may be read again from their
     /// tiles.
     ImageCodecResult (*read)(Picture& picture, std::uint32_t first, std::uint32_t row_count,

@@ -43,7 +43,7 @@ std::string describe_json_position(const std::string& file, std::string_view tex
 
 /// Returns the length of the last word of the parser's token, which may also contain the text
 /// before the word.
-std::size_t length_of_last_word(const std::string& token) {
+std::size_t length_of_last_json_token(const std::string& token) {
     constexpr std::string_view kJsonPunctuation = "[]{}:,";
     if (token.empty() || kJsonPunctuation.find(token.back()) != kJsonPunctuation.npos) return 1;
     const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
@@ -63,21 +63,24 @@ std::string quote_json_text_at(std::string_view text, std::size_t at, std::size_
     return "'" + escape_control_characters(word) + "'" + (length > kMaxQuotedBytes ? "..." : "");
 }
 
-class JsonChecker : public nlohmann::json_sax<Json> {
+class JsonLimitChecker : public nlohmann::json_sax<Json> {
 public:
-    JsonChecker(const std::string& file, std::string_view text, const JsonMemoryCallback& spends)
+    JsonLimitChecker(const std::string& file, std::string_view text,
+                     const JsonMemoryUseCallback& spends)
         : json_file_name_(file), text_(text), spends_(spends) {}
 
-    bool null() override { return count_value_memory(); }
-    bool boolean(bool) override { return count_value_memory(); }
-    bool number_integer(number_integer_t) override { return count_value_memory(); }
-    bool number_unsigned(number_unsigned_t) override { return count_value_memory(); }
-    bool number_float(number_float_t, const string_t&) override { return count_value_memory(); }
-    bool string(string_t& text) override { return count_value_memory(32 + text.size()); }
-    bool binary(binary_t&) override { return count_value_memory(); }
-    bool key(string_t& text) override { return count_value_memory(64 + text.size()); }
-    bool start_object(std::size_t) override { return enter_nesting_level(); }
-    bool start_array(std::size_t) override { return enter_nesting_level(); }
+    bool null() override { return count_json_value_memory(); }
+    bool boolean(bool) override { return count_json_value_memory(); }
+    bool number_integer(number_integer_t) override { return count_json_value_memory(); }
+    bool number_unsigned(number_unsigned_t) override { return count_json_value_memory(); }
+    bool number_float(number_float_t, const string_t&) override {
+        return count_json_value_memory();
+    }
+    bool string(string_t& text) override { return count_json_value_memory(32 + text.size()); }
+    bool binary(binary_t&) override { return count_json_value_memory(); }
+    bool key(string_t& text) override { return count_json_value_memory(64 + text.size()); }
+    bool start_object(std::size_t) override { return enter_json_nesting_level(); }
+    bool start_array(std::size_t) override { return enter_json_nesting_level(); }
     bool end_object() override { return --depth_ >= 0; }
     bool end_array() override { return --depth_ >= 0; }
 
@@ -89,7 +92,7 @@ public:
         const bool is_whole = words.find("unexpected") != words.npos ||
                               error.id == kNumberOutOfRangeError;
         const bool is_end = words.find("unexpected end of input") != words.npos;
-        const std::size_t length = is_whole ? length_of_last_word(token) : 1;
+        const std::size_t length = is_whole ? length_of_last_json_token(token) : 1;
         const std::size_t at = is_end ? text_.size()
                                       : std::min(read - std::min(read, length), text_.size());
         const auto* wanted = std::ranges::find_if(
@@ -102,27 +105,27 @@ public:
 
 private:
     /// Reports the memory of a value: 32 bytes in its list or map, and `more` bytes of its own.
-    bool count_value_memory(std::uint64_t more = 0) {
+    bool count_json_value_memory(std::uint64_t more = 0) {
         if (spends_) spends_(32 + more);
         return true;
     }
-    bool enter_nesting_level() {
+    bool enter_json_nesting_level() {
         check(++depth_ < kMaxNestingDepth, Failure::bad_data, json_file_name_,
               ": JSON: wanted nesting below ", kMaxNestingDepth, ", found more");
-        return count_value_memory(64);
+        return count_json_value_memory(64);
     }
 
     const std::string& json_file_name_;
     std::string_view text_;
-    const JsonMemoryCallback& spends_;
+    const JsonMemoryUseCallback& spends_;
     int depth_ = 0;
 };
 
 } // namespace
 
 void check_json_syntax(const std::string& file, std::string_view text,
-                       const JsonMemoryCallback& spends) {
-    JsonChecker reader(file, text, spends);
+                       const JsonMemoryUseCallback& spends) {
+    JsonLimitChecker reader(file, text, spends);
     Json::sax_parse(text, &reader);
 }
 

@@ -12,19 +12,19 @@ namespace catoptric {
 
 /// Function that is called before each JSON value is stored, with the largest number of bytes that
 /// the value can take. The function may throw to stop reading.
-using JsonMemoryCallback = std::function<void(std::uint64_t bytes)>;
+using JsonMemoryUseCallback = std::function<void(std::uint64_t bytes)>;
 
 /// Checks that `text` is JSON, without storing values. Throws `bad_data` if it is not JSON or nests
 /// 64 levels deep or more. The message has file, line, column (from 1, in bytes), what was expected
 /// and what was found.
 void check_json_syntax(const std::string& file, std::string_view text,
-                       const JsonMemoryCallback& spends = {});
+                       const JsonMemoryUseCallback& spends = {});
 
 /// Returns the values of `text`. Throws like `check_json_syntax`. `Json` is a type of nlohmann's
 /// library.
 template <typename Json>
 Json parse_json(const std::string& file, std::string_view text,
-                const JsonMemoryCallback& spends = {}) {
+                const JsonMemoryUseCallback& spends = {}) {
     check_json_syntax(file, text, spends);
     return Json::parse(text);
 }

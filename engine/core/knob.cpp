@@ -43,40 +43,41 @@ bool is_same_knob(const TechniqueKnob& a, const TechniqueKnob& b) {
 
 } // namespace
 
-KnobSettings::KnobSettings(std::span<const TechniqueKnob> knobs) : knobs_(knobs) {
+TechniqueKnobSettings::TechniqueKnobSettings(std::span<const TechniqueKnob> knobs) : knobs_(knobs) {
     for (const TechniqueKnob& knob : knobs) values_.push_back(knob.value);
 }
 
-std::size_t KnobSettings::value_index(const TechniqueKnob& knob) const {
+std::size_t TechniqueKnobSettings::value_index(const TechniqueKnob& knob) const {
     const auto found = std::ranges::find_if(
         knobs_, [&](const TechniqueKnob& known) { return is_same_knob(known, knob); });
     check(found != knobs_.end(), Failure::internal, "there is no knob '", knob.name, "'");
     return static_cast<std::size_t>(found - knobs_.begin());
 }
 
-bool KnobSettings::has_knob(const TechniqueKnob& knob) const {
+bool TechniqueKnobSettings::has_knob_named(const TechniqueKnob& knob) const {
     return std::ranges::any_of(
         knobs_, [&](const TechniqueKnob& known) { return is_same_knob(known, knob); });
 }
 
-double KnobSettings::number_value(const TechniqueKnob& knob) const {
+double TechniqueKnobSettings::numeric_knob_value(const TechniqueKnob& knob) const {
     const std::size_t i = value_index(knob);
     check(values_[i].has_value(), Failure::internal, "knob '", knob.name, "' is '",
           knobs_[i].special, "', no number");
     return *values_[i];
 }
 
-std::string_view KnobSettings::choice_name(const TechniqueKnob& knob) const {
+std::string_view TechniqueKnobSettings::selected_knob_choice_name(const TechniqueKnob& knob) const {
     const std::size_t i = value_index(knob);
     check(!knobs_[i].choices.empty(), Failure::internal, "knob '", knob.name, "' is not a choice");
-    return knobs_[i].choices[static_cast<std::size_t>(number_value(knob))];
+    return knobs_[i].choices[static_cast<std::size_t>(numeric_knob_value(knob))];
 }
 
-bool KnobSettings::is_special(const TechniqueKnob& knob) const {
+bool TechniqueKnobSettings::is_special(const TechniqueKnob& knob) const {
     return !values_[value_index(knob)].has_value();
 }
 
-void KnobSettings::set_knob(std::string_view owner, std::string_view name, std::string_view text) {
+void TechniqueKnobSettings::set_knob_from_text(std::string_view owner, std::string_view name,
+                                               std::string_view text) {
     std::vector<std::string> names;
     for (const TechniqueKnob& knob : knobs_) names.emplace_back(knob.name);
     const auto named = std::ranges::find(knobs_, name, &TechniqueKnob::name);
@@ -112,10 +113,10 @@ void KnobSettings::set_knob(std::string_view owner, std::string_view name, std::
     target = value;
 }
 
-std::string KnobSettings::format_value(const TechniqueKnob& knob) const {
+std::string TechniqueKnobSettings::format_current_knob_value(const TechniqueKnob& knob) const {
     if (is_special(knob)) return std::string(knob.special);
-    return knob.choices.empty() ? format_knob_value(number_value(knob))
-                                : std::string(choice_name(knob));
+    return knob.choices.empty() ? format_knob_value(numeric_knob_value(knob))
+                                : std::string(selected_knob_choice_name(knob));
 }
 
 std::string find_nearest_name(std::string_view word, std::span<const std::string> names) {
@@ -133,7 +134,7 @@ std::string find_nearest_name(std::string_view word, std::span<const std::string
 
 std::string suggest_nearest_name(std::string_view word, std::span<const std::string> names) {
     const std::string nearest = find_nearest_name(word, names);
-    return nearest.empty() ? "" : " (did you mean " + quote_as_printable_text(nearest) + "?)";
+    return nearest.empty() ? "" : " (did you mean " + quote_text_with_escapes(nearest) + "?)";
 }
 
 } // namespace catoptric

@@ -25,35 +25,35 @@ struct TechniqueKnob {
 };
 
 /// A value for each of a technique's knobs.
-class KnobSettings {
+class TechniqueKnobSettings {
 public:
-    explicit KnobSettings(std::span<const TechniqueKnob> knobs);
+    explicit TechniqueKnobSettings(std::span<const TechniqueKnob> knobs);
 
     /// Returns the knob's number, or the index of its choice. Throws `internal` if there is no such
     /// knob, or if its special word is set.
-    double number_value(const TechniqueKnob& knob) const;
+    double numeric_knob_value(const TechniqueKnob& knob) const;
     int knob_value_as_integer(const TechniqueKnob& knob) const {
-        return static_cast<int>(number_value(knob));
+        return static_cast<int>(numeric_knob_value(knob));
     }
     /// Returns the knob's choice as a value of an enumeration, which names the choices in order.
     template <typename Enum>
     Enum knob_value_as_enum(const TechniqueKnob& knob) const {
         return static_cast<Enum>(knob_value_as_integer(knob));
     }
-    std::string_view choice_name(const TechniqueKnob& knob) const;
+    std::string_view selected_knob_choice_name(const TechniqueKnob& knob) const;
     /// Returns whether the knob's special word is set instead of a number.
     bool is_special(const TechniqueKnob& knob) const;
     /// Returns whether the technique has this knob. Another knob of the same name, with other
     /// choices or another special word, does not count.
-    bool has_knob(const TechniqueKnob& knob) const;
+    bool has_knob_named(const TechniqueKnob& knob) const;
 
     /// Sets a knob from text. Throws `Failure::usage`, naming the nearest knob or the range.
-    void set_knob(std::string_view owner, std::string_view knob, std::string_view text);
+    void set_knob_from_text(std::string_view owner, std::string_view knob, std::string_view text);
     std::span<const TechniqueKnob> list_knobs() const { return knobs_; }
     /// Returns the value as the user would type it.
-    std::string format_value(const TechniqueKnob& knob) const;
+    std::string format_current_knob_value(const TechniqueKnob& knob) const;
 
-    friend bool operator==(const KnobSettings& a, const KnobSettings& b) {
+    friend bool operator==(const TechniqueKnobSettings& a, const TechniqueKnobSettings& b) {
         return a.values_ == b.values_;
     }
 

@@ -17,7 +17,7 @@ namespace catoptric {
 namespace {
 
 struct PngSource {
-    const ByteSource& bytes;
+    const RandomAccessByteSource& bytes;
     std::uint64_t at = 0;
     std::string why;
 };
@@ -95,7 +95,7 @@ void convert_png_row(const std::uint8_t* row, std::size_t count, bool is_wide, V
 } // namespace
 
 struct PngReader::PngReadState {
-    PngReadState(const ByteSource& bytes, const std::string& its_name)
+    PngReadState(const RandomAccessByteSource& bytes, const std::string& its_name)
         : origin{bytes}, name(its_name) {
         png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &origin, fail_png_read,
                                      ignore_png_read_warning);
@@ -139,7 +139,7 @@ struct PngReader::PngReadState {
     std::vector<std::uint8_t> row, whole; ///< `row`: one row; `whole`: an interlaced picture
 };
 
-PngReader::PngReader(const ByteSource& bytes, const std::string& name)
+PngReader::PngReader(const RandomAccessByteSource& bytes, const std::string& name)
     : png_state_(std::make_unique<PngReadState>(bytes, name)) {
     PngReadState& open = *png_state_;
     open.throw_unless_valid(read_png_header(open.png, open.info));
@@ -157,7 +157,7 @@ PngReader::~PngReader() = default;
 
 void PngReader::check_size_against_file() const { png_state_->check_size_against_file(); }
 
-ImageShape PngReader::image_shape() const {
+ImageSizeAndChannels PngReader::image_size_and_channels() const {
     constexpr const char* kGreyChannelNames[] = {"Y", "A"};
     constexpr const char* kColourChannelNames[] = {"R", "G", "B", "A"};
     const bool is_grey = png_state_->channel_count < 3;
@@ -166,7 +166,7 @@ ImageShape PngReader::image_shape() const {
             .channel_count = png_state_->channel_count,
             .channels = {names, names + png_state_->channel_count},
             .description = {},
-            .has_8_bits = !png_state_->is_wide};
+            .has_8_bit_channels = !png_state_->is_wide};
 }
 
 void PngReader::read_image_rows(std::uint32_t first, std::uint32_t row_count,

@@ -15,10 +15,10 @@ class PngReader {
 public:
     /// Reads the header. Throws `bad_data` if `bytes` is not a PNG file; the message begins with
     /// `name`. `bytes` must outlive the reader.
-    PngReader(const ByteSource& bytes, const std::string& name);
+    PngReader(const RandomAccessByteSource& bytes, const std::string& name);
     ~PngReader();
 
-    ImageShape image_shape() const;
+    ImageSizeAndChannels image_size_and_channels() const;
     /// Throws `bad_data` if the picture claims more than its file can hold: deflate expands one
     /// byte to at most 1032.
     void check_size_against_file() const;

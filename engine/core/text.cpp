@@ -67,7 +67,7 @@ std::string escape_control_characters(std::string_view text, std::string_view ke
     return result;
 }
 
-std::string quote_as_printable_text(std::string_view text) {
+std::string quote_text_with_escapes(std::string_view text) {
     if (text.size() <= kMaxQuotedBytes) return "'" + escape_control_characters(text) + "'";
     std::size_t end = kMaxQuotedBytes;
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;

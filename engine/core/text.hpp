@@ -16,7 +16,7 @@ std::string escape_control_characters(std::string_view text, std::string_view ke
 
 /// Returns `escape_control_characters(text)` in single quotes, for messages. Of more than 80 bytes
 /// only the first are returned, with the number of bytes.
-std::string quote_as_printable_text(std::string_view text);
+std::string quote_text_with_escapes(std::string_view text);
 
 /// Returns the parts between any of `separators`: "a,,b" has three, "" has one.
 std::vector<std::string> split_text(std::string_view text, std::string_view separators);

@@ -38,7 +38,8 @@ UniqueBuffer make_vulkan_buffer(const GpuDevice& device, std::uint64_t bytes,
     VkBuffer buffer = VK_NULL_HANDLE;
     throw_unless_vk_success(vkCreateBuffer(device.device_handle(), &create, nullptr, &buffer),
                             "create buffer '" + name + "'");
-    device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
+    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_BUFFER,
+                                           reinterpret_cast<std::uint64_t>(buffer), name);
     return {device.device_handle(), buffer};
 }
 
@@ -56,7 +57,7 @@ ChosenMemoryType choose_memory_type(const GpuDevice& device, const VkMemoryRequi
     constexpr VkMemoryPropertyFlags kHostMemoryFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                                        VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const auto find = [&](VkMemoryPropertyFlags properties) {
-        return device.memory_type(needs.memoryTypeBits, properties);
+        return device.find_memory_type_index(needs.memoryTypeBits, properties);
     };
     if (home == BufferMemoryPreference::device) {
         // If the host sees only a part of the device's memory, large buffers stay outside this
@@ -98,7 +99,7 @@ UniqueMemory allocate_buffer_memory(const GpuDevice& device, VkBuffer buffer,
 void copy_buffer_and_wait(GpuDevice& device, const std::string& doing, VkBuffer from,
                           std::uint64_t from_offset, VkBuffer to, std::uint64_t to_offset,
                           std::uint64_t bytes) {
-    device.submit_now(doing, [&](VkCommandBuffer commands) {
+    device.submit_one_time_commands(doing, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{from_offset, to_offset, bytes};
         vkCmdCopyBuffer(commands, from, to, 1, &region);
     });
@@ -123,7 +124,7 @@ GpuBuffer::GpuBuffer(GpuDevice& device, std::string name, std::uint64_t bytes, B
         : has_buffer_usage(use, BufferUsage::staging) ? BufferMemoryPreference::host_writes
                                                       : BufferMemoryPreference::device,
         name_, mapped_);
-    if (texel_bytes == 0 || device.reads_texels_from_storage()) return;
+    if (texel_bytes == 0 || device.needs_storage_buffers_for_texels()) return;
     VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     view.buffer = buffer_;
     view.format = format;
@@ -142,8 +143,9 @@ void GpuBuffer::write_contents(std::uint64_t offset, std::span<const std::byte> 
         std::memcpy(static_cast<std::byte*>(mapped_) + offset, data.data(), data.size());
         return;
     }
-    upload_.replace_by_later_upload(*buffer_device_,
-                                    buffer_device_->uploads().stage_write(buffer_, offset, data));
+    upload_.replace_pending_upload_by_later(
+        *buffer_device_,
+        buffer_device_->uploads().copy_write_into_staging_block(buffer_, offset, data));
 }
 
 std::vector<std::byte> GpuBuffer::read_contents() const {

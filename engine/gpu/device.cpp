@@ -21,10 +21,10 @@ GpuDevice::GpuDevice(const DeviceOptions& options)
         if (options.given)
             adopt_external_device(*options.given);
         else
-            create_instance(options), set_variant_choices(options);
+            create_instance(options), set_active_shader_variant_choices(options);
         read_physical_device(options);
         if (!options.given) create_device();
-        make_pool();
+        make_one_time_command_pool();
     } catch (...) {
         close();
         throw;
@@ -50,31 +50,32 @@ void GpuDevice::close() {
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
-void GpuDevice::abandon(const Error& why) {
+void GpuDevice::abandon_lost_device(const Error& why) {
     abandoned_ = some_device_abandoned = true;
     if (!why_abandoned_) why_abandoned_ = why;
 }
 
-void GpuDevice::check_not_lost(VkResult result, const std::string& doing) try {
+void GpuDevice::throw_if_device_lost(VkResult result, const std::string& doing) try {
     throw_unless_vk_success(result, doing);
 } catch (const Error& error) {
-    if (error.failure == Failure::device_lost) abandon(error);
+    if (error.failure == Failure::device_lost) abandon_lost_device(error);
     throw;
 }
 
-void GpuDevice::check_wait_result(VkResult result, const std::string& doing) try {
+void GpuDevice::check_wait_and_abandon_if_lost(VkResult result, const std::string& doing) try {
     throw_unless_vk_success(result, doing);
 } catch (const Error& error) {
-    abandon(error);
+    abandon_lost_device(error);
     throw;
 }
 
-void GpuDevice::check_usable() const {
+void GpuDevice::check_device_not_abandoned() const {
     if (abandoned_)
         fail(why_abandoned_->failure, "the device was given up: ", why_abandoned_->what());
 }
 
-int GpuDevice::memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const {
+int GpuDevice::find_memory_type_index(std::uint32_t type_bits,
+                                      VkMemoryPropertyFlags properties) const {
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
         if ((type_bits >> i & 1) &&
             (memory_.memoryTypes[i].propertyFlags & properties) == properties)
@@ -102,11 +103,13 @@ UniqueMemory GpuDevice::allocate(std::uint64_t bytes, std::uint32_t type,
                             "allocate " + std::to_string(bytes) + " bytes for " + what +
                                 " (the device has " + std::to_string(memory_budget()) + ")");
     UniqueMemory owned(device_handle(), memory);
-    set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory), what);
+    set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_DEVICE_MEMORY,
+                                    reinterpret_cast<std::uint64_t>(memory), what);
     return owned;
 }
 
-void GpuDevice::set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const {
+void GpuDevice::set_debug_name_of_vulkan_object(VkObjectType type, std::uint64_t handle,
+                                                const std::string& name) const {
     if (!set_object_name_) return;
     VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
     info.objectType = type;
@@ -124,8 +127,8 @@ void GpuDevice::submit_uploads() {
     if (uploads_) uploads_->submit();
 }
 
-void GpuDevice::begin_one_shot(const std::string& doing) {
-    check_usable();
+void GpuDevice::begin_one_time_commands(const std::string& doing) {
+    check_device_not_abandoned();
     submit_uploads();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -134,8 +137,8 @@ void GpuDevice::begin_one_shot(const std::string& doing) {
 }
 
 /// Submits the copies and waits. Their writes become visible to the host and to all later commands.
-void GpuDevice::end_one_shot(const std::string& doing) {
-    record_memory_barrier(one_shot_, kTransferWriteScope,
+void GpuDevice::submit_one_time_commands_and_wait(const std::string& doing) {
+    record_memory_barrier(one_shot_, kTransferWriteAccessScope,
                           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_HOST_READ_BIT});
     throw_unless_vk_success(vkEndCommandBuffer(one_shot_), doing + " (end a command buffer)");
@@ -144,8 +147,8 @@ void GpuDevice::end_one_shot(const std::string& doing) {
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
-    check_not_lost(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
-    check_wait_result(vkQueueWaitIdle(queue_), doing);
+    throw_if_device_lost(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), doing);
+    check_wait_and_abandon_if_lost(vkQueueWaitIdle(queue_), doing);
 }
 
 void GpuDevice::check_validation() const {

@@ -77,31 +77,36 @@ public:
     VkQueue vulkan_queue() const { return queue_; }
     std::uint32_t queue_family_index() const { return queue_family_; }
     bool is_cpu_device() const { return info_.type == "cpu"; }
-    /// Returns the shader variants of the device: the defaults unless `set_variant_choices` was
-    /// called. Call `set_variant_choices` before the first frame.
-    const VariantChoices& list_variant_choices() const { return choices_; }
-    void set_variant_choices(const VariantChoices& choices) { choices_ = choices; }
+    /// Returns the shader variants of the device: the defaults unless
+    /// `set_active_shader_variant_choices` was called. Call `set_active_shader_variant_choices`
+    /// before the first frame.
+    const ShaderVariantChoices& active_shader_variant_choices() const { return choices_; }
+    void set_active_shader_variant_choices(const ShaderVariantChoices& choices) {
+        choices_ = choices;
+    }
     /// Returns whether vertex shaders may write gl_Layer. If not, layered passes run layer by
     /// layer.
     bool supports_layered_rendering() const { return layered_; }
     /// Returns whether lists of texels are read from storage buffers, because texel buffers hold
     /// too few. A device may allow as few as 65,536 texels: enough for 21,845 triangles.
-    bool reads_texels_from_storage() const { return limits_.maxTexelBufferElements < (1u << 26); }
+    bool needs_storage_buffers_for_texels() const {
+        return limits_.maxTexelBufferElements < (1u << 26);
+    }
     /// Returns the most texels, of `texel_bytes` bytes each, that a list may have.
     std::uint64_t max_texel_count(std::uint64_t texel_bytes) const {
-        return reads_texels_from_storage() ? limits_.maxStorageBufferRange / texel_bytes
-                                           : limits_.maxTexelBufferElements;
+        return needs_storage_buffers_for_texels() ? limits_.maxStorageBufferRange / texel_bytes
+                                                  : limits_.maxTexelBufferElements;
     }
     /// Returns whether images of 32-bit floats can be sampled with linear filtering.
     bool has_float_filtering() const { return filters_floats_; }
     /// Returns whether shaders may compute with doubles.
-    bool supports_doubles() const { return doubles_; }
+    bool supports_double_precision_shaders() const { return doubles_; }
     /// Returns whether fragment shaders may read the number of their triangle. Vulkan ties this to
     /// geometry shaders.
-    bool supports_primitive_ids() const { return numbers_triangles_; }
+    bool supports_primitive_id_in_fragments() const { return numbers_triangles_; }
     /// Returns whether a pass can blend its first attachment, of 32-bit floats, and leave the
     /// others.
-    bool supports_blending() const { return blends_; }
+    bool supports_float_colour_blending() const { return blends_; }
     /// Returns whether the device counts vertices, fragments and other invocations.
     bool has_pipeline_statistics() const { return pipeline_statistics_; }
     bool needs_staged_uploads() const { return staged_; }
@@ -109,7 +114,7 @@ public:
 
     /// Returns the index of the first memory type that is among `type_bits` and has all of
     /// `properties`, or -1.
-    int memory_type(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
+    int find_memory_type_index(std::uint32_t type_bits, VkMemoryPropertyFlags properties) const;
     /// Returns the bytes of the largest device-local heap.
     std::uint64_t memory_budget() const;
     /// Returns the most bytes of one allocation.
@@ -123,26 +128,27 @@ public:
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
     /// Does `throw_unless_vk_success` for a call that submits work or asks about its result. If the
     /// device is lost, it becomes abandoned.
-    void check_not_lost(VkResult result, const std::string& doing);
+    void throw_if_device_lost(VkResult result, const std::string& doing);
     /// Does `throw_unless_vk_success` for a call that waits for the device. If the wait fails, the
     /// device becomes abandoned.
-    void check_wait_result(VkResult result, const std::string& doing);
+    void check_wait_and_abandon_if_lost(VkResult result, const std::string& doing);
     bool is_abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.
-    void check_usable() const;
+    void check_device_not_abandoned() const;
     /// Names the object in validation messages and debuggers. Does nothing without
     /// VK_EXT_debug_utils.
-    void set_name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
+    void set_debug_name_of_vulkan_object(VkObjectType type, std::uint64_t handle,
+                                         const std::string& name) const;
     bool has_debug_labels() const { return has_debug_utils_; }
 
     /// Records copies with `record`, submits them and waits. Their writes are visible to the host
     /// and to all later commands. For uploads and read-back, never inside a timed frame. `doing`
     /// completes "Vulkan: cannot " in the message of `exhausted` or `device_lost`.
     template <typename Record>
-    void submit_now(const std::string& doing, Record&& record) {
-        begin_one_shot(doing);
+    void submit_one_time_commands(const std::string& doing, Record&& record) {
+        begin_one_time_commands(doing);
         record(one_shot_);
-        end_one_shot(doing);
+        submit_one_time_commands_and_wait(doing);
     }
 
     /// Returns the uploads to buffers that the host cannot map. Made at first use.
@@ -158,14 +164,14 @@ public:
 private:
     void close();
     void create_instance(const DeviceOptions& options);
-    void set_variant_choices(const DeviceOptions& options);
+    void set_active_shader_variant_choices(const DeviceOptions& options);
     void adopt_external_device(const ExternalDeviceHandles& given);
     void read_physical_device(const DeviceOptions& options);
     void create_device();
-    void make_pool();
-    void abandon(const Error& why);
-    void begin_one_shot(const std::string& doing);
-    void end_one_shot(const std::string& doing);
+    void make_one_time_command_pool();
+    void abandon_lost_device(const Error& why);
+    void begin_one_time_commands(const std::string& doing);
+    void submit_one_time_commands_and_wait(const std::string& doing);
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
@@ -179,7 +185,7 @@ private:
     std::uint64_t max_allocation_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceProperties info_;
-    VariantChoices choices_{};
+    ShaderVariantChoices choices_{};
     bool layered_ = true;
     bool doubles_ = false, numbers_triangles_ = false, blends_ = false;
     bool pipeline_statistics_ = false;

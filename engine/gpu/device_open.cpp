@@ -62,7 +62,7 @@ std::vector<DeviceProperties> describe_all_devices(const std::vector<VkPhysicalD
 
 std::vector<DeviceProperties> list_devices() {
     bool has_debug_utils = false;
-    const VkInstance instance = make_instance(false, {}, has_debug_utils);
+    const VkInstance instance = make_vulkan_instance(false, {}, has_debug_utils);
     std::vector<DeviceProperties> list;
     try {
         list = describe_all_devices(list_physical_devices(instance));
@@ -75,13 +75,14 @@ std::vector<DeviceProperties> list_devices() {
 }
 
 void GpuDevice::create_instance(const DeviceOptions& options) {
-    instance_ = make_instance(options.validate, options.instance_extensions, has_debug_utils_);
+    instance_ = make_vulkan_instance(options.validate, options.instance_extensions,
+                                     has_debug_utils_);
     if (options.validate && has_debug_utils_)
         messenger_ = make_debug_messenger(instance_, *validation_messages_);
     if (options.make_surface) surface_ = options.make_surface(instance_);
 }
 
-void GpuDevice::set_variant_choices(const DeviceOptions& options) {
+void GpuDevice::set_active_shader_variant_choices(const DeviceOptions& options) {
     const std::vector<VkPhysicalDevice> devices = list_physical_devices(instance_);
     std::vector<DeviceProperties> infos = describe_all_devices(devices);
     for (std::size_t i = 0; surface_ && i < infos.size(); ++i)
@@ -168,7 +169,7 @@ void GpuDevice::create_device() {
             vkGetDeviceProcAddr(device_, "vkSetDebugUtilsObjectNameEXT"));
 }
 
-void GpuDevice::make_pool() {
+void GpuDevice::make_one_time_command_pool() {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family_;
@@ -182,7 +183,8 @@ void GpuDevice::make_pool() {
     allocate.commandBufferCount = 1;
     throw_unless_vk_success(vkAllocateCommandBuffers(device_, &allocate, &one_shot_),
                             "allocate a command buffer");
-    set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(one_shot_), "one shot");
+    set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_COMMAND_BUFFER,
+                                    reinterpret_cast<std::uint64_t>(one_shot_), "one shot");
 }
 
 } // namespace catoptric::gpu

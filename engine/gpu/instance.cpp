@@ -16,7 +16,7 @@ namespace catoptric::gpu {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* kNoDriverMessage =
+constexpr const char* kNoVulkanDriverMessage =
     "no Vulkan device: no driver is installed; install one for the graphics card, or the software "
     "driver: apt-get install mesa-vulkan-drivers";
 
@@ -28,7 +28,7 @@ constexpr std::size_t kDriverAddressSpace = std::size_t{256} << 20;
 /// are repeated if it grew in between. Items that vanished in between are left out. Calls `failed`
 /// with a result that is an error.
 template <typename Item, typename Call, typename Failed>
-std::vector<Item> list_vulkan_items(Call&& call, Failed&& failed) {
+std::vector<Item> list_vulkan_enumeration(Call&& call, Failed&& failed) {
     constexpr int kMaxEnumerationAttempts = 8; // after the last try the fetched items are returned
     std::vector<Item> items;
     VkResult result = VK_INCOMPLETE;
@@ -44,20 +44,20 @@ std::vector<Item> list_vulkan_items(Call&& call, Failed&& failed) {
 }
 
 bool has_instance_layer(const char* name) {
-    const auto layers = list_vulkan_items<VkLayerProperties>(
+    const auto layers = list_vulkan_enumeration<VkLayerProperties>(
         vkEnumerateInstanceLayerProperties,
         [](VkResult result) { throw_unless_vk_success(result, "enumerate layers"); });
     return std::ranges::any_of(layers, [&](const auto& l) { return !strcmp(l.layerName, name); });
 }
 
 bool has_instance_extension(const char* layer, const char* name) {
-    const auto list = list_vulkan_items<VkExtensionProperties>(
+    const auto list = list_vulkan_enumeration<VkExtensionProperties>(
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateInstanceExtensionProperties(layer, count, items);
         },
         [](VkResult result) {
             // The loader returns VK_ERROR_OUT_OF_HOST_MEMORY for a missing file.
-            fail(Failure::no_device, kNoDriverMessage,
+            fail(Failure::no_device, kNoVulkanDriverMessage,
                  " (the Vulkan loader cannot read its driver files: ", vk_result_name(result),
                  "; is VK_DRIVER_FILES or VK_ICD_FILENAMES set?)");
         });
@@ -77,8 +77,8 @@ int rank_device_type(VkPhysicalDeviceType type) {
 /// Returns the problem, if any, of Mesa 22's software driver with the vector width set in the
 /// environment. For widths other than 128 and 256 bits it compiles code that crashes (tested from 0
 /// to 1024 bits).
-std::string describe_vector_width_problem(const VkPhysicalDeviceDriverProperties& driver) {
-    const std::optional<long> asked = read_requested_vector_bits();
+std::string describe_llvmpipe_vector_width_problem(const VkPhysicalDeviceDriverProperties& driver) {
+    const std::optional<long> asked = read_llvmpipe_vector_width_request();
     const bool is_sound = !asked || *asked == 128 || *asked == 256;
     if (is_sound || driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE ||
         std::string_view(driver.driverInfo).find("Mesa 22.") == std::string_view::npos)
@@ -134,7 +134,7 @@ std::uint32_t max_work_group_invocations(VkPhysicalDevice device) {
 
 } // namespace
 
-std::optional<long> read_requested_vector_bits() {
+std::optional<long> read_llvmpipe_vector_width_request() {
     const char* const text = std::getenv("LP_NATIVE_VECTOR_WIDTH");
     if (text == nullptr) return std::nullopt;
     char* end = nullptr;
@@ -150,8 +150,8 @@ void throw_unless_vulkan_started(VkResult result, const std::string& doing, cons
     throw_unless_vk_success(result, doing);
 }
 
-VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
-                         bool& has_debug_utils) {
+VkInstance make_vulkan_instance(bool validate, const std::vector<std::string>& wanted_extensions,
+                                bool& has_debug_utils) {
     // Mesa's device-select layer sorts devices and crashes if one vanishes between two of its
     // calls. It is needed only if the user selects a device by its variables, because devices are
     // sorted here.
@@ -188,19 +188,19 @@ VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_e
     create.ppEnabledExtensionNames = extensions.data();
     VkInstance instance = VK_NULL_HANDLE;
     throw_unless_vulkan_started(vkCreateInstance(&create, nullptr, &instance), "create an instance",
-                                kNoDriverMessage);
+                                kNoVulkanDriverMessage);
     return instance;
 }
 
 std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance) {
-    auto devices = list_vulkan_items<VkPhysicalDevice>(
+    auto devices = list_vulkan_enumeration<VkPhysicalDevice>(
         [&](std::uint32_t* count, VkPhysicalDevice* items) {
             return vkEnumeratePhysicalDevices(instance, count, items);
         },
         [](VkResult result) {
-            throw_unless_vulkan_started(result, "enumerate devices", kNoDriverMessage);
+            throw_unless_vulkan_started(result, "enumerate devices", kNoVulkanDriverMessage);
         });
-    check(!devices.empty(), Failure::no_device, kNoDriverMessage);
+    check(!devices.empty(), Failure::no_device, kNoVulkanDriverMessage);
     std::ranges::stable_sort(devices, {}, [](VkPhysicalDevice device) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
@@ -225,7 +225,7 @@ DeviceProperties describe_device(VkPhysicalDevice device) {
     info.missing = properties.properties.apiVersion < VK_API_VERSION_1_3
                        ? "Vulkan 1.3 (has " + info.api + ")"
                        : DeviceFeatures::describe_missing_features(device);
-    if (info.missing.empty()) info.missing = describe_vector_width_problem(driver);
+    if (info.missing.empty()) info.missing = describe_llvmpipe_vector_width_problem(driver);
     if (info.missing.empty() && find_queue_family(device) < 0)
         info.missing = "a queue for graphics and compute with timestamps";
     return info;
@@ -245,7 +245,7 @@ int find_queue_family(VkPhysicalDevice device) {
 }
 
 bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface) {
-    const auto extensions = list_vulkan_items<VkExtensionProperties>(
+    const auto extensions = list_vulkan_enumeration<VkExtensionProperties>(
         [&](std::uint32_t* count, VkExtensionProperties* items) {
             return vkEnumerateDeviceExtensionProperties(device, nullptr, count, items);
         },

@@ -12,11 +12,11 @@ void throw_unless_vulkan_started(VkResult result, const std::string& doing, cons
 /// with the validation layer if `validate` is set. Throws `no_device` if no driver is installed, or
 /// if the validation layer or an extension is absent. Throws `exhausted` without memory for an
 /// instance.
-VkInstance make_instance(bool validate, const std::vector<std::string>& wanted_extensions,
-                         bool& has_debug_utils);
+VkInstance make_vulkan_instance(bool validate, const std::vector<std::string>& wanted_extensions,
+                                bool& has_debug_utils);
 
 /// Returns the physical devices in order of preference, at least one. Throws the errors of
-/// `make_instance`.
+/// `make_vulkan_instance`.
 std::vector<VkPhysicalDevice> list_physical_devices(VkInstance instance);
 
 DeviceProperties describe_device(VkPhysicalDevice device);
@@ -26,7 +26,7 @@ bool can_present_to_surface(VkPhysicalDevice device, VkSurfaceKHR surface);
 
 /// Returns the vector width in bits that the environment sets for Mesa's software driver
 /// (LP_NATIVE_VECTOR_WIDTH). None if the variable is unset or no number.
-std::optional<long> read_requested_vector_bits();
+std::optional<long> read_llvmpipe_vector_width_request();
 
 /// Returns the index of the queue family that can draw, dispatch and copy, or -1.
 int find_queue_family(VkPhysicalDevice device);

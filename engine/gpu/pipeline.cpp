@@ -26,14 +26,14 @@ VkDescriptorType descriptor_type_of_binding(ShaderBindingKind kind) {
 
 namespace {
 
-std::string format_shader_constants(const ShaderConstants& constants) {
+std::string format_shader_constants(const ShaderConstantValues& constants) {
     std::string name;
     for (const auto& [constant, value] : constants)
-        name += ";" + constant + "=" + std::to_string(bits_of_constant(value));
+        name += ";" + constant + "=" + std::to_string(constant_value_as_bits(value));
     return name;
 }
 
-std::string describe_raster_pipeline(const RasterState& state,
+std::string describe_raster_pipeline(const RasterPipelineState& state,
                                      const AttachmentFormats& attachments) {
     std::string name = state.vertex + "+" + state.fragment +
                        format_shader_constants(state.constants) +
@@ -49,18 +49,20 @@ std::string describe_raster_pipeline(const RasterState& state,
 }
 
 /// Orders constants by name, then by the bits of the value, so that NaN compares equal to itself.
-bool is_constant_before(const ShaderConstants& a, const ShaderConstants& b) {
+bool is_shader_constant_ordered_before(const ShaderConstantValues& a,
+                                       const ShaderConstantValues& b) {
     return std::ranges::lexicographical_compare(a, b, [](const auto& x, const auto& y) {
-        return x.first != y.first ? x.first < y.first
-                                  : bits_of_constant(x.second) < bits_of_constant(y.second);
+        return x.first != y.first
+                   ? x.first < y.first
+                   : constant_value_as_bits(x.second) < constant_value_as_bits(y.second);
     });
 }
 
 template <typename State>
-bool is_constant_list_before(const State& a, const State& b) {
-    if (is_constant_before(a.constants, b.constants)) return true;
-    return !is_constant_before(b.constants, a.constants) &&
-           is_constant_before(a.features, b.features);
+bool are_shader_constants_ordered_before(const State& a, const State& b) {
+    if (is_shader_constant_ordered_before(a.constants, b.constants)) return true;
+    return !is_shader_constant_ordered_before(b.constants, a.constants) &&
+           is_shader_constant_ordered_before(a.features, b.features);
 }
 
 void check_image_bindings(const GpuDevice& device, const std::string& name,
@@ -78,10 +80,11 @@ void check_image_bindings(const GpuDevice& device, const std::string& name,
 /// Checks that every constant is known to a stage, merges the bindings and creates the layouts.
 void make_pipeline_layout(const GpuDevice& device, const std::string& name,
                           std::span<const ShaderStage* const> stages,
-                          const ShaderConstants& constants, Pipeline& pipeline) {
+                          const ShaderConstantValues& constants, Pipeline& pipeline) {
     for (const auto& [constant, value] : constants)
-        check(std::ranges::any_of(stages,
-                                  [&](const ShaderStage* s) { return s->find_constant(constant); }),
+        check(std::ranges::any_of(
+                  stages,
+                  [&](const ShaderStage* s) { return s->find_specialisation_constant(constant); }),
               Failure::internal, "pipeline '", name, "' has no constant '", constant, "'");
     for (const ShaderStage* stage : stages) {
         pipeline.stages |= stage->bit;
@@ -128,8 +131,9 @@ void make_pipeline_layout(const GpuDevice& device, const std::string& name,
 /// Creates a raster pipeline with the fixed-function state that all raster pipelines share.
 VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
                                 std::span<const VkPipelineShaderStageCreateInfo> stages,
-                                const AttachmentFormats& attachments, const RasterState& state,
-                                VkPipelineLayout layout, const std::string& name) {
+                                const AttachmentFormats& attachments,
+                                const RasterPipelineState& state, VkPipelineLayout layout,
+                                const std::string& name) {
     const VkVertexInputBindingDescription vertex_binding{0, sizeof(shared::Vertex),
                                                          VK_VERTEX_INPUT_RATE_VERTEX};
     const std::array<VkVertexInputAttributeDescription, 2> vertex_attributes{
@@ -216,10 +220,10 @@ PipelineStore::PipelineStore(GpuDevice& device, std::map<std::string, std::strin
 
 PipelineStore::~PipelineStore() = default;
 
-const ShaderStage& PipelineStore::find_or_make_stage(const std::string& shader,
-                                                     VkShaderStageFlagBits bit,
-                                                     const ShaderConstants& constants,
-                                                     const ShaderConstants& features) {
+const ShaderStage& PipelineStore::find_or_make_shader_stage(const std::string& shader,
+                                                            VkShaderStageFlagBits bit,
+                                                            const ShaderConstantValues& constants,
+                                                            const ShaderConstantValues& features) {
     const auto variant = variants_.find(shader);
     const std::string& name = variant == variants_.end() ? shader : variant->second;
     ShaderReflection whole = reflect_spirv(name, find_shader(name).words);
@@ -231,47 +235,49 @@ const ShaderStage& PipelineStore::find_or_make_stage(const std::string& shader,
     return *stages_.emplace(std::move(key), std::move(stage)).first->second;
 }
 
-bool PipelineStore::ShaderConstantsOrder::operator()(const RasterKeyView& a,
-                                                     const RasterKeyView& b) const {
-    const auto first = [](const RasterKeyView& view) {
+bool PipelineStore::ShaderConstantValuesLess::operator()(const RasterPipelineKeyView& a,
+                                                         const RasterPipelineKeyView& b) const {
+    const auto first = [](const RasterPipelineKeyView& view) {
         const auto& [state, attachments] = view;
         return std::tie(state.hidden, state.blended, attachments.depth, attachments.colour,
                         state.fragment, state.vertex);
     };
     const auto order = first(a) <=> first(b);
-    return order != 0 ? order < 0 : is_constant_list_before(a.first, b.first);
+    return order != 0 ? order < 0 : are_shader_constants_ordered_before(a.first, b.first);
 }
 
-bool PipelineStore::ShaderConstantsOrder::operator()(const ComputeState& a,
-                                                     const ComputeState& b) const {
-    return a.shader != b.shader ? a.shader < b.shader : is_constant_list_before(a, b);
+bool PipelineStore::ShaderConstantValuesLess::operator()(const ComputePipelineState& a,
+                                                         const ComputePipelineState& b) const {
+    return a.shader != b.shader ? a.shader < b.shader : are_shader_constants_ordered_before(a, b);
 }
 
-const Pipeline& PipelineStore::find_or_make_raster(const RasterState& state,
-                                                   const AttachmentFormats& attachments) {
-    const auto found = rasters_.find(RasterKeyView(state, attachments));
+const Pipeline& PipelineStore::find_or_make_raster_pipeline(const RasterPipelineState& state,
+                                                            const AttachmentFormats& attachments) {
+    const auto found = rasters_.find(RasterPipelineKeyView(state, attachments));
     if (found != rasters_.end()) return found->second;
 
     const Stopwatch watch(ms_);
     const std::string name = describe_raster_pipeline(state, attachments);
     Pipeline pipeline;
-    std::vector<const ShaderStage*> stages{&find_or_make_stage(
+    std::vector<const ShaderStage*> stages{&find_or_make_shader_stage(
         state.vertex, VK_SHADER_STAGE_VERTEX_BIT, state.constants, state.features)};
     if (!state.fragment.empty())
-        stages.push_back(&find_or_make_stage(state.fragment, VK_SHADER_STAGE_FRAGMENT_BIT,
-                                             state.constants, state.features));
+        stages.push_back(&find_or_make_shader_stage(state.fragment, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                                    state.constants, state.features));
     make_pipeline_layout(pipeline_device_, name, stages, state.constants, pipeline);
     std::vector<VkPipelineShaderStageCreateInfo> infos;
-    for (const ShaderStage* stage : stages) infos.push_back(stage->make_create_info());
+    for (const ShaderStage* stage : stages) infos.push_back(stage->make_shader_stage_create_info());
     pipeline.pipeline = {pipeline_device_.device_handle(),
                          make_raster_pipeline(pipeline_device_, cache_.cache_handle(), infos,
                                               attachments, state, pipeline.layout, name)};
-    pipeline_device_.set_name(VK_OBJECT_TYPE_PIPELINE,
-                              reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)), name);
-    return rasters_.emplace(RasterKey(state, attachments), std::move(pipeline)).first->second;
+    pipeline_device_.set_debug_name_of_vulkan_object(
+        VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(VkPipeline(pipeline.pipeline)),
+        name);
+    return rasters_.emplace(RasterPipelineKey(state, attachments), std::move(pipeline))
+        .first->second;
 }
 
-const Pipeline& PipelineStore::find_or_make_compute(const ComputeState& state) {
+const Pipeline& PipelineStore::find_or_make_compute_pipeline(const ComputePipelineState& state) {
     if (const auto found = computes_.find(state); found != computes_.end()) return found->second;
 
     const Stopwatch watch(ms_);
@@ -279,11 +285,11 @@ const Pipeline& PipelineStore::find_or_make_compute(const ComputeState& state) {
                              format_shader_constants(state.features);
     Pipeline pipeline;
     pipeline.bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
-    const ShaderStage* stage = &find_or_make_stage(state.shader, VK_SHADER_STAGE_COMPUTE_BIT,
-                                                   state.constants, state.features);
+    const ShaderStage* stage = &find_or_make_shader_stage(state.shader, VK_SHADER_STAGE_COMPUTE_BIT,
+                                                          state.constants, state.features);
     make_pipeline_layout(pipeline_device_, name, {&stage, 1}, state.constants, pipeline);
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    create.stage = stage->make_create_info();
+    create.stage = stage->make_shader_stage_create_info();
     create.layout = pipeline.layout;
     VkPipeline handle = VK_NULL_HANDLE;
     throw_unless_vk_success(vkCreateComputePipelines(pipeline_device_.device_handle(),
@@ -291,8 +297,8 @@ const Pipeline& PipelineStore::find_or_make_compute(const ComputeState& state) {
                                                      &handle),
                             "create pipeline '" + name + "'");
     pipeline.pipeline = {pipeline_device_.device_handle(), handle};
-    pipeline_device_.set_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(handle),
-                              name);
+    pipeline_device_.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_PIPELINE,
+                                                     reinterpret_cast<std::uint64_t>(handle), name);
     return computes_.emplace(state, std::move(pipeline)).first->second;
 }
 

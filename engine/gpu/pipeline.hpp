@@ -13,27 +13,30 @@
 namespace catoptric::gpu {
 
 /// Values of specialisation constants, by their names in the shader.
-using ShaderConstants = std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
+using ShaderConstantValues =
+    std::vector<std::pair<std::string, std::variant<std::uint32_t, float>>>;
 
 /// The order of a triangle's corners in the picture.
 enum class TriangleWinding { none, clockwise, counterclockwise };
 
 /// A raster pipeline as a pass body asks for it. Attachments come from the pass. Depth is reversed:
 /// greater is nearer.
-struct RasterState {
+struct RasterPipelineState {
     std::string vertex;
     std::string fragment; ///< empty: depth only
-    ShaderConstants constants;
+    ShaderConstantValues constants;
     TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
-    ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
+    ShaderConstantValues features =
+        {}; ///< constants of the scene; ignored by shaders that lack them
     /// Blended over the first attachment by alpha. Other attachments and depth are not written.
     bool blended = false;
 };
 
-struct ComputeState {
+struct ComputePipelineState {
     std::string shader;
-    ShaderConstants constants;
-    ShaderConstants features = {}; ///< constants of the scene; ignored by shaders that lack them
+    ShaderConstantValues constants;
+    ShaderConstantValues features =
+        {}; ///< constants of the scene; ignored by shaders that lack them
 };
 
 struct AttachmentFormats {
@@ -68,29 +71,30 @@ public:
     explicit PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants = {},
                            const std::filesystem::path& cache = {});
     ~PipelineStore();
-    const Pipeline& find_or_make_raster(const RasterState& state,
-                                        const AttachmentFormats& attachments);
-    const Pipeline& find_or_make_compute(const ComputeState& state);
+    const Pipeline& find_or_make_raster_pipeline(const RasterPipelineState& state,
+                                                 const AttachmentFormats& attachments);
+    const Pipeline& find_or_make_compute_pipeline(const ComputePipelineState& state);
     const PipelineCache& pipeline_cache() const { return cache_; }
-    std::size_t count_made_pipelines() const { return rasters_.size() + computes_.size(); }
+    std::size_t count_compiled_pipelines() const { return rasters_.size() + computes_.size(); }
     double total_compile_ms() const {
         return ms_;
     } ///< milliseconds of the host, for all pipelines made
 
 private:
-    using RasterKey = std::pair<RasterState, AttachmentFormats>;
-    using RasterKeyView = std::pair<const RasterState&, const AttachmentFormats&>;
+    using RasterPipelineKey = std::pair<RasterPipelineState, AttachmentFormats>;
+    using RasterPipelineKeyView = std::pair<const RasterPipelineState&, const AttachmentFormats&>;
     /// An order of the requests, so that a lookup builds no name.
-    struct ShaderConstantsOrder {
+    struct ShaderConstantValuesLess {
         using is_transparent = void;
-        bool operator()(const RasterKeyView& a, const RasterKeyView& b) const;
-        bool operator()(const ComputeState& a, const ComputeState& b) const;
+        bool operator()(const RasterPipelineKeyView& a, const RasterPipelineKeyView& b) const;
+        bool operator()(const ComputePipelineState& a, const ComputePipelineState& b) const;
     };
 
     /// Returns the stage of this shader or of its variant with these constants.
-    const ShaderStage& find_or_make_stage(const std::string& shader, VkShaderStageFlagBits bit,
-                                          const ShaderConstants& constants,
-                                          const ShaderConstants& features);
+    const ShaderStage& find_or_make_shader_stage(const std::string& shader,
+                                                 VkShaderStageFlagBits bit,
+                                                 const ShaderConstantValues& constants,
+                                                 const ShaderConstantValues& features);
     GpuDevice& pipeline_device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
@@ -99,8 +103,8 @@ private:
     std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>,
              std::unique_ptr<ShaderStage>>
         stages_;
-    std::map<RasterKey, Pipeline, ShaderConstantsOrder> rasters_;
-    std::map<ComputeState, Pipeline, ShaderConstantsOrder> computes_;
+    std::map<RasterPipelineKey, Pipeline, ShaderConstantValuesLess> rasters_;
+    std::map<ComputePipelineState, Pipeline, ShaderConstantValuesLess> computes_;
     double ms_ = 0;
 };
 

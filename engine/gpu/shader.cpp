@@ -71,7 +71,7 @@ public:
             const std::uint32_t length = words[i] >> 16;
             check(length > 0 && i + length <= words.size(), Failure::internal, "shader '", name,
                   "' is cut off");
-            read_instruction(words[i] & 0xffff, words.subspan(i + 1, length - 1));
+            read_spirv_instruction(words[i] & 0xffff, words.subspan(i + 1, length - 1));
             i += length;
         }
     }
@@ -80,20 +80,23 @@ public:
         ShaderReflection result;
         for (const SpirvVariable& variable : variables_) {
             if (variable.storage == kPushConstant)
-                result.push_bytes = std::max(result.push_bytes,
-                                             size_of_type(pointed_to_type(variable)));
-            else if (used_.contains(variable.id) && find_decoration(variable.id, kBinding))
+                result.push_bytes = std::max(
+                    result.push_bytes,
+                    byte_size_of_spirv_type(spirv_type_of_pointer_variable(variable)));
+            else if (used_.contains(variable.id) &&
+                     find_spirv_decoration_value(variable.id, kBinding))
                 result.bindings.push_back(make_shader_binding(variable));
         }
         for (const auto& [key, value] : decorations_)
-            if (key.second == kSpecId) result.constants.push_back({name_of_id(key.first), value});
+            if (key.second == kSpecId)
+                result.constants.push_back({spirv_debug_name_of_id(key.first), value});
         result.doubles = doubles_, result.triangle_numbers = triangle_numbers_;
         std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);
         return result;
     }
 
 private:
-    void read_instruction(std::uint32_t op, std::span<const std::uint32_t> words) {
+    void read_spirv_instruction(std::uint32_t op, std::span<const std::uint32_t> words) {
         switch (op) {
         case kName: names_[words[0]] = reinterpret_cast<const char*>(words.data() + 1); break;
         case kCapability:
@@ -129,31 +132,33 @@ private:
         }
     }
 
-    std::optional<std::uint32_t> find_decoration(std::uint32_t id, std::uint32_t which) const {
+    std::optional<std::uint32_t> find_spirv_decoration_value(std::uint32_t id,
+                                                             std::uint32_t which) const {
         const auto found = decorations_.find({id, which});
         return found == decorations_.end() ? std::nullopt : std::optional(found->second);
     }
-    std::string name_of_id(std::uint32_t id) const {
+    std::string spirv_debug_name_of_id(std::uint32_t id) const {
         const auto found = names_.find(id);
         return found == names_.end() ? "" : found->second;
     }
-    std::uint32_t pointed_to_type(const SpirvVariable& variable) const {
+    std::uint32_t spirv_type_of_pointer_variable(const SpirvVariable& variable) const {
         return types_.at(variable.type).words[1];
     }
 
     /// Returns the bytes of a type in the scalar layout.
-    std::uint32_t size_of_type(std::uint32_t id) const {
+    std::uint32_t byte_size_of_spirv_type(std::uint32_t id) const {
         const SpirvType& type = types_.at(id);
         switch (type.op) {
         case kTypeInt:
         case kTypeFloat: return type.words[0] / 8;
         case kTypeVector:
-        case kTypeMatrix: return size_of_type(type.words[0]) * type.words[1];
-        case kTypeArray: return size_of_type(type.words[0]) * constants_.at(type.words[1]);
+        case kTypeMatrix: return byte_size_of_spirv_type(type.words[0]) * type.words[1];
+        case kTypeArray:
+            return byte_size_of_spirv_type(type.words[0]) * constants_.at(type.words[1]);
         case kTypeStruct: {
             if (type.words.empty()) return 0;
             const auto last = static_cast<std::uint32_t>(type.words.size() - 1);
-            return member_offsets_.at({id, last}) + size_of_type(type.words[last]);
+            return member_offsets_.at({id, last}) + byte_size_of_spirv_type(type.words[last]);
         }
         default: fail(Failure::internal, "shader '", name_, "': a push constant of unknown size");
         }
@@ -161,13 +166,14 @@ private:
 
     ShaderBinding make_shader_binding(const SpirvVariable& variable) const {
         ShaderBinding result;
-        result.name = name_of_id(variable.id);
-        result.binding = *find_decoration(variable.id, kBinding);
-        check(find_decoration(variable.id, kDescriptorSet).value_or(0) == 0, Failure::internal,
-              "shader '", name_, "': '", result.name, "' is not in set 0");
-        const SpirvType* type = &types_.at(pointed_to_type(variable));
+        result.name = spirv_debug_name_of_id(variable.id);
+        result.binding = *find_spirv_decoration_value(variable.id, kBinding);
+        check(find_spirv_decoration_value(variable.id, kDescriptorSet).value_or(0) == 0,
+              Failure::internal, "shader '", name_, "': '", result.name, "' is not in set 0");
+        const SpirvType* type = &types_.at(spirv_type_of_pointer_variable(variable));
         if (type->op == kTypeStruct) {
-            if (result.name.empty()) result.name = name_of_id(pointed_to_type(variable));
+            if (result.name.empty())
+                result.name = spirv_debug_name_of_id(spirv_type_of_pointer_variable(variable));
             result.kind = variable.storage == kUniform ? ShaderBindingKind::uniform_buffer
                                                        : ShaderBindingKind::storage_buffer;
             return result;

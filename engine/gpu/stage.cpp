@@ -8,9 +8,9 @@ namespace {
 
 /// Returns the constants that switch shaders to substitutes for features that the device lacks. A
 /// shader without such a constant is not affected.
-ShaderConstants make_feature_constants(const GpuDevice& device) {
-    ShaderConstants constants;
-    if (device.reads_texels_from_storage()) constants.emplace_back("texels_in_storage", 1u);
+ShaderConstantValues make_device_feature_constants(const GpuDevice& device) {
+    ShaderConstantValues constants;
+    if (device.needs_storage_buffers_for_texels()) constants.emplace_back("texels_in_storage", 1u);
     if (!device.has_float_filtering()) constants.emplace_back("distances_by_gather", 1u);
     return constants;
 }
@@ -18,15 +18,15 @@ ShaderConstants make_feature_constants(const GpuDevice& device) {
 } // namespace
 
 ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderReflection& shader,
-                                      const ShaderConstants& constants,
-                                      const ShaderConstants& features) {
+                                      const ShaderConstantValues& constants,
+                                      const ShaderConstantValues& features) {
     ShaderConstantBits bits;
-    const ShaderConstants of_device = make_feature_constants(device);
-    for (const ShaderConstants* list : {&of_device, &constants, &features})
+    const ShaderConstantValues of_device = make_device_feature_constants(device);
+    for (const ShaderConstantValues* list : {&of_device, &constants, &features})
         for (const auto& [constant, value] : *list) {
             const auto known = std::ranges::find(shader.constants, constant,
                                                  &SpecialisationConstant::name);
-            if (known != shader.constants.end()) bits[known->id] = bits_of_constant(value);
+            if (known != shader.constants.end()) bits[known->id] = constant_value_as_bits(value);
         }
     return bits;
 }
@@ -35,10 +35,11 @@ ShaderStage::ShaderStage(const GpuDevice& device, const std::string& name,
                          VkShaderStageFlagBits stage, ShaderReflection whole,
                          const ShaderConstantBits& constants)
     : bit(stage), reflection(std::move(whole)) {
-    check(!reflection.doubles || device.supports_doubles(), Failure::no_device, "shader '", name,
-          "' computes with doubles, which device '", device.device_properties().name, "' cannot");
-    check(!reflection.triangle_numbers || device.supports_primitive_ids(), Failure::no_device,
-          "shader '", name, "' reads the number of a triangle, which device '",
+    check(!reflection.doubles || device.supports_double_precision_shaders(), Failure::no_device,
+          "shader '", name, "' computes with doubles, which device '",
+          device.device_properties().name, "' cannot");
+    check(!reflection.triangle_numbers || device.supports_primitive_id_in_fragments(),
+          Failure::no_device, "shader '", name, "' reads the number of a triangle, which device '",
           device.device_properties().name,
           "' does not give; the technique raytrace with first=ray needs none");
     const std::vector<std::uint32_t> words = specialise_shader(name, find_shader(name).words,

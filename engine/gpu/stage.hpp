@@ -9,7 +9,7 @@
 namespace catoptric::gpu {
 
 /// Returns the 32 bits that are passed to the shader for a constant.
-inline std::uint32_t bits_of_constant(const std::variant<std::uint32_t, float>& value) {
+inline std::uint32_t constant_value_as_bits(const std::variant<std::uint32_t, float>& value) {
     return std::visit([](auto v) { return std::bit_cast<std::uint32_t>(v); }, value);
 }
 
@@ -19,15 +19,15 @@ using ShaderConstantBits = std::map<std::uint32_t, std::uint32_t>;
 /// Returns the values of all constants that `shader` has: first those of features that the device
 /// lacks, then `constants`, then `features`.
 ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderReflection& shader,
-                                      const ShaderConstants& constants,
-                                      const ShaderConstants& features);
+                                      const ShaderConstantValues& constants,
+                                      const ShaderConstantValues& features);
 
 /// One stage of a pipeline. Its module must outlive the call that creates the pipeline.
 struct ShaderStage {
     /// `whole`: what the shader declares before its constants are set.
     ShaderStage(const GpuDevice& device, const std::string& name, VkShaderStageFlagBits stage,
                 ShaderReflection whole, const ShaderConstantBits& constants);
-    VkPipelineShaderStageCreateInfo make_create_info() const {
+    VkPipelineShaderStageCreateInfo make_shader_stage_create_info() const {
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;
         stage.module = module;
@@ -35,7 +35,7 @@ struct ShaderStage {
         return stage;
     }
     /// Returns the constant of this name, or null if the shader has none.
-    const SpecialisationConstant* find_constant(const std::string& constant) const {
+    const SpecialisationConstant* find_specialisation_constant(const std::string& constant) const {
         const auto found = std::ranges::find(reflection.constants, constant,
                                              &SpecialisationConstant::name);
         return found == reflection.constants.end() ? nullptr : &*found;

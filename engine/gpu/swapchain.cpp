@@ -46,23 +46,23 @@ Swapchain::Swapchain(GpuDevice& device)
     if (colours_.format == VK_FORMAT_R8G8B8A8_UNORM) format_ = TexelFormat::rgba8_unorm;
 }
 
-bool Swapchain::check_result(VkResult result, const std::string& doing) {
+bool Swapchain::check_swapchain_result(VkResult result, const std::string& doing) {
     if (result == VK_SUCCESS) return true;
     lost_ |= result == VK_ERROR_SURFACE_LOST_KHR;
     if (lost_ || result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) return false;
-    presenting_device_.check_not_lost(result, doing);
+    presenting_device_.throw_if_device_lost(result, doing);
     return false;
 }
 
 void Swapchain::wait_idle() {
-    presenting_device_.check_usable();
-    presenting_device_.check_wait_result(vkQueueWaitIdle(presenting_device_.vulkan_queue()),
-                                         "wait for the window's pictures");
+    presenting_device_.check_device_not_abandoned();
+    presenting_device_.check_wait_and_abandon_if_lost(
+        vkQueueWaitIdle(presenting_device_.vulkan_queue()), "wait for the window's pictures");
 }
 
-bool Swapchain::create_images(uvec2 size) {
+bool Swapchain::create_swapchain_images(uvec2 size) {
     VkSurfaceCapabilitiesKHR can{};
-    if (!check_result(
+    if (!check_swapchain_result(
             vkGetPhysicalDeviceSurfaceCapabilitiesKHR(presenting_device_.physical_device(),
                                                       presenting_device_.window_surface(), &can),
             "ask what the window can show"))
@@ -88,7 +88,7 @@ bool Swapchain::create_images(uvec2 size) {
     create.clipped = true;
     create.oldSwapchain = chain_;
     VkSwapchainKHR chain = VK_NULL_HANDLE;
-    if (!check_result(
+    if (!check_swapchain_result(
             vkCreateSwapchainKHR(presenting_device_.device_handle(), &create, nullptr, &chain),
             "make the window's images"))
         return false;
@@ -118,7 +118,8 @@ std::optional<std::uint32_t> Swapchain::acquire_image() {
                                                   ~std::uint64_t{0}, acquired_[turn],
                                                   VK_NULL_HANDLE, &image);
     // A suboptimal image is drawn all the same, because its semaphore will be signalled.
-    if (result != VK_SUBOPTIMAL_KHR && !check_result(result, "get the window's next image"))
+    if (result != VK_SUBOPTIMAL_KHR &&
+        !check_swapchain_result(result, "get the window's next image"))
         return {};
     turn_ = turn;
     return image;
@@ -133,8 +134,8 @@ bool Swapchain::present_image(std::uint32_t image) {
     present.swapchainCount = 1;
     present.pSwapchains = &chain;
     present.pImageIndices = &image;
-    return check_result(vkQueuePresentKHR(presenting_device_.vulkan_queue(), &present),
-                        "show a picture in the window");
+    return check_swapchain_result(vkQueuePresentKHR(presenting_device_.vulkan_queue(), &present),
+                                  "show a picture in the window");
 }
 
 } // namespace catoptric::gpu

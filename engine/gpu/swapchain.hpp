@@ -14,12 +14,12 @@ public:
     /// `device` must have a surface. Throws `no_device` if the window takes no colours of 8 bits.
     explicit Swapchain(GpuDevice& device);
 
-    /// Waits until the device is idle. Call it before `create_images`, and before views of the
-    /// images are destroyed.
+    /// Waits until the device is idle. Call it before `create_swapchain_images`, and before views
+    /// of the images are destroyed.
     void wait_idle();
     /// Makes images of this size, in pixels, or of the size that the window system demands. Returns
     /// false if the window has no pixels now (it is minimised), or is gone (see `is_surface_lost`).
-    bool create_images(uvec2 size);
+    bool create_swapchain_images(uvec2 size);
     /// Returns whether the surface is lost together with its window. Only another device with
     /// another surface helps.
     bool is_surface_lost() const { return lost_; }
@@ -28,17 +28,18 @@ public:
     const std::vector<VkImage>& swapchain_images() const { return images_; }
 
     /// Returns the index of the image to draw next. Waits for the window system if none is free.
-    /// Returns nothing if the window has changed and `create_images` must be called.
+    /// Returns nothing if the window has changed and `create_swapchain_images` must be called.
     std::optional<std::uint32_t> acquire_image();
     /// Semaphores for the frame that draws the image acquired last: the frame waits for
     /// `image_acquired_semaphore` and signals `rendering_done_semaphore`.
     VkSemaphore image_acquired_semaphore() const { return acquired_[turn_]; }
     VkSemaphore rendering_done_semaphore(std::uint32_t image) const { return rendered_[image]; }
-    /// Shows the image. Returns false if the window has changed and `create_images` must be called.
+    /// Shows the image. Returns false if the window has changed and `create_swapchain_images` must
+    /// be called.
     bool present_image(std::uint32_t image);
 
 private:
-    bool check_result(VkResult result, const std::string& doing);
+    bool check_swapchain_result(VkResult result, const std::string& doing);
 
     GpuDevice& presenting_device_;
     VkSurfaceFormatKHR colours_{};

@@ -9,7 +9,7 @@ namespace catoptric::gpu {
 namespace {
 
 constexpr std::uint64_t kStagingBlockBytes = 4 << 20;
-constexpr const char* kUploadActivity = "write buffers";
+constexpr const char* kUploadActivityForErrors = "write buffers";
 
 } // namespace
 
@@ -53,21 +53,21 @@ StagedUploads::~StagedUploads() {
     }
 }
 
-void StagedUploads::wait(WriteNumber ticket) {
+void StagedUploads::wait(StagedWriteTicket ticket) {
     if (ticket <= ended_) return;
     const VkSemaphore semaphore = timeline_;
     VkSemaphoreWaitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     wait.semaphoreCount = 1;
     wait.pSemaphores = &semaphore;
     wait.pValues = &ticket;
-    upload_device_.check_wait_result(
+    upload_device_.check_wait_and_abandon_if_lost(
         vkWaitSemaphores(upload_device_.device_handle(), &wait, ~std::uint64_t{0}),
-        kUploadActivity);
+        kUploadActivityForErrors);
     ended_ = ticket;
 }
 
 /// Returns a block that is recording and has room.
-StagedUploads::StagingBlock& StagedUploads::open_block() {
+StagedUploads::StagingBlock& StagedUploads::open_staging_block() {
     if (is_recording_ && blocks_[current_].used < kStagingBlockBytes) return blocks_[current_];
     submit();
     StagingBlock& block = blocks_[current_];
@@ -75,34 +75,36 @@ StagedUploads::StagingBlock& StagedUploads::open_block() {
     block.used = 0, block.targets.clear();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    throw_unless_vk_success(vkBeginCommandBuffer(block.commands, &begin), kUploadActivity);
+    throw_unless_vk_success(vkBeginCommandBuffer(block.commands, &begin), kUploadActivityForErrors);
     is_recording_ = true;
     return block;
 }
 
 /// Adds a barrier if a write overlaps an earlier one, so that writes happen in the order of their
 /// calls.
-void StagedUploads::order_overlapping_writes(StagingBlock& block, const UploadWriteRange& target) {
+void StagedUploads::order_overlapping_staged_writes(StagingBlock& block,
+                                                    const UploadWriteRange& target) {
     const bool overlaps = std::ranges::any_of(block.targets, [&](const UploadWriteRange& other) {
         return other.buffer == target.buffer && other.first < target.end &&
                target.first < other.end;
     });
     if (overlaps) {
-        record_memory_barrier(block.commands, kTransferWriteScope, kTransferWriteScope);
+        record_memory_barrier(block.commands, kTransferWriteAccessScope, kTransferWriteAccessScope);
         block.targets.clear();
     }
     block.targets.push_back(target);
 }
 
-StagedUploads::WriteNumber StagedUploads::stage_write(VkBuffer to, std::uint64_t offset,
-                                                      std::span<const std::byte> data) {
-    upload_device_.check_usable();
+StagedUploads::StagedWriteTicket
+StagedUploads::copy_write_into_staging_block(VkBuffer to, std::uint64_t offset,
+                                             std::span<const std::byte> data) {
+    upload_device_.check_device_not_abandoned();
     while (!data.empty()) {
-        StagingBlock& block = open_block();
+        StagingBlock& block = open_staging_block();
         const auto part = data.first(
             std::min<std::uint64_t>(data.size(), kStagingBlockBytes - block.used));
         block.staging->write_contents(block.used, part);
-        order_overlapping_writes(block, {to, offset, offset + part.size()});
+        order_overlapping_staged_writes(block, {to, offset, offset + part.size()});
         const VkBufferCopy region{block.used, offset, part.size()};
         vkCmdCopyBuffer(block.commands, block.staging->buffer_handle(), to, 1, &region);
         block.used += part.size(), offset += part.size();
@@ -114,11 +116,11 @@ StagedUploads::WriteNumber StagedUploads::stage_write(VkBuffer to, std::uint64_t
 void StagedUploads::submit() {
     if (!is_recording_) return;
     StagingBlock& block = blocks_[current_];
-    record_memory_barrier(block.commands, kTransferWriteScope,
+    record_memory_barrier(block.commands, kTransferWriteAccessScope,
                           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
     is_recording_ = false;
-    throw_unless_vk_success(vkEndCommandBuffer(block.commands), kUploadActivity);
+    throw_unless_vk_success(vkEndCommandBuffer(block.commands), kUploadActivityForErrors);
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = block.commands;
     VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
@@ -130,13 +132,14 @@ void StagedUploads::submit() {
     submit.pCommandBufferInfos = &commands;
     submit.signalSemaphoreInfoCount = 1;
     submit.pSignalSemaphoreInfos = &signal;
-    upload_device_.check_not_lost(
-        vkQueueSubmit2(upload_device_.vulkan_queue(), 1, &submit, VK_NULL_HANDLE), kUploadActivity);
+    upload_device_.throw_if_device_lost(
+        vkQueueSubmit2(upload_device_.vulkan_queue(), 1, &submit, VK_NULL_HANDLE),
+        kUploadActivityForErrors);
     block.ends = ++submitted_;
     current_ = (current_ + 1) % blocks_.size();
 }
 
-void StagedUploads::wait_for_write(WriteNumber ticket) {
+void StagedUploads::wait_for_staged_write(StagedWriteTicket ticket) {
     if (ticket > submitted_) submit();
     // A write that could not be submitted is never executed.
     wait(std::min(ticket, submitted_));
@@ -145,7 +148,7 @@ void StagedUploads::wait_for_write(WriteNumber ticket) {
 PendingUpload::~PendingUpload() {
     if (ticket_ == 0 || device_->is_abandoned()) return;
     try {
-        device_->uploads().wait_for_write(ticket_);
+        device_->uploads().wait_for_staged_write(ticket_);
     } catch (const Error&) { // the device is abandoned now, or the write was not submitted
     }
 }

@@ -21,18 +21,19 @@ class GpuDevice;
 class StagedUploads {
 public:
     /// The number of a write; 0: none. Larger numbers end later.
-    using WriteNumber = std::uint64_t;
+    using StagedWriteTicket = std::uint64_t;
 
     explicit StagedUploads(GpuDevice& device);
     ~StagedUploads();
 
     /// Writes `data` to `to` from `offset` bytes on. `to` must live until the ticket has ended.
-    /// Throws as GpuDevice::check_not_lost and check_wait_result do.
-    WriteNumber stage_write(VkBuffer to, std::uint64_t offset, std::span<const std::byte> data);
+    /// Throws as GpuDevice::throw_if_device_lost and check_wait_and_abandon_if_lost do.
+    StagedWriteTicket copy_write_into_staging_block(VkBuffer to, std::uint64_t offset,
+                                                    std::span<const std::byte> data);
     /// Submits the recorded copies that are not submitted yet.
     void submit();
     /// Waits until the write has ended.
-    void wait_for_write(WriteNumber ticket);
+    void wait_for_staged_write(StagedWriteTicket ticket);
 
 private:
     /// Bytes of `to` that a block's commands write.
@@ -44,12 +45,12 @@ private:
         std::unique_ptr<GpuBuffer> staging;
         VkCommandBuffer commands = VK_NULL_HANDLE;
         std::uint64_t used = 0;                ///< bytes used in `staging`
-        WriteNumber ends = 0;                  ///< timeline value at which the block is free again
+        StagedWriteTicket ends = 0;            ///< timeline value at which the block is free again
         std::vector<UploadWriteRange> targets; ///< writes since the last barrier
     };
-    StagingBlock& open_block();
-    void wait(WriteNumber ticket);
-    void order_overlapping_writes(StagingBlock& block, const UploadWriteRange& target);
+    StagingBlock& open_staging_block();
+    void wait(StagedWriteTicket ticket);
+    void order_overlapping_staged_writes(StagingBlock& block, const UploadWriteRange& target);
 
     GpuDevice& upload_device_;
     UniqueCommandPool pool_;
@@ -57,7 +58,7 @@ private:
     std::array<StagingBlock, 3> blocks_;
     std::size_t current_ = 0;
     bool is_recording_ = false;
-    WriteNumber submitted_ = 0, ended_ = 0;
+    StagedWriteTicket submitted_ = 0, ended_ = 0;
 };
 
 /// The last upload to a buffer. Its destructor waits until the upload has ended, so that the buffer
@@ -72,7 +73,8 @@ public:
     }
     ~PendingUpload();
     /// Replaces the ticket with that of a later write to the same buffer.
-    void replace_by_later_upload(GpuDevice& device, StagedUploads::WriteNumber ticket) {
+    void replace_pending_upload_by_later(GpuDevice& device,
+                                         StagedUploads::StagedWriteTicket ticket) {
         device_ = &device, ticket_ = ticket;
     }
 
@@ -82,7 +84,7 @@ private:
     }
 
     GpuDevice* device_ = nullptr;
-    StagedUploads::WriteNumber ticket_ = 0;
+    StagedUploads::StagedWriteTicket ticket_ = 0;
 };
 
 } // namespace catoptric::gpu

@@ -4,7 +4,7 @@ namespace catoptric::gpu {
 
 namespace {
 
-constexpr std::array<ShaderVariant, kShaderVariantCount> kShaderVariants{
+constexpr std::array<ShaderBuildVariant, kShaderVariantCount> kShaderVariants{
     {{"groups",
       {"scattered", "in order"},
       "groups_in_order",
@@ -20,7 +20,7 @@ constexpr std::array<ShaderVariant, kShaderVariantCount> kShaderVariants{
 
 } // namespace
 
-std::span<const ShaderVariant, kShaderVariantCount> list_shader_variants() {
+std::span<const ShaderBuildVariant, kShaderVariantCount> list_shader_variants() {
     return kShaderVariants;
 }
 

@@ -66,8 +66,8 @@ VkFormat to_vk_format(TexelFormat format) {
     return VK_FORMAT_UNDEFINED;
 }
 
-void record_memory_barrier(VkCommandBuffer commands, const MemoryAccessScope& earlier,
-                           const MemoryAccessScope& later) {
+void record_memory_barrier(VkCommandBuffer commands, const BarrierAccessScope& earlier,
+                           const BarrierAccessScope& later) {
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = earlier.stages;
     barrier.srcAccessMask = earlier.access;

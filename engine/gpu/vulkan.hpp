@@ -20,21 +20,21 @@ const char* vk_result_name(VkResult result);
 VkFormat to_vk_format(TexelFormat format);
 
 /// Stages and kinds of access of the work on one side of a barrier.
-struct MemoryAccessScope {
+struct BarrierAccessScope {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
 };
 /// The writes of copies.
-inline constexpr MemoryAccessScope kTransferWriteScope{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-                                                       VK_ACCESS_2_TRANSFER_WRITE_BIT};
+inline constexpr BarrierAccessScope kTransferWriteAccessScope{VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                                                              VK_ACCESS_2_TRANSFER_WRITE_BIT};
 /// Records a barrier that makes the writes of earlier work visible to later work, in all memory.
-void record_memory_barrier(VkCommandBuffer commands, const MemoryAccessScope& earlier,
-                           const MemoryAccessScope& later);
+void record_memory_barrier(VkCommandBuffer commands, const BarrierAccessScope& earlier,
+                           const BarrierAccessScope& later);
 /// Records one barrier of a single image.
 void record_image_barrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier);
 
 /// Returns the surface for the number that window libraries pass for it.
-inline VkSurfaceKHR surface_from_handle_number(std::uint64_t number) {
+inline VkSurfaceKHR vulkan_surface_from_integer_handle(std::uint64_t number) {
     return std::bit_cast<VkSurfaceKHR>(number);
 }
 

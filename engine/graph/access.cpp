@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-ResourceAccess make_access_of_use(const ImageUse& use) {
+ResourceAccess make_resource_access_of_use(const ImageUse& use) {
     const bool loads = is_attachment(use.use) && (!use.clear || use.stays);
     return {.is_buffer = false,
             .id = use.image.id,
@@ -21,7 +21,7 @@ ResourceAccess make_access_of_use(const ImageUse& use) {
             .clears = use.clear.has_value()};
 }
 
-ResourceAccess make_access_of_use(const BufferUse& use) {
+ResourceAccess make_resource_access_of_use(const BufferUse& use) {
     return {.is_buffer = true,
             .id = use.buffer.id,
             .use = use.use,
@@ -30,8 +30,8 @@ ResourceAccess make_access_of_use(const BufferUse& use) {
 }
 
 void append_accesses_of_pass(std::vector<ResourceAccess>& all, const Pass& pass) {
-    for (const ImageUse& use : pass.images) all.push_back(make_access_of_use(use));
-    for (const BufferUse& use : pass.buffers) all.push_back(make_access_of_use(use));
+    for (const ImageUse& use : pass.images) all.push_back(make_resource_access_of_use(use));
+    for (const BufferUse& use : pass.buffers) all.push_back(make_resource_access_of_use(use));
 }
 
 } // namespace
@@ -51,7 +51,7 @@ GraphAccesses::GraphAccesses(const Graph& graph) {
     first_.push_back(all_.size());
 }
 
-ResourceAccess access_to_image_part(const ImageHandle& image) {
+ResourceAccess make_access_to_image_part(const ImageHandle& image) {
     return {.is_buffer = false,
             .id = image.id,
             .previous = image.previous,
@@ -61,22 +61,25 @@ ResourceAccess access_to_image_part(const ImageHandle& image) {
             .mip_count = image.mip_count};
 }
 
-ResourceAccess access_to_whole_image(const Graph& graph, std::uint32_t image) {
+ResourceAccess make_access_to_whole_image(const Graph& graph, std::uint32_t image) {
     const ImageDesc& desc = graph.list_images()[image];
     return {.id = image, .layer_count = desc.layers, .mip_count = desc.mips};
 }
 
-SubresourceMap<char> mark_output_parts(const Graph& graph) {
-    SubresourceMap<char> wanted(graph, false);
+ValuesPerSubresource<char> mark_output_image_parts(const Graph& graph) {
+    ValuesPerSubresource<char> wanted(graph, false);
     for (const ImageHandle& image : graph.list_output_images())
-        wanted.set_value_of_access(access_to_image_part(image), true);
+        wanted.set_subresource_values_of_access(make_access_to_image_part(image), true);
     for (const BufferHandle& buffer : graph.list_output_buffers())
-        wanted.set_value_of_access({.is_buffer = true, .id = buffer.id}, true);
+        wanted.set_subresource_values_of_access({.is_buffer = true, .id = buffer.id}, true);
     return wanted;
 }
 
 AccessState make_access_state(const ResourceAccess& access, const Pass& pass) {
-    return {.nothing = false, .use = access.use, .write = access.write, .raster = pass.is_raster()};
+    return {.nothing = false,
+            .use = access.use,
+            .write = access.write,
+            .raster = pass.is_raster_pass()};
 }
 
 std::string quote_resource_name(const Graph& graph, const ResourceAccess& access) {
@@ -104,12 +107,12 @@ std::string format_layer_range(const ImageDesc& desc, std::uint32_t first, std::
 std::string describe_access(const Graph& graph, const ResourceAccess& access) {
     const std::string name = quote_resource_name(graph, access);
     if (access.is_buffer) return "buffer " + name;
-    std::string part = " " + format_number_range(access.first_layer, access.end_of_layers());
+    std::string part = " " + format_number_range(access.first_layer, access.end_layer_of_access());
     const ImageDesc& desc = graph.list_images()[access.id];
     if (desc.mips > 1 || access.first_mip > 0)
         part += access.mip_count == 1
                     ? " mip " + std::to_string(access.first_mip)
-                    : " mips " + format_number_range(access.first_mip, access.end_of_mips());
+                    : " mips " + format_number_range(access.first_mip, access.end_mip_of_access());
     return (access.previous ? "previous(" + name + ")" : name) + part;
 }
 

@@ -25,8 +25,8 @@ struct ResourceAccess {
 
     /// Returns the layer after the last, in 64 bits: the sum can exceed 32 bits for an invalid
     /// access.
-    std::uint64_t end_of_layers() const { return std::uint64_t{first_layer} + layer_count; }
-    std::uint64_t end_of_mips() const { return std::uint64_t{first_mip} + mip_count; }
+    std::uint64_t end_layer_of_access() const { return std::uint64_t{first_layer} + layer_count; }
+    std::uint64_t end_mip_of_access() const { return std::uint64_t{first_mip} + mip_count; }
 };
 
 /// Returns the accesses of the pass: images in order of declaration, then buffers.
@@ -56,8 +56,8 @@ constexpr bool is_attachment(ResourceUse use) {
 /// 'args'".
 std::string describe_access(const Graph& graph, const ResourceAccess& access);
 /// Returns a range of an image's layers as text: "layers [6,12)", with the mip if the image has
-/// several. `first` and `end` are numbers as in `for_each_layer_range`. The range is cut at the end
-/// of its first mip.
+/// several. `first` and `end` are numbers as in `for_each_contiguous_layer_range`. The range is cut
+/// at the end of its first mip.
 std::string format_layer_range(const ImageDesc& desc, std::uint32_t first, std::uint32_t end);
 /// Returns the name of the image or buffer in single quotes: "'cubes'".
 std::string quote_resource_name(const Graph& graph, const ResourceAccess& access);
@@ -66,7 +66,7 @@ std::string quote_resource_name(const Graph& graph, const ResourceAccess& access
 /// layers. Layer l of mip m has the number m * layers + l. A part with all layers is visited as one
 /// range.
 template <typename Part, typename Visit>
-void for_each_layer_range(const Part& part, std::uint32_t layers, const Visit& visit) {
+void for_each_contiguous_layer_range(const Part& part, std::uint32_t layers, const Visit& visit) {
     if (part.layer_count == layers)
         return visit(part.first_mip * layers, (part.first_mip + part.mip_count) * layers);
     for (std::uint32_t m = part.first_mip; m < part.first_mip + part.mip_count; ++m)
@@ -75,9 +75,9 @@ void for_each_layer_range(const Part& part, std::uint32_t layers, const Visit& v
 
 /// A value for each layer of each mip of every image, and for every buffer.
 template <typename T>
-class SubresourceMap {
+class ValuesPerSubresource {
 public:
-    explicit SubresourceMap(const Graph& graph, const T& value = {})
+    explicit ValuesPerSubresource(const Graph& graph, const T& value = {})
         : image_count_(graph.list_images().size()) {
         entries_.reserve(image_count_ + graph.list_buffers().size());
         for (const ImageDesc& desc : graph.list_images())
@@ -85,63 +85,67 @@ public:
         entries_.resize(image_count_ + graph.list_buffers().size(),
                         {RunLengthArray<T>(1, value), 1});
     }
-    RunLengthArray<T>& runs_of_resource(const ResourceAccess& a) {
-        return values_of_resource(a).runs;
+    RunLengthArray<T>& layer_runs_of_resource(const ResourceAccess& a) {
+        return mip_layer_values_of_resource(a).runs;
     }
-    const RunLengthArray<T>& runs_of_resource(const ResourceAccess& a) const {
-        return values_of_resource(a).runs;
+    const RunLengthArray<T>& layer_runs_of_resource(const ResourceAccess& a) const {
+        return mip_layer_values_of_resource(a).runs;
     }
     std::uint32_t layer_count_of_access(const ResourceAccess& a) const {
-        return values_of_resource(a).layers;
+        return mip_layer_values_of_resource(a).layers;
     }
 
     /// Calls visit(first, end, value) for each run of equal values that the access meets.
     template <typename Visit>
-    void for_each_value(const ResourceAccess& a, const Visit& visit) const {
-        const MipLayerValues& e = values_of_resource(a);
-        for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+    void for_each_subresource_value(const ResourceAccess& a, const Visit& visit) const {
+        const ValuesPerMipAndLayer& e = mip_layer_values_of_resource(a);
+        for_each_contiguous_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
             e.runs.for_each_run(first, end, visit);
         });
     }
     template <typename Visit>
-    void modify_each_value(const ResourceAccess& a, const Visit& visit) {
-        MipLayerValues& e = entries_[value_index(a)];
-        for_each_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
-            e.runs.modify_each_run(first, end, visit);
+    void modify_each_subresource_value(const ResourceAccess& a, const Visit& visit) {
+        ValuesPerMipAndLayer& e = entries_[value_index(a)];
+        for_each_contiguous_layer_range(a, e.layers, [&](std::uint32_t first, std::uint32_t end) {
+            e.runs.modify_each_equal_run(first, end, visit);
         });
     }
-    void set_value_of_access(const ResourceAccess& a, const T& value) {
-        modify_each_value(a, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+    void set_subresource_values_of_access(const ResourceAccess& a, const T& value) {
+        modify_each_subresource_value(a,
+                                      [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
     /// Returns whether some layer of the access has the value.
-    bool contains_value(const ResourceAccess& a, const T& value) const {
+    bool has_any_equal_value(const ResourceAccess& a, const T& value) const {
         bool found = false;
-        for_each_value(a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
+        for_each_subresource_value(
+            a, [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
         return found;
     }
 
 private:
-    struct MipLayerValues {
+    struct ValuesPerMipAndLayer {
         RunLengthArray<T> runs;
         std::uint32_t layers;
     };
     std::size_t value_index(const ResourceAccess& a) const {
         return a.is_buffer ? image_count_ + a.id : a.id;
     }
-    MipLayerValues& values_of_resource(const ResourceAccess& a) { return entries_[value_index(a)]; }
-    const MipLayerValues& values_of_resource(const ResourceAccess& a) const {
+    ValuesPerMipAndLayer& mip_layer_values_of_resource(const ResourceAccess& a) {
+        return entries_[value_index(a)];
+    }
+    const ValuesPerMipAndLayer& mip_layer_values_of_resource(const ResourceAccess& a) const {
         return entries_[value_index(a)];
     }
 
     std::size_t image_count_;
-    std::vector<MipLayerValues> entries_; // images, then buffers
+    std::vector<ValuesPerMipAndLayer> entries_; // images, then buffers
 };
 
 /// Returns an access to a part of an image. Its use is left at the default.
-ResourceAccess access_to_image_part(const ImageHandle& image);
+ResourceAccess make_access_to_image_part(const ImageHandle& image);
 /// Returns an access to all layers and mips of an image.
-ResourceAccess access_to_whole_image(const Graph& graph, std::uint32_t image);
+ResourceAccess make_access_to_whole_image(const Graph& graph, std::uint32_t image);
 /// Returns a ledger that is true for every layer and buffer that is an output of the graph.
-SubresourceMap<char> mark_output_parts(const Graph& graph);
+ValuesPerSubresource<char> mark_output_image_parts(const Graph& graph);
 
 } // namespace catoptric::graph

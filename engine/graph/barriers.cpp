@@ -15,7 +15,7 @@ struct SubresourceAccessHistory {
 
     /// Returns the touches that the next write must wait for. For an image, all have its present
     /// layout.
-    AccessStateList list_accesses_before_write() const {
+    AccessStateList accesses_to_wait_for_before_write() const {
         if (!readers.empty()) return readers;
         return write == kNoAccessState ? AccessStateList() : AccessStateList(write);
     }
@@ -25,26 +25,28 @@ struct SubresourceAccessHistory {
 
 /// Returns the touches that a read must wait for; empty if an earlier reader with this touch
 /// already waited.
-AccessStateList accesses_before_read(const SubresourceAccessHistory& state, AccessStateCode touch,
-                                     bool is_buffer) {
-    if (state.readers.contains_access(touch)) return {};
+AccessStateList accesses_to_wait_for_before_read(const SubresourceAccessHistory& state,
+                                                 AccessStateCode touch, bool is_buffer) {
+    if (state.readers.contains_access_state(touch)) return {};
     if (state.readers.empty() || is_buffer) return AccessStateList(state.write);
     // The layout stays and only the stage differs. `before` must name the present layout. So the
     // barrier waits for a reader, which itself waited for the write.
-    if (decode_access_use(state.readers.first_access()) == decode_access_use(touch))
-        return AccessStateList(state.readers.first_access());
+    if (decode_access_use(state.readers.first_access_state()) == decode_access_use(touch))
+        return AccessStateList(state.readers.first_access_state());
     return state.readers; // a layout change counts as a write
 }
 
-void record_access_state(SubresourceAccessHistory& state, AccessStateCode touch, bool is_buffer) {
+void record_access_in_history(SubresourceAccessHistory& state, AccessStateCode touch,
+                              bool is_buffer) {
     if (make_access_state(touch).write) {
         state = {.write = touch, .readers = {}};
         return;
     }
     const bool moved = !state.readers.empty() &&
-                       decode_access_use(state.readers.first_access()) != decode_access_use(touch);
+                       decode_access_use(state.readers.first_access_state()) !=
+                           decode_access_use(touch);
     if (moved && !is_buffer) state.readers.remove_all();
-    state.readers.add_access(touch);
+    state.readers.add_access_state(touch);
 }
 
 std::vector<AccessState> list_access_states(AccessStateSet set) {
@@ -55,7 +57,7 @@ std::vector<AccessState> list_access_states(AccessStateSet set) {
 }
 
 /// Returns whether `next` only continues the layers, or the mips, of `last`.
-bool does_barrier_continue_range(const PlannedBarrier& last, const PlannedBarrier& next) {
+bool can_barriers_merge(const PlannedBarrier& last, const PlannedBarrier& next) {
     if (last.is_buffer || next.is_buffer || last.id != next.id || last.previous != next.previous)
         return false;
     if (last.before != next.before || last.after != next.after || last.shared != next.shared)
@@ -69,7 +71,7 @@ bool does_barrier_continue_range(const PlannedBarrier& last, const PlannedBarrie
 
 /// Adds a barrier. If it continues the last barrier, both are merged.
 void append_barrier(std::vector<PlannedBarrier>& barriers, PlannedBarrier&& barrier) {
-    if (barriers.empty() || !does_barrier_continue_range(barriers.back(), barrier)) {
+    if (barriers.empty() || !can_barriers_merge(barriers.back(), barrier)) {
         barriers.push_back(std::move(barrier));
         return;
     }
@@ -95,84 +97,89 @@ void for_each_subresource_rectangle(std::uint32_t first, std::uint32_t end, std:
 }
 
 /// Returns the state of contents that every shader stage may use in this way when the frame begins.
-SubresourceAccessHistory access_history_on_arrival(ResourceUse use) {
+SubresourceAccessHistory access_history_of_imported_resource(ResourceUse use) {
     const AccessState compute{.nothing = false, .use = use, .write = false, .raster = false};
     AccessState raster = compute;
     raster.raster = true;
     SubresourceAccessHistory state{.write = kNoAccessState,
                                    .readers = AccessStateList(encode_access_state(compute))};
-    state.readers.add_access(encode_access_state(raster));
+    state.readers.add_access_state(encode_access_state(raster));
     return state;
 }
 
 /// Returns the state of an image at the start of a frame.
 SubresourceAccessHistory access_history_at_frame_start(const Graph& graph, std::uint32_t image) {
     if (graph.image_lifetime(image) == ImageLifetime::persistent)
-        return access_history_on_arrival(ResourceUse::sampled);
-    if (graph.image_lifetime(image) == ImageLifetime::imported && graph.use_on_import(image))
-        return access_history_on_arrival(*graph.use_on_import(image));
+        return access_history_of_imported_resource(ResourceUse::sampled);
+    if (graph.image_lifetime(image) == ImageLifetime::imported &&
+        graph.resource_use_on_import(image))
+        return access_history_of_imported_resource(*graph.resource_use_on_import(image));
     return {};
 }
 
 /// Holds the state of every image and buffer while the frame is walked from first to last pass.
-class ResourceStateTracker {
+class BarrierPlanningTracker {
 public:
-    ResourceStateTracker(const Graph& graph, const GraphPlan& plan)
+    BarrierPlanningTracker(const Graph& graph, const GraphPlan& plan)
         : tracked_graph_(graph), plan_(plan), states_(graph),
-          previous_(graph, access_history_on_arrival(ResourceUse::sampled)), users_(plan) {
+          previous_(graph, access_history_of_imported_resource(ResourceUse::sampled)),
+          users_(plan) {
         for (std::uint32_t i = 0; i < plan.images.size(); ++i)
             if (const SubresourceAccessHistory state = access_history_at_frame_start(graph, i);
-                !state.list_accesses_before_write().empty())
-                states_.set_value_of_access(access_to_whole_image(graph, i), state);
+                !state.accesses_to_wait_for_before_write().empty())
+                states_.set_subresource_values_of_access(make_access_to_whole_image(graph, i),
+                                                         state);
     }
 
-    void track_access(const ResourceAccess& access, const AccessState& touch,
-                      std::vector<PlannedBarrier>& barriers) {
+    void track_access_and_plan_barriers(const ResourceAccess& access, const AccessState& touch,
+                                        std::vector<PlannedBarrier>& barriers) {
         const AccessStateCode code = encode_access_state(touch);
         const auto visit = [&](std::uint32_t first, std::uint32_t end,
                                SubresourceAccessHistory& state) {
-            if (state.list_accesses_before_write().empty())
-                emit_layer_barriers(
-                    access, first, end, {}, touch,
-                    list_access_states(users_.touches_left_in(memory_placement(access))), barriers);
+            if (state.accesses_to_wait_for_before_write().empty())
+                emit_layer_barriers(access, first, end, {}, touch,
+                                    list_access_states(users_.unfinished_accesses_in_memory(
+                                        memory_placement(access))),
+                                    barriers);
             else
-                add_wait_barriers(access, first, end,
-                                  touch.write ? state.list_accesses_before_write()
-                                              : accesses_before_read(state, code, access.is_buffer),
-                                  touch, barriers);
-            record_access_state(state, code, access.is_buffer);
+                add_barriers_for_pending_accesses(
+                    access, first, end,
+                    touch.write ? state.accesses_to_wait_for_before_write()
+                                : accesses_to_wait_for_before_read(state, code, access.is_buffer),
+                    touch, barriers);
+            record_access_in_history(state, code, access.is_buffer);
         };
-        (access.previous ? previous_ : states_).modify_each_value(access, visit);
+        (access.previous ? previous_ : states_).modify_each_subresource_value(access, visit);
     }
 
     /// Called after the last pass that touches the resource of the access.
-    void finish_resource_of_access(const ResourceAccess& access) {
+    void record_last_users_of_memory(const ResourceAccess& access) {
         if (memory_placement(access).alone) return; // no later resource uses its memory
         AccessStateSet touches = 0;
-        states_.runs_of_resource(access).for_each_run(
+        states_.layer_runs_of_resource(access).for_each_run(
             [&](std::uint32_t, std::uint32_t, const SubresourceAccessHistory& state) {
-                const AccessStateList latest = state.list_accesses_before_write();
+                const AccessStateList latest = state.accesses_to_wait_for_before_write();
                 for (std::size_t i = 0; i < latest.size(); ++i)
                     touches |= access_state_set_of_code(latest[i]);
             });
-        users_.record_last_touches(memory_placement(access), touches);
+        users_.record_last_accesses_to_memory(memory_placement(access), touches);
     }
 
     /// Adds a barrier for each layer, even if it is not needed within the frame: the work after the
     /// frame relies on it. `untouched`: also for layers that no pass touched.
-    void transition_layers_to_use(const ResourceAccess& access, ResourceUse use, bool untouched,
-                                  std::vector<PlannedBarrier>& barriers) {
+    void plan_layer_transition_to_use(const ResourceAccess& access, ResourceUse use, bool untouched,
+                                      std::vector<PlannedBarrier>& barriers) {
         const SubresourceAccessHistory start = access.is_buffer ? SubresourceAccessHistory()
                                                                 : access_history_at_frame_start(
                                                                       tracked_graph_, access.id);
         const AccessState touch{.nothing = false, .use = use};
-        states_.for_each_value(access, [&](std::uint32_t first, std::uint32_t end,
-                                           const SubresourceAccessHistory& state) {
+        states_.for_each_subresource_value(access, [&](std::uint32_t first, std::uint32_t end,
+                                                       const SubresourceAccessHistory& state) {
             if (!untouched && state == start) return;
-            AccessStateList latest = state.list_accesses_before_write();
+            AccessStateList latest = state.accesses_to_wait_for_before_write();
             // Never touched: the barrier discards the contents.
-            if (latest.empty()) latest.add_access(kNoAccessState);
-            add_wait_barriers(access, first, end, latest, touch, barriers);
+            if (latest.empty()) latest.add_access_state(kNoAccessState);
+            add_barriers_for_pending_accesses(access, first, end, latest, touch, barriers);
         });
     }
 
@@ -181,15 +188,16 @@ public:
     }
 
 private:
-    void add_wait_barriers(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
-                           const AccessStateList& awaited, const AccessState& touch,
-                           std::vector<PlannedBarrier>& barriers) const {
+    void add_barriers_for_pending_accesses(const ResourceAccess& access, std::uint32_t first,
+                                           std::uint32_t end, const AccessStateList& awaited,
+                                           const AccessState& touch,
+                                           std::vector<PlannedBarrier>& barriers) const {
         if (awaited.empty()) return;
         std::vector<AccessState> others;
         for (std::size_t i = 1; i < awaited.size(); ++i)
             others.push_back(make_access_state(awaited[i]));
-        emit_layer_barriers(access, first, end, make_access_state(awaited.first_access()), touch,
-                            others, barriers);
+        emit_layer_barriers(access, first, end, make_access_state(awaited.first_access_state()),
+                            touch, others, barriers);
     }
 
     void emit_layer_barriers(const ResourceAccess& access, std::uint32_t first, std::uint32_t end,
@@ -216,12 +224,12 @@ private:
 
     const Graph& tracked_graph_;
     const GraphPlan& plan_;
-    SubresourceMap<SubresourceAccessHistory> states_, previous_;
-    SharedMemoryUsers users_;
+    ValuesPerSubresource<SubresourceAccessHistory> states_, previous_;
+    LastUsersOfSharedMemory users_;
 };
 
-void add_output_barriers(const ResourceAccess& whole, const SubresourceMap<char>& wanted,
-                         ResourceStateTracker& tracker, std::vector<PlannedBarrier>& barriers) {
+void add_output_barriers(const ResourceAccess& whole, const ValuesPerSubresource<char>& wanted,
+                         BarrierPlanningTracker& tracker, std::vector<PlannedBarrier>& barriers) {
     const auto leave = [&](std::uint32_t first, std::uint32_t end, bool is_wanted) {
         if (!is_wanted) return;
         for_each_subresource_rectangle(
@@ -231,37 +239,37 @@ void add_output_barriers(const ResourceAccess& whole, const SubresourceMap<char>
                 ResourceAccess part = whole;
                 part.first_mip = first_mip, part.mip_count = mips;
                 part.first_layer = first_layer, part.layer_count = layers;
-                tracker.transition_layers_to_use(part, ResourceUse::copy_from, true, barriers);
+                tracker.plan_layer_transition_to_use(part, ResourceUse::copy_from, true, barriers);
             });
     };
-    wanted.runs_of_resource(whole).for_each_run(leave);
+    wanted.layer_runs_of_resource(whole).for_each_run(leave);
 }
 
-void add_frame_end_barriers(const Graph& graph, ResourceStateTracker& tracker, GraphPlan& plan) {
-    const SubresourceMap<char> wanted = mark_output_parts(graph);
+void add_frame_end_barriers(const Graph& graph, BarrierPlanningTracker& tracker, GraphPlan& plan) {
+    const ValuesPerSubresource<char> wanted = mark_output_image_parts(graph);
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
-        const ResourceAccess whole = access_to_whole_image(graph, i);
+        const ResourceAccess whole = make_access_to_whole_image(graph, i);
         const bool stays = graph.image_lifetime(i) ==
                            ImageLifetime::persistent; // also if no pass touches it
         switch (plan.images[i].used || stays ? graph.image_lifetime(i) : ImageLifetime::frame) {
         case ImageLifetime::frame: add_output_barriers(whole, wanted, tracker, plan.last); break;
         case ImageLifetime::previous:
-            tracker.transition_layers_to_use(whole, ResourceUse::sampled, true, plan.last);
+            tracker.plan_layer_transition_to_use(whole, ResourceUse::sampled, true, plan.last);
             break;
         case ImageLifetime::persistent:
-            tracker.transition_layers_to_use(whole, ResourceUse::sampled, false, plan.last);
+            tracker.plan_layer_transition_to_use(whole, ResourceUse::sampled, false, plan.last);
             break;
         case ImageLifetime::imported:
-            tracker.transition_layers_to_use(whole, graph.use_on_release(i),
-                                             graph.use_on_import(i) != graph.use_on_release(i),
-                                             plan.last);
+            tracker.plan_layer_transition_to_use(
+                whole, graph.resource_use_on_release(i),
+                graph.resource_use_on_import(i) != graph.resource_use_on_release(i), plan.last);
             break;
         }
     }
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b) {
         const ResourceAccess whole{.is_buffer = true, .id = b};
         if (plan.buffers[b].used && graph.is_imported({b}))
-            tracker.transition_layers_to_use(whole, ResourceUse::copy_from, false, plan.last);
+            tracker.plan_layer_transition_to_use(whole, ResourceUse::copy_from, false, plan.last);
         else
             add_output_barriers(whole, wanted, tracker, plan.last);
     }
@@ -270,16 +278,17 @@ void add_frame_end_barriers(const Graph& graph, ResourceStateTracker& tracker, G
 } // namespace
 
 void plan_barriers(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
-    ResourceStateTracker tracker(graph, plan);
+    BarrierPlanningTracker tracker(graph, plan);
     for (std::uint32_t position = 0; position < plan.passes.size(); ++position) {
         PlannedPass& planned = plan.passes[position];
         const Pass& pass = graph.list_passes()[planned.pass];
         const std::span<const ResourceAccess> uses = all.accesses_of_pass(planned.pass);
         planned.barriers.reserve(uses.size());
         for (const ResourceAccess& a : uses)
-            tracker.track_access(a, make_access_state(a, pass), planned.barriers);
+            tracker.track_access_and_plan_barriers(a, make_access_state(a, pass), planned.barriers);
         for (const ResourceAccess& a : uses)
-            if (tracker.memory_placement(a).last == position) tracker.finish_resource_of_access(a);
+            if (tracker.memory_placement(a).last == position)
+                tracker.record_last_users_of_memory(a);
     }
     add_frame_end_barriers(graph, tracker, plan);
 }

@@ -10,11 +10,11 @@ namespace catoptric::graph {
 namespace {
 
 // Names in shaders/lib/work.glsl.
-constexpr const char* kCountWorkConstant = "count_work";
+constexpr const char* kCountWorkShaderConstantName = "count_work";
 constexpr std::string_view kWorkBufferName = "WorkBuffer";
 
 /// Returns the bytes of one mip of a part of an image.
-std::uint64_t count_bytes_of_part(const ImageDesc& desc, const ImageHandle& part) {
+std::uint64_t count_bytes_of_image_part(const ImageDesc& desc, const ImageHandle& part) {
     return std::uint64_t{size_at_mip(desc.width, part.first_mip)} *
            size_at_mip(desc.height, part.first_mip) * part.layer_count *
            bytes_per_texel(desc.format);
@@ -22,12 +22,12 @@ std::uint64_t count_bytes_of_part(const ImageDesc& desc, const ImageHandle& part
 
 } // namespace
 
-void PassCommands::add_counted_work(WorkKind kind, std::uint64_t count) {
+void PassCommands::add_counted_work(CountedWorkKind kind, std::uint64_t count) {
     if (WorkCounter* const work = frame_recorder_.frame_work_counter())
         work->add_count(kind, count);
 }
 
-void PassCommands::bind_pipeline(gpu::RasterState state) {
+void PassCommands::bind_pipeline(gpu::RasterPipelineState state) {
     gpu::AttachmentFormats attachments;
     for (const ImageUse& use : pass_.images) {
         if (use.use == ResourceUse::colour)
@@ -35,27 +35,28 @@ void PassCommands::bind_pipeline(gpu::RasterState state) {
         if (use.use == ResourceUse::depth) attachments.depth = true;
     }
     if (layer_count_ > 1) state.vertex += "#layered";
-    if (frame_recorder_.frame_work_counter()) state.features.emplace_back(kCountWorkConstant, 1u);
+    if (frame_recorder_.frame_work_counter())
+        state.features.emplace_back(kCountWorkShaderConstantName, 1u);
     pipeline_name_ = state.vertex + "+" + state.fragment;
-    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_raster(state, attachments);
+    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_raster_pipeline(state, attachments);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
 
-void PassCommands::bind_pipeline(const gpu::ComputeState& state) {
+void PassCommands::bind_pipeline(const gpu::ComputePipelineState& state) {
     pipeline_name_ = state.shader;
-    gpu::ComputeState counting;
+    gpu::ComputePipelineState counting;
     if (frame_recorder_.frame_work_counter()) {
         counting = state;
-        counting.features.emplace_back(kCountWorkConstant, 1u);
+        counting.features.emplace_back(kCountWorkShaderConstantName, 1u);
     }
-    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_compute(
+    pipeline_ = &frame_recorder_.pipeline_store().find_or_make_compute_pipeline(
         frame_recorder_.frame_work_counter() ? counting : state);
     vkCmdBindPipeline(commands_, pipeline_->bind_point, pipeline_->pipeline);
     dirty_ = true;
 }
 
-void PassCommands::require_declared(ImageHandle image, std::string_view name) const {
+void PassCommands::check_pass_declares_resource(ImageHandle image, std::string_view name) const {
     const auto same = [&](const ImageUse& use) {
         return use.image.id == image.id && use.image.previous == image.previous &&
                use.image.first_mip <= image.first_mip &&
@@ -76,7 +77,7 @@ void PassCommands::bind_resource(std::string_view name, std::span<const ImageHan
           images.size());
     BoundImageList bound{{}, images.size(), filter};
     std::ranges::copy(images, bound.images.begin());
-    for (const ImageHandle& image : images) require_declared(image, name);
+    for (const ImageHandle& image : images) check_pass_declares_resource(image, name);
     bound_.insert_or_assign(std::string(name), bound);
     dirty_ = true;
 }
@@ -86,7 +87,7 @@ void PassCommands::bind_resource(std::string_view name, TextureFilter sampler) {
     dirty_ = true;
 }
 
-void PassCommands::require_declared(BufferHandle buffer, std::string_view name) const {
+void PassCommands::check_pass_declares_resource(BufferHandle buffer, std::string_view name) const {
     check(std::ranges::any_of(pass_.buffers,
                               [&](const BufferUse& use) { return use.buffer.id == buffer.id; }),
           Failure::internal, "pass '", pass_.name, "' uses buffer '",
@@ -94,7 +95,7 @@ void PassCommands::require_declared(BufferHandle buffer, std::string_view name) 
 }
 
 void PassCommands::bind_resource(std::string_view name, BufferHandle buffer) {
-    require_declared(buffer, name);
+    check_pass_declares_resource(buffer, name);
     bound_.insert_or_assign(std::string(name), frame_recorder_.vulkan_buffer(buffer));
     dirty_ = true;
 }
@@ -104,7 +105,8 @@ void PassCommands::bind_resource(std::string_view name, const gpu::GpuBuffer& bu
     dirty_ = true;
 }
 
-void PassCommands::bind_geometry(const gpu::GpuBuffer& vertices, const gpu::GpuBuffer& indices) {
+void PassCommands::bind_vertex_and_index_buffers(const gpu::GpuBuffer& vertices,
+                                                 const gpu::GpuBuffer& indices) {
     const VkDeviceSize offset = 0;
     if (const VkBuffer buffer = vertices.buffer_handle();
         std::exchange(vertices_, buffer) != buffer)
@@ -119,26 +121,26 @@ void PassCommands::draw(std::uint32_t first_index, std::uint32_t index_count,
     const std::uint32_t first = std::max(first_layer, first_layer_);
     const std::uint32_t end = std::min(first_layer + layer_count, first_layer_ + layer_count_);
     if (first >= end || index_count == 0) return;
-    flush_bindings();
-    add_counted_work(WorkKind::draws);
+    write_bound_descriptors();
+    add_counted_work(CountedWorkKind::draws);
     vkCmdDrawIndexed(commands_, index_count, end - first, first_index, 0, first_instance + first);
 }
 
-void PassCommands::draw_covering_triangle() {
-    flush_bindings();
-    add_counted_work(WorkKind::draws);
+void PassCommands::draw_fullscreen_triangle() {
+    write_bound_descriptors();
+    add_counted_work(CountedWorkKind::draws);
     vkCmdDraw(commands_, 3, 1, 0, 0);
 }
 
-void PassCommands::set_scissor(const PixelArea& area) {
+void PassCommands::set_scissor(const PixelRectangle& area) {
     const VkRect2D scissor{{static_cast<std::int32_t>(area.x), static_cast<std::int32_t>(area.y)},
                            {area.width, area.height}};
     vkCmdSetScissor(commands_, 0, 1, &scissor);
 }
 
 void PassCommands::dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    flush_bindings();
-    add_counted_work(WorkKind::dispatches);
+    write_bound_descriptors();
+    add_counted_work(CountedWorkKind::dispatches);
     vkCmdDispatch(commands_, x, y, z);
 }
 
@@ -149,8 +151,8 @@ void PassCommands::dispatch_indirect(BufferHandle arguments, std::uint64_t offse
     check(std::ranges::any_of(pass_.buffers, same), Failure::internal, "pass '", pass_.name,
           "' dispatches what buffer '", pass_graph_.list_buffers()[arguments.id].name,
           "' says but does not declare it as indirect");
-    flush_bindings();
-    add_counted_work(WorkKind::dispatches);
+    write_bound_descriptors();
+    add_counted_work(CountedWorkKind::dispatches);
     vkCmdDispatchIndirect(commands_, frame_recorder_.vulkan_buffer(arguments), offset);
 }
 
@@ -162,8 +164,8 @@ void PassCommands::storage_barrier() {
 }
 
 void PassCommands::copy_image(ImageHandle from, ImageHandle to) {
-    require_declared(from, "source of a copy");
-    require_declared(to, "target of a copy");
+    check_pass_declares_resource(from, "source of a copy");
+    check_pass_declares_resource(to, "target of a copy");
     const ImageDesc& desc = pass_graph_.list_images()[from.id];
     const VkImageAspectFlags aspect = is_depth_format(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
                                                                    : VK_IMAGE_ASPECT_COLOR_BIT;
@@ -172,32 +174,32 @@ void PassCommands::copy_image(ImageHandle from, ImageHandle to) {
     region.dstSubresource = {aspect, to.first_mip, to.first_layer, to.layer_count};
     region.extent = {size_at_mip(desc.width, from.first_mip),
                      size_at_mip(desc.height, from.first_mip), 1};
-    add_counted_work(WorkKind::bytes, count_bytes_of_part(desc, from));
+    add_counted_work(CountedWorkKind::bytes, count_bytes_of_image_part(desc, from));
     vkCmdCopyImage(commands_, frame_recorder_.physical_image(from).image,
                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame_recorder_.physical_image(to).image,
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 
 void PassCommands::copy_image(ImageHandle from, BufferHandle to) {
-    require_declared(from, "source of a copy");
-    require_declared(to, "target of a copy");
+    check_pass_declares_resource(from, "source of a copy");
+    check_pass_declares_resource(to, "target of a copy");
     const VkBufferImageCopy region = make_copy_region(pass_graph_.list_images()[from.id], from);
-    add_counted_work(WorkKind::bytes,
-                     count_bytes_of_part(pass_graph_.list_images()[from.id], from));
+    add_counted_work(CountedWorkKind::bytes,
+                     count_bytes_of_image_part(pass_graph_.list_images()[from.id], from));
     vkCmdCopyImageToBuffer(commands_, frame_recorder_.physical_image(from).image,
                            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, frame_recorder_.vulkan_buffer(to),
                            1, &region);
 }
 
 void PassCommands::fill_buffer(BufferHandle buffer, std::uint32_t word) {
-    require_declared(buffer, "target of a fill");
-    add_counted_work(WorkKind::bytes, pass_graph_.list_buffers()[buffer.id].bytes);
+    check_pass_declares_resource(buffer, "target of a fill");
+    add_counted_work(CountedWorkKind::bytes, pass_graph_.list_buffers()[buffer.id].bytes);
     vkCmdFillBuffer(commands_, frame_recorder_.vulkan_buffer(buffer), 0, VK_WHOLE_SIZE, word);
 }
 
 void PassCommands::update_buffer(BufferHandle buffer, std::span<const std::byte> bytes) {
-    require_declared(buffer, "target of an update");
-    add_counted_work(WorkKind::bytes, bytes.size());
+    check_pass_declares_resource(buffer, "target of an update");
+    add_counted_work(CountedWorkKind::bytes, bytes.size());
     vkCmdUpdateBuffer(commands_, frame_recorder_.vulkan_buffer(buffer), 0, bytes.size(),
                       bytes.data());
 }
@@ -210,26 +212,27 @@ bool is_image_binding(gpu::ShaderBindingKind kind) {
            kind == ShaderBindingKind::storage_image;
 }
 
-const char* name_image_kind(bool image, bool sampler) {
+const char* image_descriptor_kind_name(bool image, bool sampler) {
     return image ? "an image" : sampler ? "a sampler" : "a buffer";
 }
 
 } // namespace
 
-void PassCommands::require_kind(const gpu::ShaderBinding& binding,
-                                const BoundResource& bound) const {
+void PassCommands::check_binding_kind(const gpu::ShaderBinding& binding,
+                                      const BoundResource& bound) const {
     const bool wants_image = is_image_binding(binding.kind),
                wants_sampler = binding.kind == gpu::ShaderBindingKind::sampler,
                image = std::holds_alternative<BoundImageList>(bound),
                sampler = std::holds_alternative<TextureFilter>(bound);
     check(wants_image == image && wants_sampler == sampler, Failure::internal, "pass '", pass_.name,
           "': '", binding.name, "' of ", pipeline_name_, " is ",
-          name_image_kind(wants_image, wants_sampler), ", bound is ",
-          name_image_kind(image, sampler));
+          image_descriptor_kind_name(wants_image, wants_sampler), ", bound is ",
+          image_descriptor_kind_name(image, sampler));
 }
 
-void PassCommands::write_images(const gpu::ShaderBinding& binding, const BoundResource& bound,
-                                std::vector<VkDescriptorImageInfo>& infos) {
+void PassCommands::write_image_descriptors(const gpu::ShaderBinding& binding,
+                                           const BoundResource& bound,
+                                           std::vector<VkDescriptorImageInfo>& infos) {
     using gpu::ShaderBindingKind;
     if (const auto* filter = std::get_if<TextureFilter>(&bound)) {
         infos.push_back({frame_recorder_.sampler_of_filter(*filter), VK_NULL_HANDLE,
@@ -250,8 +253,9 @@ void PassCommands::write_images(const gpu::ShaderBinding& binding, const BoundRe
     }
 }
 
-void PassCommands::write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
-                                VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
+void PassCommands::write_buffer_descriptor(const gpu::ShaderBinding& binding,
+                                           const BoundResource& bound,
+                                           VkDescriptorBufferInfo& buffer, VkBufferView& texels) {
     const auto* owned = std::get_if<const gpu::GpuBuffer*>(&bound);
     buffer = {owned ? (*owned)->buffer_handle() : std::get<VkBuffer>(bound), 0, VK_WHOLE_SIZE};
     if (binding.kind != gpu::ShaderBindingKind::texel_buffer) return;
@@ -287,7 +291,7 @@ TextureFilter PassCommands::sampler_filter_of_binding(ImageHandle image,
 }
 
 /// Writes a fresh descriptor set when pipeline or bindings changed, then the push constants.
-void PassCommands::flush_bindings() {
+void PassCommands::write_bound_descriptors() {
     check(pipeline_, Failure::internal, "pass '", pass_.name,
           "' draws or dispatches without a pipeline");
     if (dirty_ && !pipeline_->bindings.empty()) {
@@ -308,7 +312,7 @@ void PassCommands::flush_bindings() {
             const auto bound = bound_.find(find_bound_image_list(binding));
             check(is_work || bound != bound_.end(), Failure::internal, "pass '", pass_.name,
                   "': nothing is bound to '", binding.name, "' of ", pipeline_name_);
-            if (!is_work) require_kind(binding, bound->second);
+            if (!is_work) check_binding_kind(binding, bound->second);
             VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
             write.dstSet = set;
             write.dstBinding = binding.binding;
@@ -321,9 +325,9 @@ void PassCommands::flush_bindings() {
                 buffers[i] = frame_recorder_.frame_work_counter()->shader_counts();
             else if (is_image_binding(binding.kind) ||
                      binding.kind == gpu::ShaderBindingKind::sampler)
-                write_images(binding, bound->second, images);
+                write_image_descriptors(binding, bound->second, images);
             else
-                write_buffer(binding, bound->second, buffers[i], texels[i]);
+                write_buffer_descriptor(binding, bound->second, buffers[i], texels[i]);
             writes.push_back(write);
         }
         vkUpdateDescriptorSets(frame_recorder_.recording_device().device_handle(),

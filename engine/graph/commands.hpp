@@ -43,8 +43,8 @@ public:
     /// Selects a raster pipeline. A pass of several layers uses the vertex shader's "#layered"
     /// build where the device can write gl_Layer from a vertex shader. On other devices the body is
     /// called once for each layer. In both cases gl_InstanceIndex tells the layer (see `draw`).
-    void bind_pipeline(gpu::RasterState state);
-    void bind_pipeline(const gpu::ComputeState& state);
+    void bind_pipeline(gpu::RasterPipelineState state);
+    void bind_pipeline(const gpu::ComputePipelineState& state);
     /// Binds an image, which the pass must declare.
     void bind_resource(std::string_view name, ImageHandle image,
                        TextureFilter filter = TextureFilter::nearest) {
@@ -67,15 +67,16 @@ public:
     }
     /// Draws three vertices without attributes. screen.vert makes them a triangle that covers the
     /// whole picture.
-    void draw_covering_triangle();
+    void draw_fullscreen_triangle();
     /// Sets the vertices (as in shaders/shared.h) and the 32-bit indices of the draws that follow.
-    void bind_geometry(const gpu::GpuBuffer& vertices, const gpu::GpuBuffer& indices);
+    void bind_vertex_and_index_buffers(const gpu::GpuBuffer& vertices,
+                                       const gpu::GpuBuffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
     /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1, std::uint32_t first_instance = 0);
     /// Limits the draws that follow to the area, in pixels, which must lie within the attachments.
-    void set_scissor(const PixelArea& area);
+    void set_scissor(const PixelRectangle& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
     /// pass declares as indirect.
@@ -102,18 +103,18 @@ private:
     };
     using BoundResource =
         std::variant<BoundImageList, TextureFilter, VkBuffer, const gpu::GpuBuffer*>;
-    void flush_bindings();
+    void write_bound_descriptors();
     /// Adds to the counted work of the pass, if the frame counts work.
-    void add_counted_work(WorkKind kind, std::uint64_t count = 1);
-    void require_declared(ImageHandle image, std::string_view name) const;
-    void require_declared(BufferHandle buffer, std::string_view name) const;
-    void require_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
-    void write_images(const gpu::ShaderBinding& binding, const BoundResource& bound,
-                      std::vector<VkDescriptorImageInfo>& infos);
+    void add_counted_work(CountedWorkKind kind, std::uint64_t count = 1);
+    void check_pass_declares_resource(ImageHandle image, std::string_view name) const;
+    void check_pass_declares_resource(BufferHandle buffer, std::string_view name) const;
+    void check_binding_kind(const gpu::ShaderBinding& binding, const BoundResource& bound) const;
+    void write_image_descriptors(const gpu::ShaderBinding& binding, const BoundResource& bound,
+                                 std::vector<VkDescriptorImageInfo>& infos);
     static std::string_view find_bound_image_list(const gpu::ShaderBinding& binding);
     TextureFilter sampler_filter_of_binding(ImageHandle image, TextureFilter filter) const;
-    void write_buffer(const gpu::ShaderBinding& binding, const BoundResource& bound,
-                      VkDescriptorBufferInfo& buffer, VkBufferView& texels);
+    void write_buffer_descriptor(const gpu::ShaderBinding& binding, const BoundResource& bound,
+                                 VkDescriptorBufferInfo& buffer, VkBufferView& texels);
 
     FrameRecorder& frame_recorder_;
     const Graph& pass_graph_;

@@ -17,12 +17,12 @@ struct PersistentImage {
     /// Device images: this frame's and the last frame's if the image has a `previous`, else one.
     std::vector<PhysicalImage> copies;
     gpu::UniqueMemory memory;
-    std::uint64_t bytes = 0; ///< bytes of `memory`
-    std::size_t last = 0;    ///< index of the copy that holds the last frame
-    bool valid = false;      ///< whether a last frame exists
-    LayerHashes stamps;      ///< content hashes of a persistent image
+    std::uint64_t bytes = 0;    ///< bytes of `memory`
+    std::size_t last = 0;       ///< index of the copy that holds the last frame
+    bool valid = false;         ///< whether a last frame exists
+    ContentHashPerLayer stamps; ///< content hashes of a persistent image
 
-    PhysicalImage& image_of_frame(bool previous) {
+    PhysicalImage& persistent_image_of_frame(bool previous) {
         return lifetime == ImageLifetime::persistent ? copies[0]
                                                      : copies[previous ? last : 1 - last];
     }
@@ -30,22 +30,22 @@ struct PersistentImage {
 
 /// Images and buffers of a shape, indexed by their number in the graph. Entries whose memory lies
 /// elsewhere are empty.
-struct GraphShapeResources {
+struct CompiledGraphResources {
     std::vector<PhysicalImage> images;
     std::vector<gpu::UniqueBuffer> buffers;
     bool made = false;
 };
 
 /// A shape with its plan and, once it has run, the resources that it runs with.
-struct CompiledGraphShape {
+struct CompiledRenderGraph {
     Graph outline; ///< without bodies
     std::uint64_t hash = 0;
     GraphPlan plan;
     /// Whether a frame with this plan has run; other plans do not count for memory.
     bool ran = false;
 
-    GraphShapeResources shared; ///< resources that live within a frame
-    std::array<GraphShapeResources, kMaxFramesInFlight>
+    CompiledGraphResources shared; ///< resources that live within a frame
+    std::array<CompiledGraphResources, kMaxFramesInFlight>
         own; ///< outputs of a frame, a copy for each slot
     /// Images that outlive frames, by image number, for the frame submitted last; null for others.
     std::vector<PersistentImage*> kept;
@@ -58,15 +58,16 @@ struct CompiledGraphShape {
                (lifetime == ImageLifetime::previous && plan.images[image].used);
     }
     /// Returns whether the image is used and the runner owns its memory.
-    bool has_runner_memory(std::uint32_t image) const {
+    bool is_buffer_allocated_by_runner(std::uint32_t image) const {
         return plan.images[image].used && outline.image_lifetime(image) != ImageLifetime::imported;
     }
-    bool has_runner_memory(BufferHandle buffer) const {
+    bool is_buffer_allocated_by_runner(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
     /// Returns the device image that stands for `image` in a frame of the slot.
-    PhysicalImage& device_image(ImageHandle image, std::size_t slot) {
-        if (PersistentImage* const k = kept[image.id]) return k->image_of_frame(image.previous);
+    PhysicalImage& physical_image_of_handle(ImageHandle image, std::size_t slot) {
+        if (PersistentImage* const k = kept[image.id])
+            return k->persistent_image_of_frame(image.previous);
         return (plan.images[image.id].alone ? own[slot] : shared).images[image.id];
     }
     VkBuffer vulkan_buffer(BufferHandle buffer, std::size_t slot) const {

@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 /// The result of culling for one pass: whether the pass is executed, and which of its attachments
 /// no later pass reads.
-struct PassCullResult {
+struct PassCullingDecision {
     bool survives = false;
     std::uint32_t unread = 0; ///< bits as in PlannedPass::unread
 };
@@ -14,7 +14,8 @@ struct PassCullResult {
 /// Returns the fate of each pass of a valid graph. A pass survives if an output depends on it, in
 /// this frame or, through `previous`, in the next. Persistent and imported images, and imported
 /// buffers, count as outputs.
-std::vector<PassCullResult> decide_pass_culling(const Graph& graph, const GraphAccesses& all);
+std::vector<PassCullingDecision> decide_which_passes_are_culled(const Graph& graph,
+                                                                const GraphAccesses& all);
 
 /// Returns the reason why a pass was culled: "nobody wants what it writes: 'x', 'y'".
 std::string describe_cull_reason(const Graph& graph, std::span<const ResourceAccess> accesses);

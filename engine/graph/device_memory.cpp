@@ -38,7 +38,8 @@ VkMemoryRequirements query_memory_requirements(const gpu::GpuDevice& device,
 MemoryRequirements make_memory_requirements(const gpu::GpuDevice& device,
                                             const VkMemoryRequirements& needs,
                                             const std::string& name) {
-    const int type = device.memory_type(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    const int type = device.find_memory_type_index(needs.memoryTypeBits,
+                                                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
     // Buffers and images share heaps. Aligning to the granularity keeps them on separate pages.
     const auto granularity = device.vulkan_limits().bufferImageGranularity;
@@ -64,7 +65,8 @@ gpu::UniqueBuffer make_unbound_buffer(const gpu::GpuDevice& device, const Buffer
     VkBuffer buffer = VK_NULL_HANDLE;
     gpu::throw_unless_vk_success(vkCreateBuffer(device.device_handle(), &create, nullptr, &buffer),
                                  "create buffer '" + desc.name + "'");
-    device.set_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), desc.name);
+    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_BUFFER,
+                                           reinterpret_cast<std::uint64_t>(buffer), desc.name);
     return {device.device_handle(), buffer};
 }
 

@@ -13,46 +13,46 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view pass_purpose_name(PassPurpose tag) {
+std::string_view pass_purpose_to_text(PassPurpose tag) {
     return tag == PassPurpose::scene ? "scene" : "none";
 }
 
 /// Returns a count with its noun: "1 pass", "2 passes".
-std::string format_count_with_noun(std::size_t count, const std::string& thing,
-                                   const std::string& plural) {
+std::string format_count_with_plural_noun(std::size_t count, const std::string& thing,
+                                          const std::string& plural) {
     return std::to_string(count) + " " + (count == 1 ? thing : thing + plural);
 }
 
-const Pass& find_pass_of_plan(const Graph& graph, const PlannedPass& planned) {
+const Pass& pass_of_planned_pass(const Graph& graph, const PlannedPass& planned) {
     return graph.list_passes()[planned.pass];
 }
 
 /// Tells which resources share memory.
-class MemorySharingResources {
+class ResourcesSharingMemory {
 public:
-    MemorySharingResources(const Graph& graph, const GraphPlan& plan) {
+    ResourcesSharingMemory(const Graph& graph, const GraphPlan& plan) {
         for (std::size_t i = 0; i < plan.images.size(); ++i)
-            add_resource(plan.images[i], graph.list_images()[i].name);
+            add_resource_to_memory_sharers(plan.images[i], graph.list_images()[i].name);
         for (std::size_t b = 0; b < plan.buffers.size(); ++b)
-            add_resource(plan.buffers[b], graph.list_buffers()[b].name);
-        for (HeapMemorySharers& heap : heaps_) {
+            add_resource_to_memory_sharers(plan.buffers[b], graph.list_buffers()[b].name);
+        for (ResourcesSharingHeapMemory& heap : heaps_) {
             std::ranges::sort(heap.begins);
             std::ranges::sort(heap.ends);
         }
     }
     /// Returns the number of other resources whose memory overlaps that of `mine`.
-    std::size_t count_sharing_resources(const MemoryPlacement& mine) const {
+    std::size_t count_resources_sharing_memory(const MemoryPlacement& mine) const {
         if (!mine.used || mine.bytes == 0) return 0;
-        const HeapMemorySharers& heap = heaps_[mine.heap];
+        const ResourcesSharingHeapMemory& heap = heaps_[mine.heap];
         const auto begun = std::ranges::lower_bound(heap.begins, mine.offset + mine.bytes);
         const auto ended = std::ranges::upper_bound(heap.ends, mine.offset);
         return static_cast<std::size_t>(begun - heap.begins.begin()) -
                static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // `mine` itself
     }
     /// Returns the names of the first `limit` of these resources.
-    std::vector<std::string_view> list_sharer_names(const MemoryPlacement& mine,
-                                                    std::size_t limit) const {
-        const std::size_t wanted = std::min(limit, count_sharing_resources(mine));
+    std::vector<std::string_view> names_of_resources_sharing_memory(const MemoryPlacement& mine,
+                                                                    std::size_t limit) const {
+        const std::size_t wanted = std::min(limit, count_resources_sharing_memory(mine));
         std::vector<std::string_view> names;
         for (std::size_t i = 0; i < all_.size() && names.size() < wanted; ++i) {
             const auto& [other, name] = all_[i];
@@ -65,10 +65,10 @@ public:
     }
 
 private:
-    struct HeapMemorySharers {
+    struct ResourcesSharingHeapMemory {
         std::vector<std::uint64_t> begins, ends; // sorted
     };
-    void add_resource(const MemoryPlacement& placement, std::string_view name) {
+    void add_resource_to_memory_sharers(const MemoryPlacement& placement, std::string_view name) {
         all_.emplace_back(&placement, name);
         if (!placement.used || placement.bytes == 0) return;
         if (heaps_.size() <= placement.heap) heaps_.resize(placement.heap + 1);
@@ -76,7 +76,7 @@ private:
         heaps_[placement.heap].ends.push_back(placement.offset + placement.bytes);
     }
     std::vector<std::pair<const MemoryPlacement*, std::string_view>> all_;
-    std::vector<HeapMemorySharers> heaps_;
+    std::vector<ResourcesSharingHeapMemory> heaps_;
 };
 
 void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
@@ -89,8 +89,8 @@ void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
     }
 }
 
-void write_placement_text(std::ostream& out, const MemorySharingResources& sharers,
-                          const MemoryPlacement& placement) {
+void write_memory_placement_text(std::ostream& out, const ResourcesSharingMemory& sharers,
+                                 const MemoryPlacement& placement) {
     constexpr std::size_t kMaxNamedResources =
         32; // of the hundreds of resources whose memory may overlap in a large frame
     if (!placement.used) {
@@ -100,11 +100,11 @@ void write_placement_text(std::ostream& out, const MemorySharingResources& share
     out << ", passes " << placement.first + 1 << " to " << placement.last + 1 << ", heap "
         << placement.heap << " at " << placement.offset << ", " << placement.bytes << " bytes";
     if (placement.alone) out << ", alone";
-    const std::vector<std::string_view> others = sharers.list_sharer_names(placement,
-                                                                           kMaxNamedResources);
+    const std::vector<std::string_view> others = sharers.names_of_resources_sharing_memory(
+        placement, kMaxNamedResources);
     for (std::size_t i = 0; i < others.size(); ++i)
         out << (i == 0 ? ", shares with '" : ", '") << others[i] << "'";
-    const std::size_t count = sharers.count_sharing_resources(placement);
+    const std::size_t count = sharers.count_resources_sharing_memory(placement);
     if (count > others.size()) out << " and " << count - others.size() << " more";
     out << "\n";
 }
@@ -125,18 +125,18 @@ Json make_access_json(const Graph& graph, const ResourceAccess& a) {
 }
 
 Json make_pass_json(const Graph& graph, const PlannedPass& planned) {
-    const Pass& pass = find_pass_of_plan(graph, planned);
+    const Pass& pass = pass_of_planned_pass(graph, planned);
     Json reads = Json::array(), writes = Json::array();
     for (const ResourceAccess& a : list_pass_accesses(pass))
         (a.write ? writes : reads).push_back(make_access_json(graph, a));
     return {{"name", pass.name},
-            {"tag", pass_purpose_name(pass.tag)},
+            {"tag", pass_purpose_to_text(pass.tag)},
             {"reads", reads},
             {"writes", writes},
             {"barriers", planned.barriers.size()}};
 }
 
-void add_placement_json(Json& json, const MemoryPlacement& placement) {
+void add_memory_placement_json(Json& json, const MemoryPlacement& placement) {
     json["used"] = placement.used;
     json["first"] = placement.first;
     json["last"] = placement.last;
@@ -156,7 +156,7 @@ Json make_image_json(const ImageDesc& desc, ImageLifetime lifetime,
     if (desc.mips > 1) json["mips"] = desc.mips;
     if (lifetime == ImageLifetime::persistent) json["kept"] = true;
     if (lifetime == ImageLifetime::imported) json["imported"] = true;
-    add_placement_json(json, placement);
+    add_memory_placement_json(json, placement);
     return json;
 }
 
@@ -170,7 +170,8 @@ std::string escape_for_dot(std::string_view text) {
     return out;
 }
 
-void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, bool culled) {
+void write_graphviz_pass_node(std::ostream& out, const Graph& graph, std::uint32_t index,
+                              bool culled) {
     const Pass& pass = graph.list_passes()[index];
     const std::string style = culled ? "dashed" : "solid";
     out << "  p" << index << " [shape=box, style=" << style << ", label=\""
@@ -183,49 +184,51 @@ void write_dot_pass(std::ostream& out, const Graph& graph, std::uint32_t index, 
             << " [style=" << (a.previous ? "dotted" : style) << ", label=\""
             << (a.previous ? "previous, " : "") << graph::resource_use_name(a.use);
         if (!a.is_buffer && a.layer_count != graph.list_images()[a.id].layers)
-            out << " [" << a.first_layer << "," << a.end_of_layers() << ")";
+            out << " [" << a.first_layer << "," << a.end_layer_of_access() << ")";
         out << "\"];\n";
     }
 }
 
 } // namespace
 
-std::string plan_to_text(const Graph& graph, const GraphPlan& plan) {
+std::string graph_plan_to_text(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
-    out << format_count_with_noun(plan.passes.size(), "pass", "es") << ", scene_passes "
+    out << format_count_with_plural_noun(plan.passes.size(), "pass", "es") << ", scene_passes "
         << plan.scene_passes << ", " << plan.bytes << " bytes (" << plan.bytes_unshared
         << " without sharing)\n\npasses\n";
     for (std::size_t p = 0; p < plan.passes.size(); ++p) {
-        const Pass& pass = find_pass_of_plan(graph, plan.passes[p]);
+        const Pass& pass = pass_of_planned_pass(graph, plan.passes[p]);
         out << "  " << p + 1 << " '" << pass.name << "'"
             << (pass.tag == PassPurpose::scene ? " (scene)" : "") << ", "
-            << format_count_with_noun(plan.passes[p].barriers.size(), "barrier", "s") << "\n";
+            << format_count_with_plural_noun(plan.passes[p].barriers.size(), "barrier", "s")
+            << "\n";
         write_pass_uses(out, graph, pass);
     }
     if (!plan.culled.empty()) out << "\nculled\n";
     for (const CulledPass& culled : plan.culled)
         out << "  '" << graph.list_passes()[culled.pass].name << "': " << culled.reason << "\n";
-    const MemorySharingResources sharers(graph, plan);
+    const ResourcesSharingMemory sharers(graph, plan);
     if (!plan.images.empty()) out << "\nimages\n";
     for (std::uint32_t i = 0; i < plan.images.size(); ++i) {
         const ImageDesc& desc = graph.list_images()[i];
         out << "  '" << desc.name << "' " << catoptric::texel_format_name(desc.format) << " "
             << desc.width << "x" << desc.height << ", "
-            << format_count_with_noun(desc.layers, "layer", "s") << (desc.cube ? " (cube)" : "");
-        if (desc.mips > 1) out << ", " << format_count_with_noun(desc.mips, "mip", "s");
+            << format_count_with_plural_noun(desc.layers, "layer", "s")
+            << (desc.cube ? " (cube)" : "");
+        if (desc.mips > 1) out << ", " << format_count_with_plural_noun(desc.mips, "mip", "s");
         if (graph.image_lifetime(i) == ImageLifetime::persistent) out << ", kept";
         if (graph.image_lifetime(i) == ImageLifetime::imported) out << ", imported";
-        write_placement_text(out, sharers, plan.images[i]);
+        write_memory_placement_text(out, sharers, plan.images[i]);
     }
     if (!plan.buffers.empty()) out << "\nbuffers\n";
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
         out << "  '" << graph.list_buffers()[b].name << "'";
-        write_placement_text(out, sharers, plan.buffers[b]);
+        write_memory_placement_text(out, sharers, plan.buffers[b]);
     }
     return out.str();
 }
 
-std::string plan_to_dot(const Graph& graph, const GraphPlan& plan) {
+std::string graph_plan_to_graphviz_dot(const Graph& graph, const GraphPlan& plan) {
     std::ostringstream out;
     out << "digraph frame {\n  rankdir=LR;\n";
     for (std::size_t i = 0; i < graph.list_images().size(); ++i)
@@ -234,8 +237,10 @@ std::string plan_to_dot(const Graph& graph, const GraphPlan& plan) {
     for (std::size_t b = 0; b < graph.list_buffers().size(); ++b)
         out << "  b" << b << " [shape=cylinder, label=\""
             << escape_for_dot(graph.list_buffers()[b].name) << "\"];\n";
-    for (const PlannedPass& planned : plan.passes) write_dot_pass(out, graph, planned.pass, false);
-    for (const CulledPass& culled : plan.culled) write_dot_pass(out, graph, culled.pass, true);
+    for (const PlannedPass& planned : plan.passes)
+        write_graphviz_pass_node(out, graph, planned.pass, false);
+    for (const CulledPass& culled : plan.culled)
+        write_graphviz_pass_node(out, graph, culled.pass, true);
     out << "}\n";
     return out.str();
 }
@@ -256,7 +261,7 @@ std::string plan_to_json(const Graph& graph, const GraphPlan& plan) {
                             graph.image_lifetime(static_cast<std::uint32_t>(i)), plan.images[i]));
     for (std::size_t b = 0; b < plan.buffers.size(); ++b) {
         Json buffer{{"name", graph.list_buffers()[b].name}};
-        add_placement_json(buffer, plan.buffers[b]);
+        add_memory_placement_json(buffer, plan.buffers[b]);
         json["buffers"].push_back(buffer);
     }
     json["scene_passes"] = plan.scene_passes;

@@ -11,24 +11,26 @@ namespace {
 /// Calls visit(placement) for each resource in the memory of frames whose `alone` is as given.
 /// Images that outlive frames are skipped.
 template <typename Visit>
-void for_each_placement(const CompiledGraphShape& shape, bool alone, const Visit& visit) {
+void for_each_memory_placement(const CompiledRenderGraph& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
         const MemoryPlacement& placement = shape.plan.images[i];
-        if (shape.has_runner_memory(i) && placement.alone == alone && !shape.is_persistent(i))
+        if (shape.is_buffer_allocated_by_runner(i) && placement.alone == alone &&
+            !shape.is_persistent(i))
             visit(placement);
     }
     for (std::uint32_t b = 0; b < shape.plan.buffers.size(); ++b)
-        if (shape.has_runner_memory(BufferHandle{b}) && shape.plan.buffers[b].alone == alone)
+        if (shape.is_buffer_allocated_by_runner(BufferHandle{b}) &&
+            shape.plan.buffers[b].alone == alone)
             visit(shape.plan.buffers[b]);
 }
 
 /// Returns the offset in each heap of the plan at which the outputs begin. The plan puts outputs
 /// after the shared part. The runner puts them into a separate arena, at the same distance from one
 /// another.
-std::vector<std::uint64_t> find_output_offsets_in_heaps(const CompiledGraphShape& shape) {
+std::vector<std::uint64_t> find_output_offsets_in_heaps(const CompiledRenderGraph& shape) {
     const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
     std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
-    for_each_placement(shape, true, [&](const MemoryPlacement& p) {
+    for_each_memory_placement(shape, true, [&](const MemoryPlacement& p) {
         begin[p.heap] = std::min(begin[p.heap], p.offset);
         alignment[p.heap] = std::max(alignment[p.heap], p.alignment);
     });
@@ -37,10 +39,11 @@ std::vector<std::uint64_t> find_output_offsets_in_heaps(const CompiledGraphShape
 }
 
 /// Returns the bytes that a shape needs of each heap.
-std::vector<std::uint64_t> count_claimed_heap_bytes(const CompiledGraphShape& shape, bool alone) {
+std::vector<std::uint64_t> count_needed_bytes_per_heap(const CompiledRenderGraph& shape,
+                                                       bool alone) {
     std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
     const std::vector<std::uint64_t> begin = find_output_offsets_in_heaps(shape);
-    for_each_placement(shape, alone, [&](const MemoryPlacement& p) {
+    for_each_memory_placement(shape, alone, [&](const MemoryPlacement& p) {
         const std::uint64_t end = p.offset + p.bytes - (alone ? begin[p.heap] : 0);
         bytes[p.heap] = std::max(bytes[p.heap], end);
     });
@@ -48,11 +51,12 @@ std::vector<std::uint64_t> count_claimed_heap_bytes(const CompiledGraphShape& sh
 }
 
 std::vector<std::uint64_t>
-max_claimed_heap_bytes(std::span<const std::shared_ptr<CompiledGraphShape>> shapes, bool alone) {
+max_needed_bytes_per_heap(std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
+                          bool alone) {
     std::vector<std::uint64_t> largest;
     for (const auto& shape : shapes) {
         if (!shape->ran) continue;
-        const std::vector<std::uint64_t> bytes = count_claimed_heap_bytes(*shape, alone);
+        const std::vector<std::uint64_t> bytes = count_needed_bytes_per_heap(*shape, alone);
         largest.resize(std::max(largest.size(), bytes.size()), 0);
         for (std::size_t h = 0; h < bytes.size(); ++h) largest[h] = std::max(largest[h], bytes[h]);
     }
@@ -61,7 +65,8 @@ max_claimed_heap_bytes(std::span<const std::shared_ptr<CompiledGraphShape>> shap
 
 } // namespace
 
-void SharedFrameMemory::allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes) {
+void SharedGraphMemoryArena::allocate(DeviceHeapAllocations& arena,
+                                      std::vector<std::uint64_t> bytes) {
     arena = {}; // frees the old memory before more is allocated
     for (std::size_t type = 0; type < bytes.size(); ++type)
         arena.heaps.push_back(
@@ -71,8 +76,9 @@ void SharedFrameMemory::allocate(HeapAllocations& arena, std::vector<std::uint64
     arena.bytes = std::move(bytes);
 }
 
-void SharedFrameMemory::create_resources(CompiledGraphShape& shape, GraphShapeResources& resources,
-                                         const HeapAllocations& arena, bool alone) {
+void SharedGraphMemoryArena::create_resources(CompiledRenderGraph& shape,
+                                              CompiledGraphResources& resources,
+                                              const DeviceHeapAllocations& arena, bool alone) {
     resources = {};
     const std::vector<std::uint64_t> begin = find_output_offsets_in_heaps(shape);
     const auto offset_of = [&](const MemoryPlacement& p) {
@@ -82,7 +88,8 @@ void SharedFrameMemory::create_resources(CompiledGraphShape& shape, GraphShapeRe
         const MemoryPlacement& p = shape.plan.images[i];
         const ImageDesc& desc = shape.outline.list_images()[i];
         resources.images.emplace_back();
-        if (!shape.has_runner_memory(i) || p.alone != alone || shape.is_persistent(i)) continue;
+        if (!shape.is_buffer_allocated_by_runner(i) || p.alone != alone || shape.is_persistent(i))
+            continue;
         resources.images.back() = make_physical_image(memory_device_, desc);
         gpu::throw_unless_vk_success(vkBindImageMemory(memory_device_.device_handle(),
                                                        resources.images.back().image,
@@ -93,7 +100,7 @@ void SharedFrameMemory::create_resources(CompiledGraphShape& shape, GraphShapeRe
         const MemoryPlacement& p = shape.plan.buffers[b];
         const BufferDesc& desc = shape.outline.list_buffers()[b];
         resources.buffers.emplace_back();
-        if (!shape.has_runner_memory(BufferHandle{b}) || p.alone != alone) continue;
+        if (!shape.is_buffer_allocated_by_runner(BufferHandle{b}) || p.alone != alone) continue;
         resources.buffers.back() = make_unbound_buffer(memory_device_, desc);
         gpu::throw_unless_vk_success(vkBindBufferMemory(memory_device_.device_handle(),
                                                         resources.buffers.back(),
@@ -103,30 +110,30 @@ void SharedFrameMemory::create_resources(CompiledGraphShape& shape, GraphShapeRe
     resources.made = true;
 }
 
-std::uint64_t SharedFrameMemory::allocated_device_bytes() const {
+std::uint64_t SharedGraphMemoryArena::allocated_device_bytes() const {
     std::uint64_t sum = 0;
-    const auto add = [&](const HeapAllocations& arena) {
+    const auto add = [&](const DeviceHeapAllocations& arena) {
         for (const std::uint64_t bytes : arena.bytes) sum += bytes;
     };
     add(shared_);
-    for (const HeapAllocations& arena : own_) add(arena);
+    for (const DeviceHeapAllocations& arena : own_) add(arena);
     return sum;
 }
 
-void SharedFrameMemory::find_or_allocate(
-    CompiledGraphShape& shape, std::size_t slot,
-    std::span<const std::shared_ptr<CompiledGraphShape>> shapes,
+void SharedGraphMemoryArena::find_or_allocate_heap_memory(
+    CompiledRenderGraph& shape, std::size_t slot,
+    std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
     const std::function<void()>& wait) {
     shape.ran = true;
     if (shape.shared.made && shape.own[slot].made) return;
-    if (std::vector<std::uint64_t> bytes = max_claimed_heap_bytes(shapes, false);
+    if (std::vector<std::uint64_t> bytes = max_needed_bytes_per_heap(shapes, false);
         bytes != shared_.bytes) {
         wait();
         for (const auto& other : shapes) other->shared = {};
         allocate(shared_, std::move(bytes));
     }
     // No frame in flight uses this slot's memory: its last frame has ended.
-    if (std::vector<std::uint64_t> bytes = max_claimed_heap_bytes(shapes, true);
+    if (std::vector<std::uint64_t> bytes = max_needed_bytes_per_heap(shapes, true);
         bytes != own_[slot].bytes) {
         for (const auto& other : shapes) other->own[slot] = {};
         allocate(own_[slot], std::move(bytes));

@@ -10,33 +10,33 @@ namespace catoptric::graph {
 /// Memory that the shapes of a runner use in turn, as large as the largest shape needs. Resources
 /// that live within a frame share one arena, because frames run one after another. Outputs of a
 /// frame have one arena per slot and stay until the slot's next frame is submitted.
-class SharedFrameMemory {
+class SharedGraphMemoryArena {
 public:
-    explicit SharedFrameMemory(const gpu::GpuDevice& device) : memory_device_(device) {}
+    explicit SharedGraphMemoryArena(const gpu::GpuDevice& device) : memory_device_(device) {}
 
     /// Makes the resources that `shape` runs with in this slot, unless they exist. `shapes`: all
     /// shapes that need memory. Calls `wait` before it destroys anything that frames in flight may
     /// use.
-    void find_or_allocate(CompiledGraphShape& shape, std::size_t slot,
-                          std::span<const std::shared_ptr<CompiledGraphShape>> shapes,
-                          const std::function<void()>& wait);
+    void find_or_allocate_heap_memory(CompiledRenderGraph& shape, std::size_t slot,
+                                      std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
+                                      const std::function<void()>& wait);
 
     /// Returns the bytes of device memory that are allocated.
     std::uint64_t allocated_device_bytes() const;
 
 private:
     /// The bytes of each heap and the memory allocated for them.
-    struct HeapAllocations {
+    struct DeviceHeapAllocations {
         std::vector<std::uint64_t> bytes;
         std::vector<gpu::UniqueMemory> heaps;
     };
-    void allocate(HeapAllocations& arena, std::vector<std::uint64_t> bytes);
-    void create_resources(CompiledGraphShape& shape, GraphShapeResources& resources,
-                          const HeapAllocations& arena, bool alone);
+    void allocate(DeviceHeapAllocations& arena, std::vector<std::uint64_t> bytes);
+    void create_resources(CompiledRenderGraph& shape, CompiledGraphResources& resources,
+                          const DeviceHeapAllocations& arena, bool alone);
 
     const gpu::GpuDevice& memory_device_;
-    HeapAllocations shared_;
-    std::array<HeapAllocations, kMaxFramesInFlight> own_;
+    DeviceHeapAllocations shared_;
+    std::array<DeviceHeapAllocations, kMaxFramesInFlight> own_;
 };
 
 } // namespace catoptric::graph

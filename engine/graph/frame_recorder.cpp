@@ -27,7 +27,7 @@ gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filt
     return {device.device_handle(), sampler};
 }
 
-VkExtent2D find_pass_extent(const Graph& graph, const Pass& pass) {
+VkExtent2D find_pass_framebuffer_extent(const Graph& graph, const Pass& pass) {
     const ImageHandle& image = std::ranges::find_if(pass.images, [](const ImageUse& use) {
                                    return use.use == ResourceUse::colour ||
                                           use.use == ResourceUse::depth;
@@ -43,13 +43,13 @@ VkRect2D find_pass_render_area(const Pass& pass, VkExtent2D extent) {
 }
 
 /// Stages and accesses on both sides of a barrier.
-struct BarrierSyncScopes {
+struct BarrierSourceAndDestinationScopes {
     SyncScope before, after;
 };
 
-BarrierSyncScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
-    BarrierSyncScopes sides{sync_scope_of_access(barrier.before),
-                            sync_scope_of_access(barrier.after)};
+BarrierSourceAndDestinationScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) {
+    BarrierSourceAndDestinationScopes sides{sync_scope_of_access(barrier.before),
+                                            sync_scope_of_access(barrier.after)};
     for (const AccessState& touch : barrier.shared) {
         const SyncScope scope = sync_scope_of_access(touch);
         sides.before.stages |= scope.stages, sides.before.access |= scope.access;
@@ -66,7 +66,8 @@ BarrierSyncScopes make_barrier_scopes(const PlannedBarrier& barrier, bool last) 
 }
 
 template <typename VulkanBarrier>
-void set_barrier_scopes(VulkanBarrier& barrier, const BarrierSyncScopes& sides) {
+void set_vulkan_barrier_scopes(VulkanBarrier& barrier,
+                               const BarrierSourceAndDestinationScopes& sides) {
     barrier.srcStageMask = sides.before.stages, barrier.srcAccessMask = sides.before.access;
     barrier.dstStageMask = sides.after.stages, barrier.dstAccessMask = sides.after.access;
 }
@@ -95,9 +96,9 @@ FrameRecorder::FrameRecorder(gpu::GpuDevice& device, gpu::PipelineStore& pipelin
         vkGetDeviceProcAddr(device.device_handle(), "vkCmdEndDebugUtilsLabelEXT"));
 }
 
-void FrameRecorder::record_frame(const Graph& graph, CompiledGraphShape& shape,
-                                 FrameInFlightSlot& slot, std::size_t slot_index, PassTiming timing,
-                                 WorkCounter* work) {
+void FrameRecorder::record_frame(const Graph& graph, CompiledRenderGraph& shape,
+                                 FrameInFlightResources& slot, std::size_t slot_index,
+                                 PassTiming timing, WorkCounter* work) {
     graph_ = &graph, shape_ = &shape, slot_ = &slot, slot_index_ = slot_index, work_ = work;
     commands_ = slot.commands;
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -107,11 +108,11 @@ void FrameRecorder::record_frame(const Graph& graph, CompiledGraphShape& shape,
     if (timing == PassTiming::isolated) write_timestamp(timing);
     for (const PlannedPass& planned : shape.plan.passes) {
         if (timing == PassTiming::pipelined) write_timestamp(timing);
-        record_barriers(planned.barriers, false);
+        record_planned_barriers(planned.barriers, false);
         record_pass(planned);
         write_timestamp(timing);
     }
-    record_barriers(shape.plan.last, true);
+    record_planned_barriers(shape.plan.last, true);
     gpu::throw_unless_vk_success(vkEndCommandBuffer(commands_), "end a command buffer");
 }
 
@@ -136,17 +137,17 @@ void FrameRecorder::write_timestamp(PassTiming timing) {
 }
 
 void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) {
-    const BarrierSyncScopes sides = make_barrier_scopes(barrier, last);
+    const BarrierSourceAndDestinationScopes sides = make_barrier_scopes(barrier, last);
     if (barrier.is_buffer) {
         VkBufferMemoryBarrier2 b{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-        set_barrier_scopes(b, sides);
+        set_vulkan_barrier_scopes(b, sides);
         b.buffer = vulkan_buffer({barrier.id});
         b.size = VK_WHOLE_SIZE;
         buffer_barriers_.push_back(b);
         return;
     }
     VkImageMemoryBarrier2 b{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-    set_barrier_scopes(b, sides);
+    set_vulkan_barrier_scopes(b, sides);
     b.oldLayout = barrier.before.nothing ? VK_IMAGE_LAYOUT_UNDEFINED
                                          : image_layout_of_use(barrier.before.use);
     b.newLayout = image_layout_of_use(barrier.after.use);
@@ -157,7 +158,7 @@ void FrameRecorder::add_image_barrier(const PlannedBarrier& barrier, bool last) 
     image_barriers_.push_back(b);
 }
 
-void FrameRecorder::record_barriers(const std::vector<PlannedBarrier>& list, bool last) {
+void FrameRecorder::record_planned_barriers(const std::vector<PlannedBarrier>& list, bool last) {
     if (list.empty()) return;
     image_barriers_.clear(), buffer_barriers_.clear();
     for (const PlannedBarrier& barrier : list) add_image_barrier(barrier, last);
@@ -177,7 +178,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
         begin_label_(commands_, &label);
     }
     if (work_) work_->begin_pass(commands_);
-    if (!pass.is_raster()) {
+    if (!pass.is_raster_pass()) {
         PassCommands commands(*this, *graph_, pass, commands_, 0, 1);
         pass.body(commands);
     } else if (pass.layer_count == 1 || graph_device_.supports_layered_rendering()) {
@@ -192,7 +193,7 @@ void FrameRecorder::record_pass(const PlannedPass& planned) {
 
 PhysicalImage& FrameRecorder::physical_image(ImageHandle image) {
     if (graph_->image_lifetime(image.id) != ImageLifetime::imported)
-        return shape_->device_image(image, slot_index_);
+        return shape_->physical_image_of_handle(image, slot_index_);
     PhysicalImage* const outside = graph_->find_imported_resource(image.id);
     check(outside && outside->desc.width == graph_->list_images()[image.id].width,
           Failure::internal, "image '", graph_->list_images()[image.id].name,
@@ -214,7 +215,7 @@ void FrameRecorder::add_attachment(const ImageUse& use, bool unread, std::uint32
                                                      : gpu::ImageViewType::flat;
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = physical_image(use.image).find_or_create_view(
-        graph_device_, shape, use.image.select_layers(first_layer, layer_count));
+        graph_device_, shape, use.image.select_image_layers(first_layer, layer_count));
     info.imageLayout = image_layout_of_use(use.use);
     info.loadOp = use.clear ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
     info.storeOp = !use.write ? VK_ATTACHMENT_STORE_OP_NONE
@@ -237,7 +238,7 @@ void FrameRecorder::count_attachment_traffic(const Pass& pass, const VkRendering
         const VkRenderingAttachmentInfo& attachment = use.use == ResourceUse::depth
                                                           ? depth_
                                                           : colours_[colour++];
-        work_->add_count(WorkKind::bytes,
+        work_->add_count(CountedWorkKind::bytes,
                          count_attachment_bytes(
                              attachment, graph_->list_images()[use.image.id].format, rendering));
     }
@@ -253,7 +254,7 @@ void FrameRecorder::record_raster_pass(const PlannedPass& planned, std::uint32_t
         if (pass.images[i].use == ResourceUse::colour || pass.images[i].use == ResourceUse::depth)
             add_attachment(pass.images[i], i < 32 && (planned.unread >> i & 1), first_layer,
                            layer_count);
-    const VkExtent2D extent = find_pass_extent(*graph_, pass);
+    const VkExtent2D extent = find_pass_framebuffer_extent(*graph_, pass);
     VkRenderingInfo rendering{VK_STRUCTURE_TYPE_RENDERING_INFO};
     rendering.renderArea = find_pass_render_area(pass, extent);
     rendering.layerCount = layer_count;

@@ -14,7 +14,7 @@ public:
 
     /// Records the frame. `slot_index` selects the copy of the outputs that the frame writes.
     /// `work` counts the frame's work; null: nothing is counted.
-    void record_frame(const Graph& graph, CompiledGraphShape& shape, FrameInFlightSlot& slot,
+    void record_frame(const Graph& graph, CompiledRenderGraph& shape, FrameInFlightResources& slot,
                       std::size_t slot_index, PassTiming timing, WorkCounter* work);
 
     // Returns the device. Only Commands may call this function, while a pass records its commands.
@@ -38,7 +38,7 @@ private:
     void add_attachment(const ImageUse& use, bool unread, std::uint32_t first_layer,
                         std::uint32_t layer_count);
     void count_attachment_traffic(const Pass& pass, const VkRenderingInfo& rendering);
-    void record_barriers(const std::vector<PlannedBarrier>& list, bool last);
+    void record_planned_barriers(const std::vector<PlannedBarrier>& list, bool last);
     void add_image_barrier(const PlannedBarrier& barrier, bool last);
     void record_full_barrier();
     void write_timestamp(PassTiming timing);
@@ -51,8 +51,8 @@ private:
 
     // The frame that is being recorded.
     const Graph* graph_ = nullptr;
-    CompiledGraphShape* shape_ = nullptr;
-    FrameInFlightSlot* slot_ = nullptr;
+    CompiledRenderGraph* shape_ = nullptr;
+    FrameInFlightResources* slot_ = nullptr;
     std::size_t slot_index_ = 0;
     WorkCounter* work_ = nullptr;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

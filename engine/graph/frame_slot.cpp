@@ -28,7 +28,8 @@ gpu::UniqueDescriptorPool make_descriptor_pool(const gpu::GpuDevice& device) {
 
 } // namespace
 
-FrameInFlightSlot::FrameInFlightSlot(const gpu::GpuDevice& device) : slot_device_(device) {
+FrameInFlightResources::FrameInFlightResources(const gpu::GpuDevice& device)
+    : slot_device_(device) {
     VkCommandPoolCreateInfo create{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     create.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     create.queueFamilyIndex = device.queue_family_index();
@@ -46,7 +47,7 @@ FrameInFlightSlot::FrameInFlightSlot(const gpu::GpuDevice& device) : slot_device
         "allocate a command buffer");
 }
 
-void FrameInFlightSlot::reset(std::uint32_t stamps) {
+void FrameInFlightResources::reset(std::uint32_t stamps) {
     if (query_count_ < stamps) {
         VkQueryPoolCreateInfo create{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -65,7 +66,7 @@ void FrameInFlightSlot::reset(std::uint32_t stamps) {
     next_query = 0;
 }
 
-VkDescriptorSet FrameInFlightSlot::allocate_descriptor_set(VkDescriptorSetLayout layout) {
+VkDescriptorSet FrameInFlightResources::allocate_descriptor_set(VkDescriptorSetLayout layout) {
     for (;; ++next_pool_) {
         const bool fresh = next_pool_ == descriptor_pools_.size();
         if (fresh) descriptor_pools_.push_back(make_descriptor_pool(slot_device_));

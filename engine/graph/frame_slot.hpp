@@ -12,9 +12,9 @@ namespace catoptric::graph {
 
 /// The resources of one frame in flight: command buffer, timestamps, descriptors. They are reused
 /// once the frame has ended.
-class FrameInFlightSlot {
+class FrameInFlightResources {
 public:
-    explicit FrameInFlightSlot(const gpu::GpuDevice& device);
+    explicit FrameInFlightResources(const gpu::GpuDevice& device);
     /// Empties the descriptor pools and makes room for `stamps` timestamps.
     void reset(std::uint32_t stamps);
     VkDescriptorSet allocate_descriptor_set(VkDescriptorSetLayout layout);
@@ -28,7 +28,7 @@ public:
     bool ended = true;       ///< whether the host has waited for the slot's last frame
     bool stays = false;
     PassTiming timing = PassTiming::isolated;
-    std::shared_ptr<CompiledGraphShape> shape;
+    std::shared_ptr<CompiledRenderGraph> shape;
     SteadyClock::time_point submitted;
     GraphFrameTimes times;
     std::unique_ptr<WorkCounter> work; ///< null: the frame does not count its work

@@ -32,7 +32,7 @@ ImageHandle make_whole_image_handle(std::uint32_t id, const ImageDesc& desc) {
 
 } // namespace
 
-bool Pass::is_raster() const {
+bool Pass::is_raster_pass() const {
     return std::ranges::any_of(images, [](const ImageUse& use) {
         return use.use == ResourceUse::colour || use.use == ResourceUse::depth;
     });
@@ -65,12 +65,12 @@ PassBuilder& PassBuilder::updates(ImageHandle image, ResourceUse use, const Clea
     return *this;
 }
 
-PassBuilder& PassBuilder::set_layer_count(std::uint32_t count) {
+PassBuilder& PassBuilder::set_pass_layer_count(std::uint32_t count) {
     pass_.layer_count = count;
     return *this;
 }
 
-PassBuilder& PassBuilder::set_area(const PixelArea& area) {
+PassBuilder& PassBuilder::set_pass_render_area(const PixelRectangle& area) {
     pass_.area = area;
     return *this;
 }
@@ -93,7 +93,7 @@ BufferHandle Graph::add_buffer(BufferDesc desc) {
 
 ImageHandle Graph::add_persistent_image(ImageDesc desc) {
     const auto found = history_.persistent.find(desc.name);
-    LayerHashes held(desc.layers * desc.mips);
+    ContentHashPerLayer held(desc.layers * desc.mips);
     if (found != history_.persistent.end() && found->second.desc == desc)
         held = found->second.stamps;
     const ImageHandle handle = add_image(std::move(desc));
@@ -108,12 +108,12 @@ const ImageDesc& Graph::find_image_desc(ImageHandle image, const char* asked) co
     return images_[image.id];
 }
 
-bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
+bool Graph::has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const {
     const ImageDesc& desc = find_image_desc(part, "holds()");
     check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
           "holds() of image '", desc.name, "', which is not kept");
     bool all = true;
-    for_each_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
+    for_each_contiguous_layer_range(part, desc.layers, [&](std::uint32_t first, std::uint32_t end) {
         list_content_hashes_at_start(part.id).for_each_run(
             first, end, [&](std::uint32_t, std::uint32_t, const std::optional<std::uint64_t>& s) {
                 all = all && s == content_hash;
@@ -122,25 +122,26 @@ bool Graph::holds_content(ImageHandle part, std::uint64_t content_hash) const {
     return all;
 }
 
-void Graph::set_content_hash(ImageHandle part, std::uint64_t content_hash) {
+void Graph::set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash) {
     const ImageDesc& desc = find_image_desc(part, "made_from()");
     check(image_lifetime(part.id) == ImageLifetime::persistent, Failure::internal,
           "made_from() of image '", desc.name, "', which is not kept");
     stamped_.push_back({part, content_hash});
 }
 
-ImageHandle Graph::import_external(ImageDesc desc, PhysicalImage* outside,
-                                   std::optional<ResourceUse> arrives, ResourceUse leaves) {
+ImageHandle Graph::import_external_resource(ImageDesc desc, PhysicalImage* outside,
+                                            std::optional<ResourceUse> arrives,
+                                            ResourceUse leaves) {
     const ImageHandle handle = add_image(std::move(desc));
     lives_.back() = {.lifetime = ImageLifetime::imported,
                      .arrives = arrives,
                      .leaves = leaves,
                      .outside = outside,
-                     .held = LayerHashes()};
+                     .held = ContentHashPerLayer()};
     return handle;
 }
 
-BufferHandle Graph::import_external(BufferDesc desc, const gpu::GpuBuffer* outside) {
+BufferHandle Graph::import_external_resource(BufferDesc desc, const gpu::GpuBuffer* outside) {
     const BufferHandle handle = add_buffer(std::move(desc));
     imported_buffers_.back() = true;
     outside_buffers_.back() = outside;
@@ -169,10 +170,10 @@ bool Graph::has_history(ImageHandle image) const {
     return history_.previous.contains(find_image_desc(image, "has_history()").name);
 }
 
-void Graph::mark_output(ImageHandle image) { wanted_images_.push_back(image); }
-void Graph::mark_output(BufferHandle buffer) { wanted_buffers_.push_back(buffer); }
+void Graph::mark_as_graph_output(ImageHandle image) { wanted_images_.push_back(image); }
+void Graph::mark_as_graph_output(BufferHandle buffer) { wanted_buffers_.push_back(buffer); }
 
-GraphHistory Graph::history_for_next_frame() const {
+GraphHistory Graph::graph_history_for_next_frame() const {
     GraphHistory left = history_;
     for (std::uint32_t i = 0; i < images_.size(); ++i) {
         if (lives_[i].lifetime == ImageLifetime::previous) left.previous.insert(images_[i].name);
@@ -181,15 +182,15 @@ GraphHistory Graph::history_for_next_frame() const {
                 images_[i].name, GraphHistory::PersistentImage{images_[i], lives_[i].held});
     }
     for (const auto& [part, content_hash] : stamped_)
-        for_each_layer_range(part, images_[part.id].layers,
-                             [&](std::uint32_t first, std::uint32_t end) {
-                                 left.persistent.at(images_[part.id].name)
-                                     .stamps.fill_cell_range(first, end, content_hash);
-                             });
+        for_each_contiguous_layer_range(part, images_[part.id].layers,
+                                        [&](std::uint32_t first, std::uint32_t end) {
+                                            left.persistent.at(images_[part.id].name)
+                                                .stamps.fill_cell_range(first, end, content_hash);
+                                        });
     return left;
 }
 
-Graph Graph::copy_without_recorders() const {
+Graph Graph::copy_graph_without_record_callbacks() const {
     Graph outline = *this;
     outline.history_ = {};
     for (Pass& pass : outline.passes_) pass.body = nullptr;

@@ -85,14 +85,16 @@ struct ImageHandle {
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
     /// Returns a handle of some of the layers, counted from this handle's first.
-    ImageHandle select_layers(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle select_image_layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
     /// Returns a handle of some of the mips, counted from this handle's first.
-    ImageHandle select_mips(std::uint32_t first, std::uint32_t count) const {
+    ImageHandle select_image_mips(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer, layer_count, previous, first_mip + first, count};
     }
-    ImageHandle select_mip(std::uint32_t number) const { return select_mips(number, 1); }
+    ImageHandle select_image_mip(std::uint32_t number) const {
+        return select_image_mips(number, 1);
+    }
     friend bool operator==(const ImageHandle&, const ImageHandle&) = default;
 };
 
@@ -121,9 +123,9 @@ struct BufferUse {
 };
 
 /// A rectangle of a picture, in pixels from its upper left corner.
-struct PixelArea {
+struct PixelRectangle {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;
-    bool operator==(const PixelArea&) const = default;
+    bool operator==(const PixelRectangle&) const = default;
 };
 
 struct Pass {
@@ -135,10 +137,10 @@ struct Pass {
     /// The area of the attachments that is cleared and drawn; without a value, the whole
     /// attachments. Contents outside the area are undefined unless ImageUse::stays is set. The area
     /// is no part of the shape and may change from frame to frame.
-    std::optional<PixelArea> area;
+    std::optional<PixelRectangle> area;
     std::function<void(PassCommands&)> body;
 
-    bool is_raster() const; ///< returns whether the pass has an attachment
+    bool is_raster_pass() const; ///< returns whether the pass has an attachment
 };
 
 /// Fills one pass. Every call returns the builder, and `record` is the last call.
@@ -153,8 +155,8 @@ public:
     /// Declares an attachment that is cleared within the pass's area and keeps its contents
     /// elsewhere.
     PassBuilder& updates(ImageHandle image, ResourceUse use, const ClearValue& clear);
-    PassBuilder& set_layer_count(std::uint32_t count);
-    PassBuilder& set_area(const PixelArea& area);
+    PassBuilder& set_pass_layer_count(std::uint32_t count);
+    PassBuilder& set_pass_render_area(const PixelRectangle& area);
     void record(std::function<void(PassCommands&)> body);
 
 private:
@@ -163,20 +165,20 @@ private:
 
 /// The content hash of each layer of each mip; no value if the layer was never written. Layer l of
 /// mip m has the number m * layers + l.
-using LayerHashes = RunLengthArray<std::optional<std::uint64_t>>;
+using ContentHashPerLayer = RunLengthArray<std::optional<std::uint64_t>>;
 
 /// The contents that a runner has from earlier frames.
 struct GraphHistory {
     struct PersistentImage {
         ImageDesc desc;
-        LayerHashes stamps;
+        ContentHashPerLayer stamps;
     };
     std::set<std::string> previous; ///< names of images whose contents in the last frame exist
     std::map<std::string, PersistentImage> persistent; ///< persistent images by name
 };
 
 /// The content hash of a part of a persistent image after this frame has written it.
-struct ContentHashRecord {
+struct ImageContentHashRecord {
     ImageHandle part;
     std::uint64_t content_hash = 0;
 };
@@ -196,19 +198,19 @@ public:
     ImageHandle add_persistent_image(ImageDesc desc);
     /// Returns whether all of a part of a persistent image has this content hash, so that no pass
     /// needs to write it. The caller defines the hash, for example of scene and settings.
-    bool holds_content(ImageHandle part, std::uint64_t content_hash) const;
+    bool has_image_part_content_hash(ImageHandle part, std::uint64_t content_hash) const;
     /// Sets the content hash of a part of a persistent image that passes of this frame write. Every
     /// written layer of a persistent image must get a hash.
-    void set_content_hash(ImageHandle part, std::uint64_t content_hash);
+    void set_content_hash_of_image_part(ImageHandle part, std::uint64_t content_hash);
     /// Adds an image that is owned outside the graph. It is used like any other image and counts as
     /// an output. It arrives in the layout of the use `arrives`; none means that its
     /// contents do not matter. It is left in the layout of `leaves`. `outside` may change
     /// from frame to frame, must match `desc` and must live until the frame has ended.
-    ImageHandle import_external(ImageDesc desc, PhysicalImage* outside,
-                                std::optional<ResourceUse> arrives, ResourceUse leaves);
+    ImageHandle import_external_resource(ImageDesc desc, PhysicalImage* outside,
+                                         std::optional<ResourceUse> arrives, ResourceUse leaves);
     /// Adds a buffer that is owned outside the graph. Writes to it are visible to the host once the
     /// frame has ended.
-    BufferHandle import_external(BufferDesc desc, const gpu::GpuBuffer* outside);
+    BufferHandle import_external_resource(BufferDesc desc, const gpu::GpuBuffer* outside);
     PassBuilder add_pass(std::string name, PassPurpose tag = PassPurpose::none);
 
     /// Returns a handle of the image's contents at the end of the last frame (black on the first).
@@ -218,22 +220,22 @@ public:
     /// black.
     bool has_history(ImageHandle image) const;
     /// Marks an image as an output of the frame. Passes that no output depends on are culled.
-    void mark_output(ImageHandle image);
-    void mark_output(BufferHandle buffer);
+    void mark_as_graph_output(ImageHandle image);
+    void mark_as_graph_output(BufferHandle buffer);
 
     const std::vector<ImageDesc>& list_images() const { return images_; }
     const std::vector<BufferDesc>& list_buffers() const { return buffers_; }
     const std::deque<Pass>& list_passes() const { return passes_; }
     const std::vector<ImageHandle>& list_output_images() const { return wanted_images_; }
     const std::vector<BufferHandle>& list_output_buffers() const { return wanted_buffers_; }
-    const std::vector<ContentHashRecord>& list_content_records() const { return stamped_; }
+    const std::vector<ImageContentHashRecord>& list_content_records() const { return stamped_; }
     ImageLifetime image_lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
     /// Returns the use in whose layout an imported image arrives.
-    std::optional<ResourceUse> use_on_import(std::uint32_t image) const {
+    std::optional<ResourceUse> resource_use_on_import(std::uint32_t image) const {
         return lives_[image].arrives;
     }
-    ResourceUse use_on_release(std::uint32_t image) const { return lives_[image].leaves; }
+    ResourceUse resource_use_on_release(std::uint32_t image) const { return lives_[image].leaves; }
     PhysicalImage* find_imported_resource(std::uint32_t image) const {
         return lives_[image].outside;
     }
@@ -241,13 +243,13 @@ public:
         return outside_buffers_[buffer.id];
     }
     /// Returns the content hashes of a persistent image at the start of the frame.
-    const LayerHashes& list_content_hashes_at_start(std::uint32_t image) const {
+    const ContentHashPerLayer& list_content_hashes_at_start(std::uint32_t image) const {
         return lives_[image].held;
     }
     /// Returns the history for the next frame once this frame has run.
-    GraphHistory history_for_next_frame() const;
+    GraphHistory graph_history_for_next_frame() const;
     /// Returns a copy with declarations only, to compare other graphs with.
-    Graph copy_without_recorders() const;
+    Graph copy_graph_without_record_callbacks() const;
 
 private:
     struct ImportedImageState {
@@ -255,7 +257,7 @@ private:
         std::optional<ResourceUse> arrives;
         ResourceUse leaves = ResourceUse::sampled;
         PhysicalImage* outside = nullptr;
-        LayerHashes held;
+        ContentHashPerLayer held;
     };
     const ImageDesc& find_image_desc(ImageHandle image, const char* asked) const;
 
@@ -268,7 +270,7 @@ private:
     std::deque<Pass> passes_; // a deque, because builders hold references
     std::vector<ImageHandle> wanted_images_;
     std::vector<BufferHandle> wanted_buffers_;
-    std::vector<ContentHashRecord> stamped_;
+    std::vector<ImageContentHashRecord> stamped_;
 };
 
 } // namespace catoptric::graph

@@ -30,7 +30,7 @@ gpu::UniqueSemaphore make_timeline_semaphore(const gpu::GpuDevice& device) {
     return {device.device_handle(), semaphore};
 }
 
-std::vector<std::string> list_pass_names(const CompiledGraphShape& shape) {
+std::vector<std::string> list_pass_names(const CompiledRenderGraph& shape) {
     std::vector<std::string> names;
     for (const PlannedPass& planned : shape.plan.passes)
         names.push_back(shape.outline.list_passes()[planned.pass].name);
@@ -39,7 +39,7 @@ std::vector<std::string> list_pass_names(const CompiledGraphShape& shape) {
 
 /// Returns the number of the frame and the names of all its passes. A lost device does not tell
 /// which pass was running.
-std::string describe_submitted_frame(std::uint64_t frame, const CompiledGraphShape& shape) {
+std::string describe_submitted_frame(std::uint64_t frame, const CompiledRenderGraph& shape) {
     std::string name = "frame " + std::to_string(frame) + " (passes";
     for (const PlannedPass& planned : shape.plan.passes)
         name += " '" + shape.outline.list_passes()[planned.pass].name + "'";
@@ -47,16 +47,16 @@ std::string describe_submitted_frame(std::uint64_t frame, const CompiledGraphSha
 }
 
 /// Fills passes and span from the timestamps of a frame that has ended.
-void read_timestamps(gpu::GpuDevice& device, const FrameInFlightSlot& slot,
+void read_timestamps(gpu::GpuDevice& device, const FrameInFlightResources& slot,
                      GraphFrameTimes& times) {
-    const CompiledGraphShape& shape = *slot.shape;
+    const CompiledRenderGraph& shape = *slot.shape;
     std::vector<std::uint64_t> stamps(slot.next_query);
     const VkResult result = vkGetQueryPoolResults(
         device.device_handle(), slot.queries, 0, slot.next_query, stamps.size() * 8, stamps.data(),
         8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     if (result != VK_SUCCESS)
-        device.check_not_lost(result, "read the time stamps of " +
-                                          describe_submitted_frame(slot.frame, shape));
+        device.throw_if_device_lost(result, "read the time stamps of " +
+                                                describe_submitted_frame(slot.frame, shape));
     const std::vector<double> at = timestamps_to_milliseconds(
         stamps, device.valid_timestamp_bits(),
         static_cast<double>(device.vulkan_limits().timestampPeriod));
@@ -84,31 +84,31 @@ GraphRunner::GraphRunner(gpu::GpuDevice& device, gpu::PipelineStore& pipelines,
 GraphRunner::~GraphRunner() {
     if (runner_device_.is_abandoned()) return;
     try {
-        finish_all_slots();
+        finish_all_frames_in_flight();
     } catch (const std::exception&) {
         // The device is abandoned now, so none of its objects is destroyed.
     }
 }
 
 /// Waits for all frames, and removes the references of ended frames to images that outlive frames.
-void GraphRunner::release_persistent() {
-    finish_all_slots();
-    for (FrameInFlightSlot& slot : slots_)
+void GraphRunner::release_persistent_images() {
+    finish_all_frames_in_flight();
+    for (FrameInFlightResources& slot : slots_)
         if (slot.shape) slot.shape->kept.assign(slot.shape->kept.size(), nullptr);
 }
 
-void GraphRunner::discard_contents() {
-    release_persistent();
+void GraphRunner::discard_persistent_image_contents() {
+    release_persistent_images();
     kept_.release_all_images();
 }
 
-RetainedImages GraphRunner::suspend() {
-    release_persistent();
+SuspendedPersistentImages GraphRunner::suspend() {
+    release_persistent_images();
     return kept_.take_retained_images();
 }
 
-void GraphRunner::resume(RetainedImages leavings) {
-    release_persistent();
+void GraphRunner::resume(SuspendedPersistentImages leavings) {
+    release_persistent_images();
     kept_.restore_retained_images(std::move(leavings));
 }
 
@@ -119,17 +119,17 @@ GraphLimits GraphRunner::limits() const {
             runner_device_.memory_budget(), runner_device_.max_allocation_bytes()};
 }
 
-CompiledGraphShape& GraphRunner::compile_graph(const Graph& graph) {
+CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
     const SteadyClock::time_point begin = SteadyClock::now();
     const std::uint64_t hash = hash_graph_shape(graph);
     auto found = std::ranges::find_if(
-        shapes_, [&](const std::shared_ptr<CompiledGraphShape>& shape) {
-            return shape->hash == hash && have_equal_shapes(graph, shape->outline);
+        shapes_, [&](const std::shared_ptr<CompiledRenderGraph>& shape) {
+            return shape->hash == hash && have_equal_graph_declarations(graph, shape->outline);
         });
     if (found == shapes_.end()) {
-        auto made = std::make_shared<CompiledGraphShape>();
+        auto made = std::make_shared<CompiledRenderGraph>();
         made->plan = plan_graph(graph, limits(), make_device_requirement_queries(runner_device_));
-        made->outline = graph.copy_without_recorders();
+        made->outline = graph.copy_graph_without_record_callbacks();
         made->hash = hash;
         ++plans_made_;
         // Frames in flight share ownership of their shape, so removing it here is safe.
@@ -144,16 +144,16 @@ CompiledGraphShape& GraphRunner::compile_graph(const Graph& graph) {
 SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming timing, bool stays,
                                                const ExternalSemaphores& outside,
                                                bool counts_work) {
-    runner_device_.check_usable();
+    runner_device_.check_device_not_abandoned();
     const double waited_before = wait_ms_;
-    CompiledGraphShape& shape = compile_graph(graph);
+    CompiledRenderGraph& shape = compile_render_graph(graph);
     const std::size_t index = slot_index_of_frame(frame_ + 1);
-    FrameInFlightSlot& slot = slots_[index];
-    finish_slot(slot);
+    FrameInFlightResources& slot = slots_[index];
+    finish_frame_in_flight(slot);
     const SteadyClock::time_point begin = SteadyClock::now();
     const double waited_for_place = wait_ms_;
-    const auto wait = [this] { finish_all_slots(); };
-    memory_.find_or_allocate(shape, index, shapes_, wait);
+    const auto wait = [this] { finish_all_frames_in_flight(); };
+    memory_.find_or_allocate_heap_memory(shape, index, shapes_, wait);
     kept_.find_or_create_images(shape, wait);
     slot.reset(static_cast<std::uint32_t>(2 * shape.plan.passes.size() + 2));
     GraphFrameTimes times;
@@ -175,7 +175,7 @@ SubmittedFrameTicket GraphRunner::submit_frame(const Graph& graph, PassTiming ti
     return {frame_};
 }
 
-void GraphRunner::submit_frame(FrameInFlightSlot& slot, const CompiledGraphShape& shape,
+void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
                                const ExternalSemaphores& outside) {
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot.commands;
@@ -200,13 +200,14 @@ void GraphRunner::submit_frame(FrameInFlightSlot& slot, const CompiledGraphShape
     const VkResult result = vkQueueSubmit2(runner_device_.vulkan_queue(), 1, &submit,
                                            VK_NULL_HANDLE);
     if (result != VK_SUCCESS)
-        runner_device_.check_not_lost(result, "run " + describe_submitted_frame(frame_ + 1, shape));
+        runner_device_.throw_if_device_lost(result,
+                                            "run " + describe_submitted_frame(frame_ + 1, shape));
     slot.frame = ++frame_;
     slot.ended = false;
 }
 
 /// Waits for the frame of the slot, unless it was waited for before.
-void GraphRunner::finish_slot(FrameInFlightSlot& slot) {
+void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     if (slot.ended) return;
     const SteadyClock::time_point begin = SteadyClock::now();
     const VkSemaphore semaphore = timeline_;
@@ -217,7 +218,7 @@ void GraphRunner::finish_slot(FrameInFlightSlot& slot) {
     const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait,
                                              ~std::uint64_t{0});
     if (result != VK_SUCCESS)
-        runner_device_.check_wait_result(
+        runner_device_.check_wait_and_abandon_if_lost(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     const double waited = elapsed_milliseconds(begin);
     slot.times.wall_ms = elapsed_milliseconds(slot.submitted);
@@ -227,14 +228,14 @@ void GraphRunner::finish_slot(FrameInFlightSlot& slot) {
     read_timestamps(runner_device_, slot, slot.times);
 }
 
-void GraphRunner::finish_all_slots() {
-    for (FrameInFlightSlot& slot : slots_) finish_slot(slot);
+void GraphRunner::finish_all_frames_in_flight() {
+    for (FrameInFlightResources& slot : slots_) finish_frame_in_flight(slot);
 }
 
-FrameInFlightSlot& GraphRunner::slot_of_frame(SubmittedFrameTicket ticket) {
+FrameInFlightResources& GraphRunner::resources_of_submitted_frame(SubmittedFrameTicket ticket) {
     check(ticket.frame >= 1 && ticket.frame <= frame_, Failure::internal, "frame ", ticket.frame,
           " is asked for, but ", frame_, " were submitted");
-    FrameInFlightSlot& slot = slots_[slot_index_of_frame(ticket.frame)];
+    FrameInFlightResources& slot = slots_[slot_index_of_frame(ticket.frame)];
     check(slot.frame == ticket.frame, Failure::internal, "frame ", ticket.frame,
           " is gone: its place was taken by frame ", slot.frame, ", with ", slots_.size(),
           " in flight");
@@ -242,7 +243,7 @@ FrameInFlightSlot& GraphRunner::slot_of_frame(SubmittedFrameTicket ticket) {
 }
 
 bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
-    const FrameInFlightSlot& slot = slots_[slot_index_of_frame(ticket.frame)];
+    const FrameInFlightResources& slot = slots_[slot_index_of_frame(ticket.frame)];
     if (slot.frame != ticket.frame || slot.ended)
         return true; // a later frame has the slot, or the frame was waited for
     const VkSemaphore semaphore = timeline_;
@@ -252,20 +253,20 @@ bool GraphRunner::has_ended(SubmittedFrameTicket ticket) {
     wait.pValues = &ticket.frame;
     const VkResult result = vkWaitSemaphores(runner_device_.device_handle(), &wait, 0);
     if (result != VK_SUCCESS && result != VK_TIMEOUT)
-        runner_device_.check_wait_result(
+        runner_device_.check_wait_and_abandon_if_lost(
             result, "run " + describe_submitted_frame(slot.frame, *slot.shape));
     return result == VK_SUCCESS;
 }
 
-std::vector<PassWork> GraphRunner::counted_work(SubmittedFrameTicket ticket) {
-    FrameInFlightSlot& slot = slot_of_frame(ticket);
-    finish_slot(slot);
-    return slot.work ? slot.work->read() : std::vector<PassWork>();
+std::vector<PassWorkCounts> GraphRunner::work_counts_of_frame(SubmittedFrameTicket ticket) {
+    FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
+    finish_frame_in_flight(slot);
+    return slot.work ? slot.work->read() : std::vector<PassWorkCounts>();
 }
 
 const GraphFrameTimes& GraphRunner::wait_for_frame(SubmittedFrameTicket ticket) {
-    FrameInFlightSlot& slot = slot_of_frame(ticket);
-    finish_slot(slot);
+    FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
+    finish_frame_in_flight(slot);
     return slot.times;
 }
 

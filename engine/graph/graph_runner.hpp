@@ -38,18 +38,20 @@ public:
     GraphHistory make_history() const { return kept_.make_history(); }
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
-    void discard_contents();
+    void discard_persistent_image_contents();
     /// Takes out and returns all contents of earlier frames, so that the next frame is like the
     /// first. Waits for the frames in flight.
-    RetainedImages suspend();
+    SuspendedPersistentImages suspend();
     /// Puts back contents from `suspend`, from which the next frame continues, and drops the
     /// present ones. Waits for the frames in flight.
-    void resume(RetainedImages leavings);
+    void resume(SuspendedPersistentImages leavings);
     GraphLimits limits() const;
     /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
     /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan_graph.
-    const GraphPlan& find_or_make_plan(const Graph& graph) { return compile_graph(graph).plan; }
-    std::uint64_t planned_shape_count() const { return plans_made_; }
+    const GraphPlan& find_or_make_plan(const Graph& graph) {
+        return compile_render_graph(graph).plan;
+    }
+    std::uint64_t compiled_graph_plan_count() const { return plans_made_; }
     /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
     /// largest of the last 8 shapes that ran, plus all images that outlive frames.
     std::uint64_t allocated_device_bytes() const {
@@ -75,43 +77,43 @@ public:
 
     /// Waits for the frame and returns the work of its passes, in order of execution. Empty if the
     /// frame did not count its work.
-    std::vector<PassWork> counted_work(SubmittedFrameTicket ticket);
+    std::vector<PassWorkCounts> work_counts_of_frame(SubmittedFrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
     /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
     /// An image that outlives frames can be read until the next frame is submitted.
-    std::vector<std::byte> read_resource(SubmittedFrameTicket ticket, ImageHandle image);
-    std::vector<std::byte> read_resource(SubmittedFrameTicket ticket, BufferHandle buffer);
+    std::vector<std::byte> read_back_resource(SubmittedFrameTicket ticket, ImageHandle image);
+    std::vector<std::byte> read_back_resource(SubmittedFrameTicket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
-    std::vector<std::byte> read_resource(ImageHandle image) {
-        return read_resource(SubmittedFrameTicket{frame_}, image);
+    std::vector<std::byte> read_back_resource(ImageHandle image) {
+        return read_back_resource(SubmittedFrameTicket{frame_}, image);
     }
-    std::vector<std::byte> read_resource(BufferHandle buffer) {
-        return read_resource(SubmittedFrameTicket{frame_}, buffer);
+    std::vector<std::byte> read_back_resource(BufferHandle buffer) {
+        return read_back_resource(SubmittedFrameTicket{frame_}, buffer);
     }
     /// Returns the texels of all images with a `previous`, one after another: all that the next
     /// frame can see of the last one. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:
-    CompiledGraphShape& compile_graph(const Graph& graph);
-    FrameInFlightSlot& slot_of_frame(SubmittedFrameTicket ticket);
+    CompiledRenderGraph& compile_render_graph(const Graph& graph);
+    FrameInFlightResources& resources_of_submitted_frame(SubmittedFrameTicket ticket);
     std::size_t slot_index_of_frame(std::uint64_t frame) const {
         return (frame - 1) % slots_.size();
     }
-    void submit_frame(FrameInFlightSlot& slot, const CompiledGraphShape& shape,
+    void submit_frame(FrameInFlightResources& slot, const CompiledRenderGraph& shape,
                       const ExternalSemaphores& outside);
-    void finish_slot(FrameInFlightSlot& slot);
-    void finish_all_slots();
-    void release_persistent();
+    void finish_frame_in_flight(FrameInFlightResources& slot);
+    void finish_all_frames_in_flight();
+    void release_persistent_images();
 
     gpu::GpuDevice& runner_device_;
     FrameRecorder frame_recorder_;
     gpu::UniqueSemaphore timeline_;
-    SharedFrameMemory memory_;
+    SharedGraphMemoryArena memory_;
     PersistentImages kept_;
-    std::vector<std::shared_ptr<CompiledGraphShape>> shapes_; ///< most recently used first
-    std::vector<FrameInFlightSlot> slots_;
+    std::vector<std::shared_ptr<CompiledRenderGraph>> shapes_; ///< most recently used first
+    std::vector<FrameInFlightResources> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;
     double compile_ms_ = 0; ///< since the last submit

@@ -29,27 +29,27 @@ std::uint32_t enum_to_hash_number(E value) {
     return static_cast<std::uint32_t>(value);
 }
 
-void add_to_hash(OrderDependentHash& hash, const ImageDesc& desc) {
+void add_members_to_hash(OrderDependentHash& hash, const ImageDesc& desc) {
     hash.add_value(desc.name);
     hash.add_value(desc.width, desc.height);
     hash.add_value(desc.layers, enum_to_hash_number(desc.format) << 1 | desc.cube);
     hash.add_value(desc.mips);
 }
 
-void add_to_hash(OrderDependentHash& hash, const ImageHandle& image) {
+void add_members_to_hash(OrderDependentHash& hash, const ImageHandle& image) {
     hash.add_value(image.id << 1 | image.previous, image.first_layer);
     hash.add_value(image.layer_count);
     hash.add_value(image.first_mip, image.mip_count);
 }
 
-void add_to_hash(OrderDependentHash& hash, const Pass& pass) {
+void add_members_to_hash(OrderDependentHash& hash, const Pass& pass) {
     hash.add_value(pass.name);
     hash.add_value(enum_to_hash_number(pass.tag) << 1 | static_cast<bool>(pass.body),
                    pass.layer_count);
     hash.add_value(static_cast<std::uint32_t>(pass.images.size()),
                    static_cast<std::uint32_t>(pass.buffers.size()));
     for (const ImageUse& use : pass.images) {
-        add_to_hash(hash, use.image);
+        add_members_to_hash(hash, use.image);
         hash.add_value(enum_to_hash_number(use.use), std::uint32_t{use.stays} << 2 |
                                                          std::uint32_t{use.write} << 1 |
                                                          use.clear.has_value());
@@ -72,12 +72,13 @@ std::vector<std::uint32_t> list_ranges_with_contents(const Graph& graph, std::ui
     return ranges;
 }
 
-void add_lifetime_to_hash(OrderDependentHash& hash, const Graph& graph, std::uint32_t image) {
+void add_image_lifetime_to_shape_hash(OrderDependentHash& hash, const Graph& graph,
+                                      std::uint32_t image) {
     hash.add_value(enum_to_hash_number(graph.image_lifetime(image)));
     if (graph.image_lifetime(image) == ImageLifetime::imported) {
-        const std::optional<ResourceUse> arrives = graph.use_on_import(image);
+        const std::optional<ResourceUse> arrives = graph.resource_use_on_import(image);
         hash.add_value(arrives ? 1 + enum_to_hash_number(*arrives) : 0,
-                       enum_to_hash_number(graph.use_on_release(image)));
+                       enum_to_hash_number(graph.resource_use_on_release(image)));
     }
     if (graph.image_lifetime(image) == ImageLifetime::persistent)
         for (const std::uint32_t end : list_ranges_with_contents(graph, image)) hash.add_value(end);
@@ -87,8 +88,8 @@ bool have_equal_lifetimes(const Graph& a, const Graph& b, std::uint32_t image) {
     const ImageLifetime lifetime = a.image_lifetime(image);
     if (lifetime != b.image_lifetime(image)) return false;
     if (lifetime == ImageLifetime::imported)
-        return a.use_on_import(image) == b.use_on_import(image) &&
-               a.use_on_release(image) == b.use_on_release(image);
+        return a.resource_use_on_import(image) == b.resource_use_on_import(image) &&
+               a.resource_use_on_release(image) == b.resource_use_on_release(image);
     return lifetime != ImageLifetime::persistent ||
            list_ranges_with_contents(a, image) == list_ranges_with_contents(b, image);
 }
@@ -112,22 +113,22 @@ std::uint64_t hash_graph_shape(const Graph& graph) {
     OrderDependentHash hash;
     hash.add_value(graph.list_images().size());
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
-        add_to_hash(hash, graph.list_images()[i]);
-        add_lifetime_to_hash(hash, graph, i);
+        add_members_to_hash(hash, graph.list_images()[i]);
+        add_image_lifetime_to_shape_hash(hash, graph, i);
     }
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b) {
         hash.add_value(graph.list_buffers()[b].name);
         hash.add_value(graph.list_buffers()[b].bytes << 1 | graph.is_imported({b}));
     }
-    for (const ContentHashRecord& stamped : graph.list_content_records())
-        add_to_hash(hash, stamped.part);
-    for (const Pass& pass : graph.list_passes()) add_to_hash(hash, pass);
-    for (const ImageHandle& image : graph.list_output_images()) add_to_hash(hash, image);
+    for (const ImageContentHashRecord& stamped : graph.list_content_records())
+        add_members_to_hash(hash, stamped.part);
+    for (const Pass& pass : graph.list_passes()) add_members_to_hash(hash, pass);
+    for (const ImageHandle& image : graph.list_output_images()) add_members_to_hash(hash, image);
     for (const BufferHandle& buffer : graph.list_output_buffers()) hash.add_value(buffer.id);
     return hash.hash_value();
 }
 
-bool have_equal_shapes(const Graph& graph, const Graph& known) {
+bool have_equal_graph_declarations(const Graph& graph, const Graph& known) {
     if (graph.list_images() != known.list_images() ||
         graph.list_buffers() != known.list_buffers() ||
         graph.list_output_images() != known.list_output_images() ||
@@ -138,7 +139,7 @@ bool have_equal_shapes(const Graph& graph, const Graph& known) {
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
         if (graph.is_imported({b}) != known.is_imported({b})) return false;
     if (!std::ranges::equal(graph.list_content_records(), known.list_content_records(), {},
-                            &ContentHashRecord::part, &ContentHashRecord::part))
+                            &ImageContentHashRecord::part, &ImageContentHashRecord::part))
         return false;
     return std::ranges::equal(
         graph.list_passes(), known.list_passes(),

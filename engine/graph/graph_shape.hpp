@@ -10,6 +10,6 @@ namespace catoptric::graph {
 std::uint64_t hash_graph_shape(const Graph& graph);
 
 /// Returns whether a plan of one graph is valid for the other. `known` need not have pass bodies.
-bool have_equal_shapes(const Graph& graph, const Graph& known);
+bool have_equal_graph_declarations(const Graph& graph, const Graph& known);
 
 } // namespace catoptric::graph

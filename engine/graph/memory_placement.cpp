@@ -7,7 +7,7 @@ namespace catoptric::graph {
 
 namespace {
 
-struct ResourceInHeap {
+struct ResourceToPlaceInHeap {
     MemoryPlacement* placement = nullptr;
     int rank = 0; ///< order in the heap: 0 shares, 1 is an output, 2 outlives the frame
 };
@@ -19,52 +19,57 @@ std::uint64_t align_up_to_multiple(std::uint64_t value, std::uint64_t alignment)
 std::uint64_t end_of_placement(const MemoryPlacement& p) { return p.offset + p.bytes; }
 
 /// The resources placed at one offset. They share memory, so no two are alive at once.
-struct SharedHeapOffset {
-    struct PassPositionInterval {
+struct HeapOffsetSharedByResources {
+    struct PassLifetimeInterval {
         std::uint32_t first, last;
         std::uint64_t end; ///< offset in the heap
     };
     std::uint64_t offset = 0;
-    std::vector<PassPositionInterval> lives; ///< from the earliest
+    std::vector<PassLifetimeInterval> lives; ///< from the earliest
 
     /// Returns the end, in the heap, of the members that are alive with `placement`; 0 if there are
     /// none.
-    std::uint64_t find_end_of_live_members(const MemoryPlacement& placement) const {
+    std::uint64_t find_last_use_at_shared_offset(const MemoryPlacement& placement) const {
         auto life = std::ranges::lower_bound(lives, placement.first, {},
-                                             &PassPositionInterval::last);
+                                             &PassLifetimeInterval::last);
         std::uint64_t end = 0;
         for (; life != lives.end() && life->first <= placement.last; ++life)
             end = std::max(end, life->end);
         return end;
     }
 };
-using HeapShelves = std::vector<SharedHeapOffset>; // shelves of one heap, from the lowest
+using HeapOffsetAllocator =
+    std::vector<HeapOffsetSharedByResources>; // shelves of one heap, from the lowest
 
 /// Returns the lowest aligned offset at which `item` overlaps nothing that is alive with it.
-std::uint64_t find_first_fitting_offset(const ResourceInHeap& item, const HeapShelves& shelves) {
+std::uint64_t find_first_fitting_offset(const ResourceToPlaceInHeap& item,
+                                        const HeapOffsetAllocator& shelves) {
     std::uint64_t offset = 0;
-    for (const SharedHeapOffset& shelf : shelves) {
+    for (const HeapOffsetSharedByResources& shelf : shelves) {
         if (offset + item.placement->bytes <= shelf.offset) break;
-        const std::uint64_t end = shelf.find_end_of_live_members(*item.placement);
+        const std::uint64_t end = shelf.find_last_use_at_shared_offset(*item.placement);
         if (end > 0)
             offset = std::max(offset, align_up_to_multiple(end, item.placement->alignment));
     }
     return offset;
 }
 
-void add_to_shared_offset(HeapShelves& shelves, const MemoryPlacement& placement) {
-    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {}, &SharedHeapOffset::offset);
+void place_resource_at_shared_offset(HeapOffsetAllocator& shelves,
+                                     const MemoryPlacement& placement) {
+    auto shelf = std::ranges::lower_bound(shelves, placement.offset, {},
+                                          &HeapOffsetSharedByResources::offset);
     if (shelf == shelves.end() || shelf->offset != placement.offset)
         shelf = shelves.insert(shelf, {placement.offset, {}});
-    const SharedHeapOffset::PassPositionInterval life{placement.first, placement.last,
-                                                      end_of_placement(placement)};
-    const auto after = std::ranges::upper_bound(shelf->lives, life.first, {},
-                                                &SharedHeapOffset::PassPositionInterval::first);
+    const HeapOffsetSharedByResources::PassLifetimeInterval life{placement.first, placement.last,
+                                                                 end_of_placement(placement)};
+    const auto after = std::ranges::upper_bound(
+        shelf->lives, life.first, {}, &HeapOffsetSharedByResources::PassLifetimeInterval::first);
     shelf->lives.insert(after, life);
 }
 
-ResourceInHeap make_heap_item(MemoryPlacement& placement, const MemoryRequirements& wanted,
-                              ImageLifetime lifetime) {
+ResourceToPlaceInHeap make_resource_to_place(MemoryPlacement& placement,
+                                             const MemoryRequirements& wanted,
+                                             ImageLifetime lifetime) {
     const std::uint64_t alignment = std::max<std::uint64_t>(wanted.alignment, 1);
     placement.heap = wanted.heap;
     placement.alignment = alignment;
@@ -75,20 +80,22 @@ ResourceInHeap make_heap_item(MemoryPlacement& placement, const MemoryRequiremen
 }
 
 /// Returns the used resources by rank, then the largest first, so that small ones fill the gaps.
-std::vector<ResourceInHeap>
-list_items_by_size(const Graph& graph, const MemoryRequirementQueries& sizer, GraphPlan& plan) {
-    std::vector<ResourceInHeap> items;
+std::vector<ResourceToPlaceInHeap>
+list_resources_largest_first(const Graph& graph, const MemoryRequirementQueries& sizer,
+                             GraphPlan& plan) {
+    std::vector<ResourceToPlaceInHeap> items;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used && graph.image_lifetime(i) != ImageLifetime::imported)
-            items.push_back(make_heap_item(plan.images[i], sizer.image(graph.list_images()[i]),
-                                           graph.image_lifetime(i)));
+            items.push_back(make_resource_to_place(
+                plan.images[i], sizer.image(graph.list_images()[i]), graph.image_lifetime(i)));
     for (std::uint32_t b = 0; b < plan.buffers.size(); ++b)
         if (plan.buffers[b].used && !graph.is_imported({b}))
-            items.push_back(make_heap_item(plan.buffers[b], sizer.buffer(graph.list_buffers()[b]),
-                                           ImageLifetime::frame));
-    std::ranges::stable_sort(items, [](const ResourceInHeap& a, const ResourceInHeap& b) {
-        return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
-    });
+            items.push_back(make_resource_to_place(
+                plan.buffers[b], sizer.buffer(graph.list_buffers()[b]), ImageLifetime::frame));
+    std::ranges::stable_sort(
+        items, [](const ResourceToPlaceInHeap& a, const ResourceToPlaceInHeap& b) {
+            return std::tuple(a.rank, b.placement->bytes) < std::tuple(b.rank, a.placement->bytes);
+        });
     return items;
 }
 
@@ -118,9 +125,9 @@ void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, Graph
 
 void place_resources_in_memory(const Graph& graph, const MemoryRequirementQueries& sizer,
                                GraphPlan& plan) {
-    std::vector<std::uint64_t> unshared; // per heap
-    std::vector<HeapShelves> shelves;    // per heap
-    for (const ResourceInHeap& item : list_items_by_size(graph, sizer, plan)) {
+    std::vector<std::uint64_t> unshared;      // per heap
+    std::vector<HeapOffsetAllocator> shelves; // per heap
+    for (const ResourceToPlaceInHeap& item : list_resources_largest_first(graph, sizer, plan)) {
         MemoryPlacement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {
             unshared.resize(placement.heap + 1, 0);
@@ -134,7 +141,7 @@ void place_resources_in_memory(const Graph& graph, const MemoryRequirementQuerie
         heap = std::max(heap, end_of_placement(placement));
         std::uint64_t& alone = unshared[placement.heap];
         alone = align_up_to_multiple(alone, item.placement->alignment) + placement.bytes;
-        if (!placement.alone) add_to_shared_offset(shelves[placement.heap], placement);
+        if (!placement.alone) place_resource_at_shared_offset(shelves[placement.heap], placement);
     }
     for (const std::uint64_t bytes : plan.heap_bytes) plan.bytes += bytes;
     for (const std::uint64_t bytes : unshared) plan.bytes_unshared += bytes;

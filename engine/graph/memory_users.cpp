@@ -12,7 +12,8 @@ bool is_in_shared_memory(const MemoryPlacement& placement) {
 
 } // namespace
 
-SharedMemoryUsers::SharedMemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_bytes.size()) {
+LastUsersOfSharedMemory::LastUsersOfSharedMemory(const GraphPlan& plan)
+    : heaps_(plan.heap_bytes.size()) {
     const auto add = [&](const std::vector<MemoryPlacement>& placements) {
         for (const MemoryPlacement& placement : placements) {
             if (!is_in_shared_memory(placement)) continue;
@@ -23,25 +24,25 @@ SharedMemoryUsers::SharedMemoryUsers(const GraphPlan& plan) : heaps_(plan.heap_b
     };
     add(plan.images);
     add(plan.buffers);
-    for (HeapAccessTree& heap : heaps_) heap.resize_tree();
+    for (HeapAccessSegmentTree& heap : heaps_) heap.resize_tree();
 }
 
-void SharedMemoryUsers::HeapAccessTree::resize_tree() {
+void LastUsersOfSharedMemory::HeapAccessSegmentTree::resize_tree() {
     std::ranges::sort(ends);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     whole.assign(2 * std::bit_ceil(ends.size()), 0);
     below = whole;
 }
 
-std::size_t SharedMemoryUsers::HeapAccessTree::leaf(std::uint64_t offset) const {
+std::size_t LastUsersOfSharedMemory::HeapAccessSegmentTree::leaf(std::uint64_t offset) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(ends, offset) - ends.begin()) +
            whole.size() / 2;
 }
 
-void SharedMemoryUsers::record_last_touches(const MemoryPlacement& placement,
-                                            AccessStateSet touches) {
+void LastUsersOfSharedMemory::record_last_accesses_to_memory(const MemoryPlacement& placement,
+                                                             AccessStateSet touches) {
     if (!is_in_shared_memory(placement)) return;
-    HeapAccessTree& heap = heaps_[placement.heap];
+    HeapAccessSegmentTree& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
     for (std::size_t a = first, b = end; a < b; a /= 2, b /= 2) {
@@ -52,9 +53,10 @@ void SharedMemoryUsers::record_last_touches(const MemoryPlacement& placement,
     for (std::size_t node = (end - 1) / 2; node > 0; node /= 2) heap.below[node] |= touches;
 }
 
-AccessStateSet SharedMemoryUsers::touches_left_in(const MemoryPlacement& placement) const {
+AccessStateSet
+LastUsersOfSharedMemory::unfinished_accesses_in_memory(const MemoryPlacement& placement) const {
     if (!is_in_shared_memory(placement)) return 0;
-    const HeapAccessTree& heap = heaps_[placement.heap];
+    const HeapAccessSegmentTree& heap = heaps_[placement.heap];
     const std::size_t first = heap.leaf(placement.offset);
     const std::size_t end = heap.leaf(placement.offset + placement.bytes);
     AccessStateSet touches = 0;

@@ -51,10 +51,12 @@ void PersistentImages::create_image(const ImageDesc& desc, PersistentImage& kept
                                                        i * second),
                                      "place image '" + desc.name + "'");
     }
-    image_device_.submit_now("clear image '" + desc.name + "'", [&](VkCommandBuffer commands) {
-        for (const PhysicalImage& copy : kept.copies) clear_image_to_black(commands, copy);
-    });
-    kept.stamps = LayerHashes(desc.layers * desc.mips);
+    image_device_.submit_one_time_commands("clear image '" + desc.name + "'",
+                                           [&](VkCommandBuffer commands) {
+                                               for (const PhysicalImage& copy : kept.copies)
+                                                   clear_image_to_black(commands, copy);
+                                           });
+    kept.stamps = ContentHashPerLayer(desc.layers * desc.mips);
 }
 
 PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
@@ -76,7 +78,7 @@ PersistentImage& PersistentImages::find_or_create_images(const ImageDesc& desc,
     return found->second;
 }
 
-void PersistentImages::find_or_create_images(CompiledGraphShape& shape,
+void PersistentImages::find_or_create_images(CompiledRenderGraph& shape,
                                              const std::function<void()>& wait) {
     shape.kept.assign(shape.plan.images.size(), nullptr);
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i)
@@ -85,18 +87,18 @@ void PersistentImages::find_or_create_images(CompiledGraphShape& shape,
                                                    shape.outline.image_lifetime(i), wait);
 }
 
-void PersistentImages::write(const Graph& graph, const CompiledGraphShape& shape) {
+void PersistentImages::write(const Graph& graph, const CompiledRenderGraph& shape) {
     for (const auto& [part, content_hash] : graph.list_content_records()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
-        for_each_layer_range(part, graph.list_images()[part.id].layers,
-                             [&](std::uint32_t first, std::uint32_t end) {
-                                 kept->stamps.fill_cell_range(first, end, content_hash);
-                             });
+        for_each_contiguous_layer_range(part, graph.list_images()[part.id].layers,
+                                        [&](std::uint32_t first, std::uint32_t end) {
+                                            kept->stamps.fill_cell_range(first, end, content_hash);
+                                        });
     }
 }
 
-void PersistentImages::swap_previous_copies(const CompiledGraphShape& shape) {
+void PersistentImages::swap_previous_copies(const CompiledRenderGraph& shape) {
     for (PersistentImage* const kept : shape.kept) {
         if (!kept || kept->lifetime != ImageLifetime::previous) continue;
         kept->last = 1 - kept->last;

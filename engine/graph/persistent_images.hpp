@@ -11,7 +11,7 @@ namespace catoptric::graph {
 
 /// Images that earlier frames left for later frames, by name. A caller can take these images out of
 /// a runner and give them back. The device must outlive the images.
-using RetainedImages = std::map<std::string, PersistentImage>;
+using SuspendedPersistentImages = std::map<std::string, PersistentImage>;
 
 /// The images of a runner that outlive frames, by name.
 class PersistentImages {
@@ -20,16 +20,16 @@ public:
 
     /// Finds or makes the persistent images of the shape. Calls `wait` before it destroys anything
     /// that frames in flight may use.
-    void find_or_create_images(CompiledGraphShape& shape, const std::function<void()>& wait);
+    void find_or_create_images(CompiledRenderGraph& shape, const std::function<void()>& wait);
     /// Stores the content hashes that the submitted frame sets.
-    void write(const Graph& graph, const CompiledGraphShape& shape);
+    void write(const Graph& graph, const CompiledRenderGraph& shape);
     /// Swaps the two copies of each image that has a `previous`: the frame just submitted becomes
     /// the last frame.
-    void swap_previous_copies(const CompiledGraphShape& shape);
+    void swap_previous_copies(const CompiledRenderGraph& shape);
     /// Drops all images. Must not be called while frames are in flight.
     void release_all_images() { all_.clear(); }
-    RetainedImages take_retained_images() { return std::exchange(all_, {}); }
-    void restore_retained_images(RetainedImages all) { all_ = std::move(all); }
+    SuspendedPersistentImages take_retained_images() { return std::exchange(all_, {}); }
+    void restore_retained_images(SuspendedPersistentImages all) { all_ = std::move(all); }
     GraphHistory make_history() const;
     /// Returns the bytes of device memory that are allocated.
     std::uint64_t allocated_device_bytes() const;
@@ -40,7 +40,7 @@ private:
                                            const std::function<void()>& wait);
 
     gpu::GpuDevice& image_device_;
-    RetainedImages all_;
+    SuspendedPersistentImages all_;
 };
 
 } // namespace catoptric::graph

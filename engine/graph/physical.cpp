@@ -32,7 +32,8 @@ PhysicalImage make_physical_image(const gpu::GpuDevice& device, const ImageDesc&
     VkImage image = VK_NULL_HANDLE;
     gpu::throw_unless_vk_success(vkCreateImage(device.device_handle(), &create, nullptr, &image),
                                  "create image '" + desc.name + "'");
-    device.set_name(VK_OBJECT_TYPE_IMAGE, reinterpret_cast<std::uint64_t>(image), desc.name);
+    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_IMAGE,
+                                           reinterpret_cast<std::uint64_t>(image), desc.name);
     PhysicalImage physical;
     physical.desc = desc;
     physical.owned = {device.device_handle(), image};
@@ -87,7 +88,8 @@ VkImageView PhysicalImage::find_or_create_view(const gpu::GpuDevice& device,
     gpu::throw_unless_vk_success(
         vkCreateImageView(device.device_handle(), &create, nullptr, &handle),
         "view image '" + desc.name + "'");
-    device.set_name(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(handle), desc.name);
+    device.set_debug_name_of_vulkan_object(VK_OBJECT_TYPE_IMAGE_VIEW,
+                                           reinterpret_cast<std::uint64_t>(handle), desc.name);
     return views_.emplace(key, gpu::UniqueImageView(device.device_handle(), handle)).first->second;
 }
 

@@ -13,7 +13,8 @@ namespace catoptric::graph {
 namespace {
 
 void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) {
-    const std::vector<PassCullResult> fates = graph::decide_pass_culling(graph, all);
+    const std::vector<PassCullingDecision> fates = graph::decide_which_passes_are_culled(graph,
+                                                                                         all);
     plan.passes.reserve(fates.size());
     for (std::uint32_t p = 0; p < fates.size(); ++p) {
         if (!fates[p].survives) {
@@ -25,7 +26,7 @@ void cull_passes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan) 
     }
 }
 
-bool lifetime_outlives_frame(ImageLifetime lifetime) {
+bool does_image_outlive_frame(ImageLifetime lifetime) {
     return lifetime == ImageLifetime::previous || lifetime == ImageLifetime::persistent;
 }
 
@@ -35,10 +36,10 @@ std::uint64_t largest_allocation_bytes(const Graph& graph, const GraphPlan& plan
     std::uint64_t bytes = 0;
     for (std::uint32_t i = 0; i < plan.images.size(); ++i)
         if (plan.images[i].used)
-            bytes = std::max(
-                bytes,
-                plan.images[i].bytes +
-                    (lifetime_outlives_frame(graph.image_lifetime(i)) ? 0 : plan.images[i].offset));
+            bytes = std::max(bytes, plan.images[i].bytes +
+                                        (does_image_outlive_frame(graph.image_lifetime(i))
+                                             ? 0
+                                             : plan.images[i].offset));
     for (const MemoryPlacement& buffer : plan.buffers)
         if (buffer.used) bytes = std::max(bytes, buffer.offset + buffer.bytes);
     return bytes;

@@ -30,9 +30,9 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
     if (moves) vkCmdPipelineBarrier2(commands, &dependency);
     std::uint64_t offset = 0;
     for (std::uint32_t m = 0; m < part.mip_count; ++m) {
-        VkBufferImageCopy region = make_copy_region(source.desc, part.select_mip(m));
+        VkBufferImageCopy region = make_copy_region(source.desc, part.select_image_mip(m));
         region.bufferOffset = offset;
-        offset += count_image_part_bytes(source.desc, part.select_mip(m));
+        offset += count_image_part_bytes(source.desc, part.select_image_mip(m));
         vkCmdCopyImageToBuffer(commands, source.image, image_layout_of_use(ResourceUse::copy_from),
                                target, 1, &region);
     }
@@ -42,10 +42,11 @@ void record_copy_to_buffer(VkCommandBuffer commands, const PhysicalImage& source
 
 } // namespace
 
-std::vector<std::byte> GraphRunner::read_resource(SubmittedFrameTicket ticket, ImageHandle image) {
+std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket ticket,
+                                                       ImageHandle image) {
     wait_for_frame(ticket);
-    const FrameInFlightSlot& slot = slot_of_frame(ticket);
-    CompiledGraphShape& shape = *slot.shape;
+    const FrameInFlightResources& slot = resources_of_submitted_frame(ticket);
+    CompiledRenderGraph& shape = *slot.shape;
     const ImageDesc& desc = shape.outline.list_images()[image.id];
     const bool kept = shape.is_persistent(image.id);
     check(!kept || ticket.frame == frame_, Failure::internal, "image '", desc.name, "' of frame ",
@@ -55,33 +56,36 @@ std::vector<std::byte> GraphRunner::read_resource(SubmittedFrameTicket ticket, I
           "' is read after it was forgotten");
     // A frame with `stays` does not advance the history: its own copy is not yet the last frame.
     image.previous = kept && !slot.stays;
-    const PhysicalImage& source = shape.device_image(image, slot_index_of_frame(ticket.frame));
+    const PhysicalImage& source = shape.physical_image_of_handle(image,
+                                                                 slot_index_of_frame(ticket.frame));
     const std::uint64_t bytes = count_image_part_bytes(desc, image);
     gpu::GpuBuffer target(runner_device_, "read-back of " + desc.name, bytes,
                           gpu::BufferUsage::read_back);
-    runner_device_.submit_now("read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
-        record_copy_to_buffer(
-            commands, source, image,
-            image_layout_of_use(kept ? ResourceUse::sampled : ResourceUse::copy_from),
-            target.buffer_handle());
-    });
+    runner_device_.submit_one_time_commands(
+        "read back image '" + desc.name + "'", [&](VkCommandBuffer commands) {
+            record_copy_to_buffer(
+                commands, source, image,
+                image_layout_of_use(kept ? ResourceUse::sampled : ResourceUse::copy_from),
+                target.buffer_handle());
+        });
     std::vector<std::byte> data = target.read_contents();
     data.resize(bytes);
     return data;
 }
 
-std::vector<std::byte> GraphRunner::read_resource(SubmittedFrameTicket ticket,
-                                                  BufferHandle buffer) {
+std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket ticket,
+                                                       BufferHandle buffer) {
     wait_for_frame(ticket);
-    const CompiledGraphShape& shape = *slot_of_frame(ticket).shape;
+    const CompiledRenderGraph& shape = *resources_of_submitted_frame(ticket).shape;
     const auto& [name, bytes] = shape.outline.list_buffers()[buffer.id];
     const VkBuffer source = shape.vulkan_buffer(buffer, slot_index_of_frame(ticket.frame));
     gpu::GpuBuffer target(runner_device_, "read-back of " + name, bytes,
                           gpu::BufferUsage::read_back);
-    runner_device_.submit_now("read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, 0, bytes};
-        vkCmdCopyBuffer(commands, source, target.buffer_handle(), 1, &region);
-    });
+    runner_device_.submit_one_time_commands(
+        "read back buffer '" + name + "'", [&](VkCommandBuffer commands) {
+            const VkBufferCopy region{0, 0, bytes};
+            vkCmdCopyBuffer(commands, source, target.buffer_handle(), 1, &region);
+        });
     std::vector<std::byte> data = target.read_contents();
     data.resize(bytes);
     return data;
@@ -90,12 +94,12 @@ std::vector<std::byte> GraphRunner::read_resource(SubmittedFrameTicket ticket,
 std::vector<std::byte> GraphRunner::read_history() {
     std::vector<std::byte> history;
     if (frame_ == 0) return history;
-    const CompiledGraphShape& shape = *slot_of_frame({frame_}).shape;
+    const CompiledRenderGraph& shape = *resources_of_submitted_frame({frame_}).shape;
     for (std::uint32_t id = 0; id < shape.outline.list_images().size(); ++id) {
         if (!shape.is_persistent(id) || shape.outline.image_lifetime(id) != ImageLifetime::previous)
             continue;
         const ImageDesc& desc = shape.outline.list_images()[id];
-        const std::vector<std::byte> image = read_resource(
+        const std::vector<std::byte> image = read_back_resource(
             ImageHandle{.id = id, .layer_count = desc.layers, .mip_count = desc.mips});
         history.insert(history.end(), image.begin(), image.end());
     }

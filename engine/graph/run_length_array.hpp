@@ -33,7 +33,7 @@ public:
     /// Calls visit(begin, end, value) for each run in cells [first, end), with values that it may
     /// change.
     template <typename Visit>
-    void modify_each_run(std::uint32_t first, std::uint32_t end, const Visit& visit) {
+    void modify_each_equal_run(std::uint32_t first, std::uint32_t end, const Visit& visit) {
         if (first >= end) return;
         if (runs_.empty()) runs_.push_back({0, initial_});
         const std::size_t from = split_run_at_cell(first), to = split_run_at_cell(end);
@@ -42,11 +42,12 @@ public:
         merge_equal_runs(from == 0 ? 0 : from - 1, std::min(to + 1, runs_.size()));
     }
     void fill_cell_range(std::uint32_t first, std::uint32_t end, const T& value) {
-        modify_each_run(first, end, [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
+        modify_each_equal_run(first, end,
+                              [&](std::uint32_t, std::uint32_t, T& old) { old = value; });
     }
 
     /// Returns whether some cell of [first, end) has the value.
-    bool contains_value(std::uint32_t first, std::uint32_t end, const T& value) const {
+    bool has_any_equal_value(std::uint32_t first, std::uint32_t end, const T& value) const {
         bool found = false;
         for_each_run(first, end,
                      [&](std::uint32_t, std::uint32_t, const T& v) { found |= v == value; });
@@ -56,7 +57,7 @@ public:
     std::uint32_t size() const { return cell_count_; }
 
 private:
-    struct EqualValueRun {
+    struct RunOfEqualValues {
         std::uint32_t begin;
         T value;
     };
@@ -66,7 +67,7 @@ private:
     }
     /// Returns the index of the run that holds the cell.
     std::size_t find_run_of_cell(std::uint32_t cell) const {
-        const auto after = std::ranges::upper_bound(runs_, cell, {}, &EqualValueRun::begin);
+        const auto after = std::ranges::upper_bound(runs_, cell, {}, &RunOfEqualValues::begin);
         return static_cast<std::size_t>(after - runs_.begin()) - 1;
     }
     /// Splits a run so that one begins at the cell, and returns its index.
@@ -74,7 +75,7 @@ private:
         if (cell >= cell_count_) return runs_.size();
         const std::size_t run = find_run_of_cell(cell);
         if (runs_[run].begin == cell) return run;
-        const EqualValueRun second{cell, runs_[run].value};
+        const RunOfEqualValues second{cell, runs_[run].value};
         runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(run) + 1, second);
         return run + 1;
     }
@@ -82,7 +83,7 @@ private:
         const auto first = runs_.begin() + static_cast<std::ptrdiff_t>(from);
         const auto last = runs_.begin() + static_cast<std::ptrdiff_t>(to);
         runs_.erase(std::unique(first, last,
-                                [](const EqualValueRun& a, const EqualValueRun& b) {
+                                [](const RunOfEqualValues& a, const RunOfEqualValues& b) {
                                     return a.value == b.value;
                                 }),
                     last);
@@ -90,7 +91,7 @@ private:
 
     std::uint32_t cell_count_;
     T initial_;
-    std::vector<EqualValueRun>
+    std::vector<RunOfEqualValues>
         runs_; // the first begins at 0; empty: all cells have the initial value
 };
 

@@ -34,18 +34,18 @@ constexpr ResourceUse decode_access_use(AccessStateCode code) {
 class AccessStateList {
 public:
     AccessStateList() = default;
-    explicit AccessStateList(AccessStateCode touch) { add_access(touch); }
+    explicit AccessStateList(AccessStateCode touch) { add_access_state(touch); }
     bool empty() const { return count_ == 0; }
     std::size_t size() const { return count_; }
-    AccessStateCode first_access() const { return codes_[0]; }
+    AccessStateCode first_access_state() const { return codes_[0]; }
     AccessStateCode operator[](std::size_t i) const { return codes_[i]; }
-    bool contains_access(AccessStateCode touch) const {
+    bool contains_access_state(AccessStateCode touch) const {
         return std::find(codes_.begin(), codes_.begin() + count_, touch) != codes_.begin() + count_;
     }
     /// Adds the touch unless it is contained. Reads of one resource have at most 8 kinds: 4 uses,
     /// each by a raster pass or not.
-    void add_access(AccessStateCode touch) {
-        if (contains_access(touch)) return;
+    void add_access_state(AccessStateCode touch) {
+        if (contains_access_state(touch)) return;
         assert(count_ < codes_.size());
         codes_[count_++] = touch;
     }

@@ -12,13 +12,14 @@ namespace catoptric::graph {
 namespace {
 
 /// Returns the first layers of `access` for which `there` is false; empty if it is true for all.
-std::string describe_missing_layers(const Graph& graph, const SubresourceMap<char>& there,
+std::string describe_missing_layers(const Graph& graph, const ValuesPerSubresource<char>& there,
                                     const ResourceAccess& access) {
-    if (!there.contains_value(access, false)) return "";
+    if (!there.has_any_equal_value(access, false)) return "";
     std::optional<std::pair<std::uint32_t, std::uint32_t>> missing;
-    there.for_each_value(access, [&](std::uint32_t first, std::uint32_t end, bool is_there) {
-        if (!is_there && !missing) missing = {first, end};
-    });
+    there.for_each_subresource_value(access,
+                                     [&](std::uint32_t first, std::uint32_t end, bool is_there) {
+                                         if (!is_there && !missing) missing = {first, end};
+                                     });
     if (access.is_buffer) return "it";
     return format_layer_range(graph.list_images()[access.id], missing->first, missing->second);
 }
@@ -75,43 +76,44 @@ void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
 
 /// Returns the contents that exist before the first pass: those of persistent and of imported
 /// resources.
-SubresourceMap<char> mark_contents_at_frame_start(const Graph& graph) {
-    SubresourceMap<char> there(graph, false);
+ValuesPerSubresource<char> mark_contents_at_frame_start(const Graph& graph) {
+    ValuesPerSubresource<char> there(graph, false);
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {
-        const ResourceAccess all = access_to_whole_image(graph, i);
-        if (graph.image_lifetime(i) == ImageLifetime::imported && graph.use_on_import(i))
-            there.set_value_of_access(all, true);
+        const ResourceAccess all = make_access_to_whole_image(graph, i);
+        if (graph.image_lifetime(i) == ImageLifetime::imported && graph.resource_use_on_import(i))
+            there.set_subresource_values_of_access(all, true);
         if (graph.image_lifetime(i) != ImageLifetime::persistent) continue;
         graph.list_content_hashes_at_start(i).for_each_run(
             [&](std::uint32_t first, std::uint32_t end, const auto& stamp) {
-                if (stamp) there.runs_of_resource(all).fill_cell_range(first, end, true);
+                if (stamp) there.layer_runs_of_resource(all).fill_cell_range(first, end, true);
             });
     }
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
-        if (graph.is_imported({b})) there.set_value_of_access({.is_buffer = true, .id = b}, true);
+        if (graph.is_imported({b}))
+            there.set_subresource_values_of_access({.is_buffer = true, .id = b}, true);
     return there;
 }
 
 /// Checks that every layer is written before it is read, by an earlier pass of this frame or before
 /// the frame. Returns the contents that exist after the last pass.
-SubresourceMap<char> check_writes_before_reads(const Graph& graph, const GraphAccesses& all) {
-    SubresourceMap<char> written = mark_contents_at_frame_start(graph);
+ValuesPerSubresource<char> check_writes_before_reads(const Graph& graph, const GraphAccesses& all) {
+    ValuesPerSubresource<char> written = mark_contents_at_frame_start(graph);
     for (std::size_t p = 0; p < graph.list_passes().size(); ++p) {
         for (const ResourceAccess& a : all.accesses_of_pass(p))
-            if (a.needs && !a.previous && written.contains_value(a, false))
+            if (a.needs && !a.previous && written.has_any_equal_value(a, false))
                 fail_read_before_write(graph, graph.list_passes()[p], a,
                                        describe_missing_layers(graph, written, a));
         for (const ResourceAccess& a : all.accesses_of_pass(p))
-            if (a.write) written.set_value_of_access(a, true);
+            if (a.write) written.set_subresource_values_of_access(a, true);
     }
     return written;
 }
 
-void check_hashes_for_writes(const Graph& graph, const ContentHashRecord& stamped) {
-    const ResourceAccess part = access_to_image_part(stamped.part);
+void check_content_hash_has_write(const Graph& graph, const ImageContentHashRecord& stamped) {
+    const ResourceAccess part = make_access_to_image_part(stamped.part);
     const ImageDesc& desc = graph.list_images()[part.id];
-    if (part.layer_count == 0 || part.end_of_layers() > desc.layers || part.mip_count == 0 ||
-        part.end_of_mips() > desc.mips)
+    if (part.layer_count == 0 || part.end_layer_of_access() > desc.layers || part.mip_count == 0 ||
+        part.end_mip_of_access() > desc.mips)
         fail(kInvalidGraphFailure, describe_access(graph, part),
              " is said to be made from something, but the image has "
              "layers [0,",
@@ -120,24 +122,25 @@ void check_hashes_for_writes(const Graph& graph, const ContentHashRecord& stampe
 
 /// Checks that passes write exactly those parts of persistent images for which a content hash is
 /// set.
-void check_content_hash_parts(const Graph& graph, const GraphAccesses& all) {
-    SubresourceMap<char> stamped(graph, false), written(graph, false);
-    for (const ContentHashRecord& s : graph.list_content_records()) {
-        check_hashes_for_writes(graph, s);
-        stamped.set_value_of_access(access_to_image_part(s.part), true);
+void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses& all) {
+    ValuesPerSubresource<char> stamped(graph, false), written(graph, false);
+    for (const ImageContentHashRecord& s : graph.list_content_records()) {
+        check_content_hash_has_write(graph, s);
+        stamped.set_subresource_values_of_access(make_access_to_image_part(s.part), true);
     }
     for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
         for (const ResourceAccess& a : all.accesses_of_pass(p)) {
             if (!a.write || a.is_buffer || graph.image_lifetime(a.id) != ImageLifetime::persistent)
                 continue;
-            if (stamped.contains_value(a, false))
+            if (stamped.has_any_equal_value(a, false))
                 fail(kInvalidGraphFailure, "pass '", graph.list_passes()[p].name, "' writes ",
                      describe_access(graph, a), ", which is kept, but nobody says what ",
                      describe_missing_layers(graph, stamped, a), " are made from");
-            written.set_value_of_access(a, true);
+            written.set_subresource_values_of_access(a, true);
         }
-    for (const ContentHashRecord& s : graph.list_content_records())
-        if (const ResourceAccess a = access_to_image_part(s.part); written.contains_value(a, false))
+    for (const ImageContentHashRecord& s : graph.list_content_records())
+        if (const ResourceAccess a = make_access_to_image_part(s.part);
+            written.has_any_equal_value(a, false))
             fail(kInvalidGraphFailure, describe_access(graph, a),
                  " is said to be made from something, but no pass writes ",
                  describe_missing_layers(graph, written, a));
@@ -145,36 +148,36 @@ void check_content_hash_parts(const Graph& graph, const GraphAccesses& all) {
 
 [[noreturn]] void fail_read_of_previous_contents(const Graph& graph, const Pass& pass,
                                                  const ResourceAccess& a,
-                                                 const SubresourceMap<char>& written) {
+                                                 const ValuesPerSubresource<char>& written) {
     const std::string name = quote_resource_name(graph, a);
-    check(written.contains_value(access_to_whole_image(graph, a.id), true), kInvalidGraphFailure,
-          "pass '", pass.name, "' reads previous(", name, ") as ", resource_use_name(a.use),
-          " but no pass writes ", name);
+    check(written.has_any_equal_value(make_access_to_whole_image(graph, a.id), true),
+          kInvalidGraphFailure, "pass '", pass.name, "' reads previous(", name, ") as ",
+          resource_use_name(a.use), " but no pass writes ", name);
     fail(kInvalidGraphFailure, "pass '", pass.name, "' reads ", describe_access(graph, a), " as ",
          resource_use_name(a.use), " but no pass writes ",
          describe_missing_layers(graph, written, a), " of ", name);
 }
 
-void check_reads_of_previous(const Graph& graph, const GraphAccesses& all,
-                             const SubresourceMap<char>& written) {
+void check_reads_of_previous_frame(const Graph& graph, const GraphAccesses& all,
+                                   const ValuesPerSubresource<char>& written) {
     for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
         for (const ResourceAccess& a : all.accesses_of_pass(p))
-            if (a.previous && written.contains_value(a, false))
+            if (a.previous && written.has_any_equal_value(a, false))
                 fail_read_of_previous_contents(graph, graph.list_passes()[p], a, written);
 }
 
-void check_outputs_are_written(const Graph& graph, const SubresourceMap<char>& written) {
+void check_outputs_are_written(const Graph& graph, const ValuesPerSubresource<char>& written) {
     for (const ImageHandle& image : graph.list_output_images()) {
         check(image.id < graph.list_images().size(), kInvalidGraphFailure, "image number ",
               image.id, " is wanted, but the graph has ", graph.list_images().size());
-        const ResourceAccess a = access_to_image_part(image);
+        const ResourceAccess a = make_access_to_image_part(image);
         const std::string what = describe_access(graph, a);
         check(!image.previous, kInvalidGraphFailure, what,
               " is wanted: only this frame's contents can be");
         const ImageDesc& desc = graph.list_images()[image.id];
-        check(a.layer_count > 0 && a.end_of_layers() <= desc.layers, kInvalidGraphFailure, what,
-              " is wanted, but the image has layers [0,", desc.layers, ")");
-        check(a.mip_count > 0 && a.end_of_mips() <= desc.mips, kInvalidGraphFailure, what,
+        check(a.layer_count > 0 && a.end_layer_of_access() <= desc.layers, kInvalidGraphFailure,
+              what, " is wanted, but the image has layers [0,", desc.layers, ")");
+        check(a.mip_count > 0 && a.end_mip_of_access() <= desc.mips, kInvalidGraphFailure, what,
               " is wanted, but the image has mips [0,", desc.mips, ")");
         check(graph.image_lifetime(a.id) != ImageLifetime::imported, kInvalidGraphFailure, what,
               " is wanted, but imported: read it where it comes from");
@@ -188,7 +191,7 @@ void check_outputs_are_written(const Graph& graph, const SubresourceMap<char>& w
         const ResourceAccess a{.is_buffer = true, .id = buffer.id};
         check(!graph.is_imported(buffer), kInvalidGraphFailure, describe_access(graph, a),
               " is wanted, but imported: read it where it comes from");
-        check(written.contains_value(a, true), kInvalidGraphFailure, describe_access(graph, a),
+        check(written.has_any_equal_value(a, true), kInvalidGraphFailure, describe_access(graph, a),
               " is wanted, but no pass writes it");
     }
 }
@@ -202,12 +205,12 @@ void validate_graph(const Graph& graph, const GraphAccesses& all, const GraphLim
         check(desc.bytes > 0, kInvalidGraphFailure, "buffer '", desc.name, "' is empty: 0 bytes");
     for (std::size_t p = 0; p < graph.list_passes().size(); ++p)
         validate_pass(graph, graph.list_passes()[p], all.accesses_of_pass(p), limits);
-    const SubresourceMap<char> written = check_writes_before_reads(graph, all);
-    check_reads_of_previous(graph, all, written);
+    const ValuesPerSubresource<char> written = check_writes_before_reads(graph, all);
+    check_reads_of_previous_frame(graph, all, written);
     check_outputs_are_written(graph, written);
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
         if (graph.image_lifetime(i) == ImageLifetime::persistent)
-            return check_content_hash_parts(graph, all);
+            return check_content_hashes_match_accesses(graph, all);
 }
 
 } // namespace catoptric::graph

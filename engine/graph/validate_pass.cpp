@@ -42,10 +42,10 @@ void check_image_handle(const Graph& graph, const Pass& pass, const ResourceAcce
     if (a.layer_count == 0)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' names no layer of ",
              quote_resource_name(graph, a), " as ", resource_use_name(a.use));
-    if (a.end_of_layers() > layers)
+    if (a.end_layer_of_access() > layers)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
              " as ", resource_use_name(a.use), ", but the image has layers [0,", layers, ")");
-    if (a.mip_count == 0 || a.end_of_mips() > mips)
+    if (a.mip_count == 0 || a.end_mip_of_access() > mips)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' uses ", describe_access(graph, a),
              " as ", resource_use_name(a.use), ", but the image has mips [0,", mips, ")");
     if (a.mip_count > 1 && a.use != ResourceUse::sampled)
@@ -77,7 +77,7 @@ void check_use_is_allowed(const Graph& graph, const Pass& pass, const ResourceAc
     if (a.clears && a.needs && !pass.area)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' updates ", describe_access(graph, a),
              " as ", resource_use_name(a.use), ", but has no area to do it in");
-    if (pass.is_raster() && (a.use == ResourceUse::copy_from || a.use == ResourceUse::copy_to))
+    if (pass.is_raster_pass() && (a.use == ResourceUse::copy_from || a.use == ResourceUse::copy_to))
         fail(kInvalidGraphFailure, "pass '", pass.name, "' has attachments and uses ",
              describe_access(graph, a), " as ", resource_use_name(a.use),
              ": copies need a pass of their own");
@@ -120,12 +120,12 @@ void check_attachments(const Graph& graph, const Pass& pass, std::span<const Res
 }
 
 /// Throws if two uses of the same contents in one pass are in conflict.
-void check_access_pair(const Graph& graph, const Pass& pass, const ResourceAccess& a,
-                       const ResourceAccess& b) {
+void check_two_accesses_of_pass(const Graph& graph, const Pass& pass, const ResourceAccess& a,
+                                const ResourceAccess& b) {
     const std::uint64_t first = std::max(a.first_layer, b.first_layer);
-    const std::uint64_t end = std::min(a.end_of_layers(), b.end_of_layers());
+    const std::uint64_t end = std::min(a.end_layer_of_access(), b.end_layer_of_access());
     const std::uint64_t mip = std::max(a.first_mip, b.first_mip);
-    if (first >= end || mip >= std::min(a.end_of_mips(), b.end_of_mips())) return;
+    if (first >= end || mip >= std::min(a.end_mip_of_access(), b.end_mip_of_access())) return;
     const auto where = [&]() -> std::string {
         if (a.is_buffer) return "";
         const ImageDesc& desc = graph.list_images()[a.id];
@@ -150,7 +150,8 @@ void check_access_pair(const Graph& graph, const Pass& pass, const ResourceAcces
 }
 
 /// Checks all pairs of uses of one resource.
-void check_access_pairs(const Graph& graph, const Pass& pass, std::span<const ResourceAccess> all) {
+void check_all_access_pairs_of_pass(const Graph& graph, const Pass& pass,
+                                    std::span<const ResourceAccess> all) {
     const auto key = [](const ResourceAccess* a) {
         // Pointers sort in order of declaration.
         return std::tuple(a->is_buffer, a->id, a->previous, a);
@@ -163,7 +164,7 @@ void check_access_pairs(const Graph& graph, const Pass& pass, std::span<const Re
         for (std::size_t j = i + 1; j < sorted.size(); ++j) {
             const ResourceAccess &a = *sorted[i], &b = *sorted[j];
             if (a.is_buffer != b.is_buffer || a.id != b.id || a.previous != b.previous) break;
-            check_access_pair(graph, pass, a, b);
+            check_two_accesses_of_pass(graph, pass, a, b);
         }
 }
 
@@ -179,7 +180,7 @@ void validate_pass(const Graph& graph, const Pass& pass, std::span<const Resourc
     }
     check(std::ranges::any_of(all, &ResourceAccess::write), kInvalidGraphFailure, "pass '",
           pass.name, "' writes nothing");
-    check_access_pairs(graph, pass, all);
+    check_all_access_pairs_of_pass(graph, pass, all);
     check_attachments(graph, pass, all);
     if (pass.layer_count > limits.max_framebuffer_layers)
         fail(Failure::exhausted, "pass '", pass.name, "' wants ", pass.layer_count,

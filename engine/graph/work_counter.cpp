@@ -12,9 +12,10 @@ constexpr VkQueryPipelineStatisticFlags kPipelineStatisticFlags =
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
     VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
-constexpr WorkKind kQueriedWorkKinds[] = {WorkKind::vertices, WorkKind::primitives,
-                                          WorkKind::fragments, WorkKind::invocations};
-constexpr std::size_t kPipelineStatisticCount = std::size(kQueriedWorkKinds);
+constexpr CountedWorkKind kWorkKindsFromPipelineStatistics[] = {
+    CountedWorkKind::vertices, CountedWorkKind::primitives, CountedWorkKind::fragments,
+    CountedWorkKind::invocations};
+constexpr std::size_t kPipelineStatisticCount = std::size(kWorkKindsFromPipelineStatistics);
 constexpr std::uint64_t kShaderCounterBytes = shared::kShaderWorkKindCount * 2 *
                                               sizeof(std::uint32_t);
 
@@ -43,14 +44,15 @@ void WorkCounter::begin_pass(VkCommandBuffer commands) {
     if (pass_ == 0) {
         vkCmdFillBuffer(commands, buffer_.buffer_handle(), 0, VK_WHOLE_SIZE, 0);
         gpu::record_memory_barrier(
-            commands, gpu::kTransferWriteScope,
+            commands, gpu::kTransferWriteAccessScope,
             {VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
              VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT});
     }
-    for (const WorkKind kind : {WorkKind::draws, WorkKind::dispatches, WorkKind::bytes})
+    for (const CountedWorkKind kind :
+         {CountedWorkKind::draws, CountedWorkKind::dispatches, CountedWorkKind::bytes})
         add_count(kind, 0);
-    add_count(WorkKind::frames, pass_ == 0 ? 1 : 0);
-    add_count(WorkKind::passes, 1);
+    add_count(CountedWorkKind::frames, pass_ == 0 ? 1 : 0);
+    add_count(CountedWorkKind::passes, 1);
     if (statistics_) vkCmdBeginQuery(commands, statistics_, static_cast<std::uint32_t>(pass_), 0);
 }
 
@@ -69,7 +71,7 @@ VkDescriptorBufferInfo WorkCounter::shader_counts() const {
     return {buffer_.buffer_handle(), pass_ * stride_, kShaderCounterBytes};
 }
 
-std::vector<PassWork> WorkCounter::read() {
+std::vector<PassWorkCounts> WorkCounter::read() {
     const std::vector<std::byte> bytes = buffer_.read_contents();
     std::vector<std::uint64_t> results(kPipelineStatisticCount * passes_.size());
     if (statistics_)
@@ -81,13 +83,13 @@ std::vector<PassWork> WorkCounter::read() {
                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
             "read pipeline statistics");
     for (std::size_t i = 0; i < passes_.size(); ++i) {
-        WorkCounts& counts = passes_[i].counts;
+        WorkCountsByKind& counts = passes_[i].counts;
         std::uint32_t words[shared::kShaderWorkKindCount][2]; // the low word comes first
         std::memcpy(words, bytes.data() + i * stride_, kShaderCounterBytes);
         for (std::size_t kind = 0; kind < shared::kShaderWorkKindCount; ++kind)
             counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];
         for (std::size_t k = 0; statistics_ && k < kPipelineStatisticCount; ++k)
-            counts[kQueriedWorkKinds[k]] = results[kPipelineStatisticCount * i + k];
+            counts[kWorkKindsFromPipelineStatistics[k]] = results[kPipelineStatisticCount * i + k];
     }
     return passes_;
 }

@@ -23,17 +23,17 @@ public:
     void begin_pass(VkCommandBuffer commands);
     void end_pass(VkCommandBuffer commands);
     /// Adds to a count of the pass that is being recorded.
-    void add_count(WorkKind kind, std::uint64_t count) {
+    void add_count(CountedWorkKind kind, std::uint64_t count) {
         passes_[pass_].counts.add_count(kind, count);
     }
     /// Returns the buffer and the part of it in which the shaders of this pass count.
     VkDescriptorBufferInfo shader_counts() const;
     /// Returns the counts of all passes. The frame must have ended.
-    std::vector<PassWork> read();
+    std::vector<PassWorkCounts> read();
 
 private:
     gpu::GpuDevice& graph_device_;
-    std::vector<PassWork> passes_;
+    std::vector<PassWorkCounts> passes_;
     std::size_t pass_ = 0;
     std::uint64_t stride_ = 0; ///< bytes between the parts of two passes
     gpu::GpuBuffer buffer_;

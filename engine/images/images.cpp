@@ -21,7 +21,8 @@ namespace {
 /// Lets OpenImageIO read from a source of bytes.
 class ByteSourceProxy final : public OIIO::Filesystem::IOProxy {
 public:
-    explicit ByteSourceProxy(const ByteSource& bytes) : IOProxy("", Read), bytes_(bytes) {}
+    explicit ByteSourceProxy(const RandomAccessByteSource& bytes)
+        : IOProxy("", Read), bytes_(bytes) {}
 
     const char* proxytype() const override { return "catoptric"; }
     std::size_t size() const override { return bytes_.size(); }
@@ -40,7 +41,7 @@ public:
     }
 
 private:
-    const ByteSource& bytes_;
+    const RandomAccessByteSource& bytes_;
 };
 
 } // namespace
@@ -56,8 +57,9 @@ namespace {
 
 /// Sets the proxy from which the picture is read. The JPEG reader of OpenImageIO 2.4 accepts only
 /// OpenImageIO's own proxies, so it gets a copy of all bytes.
-void set_byte_source_proxy(ImageCodecs::Picture& picture, const ByteSource& bytes,
-                           const std::string& format) {
+void attach_byte_source_to_image_input(ImageCodecs::Picture& picture,
+                                       const RandomAccessByteSource& bytes,
+                                       const std::string& format) {
     if (format != "jpeg") {
         picture.proxy = std::make_unique<ByteSourceProxy>(bytes);
         return;
@@ -82,7 +84,7 @@ ImageCodecResult read_last_oiio_error(const Codec& codec) {
 
 /// Returns the result of `work`, with exceptions turned into results.
 template <typename Work>
-ImageCodecResult catch_codec_exceptions(const Work& work) noexcept {
+ImageCodecResult run_codec_and_catch_exceptions(const Work& work) noexcept {
     try {
         return work();
     } catch (const std::bad_alloc&) {
@@ -94,26 +96,27 @@ ImageCodecResult catch_codec_exceptions(const Work& work) noexcept {
     }
 }
 
-constexpr const char* kDescription = "ImageDescription";
+constexpr const char* kImageDescriptionMetadataName = "ImageDescription";
 
-ImageCodecResult open_codec_picture(const ByteSource& bytes, const std::string& format,
+ImageCodecResult open_codec_picture(const RandomAccessByteSource& bytes, const std::string& format,
                                     const std::string& name, ImageCodecs::Picture*& picture,
-                                    ImageCodecs::PictureHeader& header) noexcept {
+                                    ImageCodecs::CodecPictureHeader& header) noexcept {
     picture = nullptr;
-    return catch_codec_exceptions([&]() -> ImageCodecResult {
+    return run_codec_and_catch_exceptions([&]() -> ImageCodecResult {
         auto opened = std::make_unique<ImageCodecs::Picture>();
-        set_byte_source_proxy(*opened, bytes, format);
+        attach_byte_source_to_image_input(*opened, bytes, format);
         opened->input = OIIO::ImageInput::create(format);
         if (!opened->input) return {ImageCodecStatus::no_codec};
         OIIO::ImageSpec hints, spec;
         hints.attribute("oiio:UnassociatedAlpha", 1); // colours as stored, not multiplied by alpha
         opened->input->set_ioproxy(opened->proxy.get());
         if (!opened->input->open(name, spec, hints)) return read_last_oiio_error(*opened->input);
-        header = {{spec.width, spec.height},
-                  spec.nchannels,
-                  spec.deep,
-                  spec.channelnames,
-                  std::string(opened->input->spec().get_string_attribute(kDescription))};
+        header = {
+            {spec.width, spec.height},
+            spec.nchannels,
+            spec.deep,
+            spec.channelnames,
+            std::string(opened->input->spec().get_string_attribute(kImageDescriptionMetadataName))};
         opened->channel_count = spec.nchannels;
         picture = opened.release();
         return {};
@@ -140,7 +143,7 @@ bool read_tile_rows(OIIO::ImageInput& input, std::uint32_t first, std::uint32_t 
 ImageCodecResult read_picture_rows(ImageCodecs::Picture& picture, std::uint32_t first,
                                    std::uint32_t row_count, ImageCodecValueType type,
                                    void* values) noexcept {
-    return catch_codec_exceptions([&]() -> ImageCodecResult {
+    return run_codec_and_catch_exceptions([&]() -> ImageCodecResult {
         OIIO::ImageInput& input = *picture.input;
         const OIIO::ImageSpec& spec = input.spec();
         const int from = spec.y + static_cast<int>(first);
@@ -162,7 +165,7 @@ void close_codec_picture(ImageCodecs::Picture* picture) noexcept { delete pictur
 ImageCodecResult encode_picture(const std::string& format,
                                 const ImageCodecs::PixelValueBuffer& picture,
                                 std::string& bytes) noexcept {
-    return catch_codec_exceptions([&]() -> ImageCodecResult {
+    return run_codec_and_catch_exceptions([&]() -> ImageCodecResult {
         const OIIO::TypeDesc type = to_oiio_type(picture.type);
         OIIO::ImageSpec spec(static_cast<int>(picture.size.x), static_cast<int>(picture.size.y),
                              static_cast<int>(picture.channel_count), type);
@@ -171,7 +174,8 @@ ImageCodecResult encode_picture(const std::string& format,
         spec.attribute("oiio:ColorSpace", format == "png" ? "sRGB" : "Linear");
         spec.attribute("oiio:UnassociatedAlpha", 1);
         if (!picture.channels.empty()) spec.channelnames = picture.channels;
-        if (!picture.description.empty()) spec.attribute(kDescription, picture.description);
+        if (!picture.description.empty())
+            spec.attribute(kImageDescriptionMetadataName, picture.description);
         OIIO::Filesystem::IOVecOutput memory;
         const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
         if (!output) return {ImageCodecStatus::no_codec};

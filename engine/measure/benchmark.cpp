@@ -11,21 +11,23 @@ namespace catoptric::measure {
 
 namespace {
 
-bool has_counts_in_all_rounds(const BenchmarkResult& benchmark,
-                              std::optional<double> BenchmarkRound::*count) {
+bool has_counted_work_in_all_rounds(const BenchmarkResult& benchmark,
+                                    std::optional<double> BenchmarkRound::*count) {
     return std::ranges::all_of(benchmark.rounds, [count](const BenchmarkRound& round) {
         return (round.*count).has_value();
     });
 }
 
-CostKind choose_cost_kind(const BenchmarkResult& before, const BenchmarkResult& after,
-                          bool on_processors) {
+BenchmarkCostKind choose_benchmark_cost_kind(const BenchmarkResult& before,
+                                             const BenchmarkResult& after, bool on_processors) {
     const auto both_have = [&](std::optional<double> BenchmarkRound::*count) {
-        return has_counts_in_all_rounds(before, count) && has_counts_in_all_rounds(after, count);
+        return has_counted_work_in_all_rounds(before, count) &&
+               has_counted_work_in_all_rounds(after, count);
     };
-    if (!on_processors) return CostKind::real_time;
-    if (both_have(&BenchmarkRound::cycles)) return CostKind::cycles;
-    return both_have(&BenchmarkRound::instructions) ? CostKind::instructions : CostKind::cpu_time;
+    if (!on_processors) return BenchmarkCostKind::real_time;
+    if (both_have(&BenchmarkRound::cycles)) return BenchmarkCostKind::cycles;
+    return both_have(&BenchmarkRound::instructions) ? BenchmarkCostKind::instructions
+                                                    : BenchmarkCostKind::cpu_time;
 }
 
 /// Compares the counted work that both have. Every round of a benchmark has the same counts.
@@ -54,48 +56,50 @@ BenchmarkChange compute_benchmark_change(const BenchmarkResult& before,
                                          const BenchmarkResult& after, bool on_processors) {
     BenchmarkChange change;
     change.name = after.name;
-    change.cost = choose_cost_kind(before, after, on_processors);
+    change.cost = choose_benchmark_cost_kind(before, after, on_processors);
     compare_counted_work(before, after, change);
-    const std::vector<double> old_costs = list_round_costs(before, change.cost);
-    const std::vector<double> new_costs = list_round_costs(after, change.cost);
+    const std::vector<double> old_costs = list_benchmark_cost_per_round(before, change.cost);
+    const std::vector<double> new_costs = list_benchmark_cost_per_round(after, change.cost);
     change.medians = {compute_percentile(old_costs, .5), compute_percentile(new_costs, .5)};
     change.ratio = compute_cost_ratio(new_costs, old_costs);
-    change.real_ratio = compute_cost_ratio(list_round_costs(after, CostKind::real_time),
-                                           list_round_costs(before, CostKind::real_time));
+    change.real_ratio = compute_cost_ratio(
+        list_benchmark_cost_per_round(after, BenchmarkCostKind::real_time),
+        list_benchmark_cost_per_round(before, BenchmarkCostKind::real_time));
     return change;
 }
 
 } // namespace
 
-std::string cost_kind_name(CostKind cost) {
+std::string cost_kind_name(BenchmarkCostKind cost) {
     switch (cost) {
-    case CostKind::cycles: return "cycles";
-    case CostKind::instructions: return "instructions";
-    case CostKind::cpu_time: return "processor time";
-    case CostKind::real_time: break;
+    case BenchmarkCostKind::cycles: return "cycles";
+    case BenchmarkCostKind::instructions: return "instructions";
+    case BenchmarkCostKind::cpu_time: return "processor time";
+    case BenchmarkCostKind::real_time: break;
     }
     return "time";
 }
 
-double cost_of_round(const BenchmarkRound& round, CostKind cost) {
+double benchmark_cost_of_round(const BenchmarkRound& round, BenchmarkCostKind cost) {
     constexpr double kUnknownBenchmarkCost = std::numeric_limits<double>::quiet_NaN();
     switch (cost) {
-    case CostKind::cycles: return round.cycles.value_or(kUnknownBenchmarkCost);
-    case CostKind::instructions: return round.instructions.value_or(kUnknownBenchmarkCost);
-    case CostKind::cpu_time: return round.cpu_ms;
-    case CostKind::real_time: break;
+    case BenchmarkCostKind::cycles: return round.cycles.value_or(kUnknownBenchmarkCost);
+    case BenchmarkCostKind::instructions: return round.instructions.value_or(kUnknownBenchmarkCost);
+    case BenchmarkCostKind::cpu_time: return round.cpu_ms;
+    case BenchmarkCostKind::real_time: break;
     }
     return round.real_ms;
 }
 
-std::vector<double> list_round_costs(const BenchmarkResult& benchmark, CostKind cost) {
+std::vector<double> list_benchmark_cost_per_round(const BenchmarkResult& benchmark,
+                                                  BenchmarkCostKind cost) {
     std::vector<double> costs;
     for (const BenchmarkRound& round : benchmark.rounds)
-        costs.push_back(cost_of_round(round, cost));
+        costs.push_back(benchmark_cost_of_round(round, cost));
     return costs;
 }
 
-CostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b) {
+BenchmarkCostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b) {
     std::vector<double> ratios;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) ratios.push_back(a[i] / b[i]);
     return {compute_percentile(ratios, .5), median_ratio_interval(a, b)};

@@ -42,19 +42,20 @@ struct BenchmarkRun {
 };
 
 /// The cost by which benchmarks are compared.
-enum class CostKind { cycles, instructions, cpu_time, real_time };
+enum class BenchmarkCostKind { cycles, instructions, cpu_time, real_time };
 /// Returns "cycles", "instructions", "processor time" or "time".
-std::string cost_kind_name(CostKind cost);
+std::string cost_kind_name(BenchmarkCostKind cost);
 
 /// Returns a round's cost in cycles, instructions or milliseconds. Returns NaN if the round has no
 /// cycles or no instructions.
-double cost_of_round(const BenchmarkRound& round, CostKind cost);
+double benchmark_cost_of_round(const BenchmarkRound& round, BenchmarkCostKind cost);
 /// Returns the costs of all rounds, in order.
-std::vector<double> list_round_costs(const BenchmarkResult& benchmark, CostKind cost);
+std::vector<double> list_benchmark_cost_per_round(const BenchmarkResult& benchmark,
+                                                  BenchmarkCostKind cost);
 
 /// Ratio of costs that were measured in rounds: the median of the rounds' ratios, and its
 /// confidence interval.
-struct CostRatio {
+struct BenchmarkCostRatio {
     double median = 0;
     Interval ci95; ///< 95 % confidence; unknown for fewer than `kMinIntervalSamples` rounds
     bool is_interval_above_one() const { return ci95.low > 1; }
@@ -62,7 +63,7 @@ struct CostRatio {
 };
 /// Returns the ratio a[i] / b[i] over as many pairs as the shorter list has. Throws `internal`
 /// without a pair.
-CostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
+BenchmarkCostRatio compute_cost_ratio(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Beginning of the names of counters that hold counted work (core/work.hpp), such as "work/nodes".
 inline constexpr const char* kWorkCounterPrefix = "work/";
@@ -83,10 +84,10 @@ struct BenchmarkChange {
     /// told apart. `unknown`: there are too few rounds.
     enum class BenchmarkChangeOutcome { slower, faster, mixed, same, unknown };
     std::string name;
-    CostKind cost = CostKind::real_time;
+    BenchmarkCostKind cost = BenchmarkCostKind::real_time;
     std::array<double, 2> medians{};       ///< medians of the cost, before and after
-    CostRatio ratio;                       ///< cost after, divided by cost before
-    CostRatio real_ratio;                  ///< the same for the elapsed time
+    BenchmarkCostRatio ratio;              ///< cost after, divided by cost before
+    BenchmarkCostRatio real_ratio;         ///< the same for the elapsed time
     std::size_t compared_counts = 0;       ///< number of counts of work that both have
     std::vector<CountedWorkChange> counts; ///< those that differ
     BenchmarkChangeOutcome outcome() const;

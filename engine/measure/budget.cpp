@@ -11,13 +11,13 @@ namespace {
 
 /// Returns the row with the least value, or null if there are no rows.
 template <typename Value>
-const Row* find_row_with_least_value(const std::vector<const Row*>& rows, Value&& value) {
+const Row* find_row_minimising_value(const std::vector<const Row*>& rows, Value&& value) {
     const auto least = std::ranges::min_element(rows, {},
                                                 [&](const Row* row) { return value(*row); });
     return least == rows.end() ? nullptr : *least;
 }
 
-double flip_over_mirrors(const Row& row) { return row.error.flip; }
+double mean_flip_over_mirrors(const Row& row) { return row.error.flip; }
 double median_frame_ms(const Row& row) { return row.time_ms().median; }
 
 } // namespace
@@ -36,11 +36,12 @@ bool is_within_flip_budget(const Comparison& comparison, const Row& row) {
     return std::isnan(comparison.max_flip) || row.error.flip <= comparison.max_flip;
 }
 
-BudgetedRows find_row_within_budget(const Comparison& comparison) {
+BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison) {
     std::vector<const Row*> judged, in_time, fitting;
-    BudgetedRows answer;
+    BestRowsWithinBudget answer;
     for (const Row& row : comparison.rows) {
-        if (!is_ranking_candidate(row) || std::isnan(row.error.flip) || !(median_frame_ms(row) > 0))
+        if (!is_row_eligible_for_ranking(row) || std::isnan(row.error.flip) ||
+            !(median_frame_ms(row) > 0))
             continue;
         judged.push_back(&row);
         const bool is_in_time = is_within_time_budget(comparison, row),
@@ -51,11 +52,12 @@ BudgetedRows find_row_within_budget(const Comparison& comparison) {
             answer.undecided.push_back(&row);
     }
     const bool by_flip = std::isnan(comparison.max_flip);
-    answer.row = by_flip ? find_row_with_least_value(fitting, flip_over_mirrors)
-                         : find_row_with_least_value(fitting, median_frame_ms);
+    answer.row = by_flip ? find_row_minimising_value(fitting, mean_flip_over_mirrors)
+                         : find_row_minimising_value(fitting, median_frame_ms);
     if (answer.row == nullptr) {
-        answer.nearest = in_time.empty() ? find_row_with_least_value(judged, median_frame_ms)
-                                         : find_row_with_least_value(in_time, flip_over_mirrors);
+        answer.nearest = in_time.empty()
+                             ? find_row_minimising_value(judged, median_frame_ms)
+                             : find_row_minimising_value(in_time, mean_flip_over_mirrors);
         return answer;
     }
     for (const Row* row : fitting) {

@@ -16,7 +16,7 @@ bool is_within_time_budget(const Comparison& comparison, const Row& row);
 bool is_within_flip_budget(const Comparison& comparison, const Row& row);
 
 /// Answer to a budget. Only rows that take part in fastest, closest and front count.
-struct BudgetedRows {
+struct BestRowsWithinBudget {
     /// Row that keeps the budgets. With a budget of time alone it has the least FLIP, else the
     /// least median time. Null if no row keeps them.
     const Row* row = nullptr;
@@ -29,6 +29,6 @@ struct BudgetedRows {
     /// fastest row if no row is. Null if no row could be judged.
     const Row* nearest = nullptr;
 };
-BudgetedRows find_row_within_budget(const Comparison& comparison);
+BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison);
 
 } // namespace catoptric::measure

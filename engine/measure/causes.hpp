@@ -39,7 +39,8 @@ struct Causes {
     std::vector<ErrorCauseShare> list;
     double rest_rmse = 0; ///< rmse with all causes removed; near 0 if no cause is missing
     /// Cause with the largest part of each pixel's squared error, row-major, as 1 + its index in
-    /// `list`. 0 means that the pixel shows no mirror or is not off (kVisibleDifference).
+    /// `list`. 0 means that the pixel shows no mirror or is not off
+    /// (kMaxInvisibleChannelDifference).
     std::vector<std::uint8_t> largest;
 };
 
@@ -58,8 +59,8 @@ std::vector<std::size_t> list_mirror_pixels(std::span<const std::uint32_t> hits)
 /// the unexplained rest. Pixels with a value that is not finite are left out, as in `difference`.
 /// `off` is a mask of the whole picture and says which pixels get a cause in `largest`. Throws
 /// `internal` if a list has another length than the number of mirror pixels.
-Causes sum_up_error_causes(std::span<const std::uint32_t> hits, const Mask& off,
-                           std::span<const double> whole,
-                           const std::vector<PixelErrorCause>& causes);
+Causes summarise_error_causes(std::span<const std::uint32_t> hits, const Mask& off,
+                              std::span<const double> whole,
+                              const std::vector<PixelErrorCause>& causes);
 
 } // namespace catoptric::measure

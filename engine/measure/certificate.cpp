@@ -25,7 +25,8 @@ double binomial_cumulative(std::size_t most, std::size_t count, double p) {
 
 } // namespace
 
-double kept_share_lower_bound(std::size_t failures, std::size_t views, double confidence) {
+double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views,
+                                         double confidence) {
     if (views == 0 || failures >= views) return 0;
     constexpr int kSteps = 60; // halvings of an interval of length 1
     double low = 0, high = 1;  // share of failures
@@ -36,7 +37,8 @@ double kept_share_lower_bound(std::size_t failures, std::size_t views, double co
     return 1 - high;
 }
 
-std::size_t count_views_needed(double share, double confidence, std::size_t failures) {
+std::size_t count_views_needed_for_certificate(double share, double confidence,
+                                               std::size_t failures) {
     std::size_t low = failures, high = failures + 1; // `low` views are too few
     const auto proves = [&](std::size_t views) {
         return binomial_cumulative(failures, views, 1 - share) <= 1 - confidence;

@@ -222,8 +222,9 @@ struct Row : Errors {
     Picture display;  ///< the same picture as displayed
     std::vector<float> flip_map; ///< FLIP of each pixel against the reference, row-major
     std::string image; ///< file name of the pictures without folder and ending: "naive-bounces1"
-    bool is_reference = false;  ///< whether technique and settings are those of the reference
-    bool mirrors_black = false; ///< whether mirrors show nothing: see measure::is_ranking_candidate
+    bool is_reference = false; ///< whether technique and settings are those of the reference
+    bool mirrors_black =
+        false; ///< whether mirrors show nothing: see measure::is_row_eligible_for_ranking
 };
 
 struct Comparison {
@@ -259,7 +260,7 @@ struct Comparison {
     std::vector<View> views;
     std::vector<Row> rows;
     /// Indices of the rows on the front of time against FLIP over the mirrors, from
-    /// measure::find_front_of_rows.
+    /// measure::find_pareto_front_of_rows.
     std::vector<std::size_t> pareto;
     double max_ms = NAN, max_flip = NAN; ///< budgets (measure/budget.hpp); NaN: none
     std::shared_ptr<LagResults> lag;     ///< see CompareRequest::studies; may be null

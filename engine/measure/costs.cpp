@@ -13,16 +13,17 @@ namespace catoptric::measure {
 
 namespace {
 
-using KindVector = std::vector<double>; // one number for each fitted kind
+using ValuePerWorkKind = std::vector<double>; // one number for each fitted kind
 
 /// Normal equations of the relative errors: minimise w' G w - 2 h' w over w >= 0.
-struct NormalEquations {
-    std::vector<KindVector> matrix;
-    KindVector right;
+struct UnitCostNormalEquations {
+    std::vector<ValuePerWorkKind> matrix;
+    ValuePerWorkKind right;
 
-    explicit NormalEquations(std::size_t kinds) : matrix(kinds, KindVector(kinds)), right(kinds) {}
+    explicit UnitCostNormalEquations(std::size_t kinds)
+        : matrix(kinds, ValuePerWorkKind(kinds)), right(kinds) {}
     /// Adds a sample `sign` times. `row` has the sample's counts divided by its time.
-    void add_sample(const KindVector& row, double sign) {
+    void add_sample(const ValuePerWorkKind& row, double sign) {
         for (std::size_t i = 0; i < right.size(); ++i) {
             right[i] += sign * row[i];
             for (std::size_t j = 0; j < right.size(); ++j) matrix[i][j] += sign * row[i] * row[j];
@@ -31,11 +32,11 @@ struct NormalEquations {
 };
 
 /// Solves by coordinate descent: each step sets one unknown to the best value that is not negative.
-KindVector solve_non_negative(const NormalEquations& equations) {
+ValuePerWorkKind solve_non_negative(const UnitCostNormalEquations& equations) {
     constexpr int kMaxSolverSweeps = 200'000;
     constexpr double kFitConvergenceLimit = 1e-12;
     const std::size_t count = equations.right.size();
-    KindVector found(count);
+    ValuePerWorkKind found(count);
     for (int sweep = 0; sweep < kMaxSolverSweeps; ++sweep) {
         double change = 0, size = 0;
         for (std::size_t i = 0; i < count; ++i) {
@@ -55,28 +56,30 @@ KindVector solve_non_negative(const NormalEquations& equations) {
     return found;
 }
 
-double count_of_work_kind(const WorkCounts& counts, WorkKind kind) {
+double work_count_of_kind(const WorkCountsByKind& counts, CountedWorkKind kind) {
     return static_cast<double>(counts[kind].value_or(0));
 }
 
-bool is_work_of_rays(WorkKind kind) { return kind <= WorkKind::triangle_lanes; }
+bool is_ray_tracing_work_kind(CountedWorkKind kind) {
+    return kind <= CountedWorkKind::triangle_lanes;
+}
 
 /// Returns the time with each unit at an end of its range: rays at the low end and other work at
 /// the high end, or the other way round.
-double predict_time_at_range_ends(const DeviceCosts& costs, const WorkCounts& counts,
-                                  bool rays_are_cheap) {
+double predict_time_at_cost_bounds(const DeviceCosts& costs, const WorkCountsByKind& counts,
+                                   bool rays_are_cheap) {
     double ms = 0;
     for (const WorkUnitCost& unit : costs.units) {
-        const bool low = is_work_of_rays(unit.kind) == rays_are_cheap;
+        const bool low = is_ray_tracing_work_kind(unit.kind) == rays_are_cheap;
         const double ns = !unit.range.is_known() ? unit.ns : low ? unit.range.low : unit.range.high;
-        ms += count_of_work_kind(counts, unit.kind) * ns * 1e-6;
+        ms += work_count_of_kind(counts, unit.kind) * ns * 1e-6;
     }
     return ms;
 }
 
 /// Returns the rows that no other row beats, fastest first. A row without a time takes no part.
-std::vector<std::size_t> find_front_of_predicted_times(const std::vector<Row>& rows,
-                                                       const std::vector<double>& ms) {
+std::vector<std::size_t> find_pareto_front_of_predicted_times(const std::vector<Row>& rows,
+                                                              const std::vector<double>& ms) {
     const auto beats = [&](std::size_t a, std::size_t b) {
         const double flip_a = rows[a].error.flip, flip_b = rows[b].error.flip;
         return ms[a] <= ms[b] && flip_a <= flip_b && (ms[a] < ms[b] || flip_a < flip_b);
@@ -94,12 +97,12 @@ std::vector<std::size_t> find_front_of_predicted_times(const std::vector<Row>& r
 
 } // namespace
 
-std::string_view cost_origin_name(CostOrigin origin) {
+std::string_view cost_origin_name(UnitCostOrigin origin) {
     constexpr std::string_view kCostOriginNames[] = {"fitted", "literature", "given"};
     return kCostOriginNames[static_cast<std::size_t>(origin)];
 }
 
-double CostFitQuality::fraction_within(double factor) const {
+double UnitCostFitQuality::share_of_predictions_within_factor(double factor) const {
     std::size_t within = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
         within += left_out_ms[i] <= samples[i].ms * factor &&
@@ -107,10 +110,10 @@ double CostFitQuality::fraction_within(double factor) const {
     return samples.empty() ? 0 : static_cast<double>(within) / static_cast<double>(samples.size());
 }
 
-PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
+PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& counts) {
     PredictedTime time;
     for (const WorkUnitCost& unit : costs.units) {
-        const double millions = count_of_work_kind(counts, unit.kind) * 1e-6; // ns to ms
+        const double millions = work_count_of_kind(counts, unit.kind) * 1e-6; // ns to ms
         time.ms += millions * unit.ns;
         time.low += millions * (unit.range.is_known() ? unit.range.low : unit.ns);
         time.high += millions * (unit.range.is_known() ? unit.range.high : unit.ns);
@@ -118,53 +121,54 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts) {
     return time;
 }
 
-PredictedFront find_predicted_front(const DeviceCosts& costs, const std::vector<Row>& rows) {
+PredictedParetoFront find_predicted_pareto_front(const DeviceCosts& costs,
+                                                 const std::vector<Row>& rows) {
     constexpr double kUnknownFrameTime = std::numeric_limits<double>::quiet_NaN();
-    PredictedFront front;
+    PredictedParetoFront front;
     std::vector<double> ms, cheap, dear;
     for (const Row& row : rows) {
-        const WorkCounts counts = total_work_of_row(row);
+        const WorkCountsByKind counts = total_work_counts_of_row(row);
         const bool is_known = has_counted_work(row);
         front.times.push_back(
             is_known ? predict_time(costs, counts)
                      : PredictedTime{kUnknownFrameTime, kUnknownFrameTime, kUnknownFrameTime});
-        const bool takes_part = is_known && is_ranking_candidate(row);
+        const bool takes_part = is_known && is_row_eligible_for_ranking(row);
         ms.push_back(takes_part ? front.times.back().ms : kUnknownFrameTime);
-        cheap.push_back(takes_part ? predict_time_at_range_ends(costs, counts, true)
+        cheap.push_back(takes_part ? predict_time_at_cost_bounds(costs, counts, true)
                                    : kUnknownFrameTime);
-        dear.push_back(takes_part ? predict_time_at_range_ends(costs, counts, false)
+        dear.push_back(takes_part ? predict_time_at_cost_bounds(costs, counts, false)
                                   : kUnknownFrameTime);
     }
-    front.rows = find_front_of_predicted_times(rows, ms);
-    front.rows_if_rays_are_cheap = find_front_of_predicted_times(rows, cheap);
-    front.rows_if_rays_are_dear = find_front_of_predicted_times(rows, dear);
+    front.rows = find_pareto_front_of_predicted_times(rows, ms);
+    front.rows_if_rays_are_cheap = find_pareto_front_of_predicted_times(rows, cheap);
+    front.rows_if_rays_are_dear = find_pareto_front_of_predicted_times(rows, dear);
     return front;
 }
 
-DeviceCosts fit_unit_costs(std::string device, std::vector<TimedRowSample> samples,
-                           std::span<const WorkKind> kinds) {
+DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samples,
+                           std::span<const CountedWorkKind> kinds) {
     check(samples.size() >= kinds.size() && !kinds.empty(), Failure::usage, "fitting the costs of ",
           kinds.size(), " kinds of work: wanted at least as many measured rows, found ",
           samples.size());
-    std::vector<KindVector> rows;
-    NormalEquations all(kinds.size());
-    for (const TimedRowSample& sample : samples) {
+    std::vector<ValuePerWorkKind> rows;
+    UnitCostNormalEquations all(kinds.size());
+    for (const TimedWorkSample& sample : samples) {
         check(std::isfinite(sample.ms) && sample.ms > 0, Failure::usage, "row '", sample.name,
               "': wanted a time above 0 ms, found ", sample.ms);
-        KindVector& row = rows.emplace_back();
-        for (const WorkKind kind : kinds)
-            row.push_back(count_of_work_kind(sample.counts, kind) / sample.ms);
+        ValuePerWorkKind& row = rows.emplace_back();
+        for (const CountedWorkKind kind : kinds)
+            row.push_back(work_count_of_kind(sample.counts, kind) / sample.ms);
         all.add_sample(row, 1);
     }
-    DeviceCosts costs{.device = std::move(device), .origin = CostOrigin::fitted};
-    const KindVector found = solve_non_negative(all);
+    DeviceCosts costs{.device = std::move(device), .origin = UnitCostOrigin::fitted};
+    const ValuePerWorkKind found = solve_non_negative(all);
     for (std::size_t i = 0; i < kinds.size(); ++i)
         if (found[i] > 0) costs.units.push_back({kinds[i], found[i] * 1e6, {}, "fit"});
-    CostFitQuality& fit = costs.fit.emplace();
-    for (const KindVector& row : rows) {
-        NormalEquations others = all;
+    UnitCostFitQuality& fit = costs.fit.emplace();
+    for (const ValuePerWorkKind& row : rows) {
+        UnitCostNormalEquations others = all;
         others.add_sample(row, -1);
-        const KindVector without = solve_non_negative(others);
+        const ValuePerWorkKind without = solve_non_negative(others);
         double relative = 0;
         for (std::size_t k = 0; k < row.size(); ++k) relative += without[k] * row[k];
         fit.left_out_ms.push_back(relative * samples[fit.left_out_ms.size()].ms);

@@ -16,41 +16,41 @@ namespace catoptric::measure {
 
 /// Where a cost comes from. fitted: from times measured on the device. literature: from published
 /// figures. given: from the user.
-enum class CostOrigin : std::uint8_t { fitted, literature, given };
+enum class UnitCostOrigin : std::uint8_t { fitted, literature, given };
 /// Returns "fitted", "literature" or "given".
-std::string_view cost_origin_name(CostOrigin origin);
+std::string_view cost_origin_name(UnitCostOrigin origin);
 
 /// Cost of one unit of a kind of work, nanoseconds.
 struct WorkUnitCost {
-    WorkKind kind = WorkKind::fragments;
+    CountedWorkKind kind = CountedWorkKind::fragments;
     double ns = 0;
     Interval range; ///< smallest and largest value that the source supports; unknown if it has none
     std::string source; ///< publication or command from which the value follows
 };
 
 /// A row whose time was measured, for a fit.
-struct TimedRowSample {
+struct TimedWorkSample {
     std::string name;
-    WorkCounts counts;
+    WorkCountsByKind counts;
     double ms = 0;
 };
 
 /// How well fitted costs predict times. Each row is predicted by costs that were fitted to the
 /// other rows.
-struct CostFitQuality {
-    std::vector<TimedRowSample> samples;
+struct UnitCostFitQuality {
+    std::vector<TimedWorkSample> samples;
     std::vector<double> left_out_ms; ///< prediction of each sample, fitted without it
     /// Returns the share of samples, 0..1, whose prediction lies within a factor `factor` of the
     /// measured time.
-    double fraction_within(double factor) const;
+    double share_of_predictions_within_factor(double factor) const;
 };
 
 struct DeviceCosts {
     std::string device; ///< name of the device
-    CostOrigin origin = CostOrigin::given;
+    UnitCostOrigin origin = UnitCostOrigin::given;
     std::string note; ///< what the reader must know of the figures; may be empty
     std::vector<WorkUnitCost> units;
-    std::optional<CostFitQuality> fit; ///< only if fitted by this program
+    std::optional<UnitCostFitQuality> fit; ///< only if fitted by this program
 };
 
 /// Time that costs predict for a frame, milliseconds, with the smallest and largest costs of their
@@ -58,10 +58,10 @@ struct DeviceCosts {
 struct PredictedTime {
     double ms = 0, low = 0, high = 0;
 };
-PredictedTime predict_time(const DeviceCosts& costs, const WorkCounts& counts);
+PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& counts);
 
 /// The rows that no other row beats on a device, by predicted time and by FLIP over the mirrors.
-struct PredictedFront {
+struct PredictedParetoFront {
     std::vector<PredictedTime> times; ///< of each row; NaN for a row whose work was not counted
     /// Indices of the rows on the front, fastest first, at the costs themselves.
     std::vector<std::size_t> rows;
@@ -70,15 +70,16 @@ struct PredictedFront {
     std::vector<std::size_t> rows_if_rays_are_cheap, rows_if_rays_are_dear;
 };
 /// Returns the front of the rows that are candidates for ranking and whose work was counted.
-PredictedFront find_predicted_front(const DeviceCosts& costs, const std::vector<Row>& rows);
+PredictedParetoFront find_predicted_pareto_front(const DeviceCosts& costs,
+                                                 const std::vector<Row>& rows);
 
 /// Fits the cost of each kind in `kinds` so that the sum of the squared relative errors is least
 /// and no cost is negative (non-negative least squares by coordinate descent: Franc, Hlavac,
 /// Navara, Sequential Coordinate-Wise Algorithm for the Non-negative Least Squares Problem, 2005).
 /// Kinds with a cost of 0 are left out of the result. Fits once more without each sample, for
-/// CostFitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time that is
-/// not positive. Costs O(samples kinds^2) and little more.
-DeviceCosts fit_unit_costs(std::string device, std::vector<TimedRowSample> samples,
-                           std::span<const WorkKind> kinds);
+/// UnitCostFitQuality::left_out_ms. Throws `usage` for fewer samples than kinds, and for a time
+/// that is not positive. Costs O(samples kinds^2) and little more.
+DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samples,
+                           std::span<const CountedWorkKind> kinds);
 
 } // namespace catoptric::measure

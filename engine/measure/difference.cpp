@@ -44,7 +44,7 @@ const RegisteredMetric kFlipMetric{
      .each_mask_in_table = true,
      .columns = {{"FLIP"}},
      .get = [](const Difference& error) -> MetricValue { return error.flip; }}};
-const RegisteredMetric kShareOffMetric{
+const RegisteredMetric kOffPixelShareMetric{
     {.name = "off",
      .help = "share of the pixels whose largest channel difference exceeds .02",
      .better = BetterDirection::less,
@@ -182,7 +182,7 @@ void PictureDifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3
         absolutes_ += run.absolute[i];
         flips_ += static_cast<double>(flip_map[i]);
         largest_.push_back(largest);
-        off_[first + i] = largest > kVisibleDifference;
+        off_[first + i] = largest > kMaxInvisibleChannelDifference;
         off_count_ += off_[first + i];
         if (largest_.size() == 1 || largest > result_.max) {
             const auto width = static_cast<std::size_t>(width_);
@@ -193,7 +193,7 @@ void PictureDifferenceSum::add_run(std::span<const vec3> a, std::span<const vec3
     }
 }
 
-Difference PictureDifferenceSum::finish_difference() {
+Difference PictureDifferenceSum::compute_difference_metrics_from_sums() {
     Difference result = std::exchange(result_, {});
     const Mask off = std::exchange(off_, {});
     std::vector<double> largest = std::exchange(largest_, {});
@@ -214,7 +214,7 @@ Difference difference(const Picture& a, const Picture& b, const Mask& mask,
     check_equal_sizes(a, b, mask, flip_map.size());
     PictureDifferenceSum sum(a.width, a.pixels.size());
     sum.add_rows(a.pixels, b.pixels, mask, flip_map);
-    Difference result = sum.finish_difference();
+    Difference result = sum.compute_difference_metrics_from_sums();
     result.others = compute_picture_metrics({a, b, mask, flip_map});
     return result;
 }

@@ -24,7 +24,7 @@ public:
 
     /// Returns the difference over all rows, without the metrics that are computed from pictures.
     /// Resets the sum.
-    Difference finish_difference();
+    Difference compute_difference_metrics_from_sums();
 
 private:
     void add_run(std::span<const vec3> a, std::span<const vec3> b,

@@ -9,37 +9,37 @@ namespace catoptric::measure {
 namespace {
 
 /// Sums of a value over the pixels of each class.
-struct PixelClassSums {
+struct SumsByMirrorBounceClass {
     double first_order = 0, mirror_in_mirror = 0;
     std::vector<double> per_mirror;
-    double sum_of_all_classes() const { return first_order + mirror_in_mirror; }
+    double sum_of_all_mirror_pixels() const { return first_order + mirror_in_mirror; }
 };
 
 /// Mirror pixels and which of them count.
-struct CountedMirrorPixels {
+struct FiniteMirrorPixels {
     std::span<const std::uint32_t> hits; ///< first hits of the whole picture
     std::vector<std::size_t> places;     ///< indices of mirror pixels in the picture
     std::vector<bool> counts;            ///< whether each of `places` counts
     std::size_t mirrors = 0;
 
-    PixelClassSums sum_by_pixel_class(std::span<const double> values) const {
-        PixelClassSums sums;
+    SumsByMirrorBounceClass sum_by_mirror_bounce_class(std::span<const double> values) const {
+        SumsByMirrorBounceClass sums;
         sums.per_mirror.resize(mirrors);
         for (std::size_t i = 0; i < places.size(); ++i) {
             if (!counts[i]) continue;
             const std::uint32_t hit = hits[places[i]];
             (second_mirror_of_hit_word(hit) ? sums.mirror_in_mirror
                                             : sums.first_order) += values[i];
-            sums.per_mirror[first_mirror_of_hit_word(hit).list_index()] += values[i];
+            sums.per_mirror[first_mirror_of_hit_word(hit).zero_based_mirror_index()] += values[i];
         }
         return sums;
     }
 };
 
-CountedMirrorPixels list_counted_pixels(std::span<const std::uint32_t> hits,
-                                        std::span<const double> whole,
-                                        const std::vector<PixelErrorCause>& causes) {
-    CountedMirrorPixels pixels{hits, list_mirror_pixels(hits), {}, 0};
+FiniteMirrorPixels list_counted_pixels(std::span<const std::uint32_t> hits,
+                                       std::span<const double> whole,
+                                       const std::vector<PixelErrorCause>& causes) {
+    FiniteMirrorPixels pixels{hits, list_mirror_pixels(hits), {}, 0};
     const auto check_size = [&](std::size_t size, const std::string& what) {
         check(size == pixels.places.size(), Failure::internal, what, ": wanted values of ",
               pixels.places.size(), " mirror pixels, found ", size);
@@ -70,8 +70,9 @@ std::vector<double> compute_mean_per_mirror(const std::vector<double>& sums,
     return means;
 }
 
-std::vector<std::uint8_t> mark_largest_cause(const CountedMirrorPixels& pixels, const Mask& off,
-                                             const std::vector<PixelErrorCause>& causes) {
+std::vector<std::uint8_t>
+mark_largest_error_cause_of_pixels(const FiniteMirrorPixels& pixels, const Mask& off,
+                                   const std::vector<PixelErrorCause>& causes) {
     std::vector<std::uint8_t> largest(pixels.hits.size());
     for (std::size_t i = 0; i < pixels.places.size(); ++i) {
         if (!pixels.counts[i] || off[pixels.places[i]] == 0) continue;
@@ -91,33 +92,34 @@ std::vector<std::size_t> list_mirror_pixels(std::span<const std::uint32_t> hits)
     return places;
 }
 
-Causes sum_up_error_causes(std::span<const std::uint32_t> hits, const Mask& off,
-                           std::span<const double> whole,
-                           const std::vector<PixelErrorCause>& causes) {
-    const CountedMirrorPixels pixels = list_counted_pixels(hits, whole, causes);
-    const PixelClassSums counts = pixels.sum_by_pixel_class(std::vector<double>(whole.size(), 1.0)),
-                         row = pixels.sum_by_pixel_class(whole);
-    if (counts.sum_of_all_classes() == 0) return {};
-    const auto mean = [&](const PixelClassSums& sums) {
-        return sums.sum_of_all_classes() / counts.sum_of_all_classes();
+Causes summarise_error_causes(std::span<const std::uint32_t> hits, const Mask& off,
+                              std::span<const double> whole,
+                              const std::vector<PixelErrorCause>& causes) {
+    const FiniteMirrorPixels pixels = list_counted_pixels(hits, whole, causes);
+    const SumsByMirrorBounceClass counts = pixels.sum_by_mirror_bounce_class(
+                                      std::vector<double>(whole.size(), 1.0)),
+                                  row = pixels.sum_by_mirror_bounce_class(whole);
+    if (counts.sum_of_all_mirror_pixels() == 0) return {};
+    const auto mean = [&](const SumsByMirrorBounceClass& sums) {
+        return sums.sum_of_all_mirror_pixels() / counts.sum_of_all_mirror_pixels();
     };
     Causes result{
         .squared_error = mean(row),
         .squared_error_per_mirror = compute_mean_per_mirror(row.per_mirror, counts.per_mirror),
-        .largest = mark_largest_cause(pixels, off, causes)};
+        .largest = mark_largest_error_cause_of_pixels(pixels, off, causes)};
     for (const PixelErrorCause& cause : causes) {
-        const PixelClassSums part = pixels.sum_by_pixel_class(cause.part);
+        const SumsByMirrorBounceClass part = pixels.sum_by_mirror_bounce_class(cause.part);
         ErrorCauseShare& summed = result.list.emplace_back(ErrorCauseShare{.name = cause.name});
         summed.squared_error = mean(part);
         const auto share = [&](double sum) {
-            return row.sum_of_all_classes() > 0 ? sum / row.sum_of_all_classes() : NAN;
+            return row.sum_of_all_mirror_pixels() > 0 ? sum / row.sum_of_all_mirror_pixels() : NAN;
         };
-        summed.share = share(part.sum_of_all_classes());
+        summed.share = share(part.sum_of_all_mirror_pixels());
         summed.share_first_order = share(part.first_order);
         summed.share_mirror_in_mirror = share(part.mirror_in_mirror);
         for (const double sum : part.per_mirror) summed.share_per_mirror.push_back(share(sum));
         if (cause.alone.empty()) continue;
-        const PixelClassSums alone = pixels.sum_by_pixel_class(cause.alone);
+        const SumsByMirrorBounceClass alone = pixels.sum_by_mirror_bounce_class(cause.alone);
         summed.alone = mean(alone);
         summed.alone_per_mirror = compute_mean_per_mirror(alone.per_mirror, counts.per_mirror);
     }

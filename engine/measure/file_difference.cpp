@@ -18,9 +18,9 @@ namespace {
 constexpr int kPixelsPerBand = 1 << 20; // pixels of a band; a band has at least one row
 
 /// Window on a picture: the rows that one band and its surroundings need.
-class PictureRowWindow {
+class PictureRowReadWindow {
 public:
-    explicit PictureRowWindow(PictureReader reader) : reader_(std::move(reader)) {}
+    explicit PictureRowReadWindow(PictureReader reader) : reader_(std::move(reader)) {}
 
     /// Returns the rows [first, end). Rows that the window already holds are not read again.
     const Picture& read_rows_into_window(int first, int end) {
@@ -43,11 +43,11 @@ private:
 };
 
 /// Computes FLIP of parts of two pictures, one after the other in the same memory.
-class BandFlipComputer {
+class FlipBandComputer {
 public:
     /// `is_light_of_bytes`: both pictures are linear light that was decoded from 8 bits and gets no
     /// exposure. A screen shows exactly this light, so no conversion is needed.
-    BandFlipComputer(double exposure_stops, bool is_of_bytes, bool is_light_of_bytes)
+    FlipBandComputer(double exposure_stops, bool is_of_bytes, bool is_light_of_bytes)
         : flip_exposure_stops_(exposure_stops), is_of_bytes_(is_of_bytes),
           is_light_of_bytes_(is_light_of_bytes) {}
 
@@ -80,8 +80,8 @@ std::vector<vec3> apply_exposure_to_rows(std::span<const vec3> rows, double expo
 }
 
 template <typename Value>
-std::span<const Value> span_of_rows(const std::vector<Value>& values, int width, int first,
-                                    int end) {
+std::span<const Value> values_of_picture_rows(const std::vector<Value>& values, int width,
+                                              int first, int end) {
     if (values.empty()) return {};
     return std::span(values).subspan(static_cast<std::size_t>(first) * std::size_t(width),
                                      static_cast<std::size_t>(end - first) * std::size_t(width));
@@ -104,13 +104,13 @@ PictureFileDifference compare_picture_files(const std::filesystem::path& a,
     if (!mask_file.empty()) mask = read_mask(mask_file, width, height);
 
     const bool is_of_bytes = is_png(a) || is_png(b);
-    const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bits() &&
-                                   reader_of_b.has_8_bits();
-    PictureRowWindow window_a(std::move(of_a)), window_b(std::move(reader_of_b));
+    const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bit_channels() &&
+                                   reader_of_b.has_8_bit_channels();
+    PictureRowReadWindow window_a(std::move(of_a)), window_b(std::move(reader_of_b));
     PictureDifferenceSum sum(width,
                              static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     PictureMeanSum a_mean, b_mean;
-    BandFlipComputer band_flip_computer(exposure_stops, is_of_bytes, is_light_of_bytes);
+    FlipBandComputer band_flip_computer(exposure_stops, is_of_bytes, is_light_of_bytes);
     const int band = std::max(1, kPixelsPerBand / width), reach = flip_filter_radius();
     for (int first = 0; first < height; first += band) {
         const int end = std::min(first + band, height), above = std::max(0, first - reach),
@@ -119,9 +119,11 @@ PictureFileDifference compare_picture_files(const std::filesystem::path& a,
         const Picture& part_b = window_b.read_rows_into_window(above, below);
         const std::vector<float> map = band_flip_computer.compute_flip_of_band(
             part_a, part_b, first - above, end - above);
-        const auto counted = span_of_rows(mask, width, first, end);
-        const auto rows_a = span_of_rows(part_a.pixels, width, first - above, end - above);
-        const auto rows_b = span_of_rows(part_b.pixels, width, first - above, end - above);
+        const auto counted = values_of_picture_rows(mask, width, first, end);
+        const auto rows_a = values_of_picture_rows(part_a.pixels, width, first - above,
+                                                   end - above);
+        const auto rows_b = values_of_picture_rows(part_b.pixels, width, first - above,
+                                                   end - above);
         a_mean.add_rows(rows_a, counted);
         b_mean.add_rows(rows_b, counted);
         const std::vector<vec3> exposed_a = apply_exposure_to_rows(rows_a, exposure_stops),
@@ -131,7 +133,7 @@ PictureFileDifference compare_picture_files(const std::filesystem::path& a,
     }
     return {width,
             height,
-            sum.finish_difference(),
+            sum.compute_difference_metrics_from_sums(),
             a_mean.mean(ValueRange::unclamped),
             b_mean.mean(ValueRange::unclamped),
             a_mean.mean(ValueRange::clamped),

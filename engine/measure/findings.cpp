@@ -9,8 +9,9 @@
 
 namespace catoptric::measure {
 
-std::optional<UndrawnReflectionFinding> find_undrawn_dielectrics(const Comparison& comparison) {
-    UndrawnReflectionFinding finding;
+std::optional<UndrawnDielectricReflectionResult>
+find_undrawn_dielectrics(const Comparison& comparison) {
+    UndrawnDielectricReflectionResult finding;
     for (const Row& row : comparison.rows) {
         const Difference& error = row.error_dielectrics;
         if (error.pixels == 0 || std::isnan(error.flip)) continue;
@@ -26,11 +27,11 @@ std::optional<UndrawnReflectionFinding> find_undrawn_dielectrics(const Compariso
     return finding;
 }
 
-std::optional<ClearCostFinding> find_clear_cost_finding(const Comparison& comparison) {
+std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Comparison& comparison) {
     const Row* one = find_naive_row(comparison, 0);
-    const Row* two = find_row_by_knobs(comparison, "reuse");
+    const Row* two = find_row_of_technique_with_knobs(comparison, "reuse");
     if (one == nullptr || two == nullptr) return {};
-    ClearCostFinding finding{one, two, is_confidently_faster(*two, *one)};
+    CaptureClearCostResult finding{one, two, is_confidently_faster(*two, *one)};
     if (!comparison.clear_ms) return finding;
     const double clear = comparison.clear_ms->median;
     finding.clear_ms = clear;
@@ -40,21 +41,22 @@ std::optional<ClearCostFinding> find_clear_cost_finding(const Comparison& compar
     with_clear.resize(std::min(with_clear.size(), clears.size()));
     for (std::size_t i = 0; i < with_clear.size(); ++i) with_clear[i] += clears[i];
     if (finding.one_is_slower)
-        finding.verdict = ClearCostFinding::ClearCostVerdict::slower_without;
+        finding.verdict = CaptureClearCostResult::CaptureClearCostVerdict::slower_without;
     else if (!(median_ratio_interval(with_clear, two->time_ms().rounds).low > 1))
-        finding.verdict = ClearCostFinding::ClearCostVerdict::too_little;
+        finding.verdict = CaptureClearCostResult::CaptureClearCostVerdict::too_little;
     return finding;
 }
 
-std::optional<StoredDistanceFinding> find_stored_distance_finding(const Comparison& comparison) {
+std::optional<StoredDistanceFormatResult>
+find_stored_distance_format_result(const Comparison& comparison) {
     const auto eight_bits = [&](std::string_view range) -> const Row* {
-        const KnobValueText wanted[] = {{"distance", "unorm8"}, {"range", range}};
-        const Row* row = find_row_by_knobs(comparison, "parallax", wanted);
+        const KnobNameAndValueText wanted[] = {{"distance", "unorm8"}, {"range", range}};
+        const Row* row = find_row_of_technique_with_knobs(comparison, "parallax", wanted);
         return has_known_error(row) ? row : nullptr;
     };
-    StoredDistanceFinding finding{find_row_by_knobs(comparison, "reuse"),
-                                  find_parallax_row(comparison), eight_bits("200"),
-                                  eight_bits("1000")};
+    StoredDistanceFormatResult finding{find_row_of_technique_with_knobs(comparison, "reuse"),
+                                       find_parallax_row(comparison), eight_bits("200"),
+                                       eight_bits("1000")};
     if (!has_known_error(finding.plain) || !has_known_error(finding.full)) return {};
     if (finding.near == nullptr && finding.far == nullptr) return {};
     finding.near_is_worse = finding.near != nullptr &&
@@ -62,8 +64,9 @@ std::optional<StoredDistanceFinding> find_stored_distance_finding(const Comparis
     return finding;
 }
 
-std::optional<BounceFinding> find_bounce_finding(const Comparison& comparison) {
-    BounceFinding finding;
+std::optional<BouncesVersusErrorResult>
+find_bounces_versus_error_result(const Comparison& comparison) {
+    BouncesVersusErrorResult finding;
     for (int i = 1; has_known_error(find_naive_row(comparison, i)); ++i)
         finding.steps.push_back(find_naive_row(comparison, i));
     if (finding.steps.size() < 2) return {};
@@ -77,25 +80,26 @@ std::optional<BounceFinding> find_bounce_finding(const Comparison& comparison) {
     return finding;
 }
 
-std::optional<CorrectionPriceFinding> find_parallax_correction_price(const Comparison& comparison) {
-    const Row* two = find_row_by_knobs(comparison, "reuse");
+std::optional<ParallaxCorrectionPriceResult>
+find_parallax_correction_price(const Comparison& comparison) {
+    const Row* two = find_row_of_technique_with_knobs(comparison, "reuse");
     const Row* three = find_parallax_row(comparison);
     if (two == nullptr || three == nullptr || !(two->time_ms().median > 0)) return {};
-    CorrectionPriceFinding finding{two, three, is_time_tie(*two, *three),
-                                   time_ratio_interval(*three, *two)};
+    ParallaxCorrectionPriceResult finding{two, three, is_time_tie(*two, *three),
+                                          time_ratio_interval(*three, *two)};
     finding.more = three->time_ms().median / two->time_ms().median - 1;
     if (three->memory_bytes > two->memory_bytes)
         finding.more_bytes = three->memory_bytes - two->memory_bytes;
     return finding;
 }
 
-std::optional<TracingTimeFinding> find_tracing_time_finding(const Comparison& comparison) {
+std::optional<RayTracingTimeResult> find_ray_tracing_time_result(const Comparison& comparison) {
     const Row* three = find_parallax_row(comparison);
     const Row* traced = find_ray_traced_row(comparison);
     if (three == nullptr || traced == nullptr || !(three->time_ms().median > 0)) return {};
-    return TracingTimeFinding{three, traced, is_time_tie(*three, *traced),
-                              time_ratio_interval(*traced, *three),
-                              traced->time_ms().median / three->time_ms().median};
+    return RayTracingTimeResult{three, traced, is_time_tie(*three, *traced),
+                                time_ratio_interval(*traced, *three),
+                                traced->time_ms().median / three->time_ms().median};
 }
 
 } // namespace catoptric::measure

@@ -14,19 +14,20 @@ namespace catoptric::measure {
 inline constexpr double kEightBitStep = 1.0 / 255;
 
 /// Result for smooth dielectrics, whose reflection some rows do not draw.
-struct UndrawnReflectionFinding {
+struct UndrawnDielectricReflectionResult {
     double share = 0; ///< share of the picture's pixels that show smooth dielectrics, 0..1
     /// Rows that draw the reflection, because they trace each pixel.
     std::vector<const Row*> tracing;
     const Row* best = nullptr; ///< the other row with the lowest FLIP over these pixels
 };
 /// Returns nothing if no pixel shows a smooth dielectric or if each row draws the reflection.
-std::optional<UndrawnReflectionFinding> find_undrawn_dielectrics(const Comparison& comparison);
+std::optional<UndrawnDielectricReflectionResult>
+find_undrawn_dielectrics(const Comparison& comparison);
 
 /// Answer to whether clearing cubes explains why part one without inter-reflections, which renders
 /// and clears no cube, is slower than part two.
-struct ClearCostFinding {
-    enum class ClearCostVerdict {
+struct CaptureClearCostResult {
+    enum class CaptureClearCostVerdict {
         slower_without, ///< part one is slower even without a clear
         too_little, ///< part one is not slower than part two even with the time of the clear added
         explains
@@ -35,23 +36,24 @@ struct ClearCostFinding {
     bool one_is_slower = false;
     /// Time to clear all mirrors' cubes; empty if not measured, and then `verdict` says nothing.
     std::optional<double> clear_ms;
-    ClearCostVerdict verdict = ClearCostVerdict::explains;
+    CaptureClearCostVerdict verdict = CaptureClearCostVerdict::explains;
     /// Excess of part one with a clear over part two, as a share of part two's time.
     double gap = 0;
 };
-std::optional<ClearCostFinding> find_clear_cost_finding(const Comparison& comparison);
+std::optional<CaptureClearCostResult> find_capture_clear_cost_result(const Comparison& comparison);
 
 /// Cost of storing distances in 8 bits. Missing rows are null, but at least one of `near` and `far`
 /// is there.
-struct StoredDistanceFinding {
+struct StoredDistanceFormatResult {
     const Row *plain, *full;
     const Row *near, *far;      ///< rows with 8-bit distances up to 200 and up to 1000 units
     bool near_is_worse = false; ///< whether `near` has a larger error than no correction at all
 };
-std::optional<StoredDistanceFinding> find_stored_distance_finding(const Comparison& comparison);
+std::optional<StoredDistanceFormatResult>
+find_stored_distance_format_result(const Comparison& comparison);
 
 /// Answer to the question whether more bounces bring the technique `naive` closer to the reference.
-struct BounceFinding {
+struct BouncesVersusErrorResult {
     std::vector<const Row*> steps; ///< rows with 1, 2, ... inter-reflections
     double fall = 0;               ///< fall of the rmse from the first to the last step
     bool helps = false;            ///< whether the fall is larger than kEightBitStep
@@ -59,11 +61,12 @@ struct BounceFinding {
     /// step. Null otherwise.
     const Row* dominated_by = nullptr;
 };
-std::optional<BounceFinding> find_bounce_finding(const Comparison& comparison);
+std::optional<BouncesVersusErrorResult>
+find_bounces_versus_error_result(const Comparison& comparison);
 
 /// Additional cost of the seed report's part three (parallax correction) over its part two (last
 /// frame's captures).
-struct CorrectionPriceFinding {
+struct ParallaxCorrectionPriceResult {
     const Row *two, *three;
     bool tie = false;    ///< whether their times cannot be told apart
     Interval ratio_ci95; ///< ratio of part three's time to part two's, round by round
@@ -72,15 +75,16 @@ struct CorrectionPriceFinding {
     double more = 0;
     std::uint64_t more_bytes = 0; ///< additional bytes of images; 0 if part three needs no more
 };
-std::optional<CorrectionPriceFinding> find_parallax_correction_price(const Comparison& comparison);
+std::optional<ParallaxCorrectionPriceResult>
+find_parallax_correction_price(const Comparison& comparison);
 
 /// Time of ray tracing, compared with the seed report's part three (parallax correction).
-struct TracingTimeFinding {
+struct RayTracingTimeResult {
     const Row *three, *traced;
     bool tie = false;
     Interval ratio_ci95;
     double ratio = 1; ///< median time of ray tracing divided by that of part three
 };
-std::optional<TracingTimeFinding> find_tracing_time_finding(const Comparison& comparison);
+std::optional<RayTracingTimeResult> find_ray_tracing_time_result(const Comparison& comparison);
 
 } // namespace catoptric::measure

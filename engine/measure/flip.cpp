@@ -157,16 +157,17 @@ void decode_pixels(const vec3* pixels, std::size_t count, PixelEncoding encoding
 
 /// Writes the opponent colours of a part of a displayed picture with a border of `reach` pixels.
 /// Beyond the picture, its outermost pixels are repeated.
-void convert_part_to_opponent_space(const Picture& display, PixelEncoding encoding,
-                                    const PixelRegion& part, int reach, ChannelPlanes& result) {
+void convert_region_to_opponent_space(const Picture& display, PixelEncoding encoding,
+                                      const PixelRegion& part, int reach, ChannelPlanes& result) {
     const ivec2 size = part.high - part.low + 2 * reach, low = part.low - reach;
     const int first = std::max(0, -low.x), end = std::min(size.x, display.width - low.x);
     for (ChannelPlane& plane : result) plane.resize_plane(size.x, size.y);
     const auto count = static_cast<std::size_t>(end - first);
     for (int y = 0; y < size.y; ++y) {
         const vec3* const pixels = &display.at(0, std::clamp(low.y + y, 0, display.height - 1));
-        const std::array<double*, 3> rows = {result[0].row_values(y), result[1].row_values(y),
-                                             result[2].row_values(y)};
+        const std::array<double*, 3> rows = {result[0].values_of_plane_row(y),
+                                             result[1].values_of_plane_row(y),
+                                             result[2].values_of_plane_row(y)};
         decode_pixels(pixels + low.x + first, count, encoding, rows[0] + first, rows[1] + first,
                       rows[2] + first);
         convert_to_opponent(rows[0] + first, rows[1] + first, rows[2] + first, count);
@@ -309,14 +310,16 @@ struct FlipKernels {
 };
 
 /// Data of one picture that FLIP compares.
-struct FlipInput {
+struct PreparedFlipInput {
     ChannelPlanes colour;     ///< filtered, clamped to the gamut, in the perceptually uniform space
     ChannelPlane edge, point; ///< strength of an edge and of a point at each pixel
 };
 
 /// Writes the distances of colours and of features, pixel by pixel.
-CATOPTRIC_WIDE void compare_flip_inputs(const FlipInput& a, const FlipInput& b,
-                                        float* __restrict colours, float* __restrict features) {
+CATOPTRIC_WIDE void compute_flip_of_prepared_inputs(const PreparedFlipInput& a,
+                                                    const PreparedFlipInput& b,
+                                                    float* __restrict colours,
+                                                    float* __restrict features) {
     const std::size_t count = a.edge.values.size();
     const double *a_x = a.colour[0].values.data(), *a_y = a.colour[1].values.data(),
                  *a_z = a.colour[2].values.data();
@@ -333,18 +336,18 @@ CATOPTRIC_WIDE void compare_flip_inputs(const FlipInput& a, const FlipInput& b,
 }
 
 /// Computes parts of a map, one after the other in the same memory.
-class FlipMapPart {
+class FlipMapRegion {
 public:
-    FlipMapPart(const FlipKernels& kernels, PixelEncoding encoding)
+    FlipMapRegion(const FlipKernels& kernels, PixelEncoding encoding)
         : flip_kernels_(kernels), encoding_(encoding) {}
 
     /// Writes the map of `part` to `to`. Its rows begin `stride` values apart.
-    void write_map(const Picture& a, const Picture& b, const PixelRegion& part, float* to,
-                   std::ptrdiff_t stride) {
+    void write_flip_map_region(const Picture& a, const Picture& b, const PixelRegion& part,
+                               float* to, std::ptrdiff_t stride) {
         prepare_flip_input(a, part, a_);
         prepare_flip_input(b, part, b_);
         colours_.resize(a_.edge.values.size()), features_.resize(a_.edge.values.size());
-        compare_flip_inputs(a_, b_, colours_.data(), features_.data());
+        compute_flip_of_prepared_inputs(a_, b_, colours_.data(), features_.data());
         std::size_t i = 0;
         for (int y = part.low.y; y < part.high.y; ++y, to += stride)
             for (int x = 0; x < part.high.x - part.low.x; ++x, ++i)
@@ -352,8 +355,9 @@ public:
     }
 
 private:
-    void prepare_flip_input(const Picture& display, const PixelRegion& part, FlipInput& seen) {
-        convert_part_to_opponent_space(display, encoding_, part, flip_kernels_.reach, opponent_);
+    void prepare_flip_input(const Picture& display, const PixelRegion& part,
+                            PreparedFlipInput& seen) {
+        convert_region_to_opponent_space(display, encoding_, part, flip_kernels_.reach, opponent_);
         const auto& [achromatic, red_green, blue_yellow] = opponent_;
         const ColourKernels& colour = flip_kernels_.colour;
         convolve_along_x(achromatic, colour.achromatic_kernel, flip_kernels_.reach, part_);
@@ -388,7 +392,7 @@ private:
     PixelEncoding encoding_;
     ChannelPlanes opponent_;
     ChannelPlane part_, part_2_, smooth_x_;
-    FlipInput a_, b_;
+    PreparedFlipInput a_, b_;
     std::vector<float> colours_, features_;
     ColourDistanceMap colour_difference_;
 };
@@ -422,12 +426,13 @@ std::vector<float> compute_flip_of_rows(const Picture& a, const Picture& b, int 
     const int tile_count = tiles.x * tiles.y;
     std::atomic<int> next{0};
     const auto work = [&](std::size_t) {
-        FlipMapPart part_of_map(kernels, encoding);
+        FlipMapRegion part_of_map(kernels, encoding);
         for (int tile = next++; tile < tile_count; tile = next++) {
             const ivec2 low = kFlipTileEdge * ivec2(tile % tiles.x, tile / tiles.x);
             const ivec2 high = min(low + kFlipTileEdge, size), from(0, first);
-            part_of_map.write_map(a, b, {low + from, high + from},
-                                  map.data() + std::ptrdiff_t(low.y) * size.x + low.x, size.x);
+            part_of_map.write_flip_map_region(a, b, {low + from, high + from},
+                                              map.data() + std::ptrdiff_t(low.y) * size.x + low.x,
+                                              size.x);
         }
     };
     const unsigned threads = std::min(hardware_thread_count(), static_cast<unsigned>(tile_count));

@@ -10,7 +10,7 @@ namespace catoptric::measure {
 
 /// Values of "flip_source" in JSON. FLIP compares either linear floats after exposure, clamping and
 /// the sRGB curve without rounding, or files that hold 8 bits.
-constexpr std::string_view kFlipSourceFloats = "float", kFlipOfBytes = "8-bit";
+constexpr std::string_view kFlipSourceFloats = "float", kFlipSourceBytes = "8-bit";
 
 /// How pixels between 0 and 1 store the light that a screen shows: by the sRGB curve or linearly.
 enum class PixelEncoding { srgb, linear };

@@ -7,10 +7,10 @@ namespace catoptric::measure {
 
 namespace {
 
-double zero_to_nan(const std::optional<double>& value) { return value.value_or(NAN); }
+double missing_value_to_nan(const std::optional<double>& value) { return value.value_or(NAN); }
 
 MetricValue list_pass_times(const Row& row) {
-    std::vector<MetricValueParts> list;
+    std::vector<NamedMetricValueParts> list;
     for (const PassFacts& pass : row.passes)
         list.push_back({"name", pass.name, {{"gpu_ms", pass.gpu_ms}}});
     return list;
@@ -109,7 +109,9 @@ const RegisteredMetric kTracedFractionMetric{
      .better = BetterDirection::less,
      .order = 220,
      .columns = {{"Traced, %", MetricValueFormat::percent, 2, MetricTableKind::lookup, 999}},
-     .get = [](const Row& row) -> MetricValue { return zero_to_nan(row.traced_fraction); }}};
+     .get = [](const Row& row) -> MetricValue {
+         return missing_value_to_nan(row.traced_fraction);
+     }}};
 const RegisteredMetric kAutoFaceEdgeMetric{
     {.name = "auto_face/edge",
      .unit = "texels",

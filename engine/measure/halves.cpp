@@ -18,7 +18,7 @@ constexpr int kBootstrapResampleCount = 1000;
 constexpr std::uint64_t kBootstrapSeed = 1;
 
 /// Sum over the finite pixels of one tile.
-struct TileProductSum {
+struct BootstrapTileSum {
     double products = 0, pixels = 0;
 };
 
@@ -27,23 +27,23 @@ double product_of_channel_differences(const dvec3& x, const dvec3& a, const dvec
     return glm::dot(x - a, x - b);
 }
 
-bool has_channel_across_one(const vec3& a, const vec3& b) {
+bool has_channel_clamped_in_one_only(const vec3& a, const vec3& b) {
     for (int channel = 0; channel < 3; ++channel)
         if ((a[channel] > 1) != (b[channel] > 1)) return true;
     return false;
 }
 
 /// Returns the interval of the mean product over tiles that are drawn with replacement.
-Interval compute_bootstrap_interval(std::vector<TileProductSum> tiles) {
-    std::erase_if(tiles, [](const TileProductSum& tile) { return tile.pixels == 0; });
+Interval compute_bootstrap_interval(std::vector<BootstrapTileSum> tiles) {
+    std::erase_if(tiles, [](const BootstrapTileSum& tile) { return tile.pixels == 0; });
     if (tiles.size() < kMinTilesForInterval) return {};
     std::mt19937_64 random(kBootstrapSeed);
     std::vector<double> means;
     means.reserve(kBootstrapResampleCount);
     for (int k = 0; k < kBootstrapResampleCount; ++k) {
-        TileProductSum sum;
+        BootstrapTileSum sum;
         for (std::size_t i = 0; i < tiles.size(); ++i) {
-            const TileProductSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
+            const BootstrapTileSum& drawn = tiles[(random() >> 32) * tiles.size() >> 32];
             sum.products += drawn.products, sum.pixels += drawn.pixels;
         }
         means.push_back(sum.products / (3 * sum.pixels));
@@ -56,17 +56,19 @@ double root_keeping_sign(double square) {
 }
 
 /// Sums of one mask.
-struct HalvesEstimateSum {
-    std::vector<TileProductSum> tiles;
+struct NoiseFreeErrorSum {
+    std::vector<BootstrapTileSum> tiles;
     double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
     double variance = 0; ///< of `products`
 };
 
-HalvesEstimateSum sum_estimate_over_mask(const Picture& picture, const ReferenceHalves& halves,
-                                         const Mask& mask, std::span<const float> flip_map) {
+NoiseFreeErrorSum sum_noise_free_error_over_mask(const Picture& picture,
+                                                 const NoisyReferenceHalves& halves,
+                                                 const Mask& mask,
+                                                 std::span<const float> flip_map) {
     const auto width = static_cast<std::size_t>(picture.width);
     const std::size_t across = (width + kBootstrapTileEdge - 1) / kBootstrapTileEdge;
-    HalvesEstimateSum sum;
+    NoiseFreeErrorSum sum;
     sum.tiles.resize(
         across * ((picture.pixels.size() / width + kBootstrapTileEdge - 1) / kBootstrapTileEdge));
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -76,7 +78,7 @@ HalvesEstimateSum sum_estimate_over_mask(const Picture& picture, const Reference
         const dvec3 low_a = clamp_pixel_to_unit_range(a), low_b = clamp_pixel_to_unit_range(b);
         const double product = product_of_channel_differences(clamp_pixel_to_unit_range(x), low_a,
                                                               low_b);
-        TileProductSum& tile =
+        BootstrapTileSum& tile =
             sum.tiles[i / width / kBootstrapTileEdge * across + i % width / kBootstrapTileEdge];
         tile.products += product, ++tile.pixels;
         sum.products += product, ++sum.pixels;
@@ -85,15 +87,15 @@ HalvesEstimateSum sum_estimate_over_mask(const Picture& picture, const Reference
         sum.variance += swapped * swapped;
         sum.unclamped += product_of_channel_differences(dvec3(x), dvec3(a), dvec3(b));
         sum.between += glm::dot(low_a - low_b, low_a - low_b);
-        sum.crossing += has_channel_across_one(a, b);
+        sum.crossing += has_channel_clamped_in_one_only(a, b);
         sum.flip += static_cast<double>(flip_map[i]);
         sum.floor += static_cast<double>(halves.floor_map[i]);
     }
     return sum;
 }
 
-void check_halves_match(const Picture& picture, const ReferenceHalves& halves, const Mask& mask,
-                        std::size_t flip_size) {
+void check_halves_match_picture(const Picture& picture, const NoisyReferenceHalves& halves,
+                                const Mask& mask, std::size_t flip_size) {
     for (const Picture* half : {&halves.a, &halves.b})
         check(half->width == picture.width && half->height == picture.height, Failure::bad_data,
               "halves of a reference: wanted the size of the picture, ", picture.width, "x",
@@ -122,8 +124,9 @@ const RegisteredMetric kNoiseMetric{
 
 } // namespace
 
-ReferenceHalves make_reference_halves(const Picture& a, const Picture& b, double exposure) {
-    ReferenceHalves halves{apply_exposure(a, exposure), apply_exposure(b, exposure), {}, {}};
+NoisyReferenceHalves make_noisy_reference_halves(const Picture& a, const Picture& b,
+                                                 double exposure) {
+    NoisyReferenceHalves halves{apply_exposure(a, exposure), apply_exposure(b, exposure), {}, {}};
     halves.mean = Picture(a.width, a.height);
     for (std::size_t i = 0; i < halves.mean.pixels.size(); ++i)
         halves.mean.pixels[i] = vec3((dvec3(halves.a.pixels[i]) + dvec3(halves.b.pixels[i])) / 2.);
@@ -132,7 +135,8 @@ ReferenceHalves make_reference_halves(const Picture& a, const Picture& b, double
 }
 
 std::vector<float> compute_flip_against_halves(const Picture& picture,
-                                               const ReferenceHalves& halves, double exposure) {
+                                               const NoisyReferenceHalves& halves,
+                                               double exposure) {
     const Picture shown = to_unrounded_display(picture, exposure);
     std::vector<float> map = flip(shown, to_unrounded_display(halves.a));
     const std::vector<float> second = flip(shown, to_unrounded_display(halves.b));
@@ -140,11 +144,12 @@ std::vector<float> compute_flip_against_halves(const Picture& picture,
     return map;
 }
 
-Difference compute_difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
-                                          const Mask& mask, std::span<const float> flip_map) {
-    check_halves_match(picture, halves, mask, flip_map.size());
+Difference compute_difference_from_halves(const Picture& picture,
+                                          const NoisyReferenceHalves& halves, const Mask& mask,
+                                          std::span<const float> flip_map) {
+    check_halves_match_picture(picture, halves, mask, flip_map.size());
     Difference result = difference(picture, halves.mean, mask, flip_map);
-    const HalvesEstimateSum sum = sum_estimate_over_mask(picture, halves, mask, flip_map);
+    const NoiseFreeErrorSum sum = sum_noise_free_error_over_mask(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return result;
     result.rmse = root_keeping_sign(sum.products / (3 * sum.pixels));
     result.psnr.reset();
@@ -153,10 +158,12 @@ Difference compute_difference_from_halves(const Picture& picture, const Referenc
     return result;
 }
 
-HalvesEstimate estimate_error_by_halves(const Picture& picture, const ReferenceHalves& halves,
-                                        const Mask& mask, std::span<const float> flip_map) {
-    check_halves_match(picture, halves, mask, flip_map.size());
-    HalvesEstimateSum sum = sum_estimate_over_mask(picture, halves, mask, flip_map);
+NoiseFreeErrorEstimate estimate_noise_free_error_by_halves(const Picture& picture,
+                                                           const NoisyReferenceHalves& halves,
+                                                           const Mask& mask,
+                                                           std::span<const float> flip_map) {
+    check_halves_match_picture(picture, halves, mask, flip_map.size());
+    NoiseFreeErrorSum sum = sum_noise_free_error_over_mask(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return {};
     const double values = 3 * sum.pixels;
     return {.squared_error = sum.products / values,
@@ -173,7 +180,7 @@ bool is_below_noise(const Difference& error) {
     return error.flip_floor > 0 && error.flip <= error.flip_floor;
 }
 
-double find_flip_floor(const Difference& a, const Difference& b) {
+double find_flip_noise_floor(const Difference& a, const Difference& b) {
     return std::max(a.flip_floor, b.flip_floor);
 }
 
@@ -190,10 +197,10 @@ double choose_target_noise_floor(const std::vector<const Row*>& rows) {
     return std::isfinite(least) ? kNoiseShareOfFlip * least : 0;
 }
 
-void set_noise_of_row(Row& row, const std::vector<HalvesEstimate>& estimates) {
-    std::vector<MetricValueParts> list;
+void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estimates) {
+    std::vector<NamedMetricValueParts> list;
     for (std::size_t i = 0; i < estimates.size(); ++i) {
-        const HalvesEstimate& estimate = estimates[i];
+        const NoiseFreeErrorEstimate& estimate = estimates[i];
         if (std::isnan(estimate.squared_error)) continue; // the mask has no pixel
         list.push_back({"mask",
                         std::string(list_row_masks()[i].name),
@@ -206,7 +213,7 @@ void set_noise_of_row(Row& row, const std::vector<HalvesEstimate>& estimates) {
                          {"flip", estimate.flip},
                          {"flip_floor", estimate.flip_floor}}});
     }
-    set_study_metric(row, std::string(kNoiseMetricName), std::move(list));
+    set_row_metric_of_study(row, std::string(kNoiseMetricName), std::move(list));
 }
 
 } // namespace catoptric::measure

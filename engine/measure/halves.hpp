@@ -16,25 +16,27 @@
 namespace catoptric::measure {
 
 /// Two halves of a reference, as linear RGB after exposure, and the FLIP between them.
-struct ReferenceHalves {
+struct NoisyReferenceHalves {
     Picture a, b;
     Picture mean;                 ///< of both
     std::vector<float> floor_map; ///< FLIP map of `a` and `b`
 };
 /// Returns halves with these pictures. `exposure`: stops, by which the pictures are multiplied.
-ReferenceHalves make_reference_halves(const Picture& a, const Picture& b, double exposure);
+NoisyReferenceHalves make_noisy_reference_halves(const Picture& a, const Picture& b,
+                                                 double exposure);
 
 /// Returns a picture's mean FLIP map against the two halves. `picture` is linear, before exposure.
 std::vector<float> compute_flip_against_halves(const Picture& picture,
-                                               const ReferenceHalves& halves, double exposure);
+                                               const NoisyReferenceHalves& halves, double exposure);
 
 /// Returns the difference of a picture, after exposure, and the halves. `rmse` is the root of the
 /// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below
 /// the noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map`
 /// (see compute_flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other
 /// figures are those against the mean of both halves, whose noise they include.
-Difference compute_difference_from_halves(const Picture& picture, const ReferenceHalves& halves,
-                                          const Mask& mask, std::span<const float> flip_map);
+Difference compute_difference_from_halves(const Picture& picture,
+                                          const NoisyReferenceHalves& halves, const Mask& mask,
+                                          std::span<const float> flip_map);
 
 /// Edge of the tiles that the bootstrap draws, pixels.
 inline constexpr int kBootstrapTileEdge = 16;
@@ -43,7 +45,7 @@ inline constexpr std::size_t kMinTilesForInterval = 10;
 
 /// The estimate of a picture's squared error over the pixels of a mask, and its noise. All squared
 /// errors are means over pixels and channels.
-struct HalvesEstimate {
+struct NoiseFreeErrorEstimate {
     /// Unbiased for the clamped pictures: linear RGB times 2^exposure, clamped to [0,1].
     double squared_error = Difference::kNone;
     /// 95 % interval of the squared error, by the percentile bootstrap over tiles of 16x16 pixels
@@ -64,26 +66,28 @@ struct HalvesEstimate {
     double flip = Difference::kNone;        ///< as in Difference
     double flip_floor = Difference::kNone;  ///< as in Difference
 };
-HalvesEstimate estimate_error_by_halves(const Picture& picture, const ReferenceHalves& halves,
-                                        const Mask& mask, std::span<const float> flip_map);
+NoiseFreeErrorEstimate estimate_noise_free_error_by_halves(const Picture& picture,
+                                                           const NoisyReferenceHalves& halves,
+                                                           const Mask& mask,
+                                                           std::span<const float> flip_map);
 
 /// Returns whether a row's FLIP over these pixels is no larger than that between the halves of its
 /// reference. False for a reference without noise.
 bool is_below_noise(const Difference& error);
 /// Returns the difference of two rows' FLIP below which they tie: the larger floor of the two, or 0
 /// for references without noise.
-double find_flip_floor(const Difference& a, const Difference& b);
+double find_flip_noise_floor(const Difference& a, const Difference& b);
 
 /// Returns the FLIP between the halves at which a reference need not be refined further: a fifth of
 /// the least FLIP over the mirrors of a row that looks into captures. If there is no such row, all
 /// rows but the reference count; 0 without any.
 double choose_target_noise_floor(const std::vector<const Row*>& rows);
 
-/// Name of the metric that lists a row's HalvesEstimate for each mask, and of the study that shows
-/// it.
+/// Name of the metric that lists a row's NoiseFreeErrorEstimate for each mask, and of the study
+/// that shows it.
 inline constexpr std::string_view kNoiseMetricName = "noise";
 /// Sets the row's metric kNoiseMetricName. `estimates` has one entry for each of list_row_masks().
-void set_noise_of_row(Row& row, const std::vector<HalvesEstimate>& estimates);
+void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estimates);
 
 /// The noise of a comparison's reference.
 struct ReferenceNoise {

@@ -6,7 +6,7 @@ namespace catoptric::measure {
 namespace {
 
 template <double HostTimes::*Part>
-MetricValue host_time_metric_value(const Row& row) {
+MetricValue host_time_metric_of_row(const Row& row) {
     return row.host_parts.*Part;
 }
 
@@ -24,26 +24,27 @@ const RegisteredMetric kSceneUpdateTimeMetric{
      .help = "median time to write moved objects and to find views and lights",
      .better = BetterDirection::less,
      .order = 24,
-     .get = host_time_metric_value<&HostTimes::update>}};
-const RegisteredMetric kHierarchyTimeMetric{{.name = "host_parts/hierarchy",
-                                             .unit = "ms",
-                                             .help = "median time to build or refit hierarchies",
-                                             .better = BetterDirection::less,
-                                             .order = 25,
-                                             .get = host_time_metric_value<&HostTimes::hierarchy>}};
+     .get = host_time_metric_of_row<&HostTimes::update>}};
+const RegisteredMetric kHierarchyTimeMetric{
+    {.name = "host_parts/hierarchy",
+     .unit = "ms",
+     .help = "median time to build or refit hierarchies",
+     .better = BetterDirection::less,
+     .order = 25,
+     .get = host_time_metric_of_row<&HostTimes::hierarchy>}};
 const RegisteredMetric kGraphCompileTimeMetric{
     {.name = "host_parts/compile",
      .unit = "ms",
      .help = "median time to declare passes, and to plan them if their shape is new",
      .better = BetterDirection::less,
      .order = 26,
-     .get = host_time_metric_value<&HostTimes::compile>}};
+     .get = host_time_metric_of_row<&HostTimes::compile>}};
 const RegisteredMetric kRecordTimePartMetric{{.name = "host_parts/record",
                                               .unit = "ms",
                                               .help = "median time to record the command buffer",
                                               .better = BetterDirection::less,
                                               .order = 27,
-                                              .get = host_time_metric_value<&HostTimes::record>}};
+                                              .get = host_time_metric_of_row<&HostTimes::record>}};
 const RegisteredMetric kFrameTimeMetric{
     {.name = "frame_ms",
      .unit = "ms",

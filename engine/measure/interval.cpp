@@ -9,7 +9,7 @@ namespace {
 
 /// Returns the largest k, from 1, for which P(Binomial(n, 1/2) < k) <= 2.5 %, or 0 if there is
 /// none.
-std::size_t confidence_interval_rank(std::size_t n) {
+std::size_t order_statistic_rank_of_median_interval(std::size_t n) {
     const auto count = static_cast<double>(n);
     double log_term = -count * std::log(2.0); // logarithm of P(Binomial = k)
     double below = 0;                         // P(Binomial < k)
@@ -34,7 +34,7 @@ Interval median_interval_over_pairs(std::span<const double> a, std::span<const d
 } // namespace
 
 Interval median_confidence_interval(std::span<const double> values) {
-    const std::size_t rank = confidence_interval_rank(values.size());
+    const std::size_t rank = order_statistic_rank_of_median_interval(values.size());
     if (rank == 0 || std::ranges::any_of(values, [](double value) { return std::isnan(value); }))
         return {};
     std::vector<double> sorted(values.begin(), values.end());

@@ -14,9 +14,9 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns the first row on the front that beats this row, or null if none does.
-const Row* find_row_that_beats(const std::vector<const Row*>& front, const Row& loser) {
+const Row* find_row_dominating(const std::vector<const Row*>& front, const Row& loser) {
     const auto found = std::ranges::find_if(
-        front, [&](const Row* row) { return is_better_variant_choice(*row, loser); });
+        front, [&](const Row* row) { return is_better_row_of_same_technique(*row, loser); });
     return found == front.end() ? nullptr : *found;
 }
 
@@ -43,12 +43,15 @@ namespace {
 
 /// Returns whether the row has the values that a choice needs: known FLIP and a time above 0.
 bool has_time_and_flip(const Row& row) {
-    return is_ranking_candidate(row) && !std::isnan(row.error.flip) && row.time_ms().median > 0;
+    return is_row_eligible_for_ranking(row) && !std::isnan(row.error.flip) &&
+           row.time_ms().median > 0;
 }
 
 } // namespace
 
-bool is_ranking_candidate(const Row& row) { return has_known_error(&row) && !row.mirrors_black; }
+bool is_row_eligible_for_ranking(const Row& row) {
+    return has_known_error(&row) && !row.mirrors_black;
+}
 
 bool has_known_time(const Row& row) { return !std::isnan(row.time_ms().median); }
 
@@ -66,24 +69,24 @@ bool is_time_tie(const Row& a, const Row& b) {
 
 bool has_less_flip(const Row& a, const Row& b) { return is_metric_less(a, b, "flip"); }
 
-bool is_better_variant_choice(const Row& a, const Row& b) {
+bool is_better_row_of_same_technique(const Row& a, const Row& b) {
     if (!has_time_and_flip(a) || !has_time_and_flip(b)) return false;
     return (is_confidently_faster(a, b) && !has_less_flip(b, a)) ||
            (has_less_flip(a, b) && !is_confidently_faster(b, a));
 }
 
-std::vector<std::size_t> find_front_of_rows(const std::vector<Row>& rows) {
+std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (has_time_and_flip(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
-                return is_better_variant_choice(other, rows[i]);
+                return is_better_row_of_same_technique(other, rows[i]);
             }))
             front.push_back(i);
     std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
     return front;
 }
 
-TimeRankRange find_time_places(const Comparison& comparison, const Row& row) {
+TimeRankRange find_time_rank_range_of_row(const Comparison& comparison, const Row& row) {
     if (!has_known_time(row)) return {0, 0};
     TimeRankRange places{1, 0};
     for (const Row& other : comparison.rows) {
@@ -102,7 +105,7 @@ std::vector<const Row*> find_noisy_rows(const Comparison& comparison) {
     return noisy;
 }
 
-bool is_on_front(const Comparison& comparison, const Row& row) {
+bool is_on_pareto_front(const Comparison& comparison, const Row& row) {
     return std::ranges::any_of(comparison.pareto, [&](std::size_t index) {
         return index < comparison.rows.size() && &comparison.rows[index] == &row;
     });
@@ -111,9 +114,9 @@ bool is_on_front(const Comparison& comparison, const Row& row) {
 std::vector<const Row*> find_fastest_rows(const Comparison& comparison) {
     std::vector<const Row*> fastest;
     for (const Row& row : comparison.rows)
-        if (is_ranking_candidate(row) && has_known_time(row) &&
+        if (is_row_eligible_for_ranking(row) && has_known_time(row) &&
             std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ranking_candidate(other) && is_confidently_faster(other, row);
+                return is_row_eligible_for_ranking(other) && is_confidently_faster(other, row);
             }))
             fastest.push_back(&row);
     return fastest;
@@ -122,7 +125,7 @@ std::vector<const Row*> find_fastest_rows(const Comparison& comparison) {
 const Row* find_closest_row(const Comparison& comparison) {
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows) {
-        if (row.is_reference || !is_ranking_candidate(row)) continue;
+        if (row.is_reference || !is_row_eligible_for_ranking(row)) continue;
         if (closest == nullptr || row.error.flip < closest->error.flip) closest = &row;
     }
     return closest;
@@ -132,9 +135,10 @@ std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison)
     std::vector<const Row*> ties;
     const Row* closest = find_closest_row(comparison);
     for (const Row& row : comparison.rows) {
-        if (closest == nullptr || &row == closest || row.is_reference || !is_ranking_candidate(row))
+        if (closest == nullptr || &row == closest || row.is_reference ||
+            !is_row_eligible_for_ranking(row))
             continue;
-        if (row.error.flip - closest->error.flip < find_flip_floor(row.error, closest->error))
+        if (row.error.flip - closest->error.flip < find_flip_noise_floor(row.error, closest->error))
             ties.push_back(&row);
     }
     return ties;
@@ -145,9 +149,10 @@ TimeRanking rank_rows_by_time(const Comparison& comparison) {
     for (const std::size_t index : comparison.pareto)
         if (index < comparison.rows.size()) result.front.push_back(&comparison.rows[index]);
     for (const Row* winner : result.front) {
-        TimeRanking::RowComparisonWin win{winner, {}};
+        TimeRanking::TimesRowBeatsAnother win{winner, {}};
         for (const Row& row : comparison.rows)
-            if (!is_on_front(comparison, row) && find_row_that_beats(result.front, row) == winner)
+            if (!is_on_pareto_front(comparison, row) &&
+                find_row_dominating(result.front, row) == winner)
                 win.losers.push_back(&row);
         if (!win.losers.empty()) result.wins.push_back(std::move(win));
     }
@@ -158,7 +163,8 @@ TimeRanking rank_rows_by_time(const Comparison& comparison) {
             result.black.push_back(&row);
         else if (!has_known_time(row))
             result.untimed.push_back(&row);
-        else if (!is_on_front(comparison, row) && find_row_that_beats(result.front, row) == nullptr)
+        else if (!is_on_pareto_front(comparison, row) &&
+                 find_row_dominating(result.front, row) == nullptr)
             result.beaten_by_beaten.push_back(&row);
     }
     return result;
@@ -168,10 +174,11 @@ RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison) {
     RayTracingVerdict verdict;
     verdict.any_traced = std::ranges::any_of(comparison.rows, is_ray_traced_row);
     for (const Row& row : comparison.rows) {
-        if (is_ray_traced_row(row) || !is_ranking_candidate(row) || !has_known_time(row)) continue;
+        if (is_ray_traced_row(row) || !is_row_eligible_for_ranking(row) || !has_known_time(row))
+            continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced_row(other) && is_better_variant_choice(other, row);
+                return is_ray_traced_row(other) && is_better_row_of_same_technique(other, row);
             }))
             verdict.unbeaten.push_back(&row);
     }

@@ -16,7 +16,7 @@ bool has_nonfinite_pixels(const Row& row);
 bool has_known_error(const Row* row);
 /// Returns whether the row takes part in fastest, closest and front. A candidate is judged and
 /// draws something in its mirrors. A row with black mirrors only gives a lower bound for time.
-bool is_ranking_candidate(const Row& row);
+bool is_row_eligible_for_ranking(const Row& row);
 /// Returns whether the row's time is known. The time of a row whose picture is a file is NaN.
 bool has_known_time(const Row& row);
 /// Returns the interval of a's time divided by b's, round by round. The two times can be told apart
@@ -28,15 +28,15 @@ bool is_confidently_faster(const Row& a, const Row& b);
 bool is_time_tie(const Row& a, const Row& b);
 /// Returns whether a has less FLIP over the mirrors than b. If errors over drawn views are known,
 /// the confidence interval of the difference decides. A difference below the noise of the reference
-/// (find_flip_floor) is a tie.
+/// (find_flip_noise_floor) is a tie.
 bool has_less_flip(const Row& a, const Row& b);
 /// Returns whether a is the better choice: faster and not farther from the reference, or closer and
 /// not slower. A row that is no candidate or took no time neither beats a row nor is beaten.
-bool is_better_variant_choice(const Row& a, const Row& b);
+bool is_better_row_of_same_technique(const Row& a, const Row& b);
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.
 /// This list is Comparison::pareto. Rows that tie may all be on the front. Costs O(n^2).
-std::vector<std::size_t> find_front_of_rows(const std::vector<Row>& rows);
+std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows);
 
 /// Places of a row in the order of time, from 1. `first` is one more than the number of rows that
 /// are faster. `last` is the number of rows less those that this row is faster than. Rows that tie
@@ -44,12 +44,12 @@ std::vector<std::size_t> find_front_of_rows(const std::vector<Row>& rows);
 struct TimeRankRange {
     std::size_t first = 1, last = 1;
 };
-TimeRankRange find_time_places(const Comparison& comparison, const Row& row);
+TimeRankRange find_time_rank_range_of_row(const Comparison& comparison, const Row& row);
 
 /// Returns the rows whose threads waited for processors that other programs used.
 std::vector<const Row*> find_noisy_rows(const Comparison& comparison);
 
-bool is_on_front(const Comparison& comparison, const Row& row);
+bool is_on_pareto_front(const Comparison& comparison, const Row& row);
 
 /// Returns the candidates that no other candidate is faster than. Several are returned if their
 /// times cannot be told apart.
@@ -63,14 +63,14 @@ std::vector<const Row*> find_ties_with_closest_row(const Comparison& comparison)
 
 /// Ranking of the rows: which row beats which.
 struct TimeRanking {
-    struct RowComparisonWin {
+    struct TimesRowBeatsAnother {
         const Row* winner; ///< a row on the front
         std::vector<const Row*> losers;
     };
     std::vector<const Row*> front; ///< rows on the front, in order of time
     /// Pairs of rows in which the first row beats the second. Each beaten row is listed once, with
     /// the first row on the front that beats it.
-    std::vector<RowComparisonWin> wins;
+    std::vector<TimesRowBeatsAnother> wins;
     std::vector<const Row*> beaten_by_beaten;
     std::vector<const Row*> not_judged;
     /// Judged rows that are no candidates because their mirrors are black.

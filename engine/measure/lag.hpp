@@ -10,7 +10,7 @@
 namespace catoptric::measure {
 
 /// Largest difference that counts as settled: one step of 8 bits, linear.
-inline constexpr double kSettledErrorLimit = 1.0 / 255;
+inline constexpr double kMaxSettledError = 1.0 / 255;
 
 /// Errors along the whole path at one speed.
 struct LagAtSpeed {
@@ -24,7 +24,7 @@ struct LagAtSpeed {
 struct SettlingAfterCut {
     std::vector<double> rmse;
     std::vector<double> max; ///< the largest channel difference of any mirror pixel
-    /// First frame from which on the rmse, or each pixel, is within kSettledErrorLimit. Empty if
+    /// First frame from which on the rmse, or each pixel, is within kMaxSettledError. Empty if
     /// that does not happen in these frames.
     std::optional<int> rmse_settled, max_settled;
 };
@@ -57,14 +57,14 @@ struct LagResults {
 };
 
 /// Returns a metric of each instant, NaN where the instant sees no mirror.
-std::vector<double> list_metric_values(const std::vector<Difference>& errors,
-                                       double Difference::*figure);
+std::vector<double> list_error_metric_at_instants(const std::vector<Difference>& errors,
+                                                  double Difference::*figure);
 /// Return the mean and a percentile of a metric over the instants that see a mirror, or NaN if none
 /// does. `fraction` is 0..1.
-double mean_over_instants(const std::vector<Difference>& errors, double Difference::*figure);
-double percentile_over_instants(const std::vector<Difference>& errors, double Difference::*figure,
-                                double fraction);
+double mean_error_over_instants(const std::vector<Difference>& errors, double Difference::*figure);
+double percentile_error_over_instants(const std::vector<Difference>& errors,
+                                      double Difference::*figure, double fraction);
 /// Returns the instant of the largest FLIP in seconds, or NaN if there is none.
-double find_worst_instant(const LagResults& lag, const LagAtSpeed& at);
+double find_instant_of_worst_lag(const LagResults& lag, const LagAtSpeed& at);
 
 } // namespace catoptric::measure

@@ -11,10 +11,10 @@ namespace catoptric::measure {
 
 namespace {
 
-constexpr std::array kChannelSuffixes{".R", ".G", ".B"};
+constexpr std::array kExrChannelSuffixes{".R", ".G", ".B"};
 
 /// Returns the index of a channel. Throws `bad_data` if the file lacks it.
-std::size_t find_channel(const ImageShape& shape, const std::string& channel,
+std::size_t find_channel(const ImageSizeAndChannels& shape, const std::string& channel,
                          const std::string& file) {
     const auto found = std::ranges::find(shape.channels, channel);
     check(found != shape.channels.end(), Failure::bad_data, file, ": wanted the channel ", channel,
@@ -27,7 +27,7 @@ std::size_t find_channel(const ImageShape& shape, const std::string& channel,
 void write_picture_layers(const LayeredPictureFile& file, const std::filesystem::path& path) {
     check(!file.layers.empty(), Failure::internal, "a file of layers wants a layer, found none");
     const Picture& first = file.layers.front().picture;
-    ImageShape shape{
+    ImageSizeAndChannels shape{
         {static_cast<std::uint32_t>(first.width), static_cast<std::uint32_t>(first.height)},
         3 * file.layers.size(),
         {},
@@ -38,7 +38,7 @@ void write_picture_layers(const LayeredPictureFile& file, const std::filesystem:
             const PictureLayer& part = file.layers[layer];
             check(part.picture.pixels.size() == first.pixels.size(), Failure::internal,
                   "layers of one file want one size");
-            shape.channels.push_back(part.name + kChannelSuffixes[channel]);
+            shape.channels.push_back(part.name + kExrChannelSuffixes[channel]);
             for (std::size_t i = 0; i < first.pixels.size(); ++i)
                 values[i * shape.channel_count + 3 * layer + channel] =
                     part.picture.pixels[i][static_cast<int>(channel)];
@@ -48,19 +48,19 @@ void write_picture_layers(const LayeredPictureFile& file, const std::filesystem:
 
 LayeredPictureFile read_picture_layers(const std::filesystem::path& path,
                                        std::span<const std::string> names) {
-    const std::unique_ptr<ByteSource> bytes = open_file_bytes(path);
+    const std::unique_ptr<RandomAccessByteSource> bytes = open_file_bytes(path);
     std::array<char, 16> start{};
     const std::size_t count = bytes->read(0, start);
     check(detect_image_format({start.data(), count}) == "openexr", Failure::bad_data, path.string(),
           ": wanted an OpenEXR file, found something else");
     ImageReader exr_reader(*bytes, "openexr", path.string());
-    const ImageShape& shape = exr_reader.image_shape();
+    const ImageSizeAndChannels& shape = exr_reader.image_size_and_channels();
     LayeredPictureFile file{.description = shape.description};
     std::vector<std::size_t> channels;
     for (const std::string& name : names) {
         file.layers.push_back(
             {name, Picture(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y))});
-        for (const char* suffix : kChannelSuffixes)
+        for (const char* suffix : kExrChannelSuffixes)
             channels.push_back(find_channel(shape, name + suffix, path.string()));
     }
     const std::vector<float> values = exr_reader.floats();

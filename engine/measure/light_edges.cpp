@@ -10,7 +10,7 @@ namespace catoptric::measure {
 namespace {
 
 constexpr std::string_view kMirrorMaskName = "mirrors";
-constexpr int kColumnOrderBesideRmse = 104; // order of columns that stand beside rmse
+constexpr int kColumnOrderNextToRmse = 104; // order of columns that stand beside rmse
 
 template <double LightEdgeErrors::*Figure>
 MetricValue light_edge_metric_value(const Row& row) {
@@ -24,7 +24,7 @@ const RegisteredMetric kLightEdgeRmseMetric{
      .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 255,
-     .columns = {{.title = "rmse, light edges", .order = kColumnOrderBesideRmse}},
+     .columns = {{.title = "rmse, light edges", .order = kColumnOrderNextToRmse}},
      .get = light_edge_metric_value<&LightEdgeErrors::rmse>}};
 const RegisteredMetric kRemainingRmseMetric{
     {.name = "light_edges/rest_rmse",
@@ -32,7 +32,7 @@ const RegisteredMetric kRemainingRmseMetric{
      .mask = kMirrorMaskName,
      .better = BetterDirection::less,
      .order = 256,
-     .columns = {{.title = "rmse, rest", .order = kColumnOrderBesideRmse}},
+     .columns = {{.title = "rmse, rest", .order = kColumnOrderNextToRmse}},
      .get = light_edge_metric_value<&LightEdgeErrors::rest_rmse>}};
 const RegisteredMetric kLightEdgeShareMetric{
     {.name = "light_edges/share",
@@ -54,7 +54,7 @@ struct SquaredErrorSum {
     double pixels = 0, squares = 0;
 };
 
-SquaredErrorSum make_error_sum(const Difference& error) {
+SquaredErrorSum make_squared_error_sum(const Difference& error) {
     const auto judged = static_cast<double>(error.pixels - error.nonfinite);
     return {judged, judged > 0 ? error.rmse * std::abs(error.rmse) * judged : 0};
 }
@@ -67,7 +67,8 @@ double signed_square_root(double square) {
 } // namespace
 
 LightEdgeErrors split_error_by_light_edges(const Difference& there, const Difference& elsewhere) {
-    const SquaredErrorSum edges = make_error_sum(there), rest = make_error_sum(elsewhere);
+    const SquaredErrorSum edges = make_squared_error_sum(there),
+                          rest = make_squared_error_sum(elsewhere);
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
     return {edges.pixels / pixels, squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,

@@ -12,27 +12,27 @@
 namespace catoptric::measure {
 namespace {
 
-constexpr int kPatchEdgePixels = 4; ///< edge of the square that makes a patch
+constexpr int kSolidPatchEdgePixels = 4; ///< edge of the square that makes a patch
 /// Pixels dilated by 1 touch if their columns and rows differ by at most this.
 constexpr int kTouchingPixelDistance = 3;
 
-/// Returns a mask of the lower right corners of squares of kPatchEdgePixels x kPatchEdgePixels
-/// pixels that all count.
-Mask mask_patch_corners(const Mask& mask, std::size_t width) {
+/// Returns a mask of the lower right corners of squares of kSolidPatchEdgePixels x
+/// kSolidPatchEdgePixels pixels that all count.
+Mask mask_corners_of_solid_patches(const Mask& mask, std::size_t width) {
     Mask corners(mask.size());
     const std::size_t height = mask.size() / width;
-    if (width < kPatchEdgePixels || height < kPatchEdgePixels) return corners;
-    // For each of the last kPatchEdgePixels rows: whether kPatchEdgePixels adjacent pixels count,
-    // the last of them at x.
-    std::array<Mask, kPatchEdgePixels> runs;
+    if (width < kSolidPatchEdgePixels || height < kSolidPatchEdgePixels) return corners;
+    // For each of the last kSolidPatchEdgePixels rows: whether kSolidPatchEdgePixels adjacent
+    // pixels count, the last of them at x.
+    std::array<Mask, kSolidPatchEdgePixels> runs;
     runs.fill(Mask(width));
     for (std::size_t y = 0; y < height; ++y) {
         const std::uint8_t* const row = mask.data() + y * width;
-        std::uint8_t* const run = runs[y % kPatchEdgePixels].data();
-        for (std::size_t x = kPatchEdgePixels - 1; x < width; ++x)
+        std::uint8_t* const run = runs[y % kSolidPatchEdgePixels].data();
+        for (std::size_t x = kSolidPatchEdgePixels - 1; x < width; ++x)
             run[x] = (row[x] != 0) & (row[x - 1] != 0) & (row[x - 2] != 0) & (row[x - 3] != 0);
         std::uint8_t* const corner = corners.data() + y * width;
-        if (y + 1 >= kPatchEdgePixels)
+        if (y + 1 >= kSolidPatchEdgePixels)
             for (std::size_t x = 0; x < width; ++x)
                 corner[x] = runs[0][x] & runs[1][x] & runs[2][x] & runs[3][x];
     }
@@ -40,28 +40,29 @@ Mask mask_patch_corners(const Mask& mask, std::size_t width) {
 }
 
 /// Set of connected pixels: its bounding box, and its parent in a forest of merged sets.
-struct ConnectedPixelSet {
+struct ConnectedOffPixelSet {
     int parent;
     int low_x, high_x, low_y, high_y;
     bool is_patch;
 
-    int longest_side() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
+    int longest_side_of_pixel_set() const { return std::max(high_x - low_x, high_y - low_y) + 1; }
 };
 
 /// Disjoint sets of pixels, numbered from 0.
-class ConnectedPixelSets {
+class ConnectedOffPixelSets {
 public:
     /// Adds a set of pixels of row `y` and returns its number.
-    int add_set(int low_x, int high_x, int y, bool is_patch) {
+    int add_connected_pixel_set(int low_x, int high_x, int y, bool is_patch) {
         const int number = static_cast<int>(sets_.size());
         sets_.push_back({number, low_x, high_x, y, y, is_patch});
         return number;
     }
 
-    void merge_sets(int one, int other) {
-        one = find_root_set(one), other = find_root_set(other);
+    void merge_connected_pixel_sets(int one, int other) {
+        one = find_root_of_connected_set(one), other = find_root_of_connected_set(other);
         if (one == other) return;
-        ConnectedPixelSet &to = set_by_number(one), &from = set_by_number(other);
+        ConnectedOffPixelSet &to = connected_pixel_set_by_number(one),
+                             &from = connected_pixel_set_by_number(other);
         to.low_x = std::min(to.low_x, from.low_x), to.high_x = std::max(to.high_x, from.high_x);
         to.low_y = std::min(to.low_y, from.low_y), to.high_y = std::max(to.high_y, from.high_y);
         to.is_patch = to.is_patch || from.is_patch;
@@ -73,53 +74,56 @@ public:
         int longest = 0;
         for (std::size_t i = 0; i < sets_.size(); ++i)
             if (sets_[i].parent == static_cast<int>(i) && !sets_[i].is_patch)
-                longest = std::max(longest, sets_[i].longest_side());
+                longest = std::max(longest, sets_[i].longest_side_of_pixel_set());
         return longest;
     }
 
 private:
-    ConnectedPixelSet& set_by_number(int number) { return sets_[static_cast<std::size_t>(number)]; }
+    ConnectedOffPixelSet& connected_pixel_set_by_number(int number) {
+        return sets_[static_cast<std::size_t>(number)];
+    }
     /// Returns the set into which `number` was merged. Shortens the path for the next call.
-    int find_root_set(int number) {
-        while (set_by_number(number).parent != number)
-            number = set_by_number(number).parent =
-                set_by_number(set_by_number(number).parent).parent;
+    int find_root_of_connected_set(int number) {
+        while (connected_pixel_set_by_number(number).parent != number)
+            number = connected_pixel_set_by_number(number).parent =
+                connected_pixel_set_by_number(connected_pixel_set_by_number(number).parent).parent;
         return number;
     }
 
-    std::vector<ConnectedPixelSet> sets_;
+    std::vector<ConnectedOffPixelSet> sets_;
 };
 
 /// Pixels of a row, each of which touches the next.
-struct TouchingPixelRun {
+struct HorizontalPixelRun {
     int low, high;
     int set;
 };
 
 /// Appends the runs of row `y` to `runs`, each as a set of its own.
 void find_pixel_runs(const std::uint8_t* row, const std::uint8_t* corners, int width, int y,
-                     ConnectedPixelSets& sets, std::vector<TouchingPixelRun>& runs) {
+                     ConnectedOffPixelSets& sets, std::vector<HorizontalPixelRun>& runs) {
     for (int x = 0; x < width; ++x) {
         if (row[x] == 0) continue;
         int high = x;
         for (int next = x + 1; next < width && next - high <= kTouchingPixelDistance; ++next)
             if (row[next] != 0) high = next;
         const bool is_patch = std::memchr(corners + x, 1, static_cast<std::size_t>(high - x + 1));
-        runs.push_back({x, high, sets.add_set(x, high, y, is_patch)});
+        runs.push_back({x, high, sets.add_connected_pixel_set(x, high, y, is_patch)});
         x = high;
     }
 }
 
 /// Merges the sets of runs that touch. `one` and `other` are runs of two rows that are at most
 /// kTouchingPixelDistance apart, from left to right.
-void merge_touching_runs(const std::vector<TouchingPixelRun>& one,
-                         const std::vector<TouchingPixelRun>& other, ConnectedPixelSets& sets) {
+void merge_touching_runs(const std::vector<HorizontalPixelRun>& one,
+                         const std::vector<HorizontalPixelRun>& other,
+                         ConnectedOffPixelSets& sets) {
     for (auto a = one.begin(), b = other.begin(); a != one.end() && b != other.end();) {
         // Pixels of a run are at most kTouchingPixelDistance apart, so no gap of a run holds a
         // pixel of another row that touches none of it.
         if (a->low <= b->high + kTouchingPixelDistance &&
             b->low <= a->high + kTouchingPixelDistance)
-            sets.merge_sets(a->set, b->set);
+            sets.merge_connected_pixel_sets(a->set, b->set);
         if (a->high < b->high)
             ++a;
         else
@@ -143,15 +147,15 @@ int longest_line_length(const Mask& off, int width) {
     if (off.empty()) return 0;
     const auto columns = static_cast<std::size_t>(width);
     const std::size_t height = off.size() / columns;
-    const Mask corners = mask_patch_corners(off, columns);
-    ConnectedPixelSets sets;
-    std::array<std::vector<TouchingPixelRun>, kTouchingPixelDistance + 1> last_rows;
+    const Mask corners = mask_corners_of_solid_patches(off, columns);
+    ConnectedOffPixelSets sets;
+    std::array<std::vector<HorizontalPixelRun>, kTouchingPixelDistance + 1> last_rows;
     for (std::size_t y = 0; y < height; ++y) {
-        std::vector<TouchingPixelRun>& runs = last_rows[y % last_rows.size()];
+        std::vector<HorizontalPixelRun>& runs = last_rows[y % last_rows.size()];
         runs.clear();
         find_pixel_runs(off.data() + y * columns, corners.data() + y * columns, width,
                         static_cast<int>(y), sets, runs);
-        for (const std::vector<TouchingPixelRun>& above : last_rows)
+        for (const std::vector<HorizontalPixelRun>& above : last_rows)
             if (&above != &runs) merge_touching_runs(above, runs, sets);
     }
     return sets.find_longest_line();

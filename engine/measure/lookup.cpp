@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kFirstOrderMaskName = "first_order";
 
 template <double LookupErrorSummary::*Figure>
-MetricValue lookup_metric_value(const Row& row) {
+MetricValue lookup_error_metric_of_row(const Row& row) {
     return row.lookup ? (*row.lookup).*Figure : NAN;
 }
 
@@ -37,7 +37,7 @@ const RegisteredMetric kMeanAngleMetric{
      .better = BetterDirection::less,
      .order = 261,
      .columns = {{"Mean, degrees", MetricValueFormat::fixed, 3, MetricTableKind::lookup}},
-     .get = lookup_metric_value<&LookupErrorSummary::mean_degrees>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::mean_degrees>}};
 const RegisteredMetric kAnglePercentile95Metric{
     {.name = "lookup/p95_degrees",
      .unit = "degrees",
@@ -46,7 +46,7 @@ const RegisteredMetric kAnglePercentile95Metric{
      .better = BetterDirection::less,
      .order = 262,
      .columns = {{"95 %", MetricValueFormat::fixed, 2, MetricTableKind::lookup}},
-     .get = lookup_metric_value<&LookupErrorSummary::p95_degrees>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::p95_degrees>}};
 const RegisteredMetric kAnglePercentile99Metric{
     {.name = "lookup/p99_degrees",
      .unit = "degrees",
@@ -55,7 +55,7 @@ const RegisteredMetric kAnglePercentile99Metric{
      .better = BetterDirection::less,
      .order = 263,
      .columns = {{"99 %", MetricValueFormat::fixed, 2, MetricTableKind::lookup}},
-     .get = lookup_metric_value<&LookupErrorSummary::p99_degrees>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::p99_degrees>}};
 const RegisteredMetric kWrongObjectMetric{
     {.name = "lookup/wrong_object",
      .help = "share of the pixels whose look-up finds another object than the true one",
@@ -63,7 +63,7 @@ const RegisteredMetric kWrongObjectMetric{
      .better = BetterDirection::less,
      .order = 264,
      .columns = {{"Wrong object, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
-     .get = lookup_metric_value<&LookupErrorSummary::wrong_object>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::wrong_object>}};
 const RegisteredMetric kUnknownLookupsMetric{
     {.name = "lookup/unknown",
      .help = "share of the pixels whose search answers unknown",
@@ -71,14 +71,14 @@ const RegisteredMetric kUnknownLookupsMetric{
      .better = BetterDirection::less,
      .order = 265,
      .columns = {{"Unknown, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
-     .get = lookup_metric_value<&LookupErrorSummary::unknown>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::unknown>}};
 const RegisteredMetric kMissedLookupsMetric{
     {.name = "lookup/miss",
      .help = "share of the pixels whose search answers miss",
      .mask = kFirstOrderMaskName,
      .order = 266,
      .columns = {{"Miss, %", MetricValueFormat::percent, 2, MetricTableKind::lookup}},
-     .get = lookup_metric_value<&LookupErrorSummary::miss>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::miss>}};
 const RegisteredMetric kLookupResidualMetric{
     {.name = "lookup/p95_residual",
      .help = "95th percentile, over hits, of the relative distance between the point found and the "
@@ -86,7 +86,7 @@ const RegisteredMetric kLookupResidualMetric{
      .mask = kFirstOrderMaskName,
      .better = BetterDirection::less,
      .order = 267,
-     .get = lookup_metric_value<&LookupErrorSummary::p95_residual>}};
+     .get = lookup_error_metric_of_row<&LookupErrorSummary::p95_residual>}};
 
 } // namespace
 

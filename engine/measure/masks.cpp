@@ -51,17 +51,17 @@ Mask mask_non_mirror_pixels(std::span<const std::uint32_t> hits) {
 
 Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return !first_mirror_of_hit_word(hit) && hit >> 16 == shared::kHitSmoothSurface;
+        return !first_mirror_of_hit_word(hit) && hit >> 16 == shared::kHitSmoothDielectric;
     });
 }
 
 Mask mask_rough_surfaces(std::span<const std::uint32_t> hits) {
     return mask_pixels_where(hits, [](std::uint32_t hit) {
-        return !first_mirror_of_hit_word(hit) && hit >> 16 == shared::kHitRoughSurface;
+        return !first_mirror_of_hit_word(hit) && hit >> 16 == shared::kHitRoughNonMirror;
     });
 }
 
-std::vector<Mask> list_row_mask_names(std::span<const std::uint32_t> hits) {
+std::vector<Mask> list_row_masks_by_name(std::span<const std::uint32_t> hits) {
     return {mask_mirror_pixels(hits),    mask_first_order_pixels(hits),
             mask_mirror_in_mirror(hits), mask_non_mirror_pixels(hits),
             mask_all_pixels(hits),       mask_smooth_dielectrics(hits),

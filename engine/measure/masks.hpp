@@ -11,7 +11,7 @@
 // pixel, row-major. The low 16 bits hold the number of the mirror that was hit first, from 1, or 0
 // for none. The high 16 bits hold the number of the mirror that the reflected ray meets next, or 0.
 // If the low bits are 0 and the high bits are not, the first surface reflects but is no numbered
-// mirror. The high bits are then shared::kHitSmoothSurface or shared::kHitRoughSurface.
+// mirror. The high bits are then shared::kHitSmoothDielectric or shared::kHitRoughNonMirror.
 namespace catoptric::measure {
 
 constexpr MirrorId first_mirror_of_hit_word(std::uint32_t hit) { return MirrorId(hit & 0xFFFFU); }
@@ -38,7 +38,7 @@ Mask mask_smooth_dielectrics(std::span<const std::uint32_t> hits);
 Mask mask_rough_surfaces(std::span<const std::uint32_t> hits);
 
 /// Returns the masks of list_row_masks(), in the same order.
-std::vector<Mask> list_row_mask_names(std::span<const std::uint32_t> hits);
+std::vector<Mask> list_row_masks_by_name(std::span<const std::uint32_t> hits);
 
 /// Returns how many pixels of a mask count.
 std::size_t count_mask_pixels(const Mask& mask);

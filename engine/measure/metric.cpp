@@ -12,12 +12,12 @@ namespace catoptric::measure {
 namespace {
 
 bool is_row_metric(const Metric& quantity) {
-    return std::holds_alternative<Metric::RowFunction>(quantity.get) ||
-           std::holds_alternative<Metric::IsStudyMetric>(quantity.get);
+    return std::holds_alternative<Metric::RowMetricFunction>(quantity.get) ||
+           std::holds_alternative<Metric::IsMetricOfStudy>(quantity.get);
 }
 
 std::vector<Metric> list_metrics_in_order() {
-    std::vector<Metric> rows = sort_registered_rows<Metric>();
+    std::vector<Metric> rows = list_registered_entries_in_order<Metric>();
     for (const Metric& row : rows)
         check(std::ranges::count(rows, row.name, &Metric::name) == 1, Failure::internal,
               "the quantity '", row.name, "' is there twice");
@@ -29,12 +29,12 @@ std::size_t picture_metric_index(const Metric& quantity) {
     std::size_t index = 0;
     for (const Metric& row : list_metrics()) {
         if (row.name == quantity.name) break;
-        index += std::holds_alternative<Metric::PictureFunction>(row.get);
+        index += std::holds_alternative<Metric::PictureMetricFunction>(row.get);
     }
     return index;
 }
 
-constexpr RowMask kRowMasks[] = {
+constexpr RowPixelMask kRowPixelMasks[] = {
     {"error", "mirrors", "", &Errors::error},
     {"error_first_order", "first_order", "first order", &Errors::error_first_order},
     {"error_mirror_in_mirror", "mirror_in_mirror", "mirror in mirror",
@@ -49,7 +49,7 @@ constexpr RowMask kRowMasks[] = {
 
 RegisteredMetric::RegisteredMetric(Metric quantity) {
     if (!is_row_metric(quantity)) quantity.mask = "each";
-    get_registered_rows<Metric>().push_back(std::move(quantity));
+    get_registered_table_entries<Metric>().push_back(std::move(quantity));
 }
 
 const std::vector<Metric>& list_metrics() {
@@ -66,28 +66,28 @@ const std::vector<Metric>& list_difference_metrics() {
     return kRows;
 }
 
-void set_study_metric(Row& row, const std::string& metric, MetricValue value) {
+void set_row_metric_of_study(Row& row, const std::string& metric, MetricValue value) {
     if (!row.studied) row.studied = std::make_shared<Studied>();
     row.studied->values[metric] = std::move(value);
 }
 
-MetricValue find_study_metric(const Row& row, std::string_view metric) {
+MetricValue find_row_metric_of_study(const Row& row, std::string_view metric) {
     if (!row.studied) return {};
     const auto found = row.studied->values.find(metric);
     return found == row.studied->values.end() ? MetricValue() : found->second;
 }
 
-MetricValue metric_value(const Metric& quantity, const Row& row) {
+MetricValue metric_value_of_difference(const Metric& quantity, const Row& row) {
     check(is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a row");
-    if (const auto* get = std::get_if<Metric::RowFunction>(&quantity.get)) return (*get)(row);
-    return find_study_metric(row, quantity.name);
+    if (const auto* get = std::get_if<Metric::RowMetricFunction>(&quantity.get)) return (*get)(row);
+    return find_row_metric_of_study(row, quantity.name);
 }
 
-MetricValue metric_value(const Metric& quantity, const Difference& difference) {
+MetricValue metric_value_of_difference(const Metric& quantity, const Difference& difference) {
     check(!is_row_metric(quantity), Failure::internal, "'", quantity.name,
           "' is no figure of a difference");
-    if (const auto* get = std::get_if<Metric::DifferenceFunction>(&quantity.get))
+    if (const auto* get = std::get_if<Metric::DifferenceMetricFunction>(&quantity.get))
         return (*get)(difference);
     const std::size_t index = picture_metric_index(quantity);
     return index < difference.others.size() ? difference.others[index] : NAN;
@@ -109,7 +109,9 @@ bool is_missing_value(const MetricValue& value) {
         bool operator()(const PixelPosition& place) const { return place.x < 0; }
         bool operator()(const SampleSummary& times) const { return times.n == 0; }
         bool operator()(const std::vector<double>& list) const { return list.empty(); }
-        bool operator()(const std::vector<MetricValueParts>& list) const { return list.empty(); }
+        bool operator()(const std::vector<NamedMetricValueParts>& list) const {
+            return list.empty();
+        }
     };
     return std::visit(MissingValueVisitor{}, value);
 }
@@ -117,14 +119,14 @@ bool is_missing_value(const MetricValue& value) {
 std::vector<double> compute_picture_metrics(const PicturePair& compared) {
     std::vector<double> figures;
     for (const Metric& quantity : list_metrics())
-        if (const auto* get = std::get_if<Metric::PictureFunction>(&quantity.get))
+        if (const auto* get = std::get_if<Metric::PictureMetricFunction>(&quantity.get))
             figures.push_back((*get)(compared));
     return figures;
 }
 
-std::span<const RowMask> list_row_masks() { return kRowMasks; }
+std::span<const RowPixelMask> list_row_masks() { return kRowPixelMasks; }
 
-bool has_table_columns(const RowMask& mask, const Comparison& comparison) {
+bool has_table_columns(const RowPixelMask& mask, const Comparison& comparison) {
     return !mask.only_where_some || std::ranges::any_of(comparison.rows, [&](const Row& row) {
         return (row.*mask.error).pixels > 0;
     });

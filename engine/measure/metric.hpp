@@ -22,15 +22,15 @@ struct PixelPosition {
     int x = -1, y = -1;
 };
 
-struct MetricValueParts;
+struct NamedMetricValueParts;
 
 /// Value of a metric. A double that is not finite, a time that was never measured and an invalid
 /// place count as no value (see is_missing_value).
 using MetricValue = std::variant<std::monostate, bool, double, dvec3, PixelPosition, SampleSummary,
-                                 std::vector<double>, std::vector<MetricValueParts>>;
+                                 std::vector<double>, std::vector<NamedMetricValueParts>>;
 
 /// An entry of a list of values, such as the times of passes or the shares of causes.
-struct MetricValueParts {
+struct NamedMetricValueParts {
     std::string_view kind; ///< the field that holds the entry's name, such as "name"
     std::string name;
     std::vector<std::pair<std::string_view, MetricValue>> values;
@@ -41,9 +41,9 @@ struct Studied {
     std::map<std::string, MetricValue, std::less<>> values;
 };
 /// Sets the row's value of a metric of a study.
-void set_study_metric(Row& row, const std::string& metric, MetricValue value);
+void set_row_metric_of_study(Row& row, const std::string& metric, MetricValue value);
 /// Returns the row's value of a metric of a study; no value if the study has not set it.
-MetricValue find_study_metric(const Row& row, std::string_view metric);
+MetricValue find_row_metric_of_study(const Row& row, std::string_view metric);
 
 enum class BetterDirection : std::uint8_t { neither, less, more };
 
@@ -96,13 +96,15 @@ struct Metric {
     std::string_view study = {};
 
     /// Marks a metric whose value is the entry of its name in Row::studied.
-    struct IsStudyMetric {};
-    using RowFunction = MetricValue (*)(const Row&);
-    using DifferenceFunction = MetricValue (*)(const Difference&);
+    struct IsMetricOfStudy {};
+    using RowMetricFunction = MetricValue (*)(const Row&);
+    using DifferenceMetricFunction = MetricValue (*)(const Difference&);
     /// Function that computes a metric of two pictures. A value that is not finite counts as no
     /// value. The function is called once for each mask of pixels.
-    using PictureFunction = double (*)(const PicturePair&);
-    std::variant<IsStudyMetric, RowFunction, DifferenceFunction, PictureFunction> get;
+    using PictureMetricFunction = double (*)(const PicturePair&);
+    std::variant<IsMetricOfStudy, RowMetricFunction, DifferenceMetricFunction,
+                 PictureMetricFunction>
+        get;
 };
 
 /// Registers a metric. Define it at namespace scope: the metric enters the table while the program
@@ -112,7 +114,7 @@ struct RegisteredMetric {
 };
 
 /// Upper limit of Metric::order for metrics of differences, which use orders from 100 on.
-inline constexpr int kFirstOrderAfterDifferences = 200;
+inline constexpr int kFirstMetricOrderAfterDifferences = 200;
 
 /// Returns all metrics sorted by `order`, then name. Throws `internal` if two have the same name.
 const std::vector<Metric>& list_metrics();
@@ -121,8 +123,8 @@ const std::vector<Metric>& list_difference_metrics();
 
 /// Return the value of a metric. The first overload throws `internal` for a metric of a difference,
 /// the second for a metric of a row.
-MetricValue metric_value(const Metric& quantity, const Row& row);
-MetricValue metric_value(const Metric& quantity, const Difference& difference);
+MetricValue metric_value_of_difference(const Metric& quantity, const Row& row);
+MetricValue metric_value_of_difference(const Metric& quantity, const Difference& difference);
 /// Returns whether reports on the comparison show the metric (see Metric::study).
 bool is_metric_shown(const Metric& quantity, const Comparison& comparison);
 /// Returns whether a value counts as none (see MetricValue).
@@ -133,7 +135,7 @@ bool is_missing_value(const MetricValue& value);
 std::vector<double> compute_picture_metrics(const PicturePair& compared);
 
 /// Set of pixels over which each row has a difference.
-struct RowMask {
+struct RowPixelMask {
     std::string_view field; ///< field in JSON, such as "error_first_order"
     std::string_view name;  ///< name of the mask, such as "first_order"
     /// Title of the mask in tables. Empty for the mask of all mirror pixels, to which tables refer
@@ -143,8 +145,8 @@ struct RowMask {
     /// Whether tables show the columns of this mask only if some row has pixels in the mask.
     bool only_where_some = false;
 };
-std::span<const RowMask> list_row_masks();
+std::span<const RowPixelMask> list_row_masks();
 /// Returns whether tables have columns of this mask.
-bool has_table_columns(const RowMask& mask, const Comparison& comparison);
+bool has_table_columns(const RowPixelMask& mask, const Comparison& comparison);
 
 } // namespace catoptric::measure

@@ -107,7 +107,7 @@ struct Difference {
     double off = kNone; ///< share of the finite pixels of the mask that are off, 0..1
     /// Longest line of pixels that are off, in pixels: `longest_line` of measure/lines.hpp.
     double longest_line = kNone;
-    /// Values of the metrics that are computed from pictures (Metric::PictureFunction).
+    /// Values of the metrics that are computed from pictures (Metric::PictureMetricFunction).
     std::vector<double> others;
 };
 

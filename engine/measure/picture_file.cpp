@@ -29,7 +29,7 @@ std::array<std::size_t, 3> find_rgb_channels(const std::vector<std::string>& cha
 }
 
 /// Returns the format by the first bytes, not by the file name.
-std::string detect_picture_format(const ByteSource& bytes, const std::string& name) {
+std::string detect_picture_format(const RandomAccessByteSource& bytes, const std::string& name) {
     std::array<char, 16> first{};
     const std::size_t count = bytes.read(0, first);
     std::string format = detect_image_format({first.data(), count});
@@ -39,9 +39,9 @@ std::string detect_picture_format(const ByteSource& bytes, const std::string& na
     return format;
 }
 
-ImageReader::ImageShapeCheck make_shape_check(const std::string& name,
-                                              const PictureReader::PictureSizeCheck& judge) {
-    return [&name, &judge](const ImageShape& shape) {
+ImageReader::ImageShapeCheckCallback
+make_shape_check(const std::string& name, const PictureReader::PictureSizeCheck& judge) {
+    return [&name, &judge](const ImageSizeAndChannels& shape) {
         if (judge) judge(static_cast<int>(shape.size.x), static_cast<int>(shape.size.y));
         check(std::uint64_t(shape.size.x) * shape.size.y * shape.channel_count <= kMaxPictureValues,
               Failure::bad_data, name, ": wanted at most ", kMaxPictureValues, " values, found ",
@@ -51,21 +51,21 @@ ImageReader::ImageShapeCheck make_shape_check(const std::string& name,
 
 /// Decodes the stored values of a PNG to linear light. Most PNGs have 8 bits, whose light is in a
 /// table.
-class PngLightDecoder {
+class PngToLinearLightDecoder {
 public:
-    PngLightDecoder() {
+    PngToLinearLightDecoder() {
         for (std::size_t i = 0; i < table_.size(); ++i)
-            table_[i] = decode_srgb_value(stored_value_to_unit(i));
+            table_[i] = decode_srgb_value(stored_integer_to_unit_range(i));
     }
     float operator()(float value) const {
         // Not negative, so the cast rounds down as floor does.
         const float above = value * 255 + .5F;
         const auto i = static_cast<std::size_t>(static_cast<int>(above));
-        return stored_value_to_unit(i) == value ? table_[i] : decode_srgb_value(value);
+        return stored_integer_to_unit_range(i) == value ? table_[i] : decode_srgb_value(value);
     }
 
 private:
-    static float stored_value_to_unit(std::size_t i) {
+    static float stored_integer_to_unit_range(std::size_t i) {
         return static_cast<float>(i) * (1.0F / 255);
     }
     static float decode_srgb_value(float value) {
@@ -74,7 +74,7 @@ private:
     std::array<float, 256> table_{};
 };
 
-ImageShape rgb_float_image_shape(const Picture& picture) {
+ImageSizeAndChannels rgb_float_image_shape(const Picture& picture) {
     return {{static_cast<std::uint32_t>(std::max(picture.width, 0)),
              static_cast<std::uint32_t>(std::max(picture.height, 0))},
             3,
@@ -88,10 +88,10 @@ struct PictureReader::PictureReadState {
         : file_name(path.string()), bytes(open_file_bytes(path)),
           format(detect_picture_format(*bytes, file_name)),
           image_reader(*bytes, format, file_name, make_shape_check(file_name, judge)),
-          rgb(find_rgb_channels(image_reader.image_shape().channels)) {}
+          rgb(find_rgb_channels(image_reader.image_size_and_channels().channels)) {}
 
     std::string file_name;
-    std::unique_ptr<ByteSource> bytes;
+    std::unique_ptr<RandomAccessByteSource> bytes;
     std::string format; ///< "openexr", "hdr" or "png"
     ImageReader image_reader;
     /// Indices of the channels; the same index three times for grey.
@@ -106,10 +106,10 @@ PictureReader::PictureReader(PictureReader&&) noexcept = default;
 PictureReader& PictureReader::operator=(PictureReader&&) noexcept = default;
 
 int PictureReader::picture_width() const {
-    return static_cast<int>(open_picture_->image_reader.image_shape().size.x);
+    return static_cast<int>(open_picture_->image_reader.image_size_and_channels().size.x);
 }
 int PictureReader::height() const {
-    return static_cast<int>(open_picture_->image_reader.image_shape().size.y);
+    return static_cast<int>(open_picture_->image_reader.image_size_and_channels().size.y);
 }
 std::string PictureReader::format() const {
     return open_picture_->format == "png"   ? "PNG"
@@ -117,16 +117,17 @@ std::string PictureReader::format() const {
                                             : "OpenEXR";
 }
 
-bool PictureReader::has_8_bits() const {
-    return open_picture_->image_reader.image_shape().has_8_bits;
+bool PictureReader::has_8_bit_channels() const {
+    return open_picture_->image_reader.image_size_and_channels().has_8_bit_channels;
 }
 
 void PictureReader::read_rows(int first, std::span<vec3> pixels) {
-    static const PngLightDecoder kDecoded;
+    static const PngToLinearLightDecoder kDecoded;
     // Pixels that are read at once; at least a row.
     constexpr std::size_t kPixelsPerBlock = std::size_t{1} << 15;
     const bool is_stored = open_picture_->format == "png"; // PNGs store sRGB values
-    const std::size_t channel_count = open_picture_->image_reader.image_shape().channel_count;
+    const std::size_t channel_count =
+        open_picture_->image_reader.image_size_and_channels().channel_count;
     const auto columns = static_cast<std::size_t>(picture_width());
     const std::size_t most = std::max<std::size_t>(1, kPixelsPerBlock / columns) * columns;
     auto row = static_cast<std::uint32_t>(first);

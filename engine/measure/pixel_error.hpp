@@ -26,10 +26,11 @@ inline dvec3 absolute_channel_difference(const vec3& a, const vec3& b) {
     return glm::abs(clamp_pixel_to_unit_range(a) - clamp_pixel_to_unit_range(b));
 }
 
-/// Returns whether a channel differs by more than kVisibleDifference. Both pixels must be finite.
+/// Returns whether a channel differs by more than kMaxInvisibleChannelDifference. Both pixels must
+/// be finite.
 inline bool differs_visibly(const vec3& a, const vec3& b) {
     const dvec3 channels = absolute_channel_difference(a, b);
-    return std::max({channels.x, channels.y, channels.z}) > kVisibleDifference;
+    return std::max({channels.x, channels.y, channels.z}) > kMaxInvisibleChannelDifference;
 }
 
 /// Returns the mean squared difference over the channels, 0..1, or NaN if a pixel is not finite.

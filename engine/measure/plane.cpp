@@ -6,24 +6,24 @@ namespace catoptric::measure {
 namespace {
 
 /// Four adjacent values of a row.
-using FourValues [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-constexpr int kSumsInRegisters = 8; // sums that stay in registers
-constexpr int kConvolutionBlockColumns = 4 * kSumsInRegisters;
+using SimdDouble4 [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+constexpr int kConvolutionSumsInRegisters = 8; // sums that stay in registers
+constexpr int kConvolutionBlockColumns = 4 * kConvolutionSumsInRegisters;
 
 /// Writes the weighted sum of `taps` rows to `to`. Each row has `width` values.
-CATOPTRIC_WIDE void sum_weighted_rows(const double* const* rows, const double* weights,
-                                      std::size_t taps, int width, double* to) {
+CATOPTRIC_WIDE void add_weighted_plane_rows(const double* const* rows, const double* weights,
+                                            std::size_t taps, int width, double* to) {
     int x = 0;
     for (; x + kConvolutionBlockColumns <= width; x += kConvolutionBlockColumns) {
-        FourValues sums[kSumsInRegisters] = {};
+        SimdDouble4 sums[kConvolutionSumsInRegisters] = {};
         for (std::size_t tap = 0; tap < taps; ++tap) {
-            const FourValues* row = reinterpret_cast<const FourValues*>(rows[tap] + x);
+            const SimdDouble4* row = reinterpret_cast<const SimdDouble4*>(rows[tap] + x);
 #pragma GCC unroll 8 // -O2 alone would keep the sums in memory
-            for (int i = 0; i < kSumsInRegisters; ++i) sums[i] += weights[tap] * row[i];
+            for (int i = 0; i < kConvolutionSumsInRegisters; ++i) sums[i] += weights[tap] * row[i];
         }
-        FourValues* const there = reinterpret_cast<FourValues*>(to + x);
+        SimdDouble4* const there = reinterpret_cast<SimdDouble4*>(to + x);
 #pragma GCC unroll 8
-        for (int i = 0; i < kSumsInRegisters; ++i) there[i] = sums[i];
+        for (int i = 0; i < kConvolutionSumsInRegisters; ++i) there[i] = sums[i];
     }
     for (; x < width; ++x) {
         double sum = 0;
@@ -39,10 +39,10 @@ void convolve_along_x(const ChannelPlane& in, const FilterKernel& kernel, int bo
     out.resize_plane(in.width - 2 * border, in.height);
     std::vector<const double*> shifted(kernel.weights.size());
     for (int y = 0; y < in.height; ++y) {
-        const double* const first = in.row_values(y) + border - kernel.kernel_radius;
+        const double* const first = in.values_of_plane_row(y) + border - kernel.kernel_radius;
         for (std::size_t tap = 0; tap < shifted.size(); ++tap) shifted[tap] = first + tap;
-        sum_weighted_rows(shifted.data(), kernel.weights.data(), shifted.size(), out.width,
-                          out.row_values(y));
+        add_weighted_plane_rows(shifted.data(), kernel.weights.data(), shifted.size(), out.width,
+                                out.values_of_plane_row(y));
     }
 }
 
@@ -59,8 +59,9 @@ void sum_convolutions_along_y(std::initializer_list<FilteredPlane> parts, int bo
         for (const FilteredPlane& part : parts)
             for (int offset = -part.kernel.kernel_radius; offset <= part.kernel.kernel_radius;
                  ++offset)
-                rows.push_back(part.plane.row_values(y + border + offset));
-        sum_weighted_rows(rows.data(), weights.data(), rows.size(), out.width, out.row_values(y));
+                rows.push_back(part.plane.values_of_plane_row(y + border + offset));
+        add_weighted_plane_rows(rows.data(), weights.data(), rows.size(), out.width,
+                                out.values_of_plane_row(y));
     }
 }
 

@@ -17,8 +17,10 @@ struct ChannelPlane {
         width = columns, height = rows;
         values.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
     }
-    double* row_values(int y) { return values.data() + static_cast<std::ptrdiff_t>(y) * width; }
-    const double* row_values(int y) const {
+    double* values_of_plane_row(int y) {
+        return values.data() + static_cast<std::ptrdiff_t>(y) * width;
+    }
+    const double* values_of_plane_row(int y) const {
         return values.data() + static_cast<std::ptrdiff_t>(y) * width;
     }
 };

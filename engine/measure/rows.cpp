@@ -7,46 +7,48 @@ namespace catoptric::measure {
 
 namespace {
 
-bool has_knob_with_text(const Row& row, const KnobValueText& wanted) {
+bool has_knob_with_text(const Row& row, const KnobNameAndValueText& wanted) {
     return std::ranges::any_of(row.settings, [&](const Setting& setting) {
         return setting.name == wanted.knob && setting.text == wanted.text;
     });
 }
 
-bool differs_only_in_knobs(const Row& row, std::span<const KnobValueText> wanted) {
+bool has_default_knobs_except(const Row& row, std::span<const KnobNameAndValueText> wanted) {
     return std::ranges::all_of(row.settings, [&](const Setting& setting) {
         return !setting.changed ||
-               std::ranges::find(wanted, setting.name, &KnobValueText::knob) != wanted.end();
+               std::ranges::find(wanted, setting.name, &KnobNameAndValueText::knob) != wanted.end();
     });
 }
 
 } // namespace
 
-const Row* find_row_by_knobs(const Comparison& comparison, std::string_view technique,
-                             std::span<const KnobValueText> wanted) {
+const Row* find_row_of_technique_with_knobs(const Comparison& comparison,
+                                            std::string_view technique,
+                                            std::span<const KnobNameAndValueText> wanted) {
     const auto fits = [&](const Row& row) {
-        return row.technique == technique && differs_only_in_knobs(row, wanted) &&
-               std::ranges::all_of(
-                   wanted, [&](const KnobValueText& one) { return has_knob_with_text(row, one); });
+        return row.technique == technique && has_default_knobs_except(row, wanted) &&
+               std::ranges::all_of(wanted, [&](const KnobNameAndValueText& one) {
+                   return has_knob_with_text(row, one);
+               });
     };
     const auto found = std::ranges::find_if(comparison.rows, fits);
     return found == comparison.rows.end() ? nullptr : &*found;
 }
 
 const Row* find_parallax_row(const Comparison& comparison) {
-    const KnobValueText wanted[] = {{"distance", "r32f"}};
-    return find_row_by_knobs(comparison, "parallax", wanted);
+    const KnobNameAndValueText wanted[] = {{"distance", "r32f"}};
+    return find_row_of_technique_with_knobs(comparison, "parallax", wanted);
 }
 
 const Row* find_ray_traced_row(const Comparison& comparison) {
-    const KnobValueText wanted[] = {{"depth", "8"}, {"sphere", "mesh"}};
-    return find_row_by_knobs(comparison, "raytrace", wanted);
+    const KnobNameAndValueText wanted[] = {{"depth", "8"}, {"sphere", "mesh"}};
+    return find_row_of_technique_with_knobs(comparison, "raytrace", wanted);
 }
 
 const Row* find_naive_row(const Comparison& comparison, int bounces) {
     const std::string text = std::to_string(bounces);
-    const KnobValueText wanted[] = {{"bounces", text}};
-    return find_row_by_knobs(comparison, "naive", wanted);
+    const KnobNameAndValueText wanted[] = {{"bounces", text}};
+    return find_row_of_technique_with_knobs(comparison, "naive", wanted);
 }
 
 bool is_ray_traced_row(const Row& row) { return row.technique == "raytrace"; }

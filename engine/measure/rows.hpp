@@ -9,15 +9,16 @@
 namespace catoptric::measure {
 
 /// Knob and the value it must have, as the user types it.
-struct KnobValueText {
+struct KnobNameAndValueText {
     std::string_view knob;
     std::string_view text;
 };
 
 /// Returns the first row of `technique` with the wanted values and all other knobs at their
 /// defaults, or null.
-const Row* find_row_by_knobs(const Comparison& comparison, std::string_view technique,
-                             std::span<const KnobValueText> wanted = {});
+const Row* find_row_of_technique_with_knobs(const Comparison& comparison,
+                                            std::string_view technique,
+                                            std::span<const KnobNameAndValueText> wanted = {});
 /// Three functions that return the row of `naive` with `bounces` bounces, of `parallax`, and of ray
 /// tracing, each with default knobs. Null if the comparison has no such row.
 const Row* find_naive_row(const Comparison& comparison, int bounces);

@@ -19,27 +19,27 @@ struct SeedReportRow {
 
 inline constexpr int kSeedReportMirrorCount = 4;
 
-inline constexpr SeedReportRow kSeedReportPartOne{"Part one", "naive", 0, 2, 93, 10.8};
-inline constexpr SeedReportRow kSeedReportPartTwo{"Part two", "reuse", -1, 6, 136, 7.4};
-inline constexpr SeedReportRow kSeedReportPartThree{"Part three", "parallax", -1, 6, 134, 7.5};
-inline constexpr SeedReportRow kSeedReportRayTracing{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
+inline constexpr SeedReportRow kSeedReportNaiveRow{"Part one", "naive", 0, 2, 93, 10.8};
+inline constexpr SeedReportRow kSeedReportReuseRow{"Part two", "reuse", -1, 6, 136, 7.4};
+inline constexpr SeedReportRow kSeedReportParallaxRow{"Part three", "parallax", -1, 6, 134, 7.5};
+inline constexpr SeedReportRow kSeedReportRayTracingRow{"ray trace", "raytrace", -1, 0, 10.7, 93.0};
 
 inline constexpr SeedReportRow kSeedReportTable[] = {
-    kSeedReportPartOne,
+    kSeedReportNaiveRow,
     {"Part one", "naive", 1, 6, 88, 11.4},
     {"Part one", "naive", 2, 10, 68, 14.7},
     {"Part one", "naive", 3, 14, 48, 20.8},
     {"Part one", "naive", 4, 18, 37, 27.0},
-    kSeedReportPartTwo,
-    kSeedReportPartThree,
-    kSeedReportRayTracing,
+    kSeedReportReuseRow,
+    kSeedReportParallaxRow,
+    kSeedReportRayTracingRow,
 };
 
 /// Time that the seed report attributes to clearing, milliseconds.
-inline constexpr double kSeedReportClearMs = kSeedReportPartOne.ms - kSeedReportPartTwo.ms;
+inline constexpr double kSeedReportClearMs = kSeedReportNaiveRow.ms - kSeedReportReuseRow.ms;
 /// Excess of its part one without inter-reflections over part two, as a share of part two's time.
-inline constexpr double kSeedReportClearCostShare = kSeedReportClearMs / kSeedReportPartTwo.ms;
-inline constexpr double kSeedReportRayTracingRatio = kSeedReportRayTracing.ms /
-                                                     kSeedReportPartThree.ms;
+inline constexpr double kSeedReportClearCostShare = kSeedReportClearMs / kSeedReportReuseRow.ms;
+inline constexpr double kSeedReportRayTracingRatio = kSeedReportRayTracingRow.ms /
+                                                     kSeedReportParallaxRow.ms;
 
 } // namespace catoptric::measure

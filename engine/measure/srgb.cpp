@@ -12,7 +12,7 @@ int srgb_code_by_formula(double linear) {
 
 /// Returns the least value in [0,1] with this code. Bisects the bits: the curve is increasing, and
 /// the bits of positive numbers are ordered as the numbers are.
-double least_light_with_srgb_code(int code) {
+double smallest_linear_value_of_srgb_code(int code) {
     std::uint64_t below = 0, there = std::bit_cast<std::uint64_t>(1.0);
     while (there - below > 1) {
         const std::uint64_t middle = below + (there - below) / 2;
@@ -23,17 +23,17 @@ double least_light_with_srgb_code(int code) {
 
 } // namespace
 
-SrgbDecodeTable::StoredCodeTable::StoredCodeTable() {
+SrgbDecodeTable::SrgbCodeLookupTable::SrgbCodeLookupTable() {
     for (std::size_t code = 0; code < srgb.size(); ++code) {
         srgb[code] = static_cast<float>(static_cast<double>(code) / 255);
         linear[code] = linear_from_srgb(static_cast<double>(srgb[code]));
     }
 }
-const SrgbDecodeTable::StoredCodeTable SrgbDecodeTable::kStored;
+const SrgbDecodeTable::SrgbCodeLookupTable SrgbDecodeTable::kStored;
 
 SrgbEightBitEncoder::SrgbEightBitEncoder() {
     for (std::size_t code = 1; code <= 255; ++code)
-        least_[code] = least_light_with_srgb_code(static_cast<int>(code));
+        least_[code] = smallest_linear_value_of_srgb_code(static_cast<int>(code));
     least_.back() = 2;
     std::size_t code = 0;
     for (std::size_t i = 0; i < guesses_.size(); ++i) {

@@ -29,12 +29,12 @@ public:
     }
 
 private:
-    struct StoredCodeTable {
-        StoredCodeTable();
+    struct SrgbCodeLookupTable {
+        SrgbCodeLookupTable();
         std::array<float, 256> srgb{};
         std::array<double, 256> linear{};
     };
-    static const StoredCodeTable kStored;
+    static const SrgbCodeLookupTable kStored;
 };
 
 /// Encodes light in [0,1] with the sRGB curve and rounds it to the nearest of the 256 values of 8

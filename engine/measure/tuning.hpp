@@ -15,7 +15,7 @@ struct ShaderVariantTrial {
     std::vector<double> ms, standard_ms;   ///< milliseconds of each round, on the device
 
     /// Returns the variant's time divided by the default's.
-    CostRatio time_ratio_to_default() const { return compute_cost_ratio(ms, standard_ms); }
+    BenchmarkCostRatio time_ratio_to_default() const { return compute_cost_ratio(ms, standard_ms); }
     /// Returns whether the variant is faster than the default with 95 % confidence.
     bool is_faster_than_default() const { return time_ratio_to_default().is_interval_below_one(); }
 };

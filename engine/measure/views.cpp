@@ -15,25 +15,25 @@ namespace {
 
 constexpr std::string_view kRowOrderingMetrics[] = {"flip", "off", "mae"};
 
-const RowMask& find_mirror_row_mask() { return list_row_masks().front(); }
+const RowPixelMask& find_mirror_row_mask() { return list_row_masks().front(); }
 
 const Metric& find_metric_by_name(std::string_view name) {
     const std::vector<Metric>& figures = list_difference_metrics();
     const auto found = std::ranges::find(figures, name, &Metric::name);
-    check(found != figures.end() && is_single_number(*found), Failure::internal, "'", name,
+    check(found != figures.end() && is_scalar_metric(*found), Failure::internal, "'", name,
           "': wanted a figure of a difference that is a number");
     return *found;
 }
 
-double metric_number_of_difference(const Metric& figure, const Difference& error) {
-    const MetricValue value = metric_value(figure, error);
+double scalar_metric_of_difference(const Metric& figure, const Difference& error) {
+    const MetricValue value = metric_value_of_difference(figure, error);
     const auto* number = std::get_if<double>(&value);
     return number != nullptr ? *number : Difference::kNone;
 }
 
 /// Returns the difference of two errors below which they cannot be told apart.
 double find_noise_floor(const Metric& figure, const Difference& a, const Difference& b) {
-    return figure.name == "flip" ? find_flip_floor(a, b) : 0;
+    return figure.name == "flip" ? find_flip_noise_floor(a, b) : 0;
 }
 
 double compute_median(std::vector<double> values) {
@@ -61,7 +61,8 @@ MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<con
     for (std::size_t i = 0; i < order.rows.size(); ++i)
         for (std::size_t k = i + 1; k < order.rows.size(); ++k) {
             const Row &first = *order.rows[i], &second = *order.rows[k];
-            if (!differ_over_views(first, second, name)) order.ties.emplace_back(&first, &second);
+            if (!do_rows_differ_over_views(first, second, name))
+                order.ties.emplace_back(&first, &second);
             if (is_metric_less(second, first, name)) order.reversed.emplace_back(&first, &second);
         }
     return order;
@@ -69,16 +70,16 @@ MetricRowOrder order_rows_by_metric(std::string_view name, const std::vector<con
 
 } // namespace
 
-bool is_single_number(const Metric& figure) {
+bool is_scalar_metric(const Metric& figure) {
     return figure.mask == "each" &&
-           std::holds_alternative<double>(metric_value(figure, Difference{}));
+           std::holds_alternative<double>(metric_value_of_difference(figure, Difference{}));
 }
 
-MetricOverViews compute_metric_over_views(const Row& row, const RowMask& mask,
+MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,
                                           const Metric& figure) {
     MetricOverViews over;
     for (const Errors& errors : row.views)
-        over.values.push_back(metric_number_of_difference(figure, errors.*mask.error));
+        over.values.push_back(scalar_metric_of_difference(figure, errors.*mask.error));
     std::vector<double> known = over.values;
     std::erase_if(known, [](double value) { return !std::isfinite(value); });
     over.ci95 = median_confidence_interval(known);
@@ -91,8 +92,8 @@ Interval metric_difference_interval_over_views(const Row& a, const Row& b,
     const Metric& quantity = find_metric_by_name(figure);
     std::vector<double> of_a, of_b;
     for (std::size_t i = 0; i < std::min(a.views.size(), b.views.size()); ++i) {
-        const double in_a = metric_number_of_difference(quantity, a.views[i].error),
-                     in_b = metric_number_of_difference(quantity, b.views[i].error);
+        const double in_a = scalar_metric_of_difference(quantity, a.views[i].error),
+                     in_b = scalar_metric_of_difference(quantity, b.views[i].error);
         if (!std::isfinite(in_a) || !std::isfinite(in_b)) continue;
         const bool is_noise = std::abs(in_a - in_b) <
                               find_noise_floor(quantity, a.views[i].error, b.views[i].error);
@@ -107,12 +108,12 @@ bool is_metric_less(const Row& a, const Row& b, std::string_view figure) {
         // False if the interval is not known.
         return metric_difference_interval_over_views(a, b, figure).high < 0;
     const Metric& quantity = find_metric_by_name(figure);
-    return metric_number_of_difference(quantity, a.error) +
+    return scalar_metric_of_difference(quantity, a.error) +
                find_noise_floor(quantity, a.error, b.error) <
-           metric_number_of_difference(quantity, b.error);
+           scalar_metric_of_difference(quantity, b.error);
 }
 
-bool differ_over_views(const Row& a, const Row& b, std::string_view figure) {
+bool do_rows_differ_over_views(const Row& a, const Row& b, std::string_view figure) {
     return is_metric_less(a, b, figure) || is_metric_less(b, a, figure);
 }
 

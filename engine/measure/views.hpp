@@ -16,10 +16,10 @@ struct MetricOverViews {
 
 /// Returns a metric of a row over its views. `figure` must be a metric of a difference that is one
 /// number.
-MetricOverViews compute_metric_over_views(const Row& row, const RowMask& mask,
+MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,
                                           const Metric& figure);
 /// Returns whether the value of a metric is one number. Only such metrics have a median over views.
-bool is_single_number(const Metric& figure);
+bool is_scalar_metric(const Metric& figure);
 
 /// Returns the 95 % interval of the median of a's metric minus b's, over the mirrors, view by view.
 /// `figure` is a name such as "flip", "off" or "mae". Views in which either is not finite are left
@@ -34,7 +34,7 @@ Interval metric_difference_interval_over_views(const Row& a, const Row& b, std::
 bool is_metric_less(const Row& a, const Row& b, std::string_view figure);
 /// Returns whether the metrics of two rows differ over the views with 95 % confidence. Otherwise
 /// the rows tie.
-bool differ_over_views(const Row& a, const Row& b, std::string_view figure);
+bool do_rows_differ_over_views(const Row& a, const Row& b, std::string_view figure);
 
 /// Rows in order of a metric over the mirrors for which less is better, with the pairs that tie.
 struct MetricRowOrder {

@@ -5,7 +5,7 @@ namespace catoptric::measure {
 
 namespace {
 
-const RegisteredMetric kWaitTimeMetric{
+const RegisteredMetric kDeviceWaitTimeMetric{
     {.name = "wait_ms",
      .unit = "ms",
      .help = "time that the host waited for the device; no other time includes it",

@@ -10,11 +10,11 @@ namespace catoptric::measure {
 namespace {
 
 /// Returns "work/" and the name of each kind. Metrics refer to these texts.
-const std::array<std::string, kWorkKindCount>& list_metric_names() {
-    static const std::array<std::string, kWorkKindCount> kWorkMetricNames = [] {
-        std::array<std::string, kWorkKindCount> names;
-        for (std::size_t i = 0; i < kWorkKindCount; ++i)
-            names[i] = "work/" + std::string(kWorkKinds[i].name);
+const std::array<std::string, kCountedWorkKindCount>& list_work_metric_names() {
+    static const std::array<std::string, kCountedWorkKindCount> kWorkMetricNames = [] {
+        std::array<std::string, kCountedWorkKindCount> names;
+        for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+            names[i] = "work/" + std::string(kCountedWorkKinds[i].name);
         return names;
     }();
     return kWorkMetricNames;
@@ -28,38 +28,39 @@ MetricValue count_to_metric_value(const std::optional<std::uint64_t>& count) {
 
 std::vector<Metric> list_work_metrics() {
     std::vector<Metric> metrics;
-    for (std::size_t i = 0; i < kWorkKindCount; ++i)
-        metrics.push_back({.name = list_metric_names()[i],
-                           .help = kWorkKinds[i].help,
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+        metrics.push_back({.name = list_work_metric_names()[i],
+                           .help = kCountedWorkKinds[i].help,
                            .better = BetterDirection::less,
                            .order = 700 + static_cast<int>(i),
-                           .get = Metric::IsStudyMetric{}});
-    metrics.push_back({.name = kWorkByPassMetric,
+                           .get = Metric::IsMetricOfStudy{}});
+    metrics.push_back({.name = kWorkByPassMetricName,
                        .help = "the same counts for each pass of the frame",
-                       .order = 700 + static_cast<int>(kWorkKindCount),
-                       .get = Metric::IsStudyMetric{}});
+                       .order = 700 + static_cast<int>(kCountedWorkKindCount),
+                       .get = Metric::IsMetricOfStudy{}});
     return metrics;
 }
 
-void set_row_work(Row& row, const std::vector<PassWork>& passes) {
-    const WorkCounts sum = sum_work_of_passes(passes);
-    for (std::size_t i = 0; i < kWorkKindCount; ++i)
-        set_study_metric(row, list_metric_names()[i], count_to_metric_value(sum.values[i]));
-    std::vector<MetricValueParts> list;
-    for (const PassWork& pass : passes) {
+void set_row_work(Row& row, const std::vector<PassWorkCounts>& passes) {
+    const WorkCountsByKind sum = sum_work_counts_of_passes(passes);
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+        set_row_metric_of_study(row, list_work_metric_names()[i],
+                                count_to_metric_value(sum.values[i]));
+    std::vector<NamedMetricValueParts> list;
+    for (const PassWorkCounts& pass : passes) {
         list.push_back({"pass", pass.name, {}});
-        for (std::size_t i = 0; i < kWorkKindCount; ++i)
+        for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
             if (pass.counts.values[i].value_or(0) > 0)
-                list.back().values.emplace_back(kWorkKinds[i].name,
+                list.back().values.emplace_back(kCountedWorkKinds[i].name,
                                                 count_to_metric_value(pass.counts.values[i]));
     }
-    set_study_metric(row, kWorkByPassMetric, std::move(list));
+    set_row_metric_of_study(row, kWorkByPassMetricName, std::move(list));
 }
 
-WorkCounts total_work_of_row(const Row& row) {
-    WorkCounts counts;
-    for (std::size_t i = 0; i < kWorkKindCount; ++i) {
-        const MetricValue value = find_study_metric(row, list_metric_names()[i]);
+WorkCountsByKind total_work_counts_of_row(const Row& row) {
+    WorkCountsByKind counts;
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i) {
+        const MetricValue value = find_row_metric_of_study(row, list_work_metric_names()[i]);
         if (const double* number = std::get_if<double>(&value))
             counts.values[i] = static_cast<std::uint64_t>(*number);
     }
@@ -67,7 +68,8 @@ WorkCounts total_work_of_row(const Row& row) {
 }
 
 bool has_counted_work(const Row& row) {
-    return !is_missing_value(find_study_metric(row, "work/" + std::string(kWorkKinds[0].name)));
+    return !is_missing_value(
+        find_row_metric_of_study(row, "work/" + std::string(kCountedWorkKinds[0].name)));
 }
 
 } // namespace catoptric::measure

@@ -4,71 +4,74 @@ namespace catoptric::reflect {
 
 namespace {
 
-SharedKnobs::ShadowMethod read_shadow_method(const KnobSettings& settings) {
-    using enum SharedKnobs::ShadowMethod;
-    constexpr SharedKnobs::ShadowMethod kRasterShadowMethods[] = {map, none},
-                                        kTracedShadows[] = {ray, map, none};
-    if (settings.has_knob(kShadowKnob))
+KnobsSharedByTechniques::ShadowMethod read_shadow_method(const TechniqueKnobSettings& settings) {
+    using enum KnobsSharedByTechniques::ShadowMethod;
+    constexpr KnobsSharedByTechniques::ShadowMethod kRasterShadowMethods[] = {map, none},
+                                                    kTracedShadows[] = {ray, map, none};
+    if (settings.has_knob_named(kShadowKnob))
         return kRasterShadowMethods[settings.knob_value_as_integer(kShadowKnob)];
-    return settings.has_knob(kTracedShadowKnob)
+    return settings.has_knob_named(kTracedShadowKnob)
                ? kTracedShadows[settings.knob_value_as_integer(kTracedShadowKnob)]
                : none;
 }
 
 /// Returns the value of a knob, or nothing if there is no such knob or its special word is set.
-std::optional<std::uint32_t> find_knob_number(const KnobSettings& settings,
+std::optional<std::uint32_t> find_knob_number(const TechniqueKnobSettings& settings,
                                               const TechniqueKnob& knob) {
-    if (!settings.has_knob(knob) || settings.is_special(knob)) return std::nullopt;
+    if (!settings.has_knob_named(knob) || settings.is_special(knob)) return std::nullopt;
     return static_cast<std::uint32_t>(settings.knob_value_as_integer(knob));
 }
 
 /// Returns whether a knob of two choices has the second.
-bool has_second_knob_choice(const KnobSettings& settings, const TechniqueKnob& knob) {
-    return settings.has_knob(knob) && settings.knob_value_as_integer(knob) == 1;
+bool is_second_knob_choice_selected(const TechniqueKnobSettings& settings,
+                                    const TechniqueKnob& knob) {
+    return settings.has_knob_named(knob) && settings.knob_value_as_integer(knob) == 1;
 }
 
 } // namespace
 
-SharedKnobs read_shared_knobs(const KnobSettings& settings) {
+KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings) {
     constexpr TexelFormat kDistanceFormats[] = {TexelFormat::r32f, TexelFormat::r16f,
                                                 TexelFormat::r8_unorm};
-    SharedKnobs knobs{.shadow = read_shadow_method(settings)};
+    KnobsSharedByTechniques knobs{.shadow = read_shadow_method(settings)};
     knobs.shadow_map = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
     knobs.face = find_knob_number(settings, kCaptureFaceKnob);
-    knobs.chooses_face = settings.has_knob(kCaptureFaceKnob) && !knobs.face;
-    knobs.stores_floats = has_second_knob_choice(settings, kCaptureColourKnob);
-    if (settings.has_knob(kCaptureDistanceKnob))
+    knobs.chooses_face = settings.has_knob_named(kCaptureFaceKnob) && !knobs.face;
+    knobs.stores_floats = is_second_knob_choice_selected(settings, kCaptureColourKnob);
+    if (settings.has_knob_named(kCaptureDistanceKnob))
         knobs.distance = kDistanceFormats[settings.knob_value_as_integer(kCaptureDistanceKnob)];
-    if (settings.has_knob(kDistanceRangeKnob))
-        knobs.range = settings.number_value(kDistanceRangeKnob);
+    if (settings.has_knob_named(kDistanceRangeKnob))
+        knobs.range = settings.numeric_knob_value(kDistanceRangeKnob);
     knobs.continues = find_knob_number(settings, kContinuedSearchesKnob).value_or(0);
-    knobs.by_object = has_second_knob_choice(settings, kLookupKnob);
-    knobs.asks_all = has_second_knob_choice(settings, kLookedUpCapturesKnob);
-    knobs.leaves_out_spheres = has_second_knob_choice(settings, kMirrorsInCapturesKnob);
-    if (settings.has_knob(kRoughKnob)) {
-        knobs.rough = settings.knob_value_as_enum<SharedKnobs::RoughLookup>(kRoughKnob);
+    knobs.by_object = is_second_knob_choice_selected(settings, kCaptureTexelLookupKnob);
+    knobs.asks_all = is_second_knob_choice_selected(settings, kSearchedCapturesKnob);
+    knobs.leaves_out_spheres = is_second_knob_choice_selected(settings, kMirrorsInCapturesKnob);
+    if (settings.has_knob_named(kRoughMirrorMethodKnob)) {
+        knobs.rough = settings.knob_value_as_enum<KnobsSharedByTechniques::RoughMirrorLookup>(
+            kRoughMirrorMethodKnob);
         knobs.taps = static_cast<std::uint32_t>(settings.knob_value_as_integer(kFilterTapsKnob));
         knobs.lobe_rays = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kRoughRaysKnob));
     }
-    if (settings.has_knob(kBlurLawKnob))
-        knobs.law = settings.knob_value_as_enum<SharedKnobs::DistanceLaw>(kBlurLawKnob);
-    if (settings.has_knob(kRefractKnob))
-        knobs.refract = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRefractKnob));
-    knobs.capture = find_knob_number(settings, kCaptureContentKnob);
-    knobs.is_black_in_others = settings.has_knob(kCaptureContentKnob) && !knobs.capture;
+    if (settings.has_knob_named(kBlurLawKnob))
+        knobs.law = settings.knob_value_as_enum<KnobsSharedByTechniques::DistanceLaw>(kBlurLawKnob);
+    if (settings.has_knob_named(kGlassRefractionModelKnob))
+        knobs.refract = static_cast<std::uint32_t>(
+            settings.knob_value_as_integer(kGlassRefractionModelKnob));
+    knobs.capture = find_knob_number(settings, kCaptureContentCacheKnob);
+    knobs.is_black_in_others = settings.has_knob_named(kCaptureContentCacheKnob) && !knobs.capture;
     return knobs;
 }
 
-int count_shadow_passes(int lights, const KnobSettings& settings) {
-    return read_shadow_method(settings) == SharedKnobs::ShadowMethod::map ? lights : 0;
+int count_shadow_passes(int lights, const TechniqueKnobSettings& settings) {
+    return read_shadow_method(settings) == KnobsSharedByTechniques::ShadowMethod::map ? lights : 0;
 }
 
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
-                                            const KnobSettings& settings) {
-    const SharedKnobs knobs = read_shared_knobs(settings);
+                                            const TechniqueKnobSettings& settings) {
+    const KnobsSharedByTechniques knobs = read_shared_knobs(settings);
     render::CaptureOptions options;
-    options.face = knobs.face ? *knobs.face : inputs.scene.common_face_edge();
+    options.face = knobs.face ? *knobs.face : inputs.scene.common_capture_face_edge();
     if (knobs.stores_floats) {
         check(inputs.scene.scene_device().has_float_filtering(), Failure::no_device,
               "colour=float filters images of 32-bit floats, which device '",
@@ -81,10 +84,10 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
         options.stored_unit = inputs.scene.scene_units().world_to_scene_length(knobs.range);
     const bool continues = knobs.continues > 0;
     const bool wants_normals = knobs.uses_filtered_levels() &&
-                               knobs.law == SharedKnobs::DistanceLaw::exact &&
+                               knobs.law == KnobsSharedByTechniques::DistanceLaw::exact &&
                                inputs.scene.has_rough_mirrors();
     options.surfaces = knobs.by_object || knobs.asks_all || wants_normals ||
-                       (continues && inputs.scene.has_other_mirrors());
+                       (continues && inputs.scene.has_mirror_count_changed());
     // A blurred look-up shows mirrors only by the capture.
     options.leaves_out_spheres = continues && knobs.leaves_out_spheres &&
                                  !(knobs.uses_filtered_levels() &&
@@ -93,18 +96,18 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
 }
 
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
-                                         const KnobSettings& settings) {
+                                         const TechniqueKnobSettings& settings) {
     render::MirrorShader look;
     look.fragment = std::move(fragment);
     const auto set = [&](const char* constant, int value) {
         look.constants.emplace_back(constant, static_cast<std::uint32_t>(value));
     };
     for (const auto& [knob, constant] : {std::pair{&kContinuedSearchesKnob, "hops"},
-                                         {&kLookupKnob, "by_object"},
-                                         {&kLookedUpCapturesKnob, "asks_others"},
-                                         {&kShownPictureKnob, "show"},
-                                         {&kRefractKnob, "refract_model"}})
-        if (settings.has_knob(*knob)) set(constant, settings.knob_value_as_integer(*knob));
+                                         {&kCaptureTexelLookupKnob, "by_object"},
+                                         {&kSearchedCapturesKnob, "asks_others"},
+                                         {&kShownDebugPictureKnob, "show"},
+                                         {&kGlassRefractionModelKnob, "refract_model"}})
+        if (settings.has_knob_named(*knob)) set(constant, settings.knob_value_as_integer(*knob));
     // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
     // mirrors may have no capture, so all are checked.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
@@ -119,13 +122,13 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
 
 render::MirrorShader make_search_shader(const Technique& technique,
                                         const MirrorShadingInputs& around,
-                                        const KnobSettings& settings) {
+                                        const TechniqueKnobSettings& settings) {
     render::MirrorShader look = make_capture_shader(around, technique.search, settings);
     for (const TechniqueKnob& knob : technique.knobs) {
         if (std::ranges::find(kCommonSearchKnobs, knob.name, &TechniqueKnob::name) !=
             kCommonSearchKnobs.end())
             continue;
-        const double value = settings.number_value(knob);
+        const double value = settings.numeric_knob_value(knob);
         if (knob.is_real)
             look.constants.emplace_back(knob.name, static_cast<float>(value));
         else

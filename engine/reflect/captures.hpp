@@ -21,7 +21,7 @@ inline constexpr TechniqueKnob kCaptureFaceKnob{
     .high = 16384,
     .value = 256,
     .special = "auto"};
-inline constexpr TechniqueKnob kCaptureContentKnob{
+inline constexpr TechniqueKnob kCaptureContentCacheKnob{
     .name = "capture",
     .help = "in a plan with other techniques: face edge, in texels, of the capture by which other "
             "mirrors show this mirror; none: black in other mirrors",
@@ -68,51 +68,51 @@ inline constexpr TechniqueKnob kContinuedSearchesKnob{
     .high = 8,
     .value = 4};
 
-inline constexpr std::array<std::string_view, 2> kLookupChoices{"bilinear", "object"};
-inline constexpr std::array<std::string_view, 2> kLookedUpCapturesChoices{"own", "all"};
+inline constexpr std::array<std::string_view, 2> kCaptureTexelLookupChoices{"bilinear", "object"};
+inline constexpr std::array<std::string_view, 2> kSearchedCapturesChoices{"own", "all"};
 inline constexpr std::array<std::string_view, 2> kMirrorsInCapturesChoices{"captured", "left_out"};
-inline constexpr std::array<std::string_view, 3> kShownPictureChoices{"colour", "state",
-                                                                      "residual"};
+inline constexpr std::array<std::string_view, 3> kShownDebugPictureChoices{"colour", "state",
+                                                                           "residual"};
 
-inline constexpr TechniqueKnob kLookupKnob{
+inline constexpr TechniqueKnob kCaptureTexelLookupKnob{
     .name = "lookup",
     .help = "interpolation of colour: bilinear mixes four texels; object mixes only texels that "
             "show the same object",
     .high = 1,
     .value = 1,
-    .choices = kLookupChoices};
-inline constexpr TechniqueKnob kLookedUpCapturesKnob{
+    .choices = kCaptureTexelLookupChoices};
+inline constexpr TechniqueKnob kSearchedCapturesKnob{
     .name = "captures",
     .help = "captures that a search reads: own, or all (other mirrors' captures if the own one "
             "answers unknown)",
     .high = 1,
-    .choices = kLookedUpCapturesChoices};
+    .choices = kSearchedCapturesChoices};
 inline constexpr TechniqueKnob kMirrorsInCapturesKnob{
     .name = "mirrors",
     .help = "mirrors in captures: captured, or left_out (without exact spheres, through which rays "
             "are followed)",
     .high = 1,
     .choices = kMirrorsInCapturesChoices};
-inline constexpr TechniqueKnob kShownPictureKnob{
+inline constexpr TechniqueKnob kShownDebugPictureKnob{
     .name = "show",
     .help = "picture on mirrors: colour; state of the search, hit (green), unknown (red) or miss "
             "(blue); residual of the search",
     .high = 2,
-    .choices = kShownPictureChoices};
+    .choices = kShownDebugPictureChoices};
 
-/// In the order of SharedKnobs::Rough and of SharedKnobs::Law.
-inline constexpr std::array<std::string_view, 5> kRoughChoices{"none", "mips", "prefilter", "rays",
-                                                               "fast"};
+/// In the order of KnobsSharedByTechniques::Rough and of KnobsSharedByTechniques::Law.
+inline constexpr std::array<std::string_view, 5> kRoughMirrorMethodChoices{
+    "none", "mips", "prefilter", "rays", "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
                                                                  "cone", "exact"};
-inline constexpr TechniqueKnob kRoughKnob{
+inline constexpr TechniqueKnob kRoughMirrorMethodKnob{
     .name = "rough",
     .help = "look-up for rough surfaces: none (sharp), mips (box-filtered level of the capture), "
             "prefilter (level filtered by the GGX lobe), fast (the same with fewer samples in fine "
             "levels), rays (searches in directions of the lobe)",
     .high = 4,
     .value = 2,
-    .choices = kRoughChoices};
+    .choices = kRoughMirrorMethodChoices};
 inline constexpr TechniqueKnob kFilterTapsKnob{
     .name = "taps",
     .help = "samples of each texel for rough=prefilter, and most for fast",
@@ -137,23 +137,34 @@ inline constexpr TechniqueKnob kBlurLawKnob{
     .choices = kBlurLawChoices};
 
 /// In the order of shared::kRefract....
-inline constexpr std::array<std::string_view, 6> kRefractChoices{"none",   "auto", "thin",
-                                                                 "sphere", "box",  "traced"};
-inline constexpr TechniqueKnob kRefractKnob{
+inline constexpr std::array<std::string_view, 6> kGlassRefractionModelChoices{
+    "none", "auto", "thin", "sphere", "box", "traced"};
+inline constexpr TechniqueKnob kGlassRefractionModelKnob{
     .name = "refract",
     .help = "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
             "body: thin, sphere or box), thin (rays are not bent), sphere (a ball at each point), "
             "box (the body's bounds), traced (rays where a tracer completes the search, else auto)",
     .high = shared::kRefractTraced,
     .value = shared::kRefractAuto,
-    .choices = kRefractChoices};
+    .choices = kGlassRefractionModelChoices};
 
 /// Knobs that every search has, in lists after the search's own knobs.
-inline constexpr std::array kCommonSearchKnobs{
-    kCaptureFaceKnob,       kCaptureColourKnob, kCaptureDistanceKnob,  kDistanceRangeKnob,
-    kContinuedSearchesKnob, kLookupKnob,        kLookedUpCapturesKnob, kMirrorsInCapturesKnob,
-    kShownPictureKnob,      kRoughKnob,         kBlurLawKnob,          kFilterTapsKnob,
-    kRoughRaysKnob,         kRefractKnob,       kShadowKnob,           kShadowMapEdgeKnob};
+inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,
+                                               kCaptureColourKnob,
+                                               kCaptureDistanceKnob,
+                                               kDistanceRangeKnob,
+                                               kContinuedSearchesKnob,
+                                               kCaptureTexelLookupKnob,
+                                               kSearchedCapturesKnob,
+                                               kMirrorsInCapturesKnob,
+                                               kShownDebugPictureKnob,
+                                               kRoughMirrorMethodKnob,
+                                               kBlurLawKnob,
+                                               kFilterTapsKnob,
+                                               kRoughRaysKnob,
+                                               kGlassRefractionModelKnob,
+                                               kShadowKnob,
+                                               kShadowMapEdgeKnob};
 
 template <std::size_t N>
 constexpr std::array<TechniqueKnob, N + kCommonSearchKnobs.size()>
@@ -164,17 +175,17 @@ list_search_knobs(const std::array<TechniqueKnob, N>& own) {
 }
 
 /// Returns the number of shadow passes: one for each light, or 0 with `shadow=none`.
-int count_shadow_passes(int lights, const KnobSettings& settings);
+int count_shadow_passes(int lights, const TechniqueKnobSettings& settings);
 
 /// Returns the options of a capture from the knobs: face edge, colour format and, for techniques
 /// with these knobs, distance format and surface numbers. Throws `Failure::no_device` for
 /// `colour=float` on a device that cannot filter 32-bit floats.
 render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
-                                            const KnobSettings& settings);
+                                            const TechniqueKnobSettings& settings);
 
 /// Returns whether the search may read captures of other mirrors (`continue` above 0 or
 /// `captures=all`).
-inline bool reads_other_captures(const SharedKnobs& knobs) {
+inline bool does_search_other_captures(const KnobsSharedByTechniques& knobs) {
     return knobs.continues > 0 || knobs.asks_all;
 }
 
@@ -182,34 +193,37 @@ inline bool reads_other_captures(const SharedKnobs& knobs) {
 /// knobs `continue`, `lookup`, `captures`, `show` and `refract`, where they exist, become shader
 /// constants.
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
-                                         const KnobSettings& settings);
+                                         const TechniqueKnobSettings& settings);
 
 /// Returns the mirror shading of a technique with Technique::search. The technique's own knobs
 /// become shader constants of the same names.
 render::MirrorShader make_search_shader(const Technique& technique,
                                         const MirrorShadingInputs& around,
-                                        const KnobSettings& settings);
+                                        const TechniqueKnobSettings& settings);
 
 /// Consecutive layers of an array of cubes.
-struct CubeLayerRange {
+struct CaptureCubeRange {
     std::uint32_t first = 0, count = 0;
 };
 /// Returns the cubes of captures in array `array` for which `derived`, an image that passes compute
 /// from captures, is out of date, as runs of layers. Sets their content hash to `hash` of the
 /// mirror. If captures are not kept from frame to frame, all cubes are out of date.
 template <typename Hash>
-std::vector<CubeLayerRange>
+std::vector<CaptureCubeRange>
 find_outdated_cubes(graph::Graph& graph, const render::MirrorCaptures& captures,
                     std::uint32_t array, graph::ImageHandle derived, Hash&& hash) {
-    std::vector<CubeLayerRange> runs;
+    std::vector<CaptureCubeRange> runs;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror) {
-        const render::CaptureArraySlot& place = captures.places[mirror];
+        const render::CubeArraySlotOfMirror& place = captures.places[mirror];
         if (place.array != array) continue;
         const std::uint32_t first = 6 * place.cube;
         if (!captures.drawings.empty()) {
             const std::uint64_t content_hash = hash(mirror);
-            if (graph.holds_content(derived.select_layers(first, 6), content_hash)) continue;
-            graph.set_content_hash(derived.select_layers(first, 6), content_hash);
+            if (graph.has_image_part_content_hash(derived.select_image_layers(first, 6),
+                                                  content_hash))
+                continue;
+            graph.set_content_hash_of_image_part(derived.select_image_layers(first, 6),
+                                                 content_hash);
         }
         if (runs.empty() || runs.back().first + runs.back().count != first)
             runs.push_back({first, 0});
@@ -219,7 +233,8 @@ find_outdated_cubes(graph::Graph& graph, const render::MirrorCaptures& captures,
 }
 
 /// Returns the scene passes R of techniques with one capture per mirror: N + 2 with one light.
-inline int count_feedback_passes(int mirrors, int lights, const KnobSettings& settings) {
+inline int count_capture_passes_with_feedback(int mirrors, int lights,
+                                              const TechniqueKnobSettings& settings) {
     return mirrors + count_shadow_passes(lights, settings) + 1;
 }
 

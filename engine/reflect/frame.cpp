@@ -12,8 +12,8 @@ namespace catoptric::reflect {
 
 namespace {
 
-std::optional<std::uint32_t> choose_shadow_map_edge(const SharedKnobs& knobs) {
-    if (knobs.shadow != SharedKnobs::ShadowMethod::map) return std::nullopt;
+std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechniques& knobs) {
+    if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return std::nullopt;
     return knobs.shadow_map;
 }
 
@@ -41,7 +41,7 @@ private:
 };
 
 /// Returns whether a tracer completes the whole view (Technique::completes_view).
-bool is_view_completed_by_tracer(const std::vector<TechniqueChoice>& choices) {
+bool is_view_drawn_by_tracer_after_raster(const std::vector<TechniqueChoice>& choices) {
     const TechniqueChoice& choice = choices.front();
     const Technique& technique = *choice.technique;
     return choices.size() == 1 && technique.completes_view &&
@@ -55,7 +55,7 @@ choose_shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices, boo
     std::optional<std::uint32_t> finest;
     if (!is_drawn) return choose_shadow_map_edge(choices.front().shared);
     for (const TechniqueChoice& choice : choices)
-        if (choice.shared.shadow != SharedKnobs::ShadowMethod::none)
+        if (choice.shared.shadow != KnobsSharedByTechniques::ShadowMethod::none)
             finest = std::max(finest.value_or(1), choice.shared.shadow_map);
     return finest;
 }
@@ -63,7 +63,7 @@ choose_shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices, boo
 /// Returns the capture options of each mirror: those of its technique, extended by the data that
 /// searches need which read captures of other mirrors.
 std::vector<render::CaptureOptions>
-choose_capture_options(const render::FrameInputs& inputs, const MirrorAssignment& assignment,
+choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachMirror& assignment,
                        ShadowMaps& maps, const render::ShadingLights& view_lighting) {
     std::vector<render::CaptureOptions> of_choice;
     render::CaptureOptions shared;
@@ -73,7 +73,7 @@ choose_capture_options(const render::FrameInputs& inputs, const MirrorAssignment
         if (technique->capture) {
             options = technique->capture(inputs, choice.settings);
             options.lighting = maps.find_or_add_shadow_map(choose_shadow_map_edge(choice.shared));
-            if (reads_other_captures(choice.shared)) {
+            if (does_search_other_captures(choice.shared)) {
                 shared.surfaces = shared.surfaces || options.surfaces;
                 shared.second_layer = shared.second_layer || options.second_layer;
                 shared.distance = TexelFormat::r32f;
@@ -97,11 +97,11 @@ choose_capture_options(const render::FrameInputs& inputs, const MirrorAssignment
 
 /// Returns the mirror shading of all mirrors inside captures: lookups in the captures of the last
 /// frame.
-render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
-                                                 const render::FrameCaptureUpdate& feeding,
-                                                 const MirrorAssignment& assignment,
-                                                 const RoughLevels& levels) {
-    render::MirrorShaders looks;
+render::ShaderOfEachMirror
+choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptureUpdate& feeding,
+                                  const TechniqueOfEachMirror& assignment,
+                                  const RoughLevels& levels) {
+    render::ShaderOfEachMirror looks;
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         const Technique& technique = *choice.technique;
@@ -115,7 +115,8 @@ render::MirrorShaders choose_shaders_in_captures(graph::Graph& graph,
             look.blank = !feeding.was_there[i];
             const auto mirror = static_cast<std::uint32_t>(i);
             if (!look.blank)
-                levels.add_lookups(graph, std::span(&mirror, 1), choice.shared, look, true);
+                levels.add_rough_lookup_mirrors(graph, std::span(&mirror, 1), choice.shared, look,
+                                                true);
         }
         const auto found = std::ranges::find_if(
             looks.looks, [&](const render::MirrorShader& other) {
@@ -132,17 +133,19 @@ bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
 }
 
 /// Captures that mirrors of this frame look into, and their filtered levels.
-struct FeedbackCaptures {
+struct MutualMirrorCaptures {
     render::FrameCaptureUpdate update;
     RoughLevels levels;
 };
 
 /// Declares the captures of parts two and later of the report, which show mirrors by the captures
 /// of the frame before. Returns an empty update if no technique needs captures.
-FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInputs& inputs,
-                                     const MirrorAssignment& assignment,
-                                     const PreviousCaptureHistory& keeping, ShadowMaps& maps,
-                                     const render::ShadingLights& view_lighting) {
+MutualMirrorCaptures add_capture_passes_with_feedback(graph::Graph& graph,
+                                                      const render::FrameInputs& inputs,
+                                                      const TechniqueOfEachMirror& assignment,
+                                                      const PreviousCaptureHistory& keeping,
+                                                      ShadowMaps& maps,
+                                                      const render::ShadingLights& view_lighting) {
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, is_drawn_by_mirrored_views);
@@ -159,20 +162,20 @@ FeedbackCaptures add_feedback_passes(graph::Graph& graph, const render::FrameInp
             ? render::update_all_captures(graph, inputs, "capture", std::move(options))
             : render::update_required_captures(graph, inputs, "capture", options, keeping.model,
                                                {keeping.before, keeping.comparisons, keeping.most});
-    std::vector<SharedKnobs> knobs;
+    std::vector<KnobsSharedByTechniques> knobs;
     for (const std::uint32_t choice : assignment.of_mirror)
         knobs.push_back(assignment.choices[choice].shared);
     RoughLevels levels(graph, inputs, feeding.captures, knobs);
-    render::add_capture_passes(graph, inputs, *feeding.captures,
-                               choose_shaders_in_captures(graph, feeding, assignment, levels),
-                               feeding.work);
+    render::add_capture_passes(
+        graph, inputs, *feeding.captures,
+        choose_mirror_shaders_in_captures(graph, feeding, assignment, levels), feeding.work);
     render::add_capture_comparison_pass(graph, inputs, feeding);
     levels.add_passes(graph);
     return {std::move(feeding), std::move(levels)};
 }
 
-std::vector<std::uint32_t> list_mirrors_of_choice(std::size_t choice,
-                                                  const MirrorAssignment& assignment) {
+std::vector<std::uint32_t> list_mirrors_using_technique(std::size_t choice,
+                                                        const TechniqueOfEachMirror& assignment) {
     std::vector<std::uint32_t> mirrors;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i)
         if (assignment.of_mirror[i] == choice) mirrors.push_back(i);
@@ -181,9 +184,10 @@ std::vector<std::uint32_t> list_mirrors_of_choice(std::size_t choice,
 
 /// Returns the mirror shading of all mirrors inside mirrored views: as in the picture, but without
 /// tracing. Mirrors that are only traced are shown by their captures, if they have any.
-render::MirrorShaders choose_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
-                                                       const MirrorAssignment& assignment,
-                                                       render::MirrorShaders looks) {
+render::ShaderOfEachMirror
+choose_mirror_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
+                                        const TechniqueOfEachMirror& assignment,
+                                        render::ShaderOfEachMirror looks) {
     for (std::size_t i = 0; i < looks.looks.size(); ++i) {
         render::MirrorShader& look = looks.looks[i];
         std::erase_if(look.constants,
@@ -203,41 +207,43 @@ render::MirrorShaders choose_shaders_in_mirrored_views(const TechniqueOutputs& o
 } // namespace
 
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
-                                  const MirrorAssignment& assignment,
+                                  const TechniqueOfEachMirror& assignment,
                                   const PreviousCaptureHistory& keeping) {
     const std::vector<TechniqueChoice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
     ShadowMaps maps(graph, inputs, keeping.model);
-    const bool completes = is_view_completed_by_tracer(choices);
+    const bool completes = is_view_drawn_by_tracer_after_raster(choices);
     const render::ShadingLights lighting = maps.find_or_add_shadow_map(
         choose_shadow_map_edge_for_view(choices, is_mixed || completes));
     if (!is_mixed && !completes && choices.front().technique->picture)
         return choices.front().technique->picture(graph, inputs, choices.front().settings,
                                                   lighting);
     TechniqueOutputs outputs;
-    const FeedbackCaptures feedback = add_feedback_passes(graph, inputs, assignment, keeping, maps,
-                                                          lighting);
+    const MutualMirrorCaptures feedback = add_capture_passes_with_feedback(
+        graph, inputs, assignment, keeping, maps, lighting);
     outputs.captures = feedback.update.captures;
     outputs.kept = feedback.update.kept;
-    render::MirrorShaders looks{{}, assignment.of_mirror};
+    render::ShaderOfEachMirror looks{{}, assignment.of_mirror};
     std::vector<TracerSettings> tracers;
     const bool needs_looks = completes || !assignment.of_mirror.empty();
     for (std::size_t i = 0; i < choices.size() && needs_looks; ++i) {
         render::FrameInputs own = inputs;
         if (is_mixed) own.prefix += choices[i].file_name() + "/";
-        const KnobSettings& settings = choices[i].settings;
+        const TechniqueKnobSettings& settings = choices[i].settings;
         const Technique& technique = *choices[i].technique;
         const MirrorShadingInputs around{
             outputs.captures,
             completes ? lighting
                       : maps.find_or_add_shadow_map(choose_shadow_map_edge(choices[i].shared)),
-            list_mirrors_of_choice(i, assignment), completes};
-        MirrorShading look = technique.search
-                                 ? MirrorShading{make_search_shader(technique, around, settings),
-                                                 {}}
-                                 : technique.look(graph, own, settings, around);
+            list_mirrors_using_technique(i, assignment), completes};
+        MirrorShadingSetup look = technique.search
+                                      ? MirrorShadingSetup{make_search_shader(technique, around,
+                                                                              settings),
+                                                           {}}
+                                      : technique.look(graph, own, settings, around);
         if (look.mirror.captures == feedback.update.captures)
-            feedback.levels.add_lookups(graph, around.mirrors, choices[i].shared, look.mirror);
+            feedback.levels.add_rough_lookup_mirrors(graph, around.mirrors, choices[i].shared,
+                                                     look.mirror);
         if (look.tracer) {
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",
@@ -250,7 +256,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     if (std::ranges::any_of(choices, is_drawn_by_mirrored_views) && !assignment.of_mirror.empty())
         std::ranges::move(
             add_mirrored_views(graph, inputs, assignment, lighting,
-                               choose_shaders_in_mirrored_views(outputs, assignment, looks), looks),
+                               choose_mirror_shaders_in_mirrored_views(outputs, assignment, looks),
+                               looks),
             std::back_inserter(outputs.notes));
     const render::CameraPassOutputs view = render::add_camera_view(
         graph, inputs, lighting, std::move(looks), !tracers.empty(),

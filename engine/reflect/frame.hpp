@@ -13,11 +13,11 @@ struct PreviousCaptureHistory {
     /// TechniqueOutputs::kept of the frame before; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
     /// Buffers in which captures are compared with those of the frame before; may be null.
-    render::ComparisonBuffers* comparisons = nullptr;
+    render::CaptureComparisonBufferPool* comparisons = nullptr;
     std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };
 /// The model that culls no work, so that all captures are drawn.
-inline const require::RequiredWorkModel kEverything;
+inline const require::RequiredWorkModel kDrawEverythingModel;
 
 /// Declares the passes of one frame: all that the mirrors' techniques need. If all mirrors share
 /// one technique, the passes are those of this technique.
@@ -27,7 +27,8 @@ inline const require::RequiredWorkModel kEverything;
 /// mirrors get captures, so that the captures can show every mirror. Work that the model culls gets
 /// no passes.
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
-                                  const MirrorAssignment& assignment,
-                                  const PreviousCaptureHistory& keeping = {.model = kEverything});
+                                  const TechniqueOfEachMirror& assignment,
+                                  const PreviousCaptureHistory& keeping = {
+                                      .model = kDrawEverythingModel});
 
 } // namespace catoptric::reflect

@@ -7,42 +7,43 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kForcedLookupChoices{"search", "unknown"};
-enum class ForcedLookupResult { search, unknown };
-constexpr TechniqueKnob kForcedLookupKnob{
+constexpr std::array<std::string_view, 2> kForcedSearchResultChoices{"search", "unknown"};
+enum class ForcedSearchResult { search, unknown };
+constexpr TechniqueKnob kForcedSearchResultKnob{
     .name = "force",
     .help = "pixels to trace: those for which the search answers unknown, or all",
     .high = 1,
-    .choices = kForcedLookupChoices};
+    .choices = kForcedSearchResultChoices};
 constexpr auto kHybridKnobs = [] {
-    auto knobs = list_search_knobs(std::array{kForcedLookupKnob});
-    std::ranges::find(knobs, kRefractKnob.name, &TechniqueKnob::name)->value =
+    auto knobs = list_search_knobs(std::array{kForcedSearchResultKnob});
+    std::ranges::find(knobs, kGlassRefractionModelKnob.name, &TechniqueKnob::name)->value =
         shared::kRefractTraced;
     return knobs;
 }();
 
 /// Uses the search of `pyramid`, because it gives the fewest wrong hits. (`march` misses objects
 /// that are thinner than its step.)
-MirrorShading make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                  const KnobSettings& settings, const MirrorShadingInputs& around) {
-    MirrorShading look = make_pyramid_shading(graph, inputs, settings, around);
-    const bool traces_all = settings.knob_value_as_enum<ForcedLookupResult>(kForcedLookupKnob) ==
-                            ForcedLookupResult::unknown;
+MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                       const TechniqueKnobSettings& settings,
+                                       const MirrorShadingInputs& around) {
+    MirrorShadingSetup look = make_pyramid_shading(graph, inputs, settings, around);
+    const bool traces_all = settings.knob_value_as_enum<ForcedSearchResult>(
+                                kForcedSearchResultKnob) == ForcedSearchResult::unknown;
     if (traces_all) look.mirror.constants.emplace_back("trusts_none", 1u);
     look.tracer.emplace();
     const bool is_rough = std::ranges::any_of(
         around.mirrors, [&](std::uint32_t mirror) { return inputs.scene.is_rough_mirror(mirror); });
-    const SharedKnobs knobs = read_shared_knobs(settings);
-    if (is_rough && knobs.rough != SharedKnobs::RoughLookup::none)
+    const KnobsSharedByTechniques knobs = read_shared_knobs(settings);
+    if (is_rough && knobs.rough != KnobsSharedByTechniques::RoughMirrorLookup::none)
         look.tracer->rays = knobs.lobe_rays;
     // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
     // Blended surfaces would be drawn over the number.
-    if (traces_all && !inputs.scene.blends_surfaces() &&
-        inputs.scene.scene_device().supports_primitive_ids()) {
+    if (traces_all && !inputs.scene.has_blended_surfaces() &&
+        inputs.scene.scene_device().supports_primitive_id_in_fragments()) {
         look.mirror.variant = "#first";
         look.tracer->first_raster = true;
     }
-    if (knobs.shadow == SharedKnobs::ShadowMethod::none)
+    if (knobs.shadow == KnobsSharedByTechniques::ShadowMethod::none)
         look.tracer->shadow = TracerSettings::TracedShadow::none;
     return look;
 }
@@ -55,7 +56,7 @@ constexpr Technique kHybridTechnique{
     .order = 15,
     .knobs = kHybridKnobs,
     .compared = kHybridDefaultRows,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_hybrid_shading};

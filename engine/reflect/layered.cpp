@@ -15,16 +15,16 @@ constexpr TechniqueKnob kSearchStepsKnob{
 constexpr auto kLayeredKnobs = list_search_knobs(std::array{kSearchStepsKnob});
 
 render::CaptureOptions choose_layered_capture_options(const render::FrameInputs& inputs,
-                                                      const KnobSettings& settings) {
+                                                      const TechniqueKnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.second_layer = true;
     return options;
 }
 
-MirrorShading make_layered_shading(graph::Graph&, const render::FrameInputs&,
-                                   const KnobSettings& settings,
-                                   const MirrorShadingInputs& around) {
-    MirrorShading look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
+MirrorShadingSetup make_layered_shading(graph::Graph&, const render::FrameInputs&,
+                                        const TechniqueKnobSettings& settings,
+                                        const MirrorShadingInputs& around) {
+    MirrorShadingSetup look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back(
         "steps", static_cast<std::uint32_t>(settings.knob_value_as_integer(kSearchStepsKnob)));
     // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
@@ -57,8 +57,8 @@ constexpr Technique kLayeredTechnique{
     .compared = kLayeredDefaultRows,
     // R = 2 N + 2
     .scene_passes =
-        [](int mirrors, int lights, const KnobSettings& settings) {
-            return count_feedback_passes(2 * mirrors, lights, settings);
+        [](int mirrors, int lights, const TechniqueKnobSettings& settings) {
+            return count_capture_passes_with_feedback(2 * mirrors, lights, settings);
         },
     .capture = choose_layered_capture_options,
     .in_captures = "reflect/parallax.frag",

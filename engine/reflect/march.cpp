@@ -22,7 +22,7 @@ constexpr Technique kMarchTechnique{
     .order = 12,
     .knobs = kMarchKnobs,
     .compared = kMarchDefaultRows,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .search = "reflect/march.frag"};

@@ -10,23 +10,23 @@ namespace {
 using render::MirroredView;
 
 /// A flat face that can have mirrored views, with its mirror and its triangles.
-struct MirroredFace {
+struct FlatMirrorFace {
     std::uint32_t mirror = 0;
     std::size_t number = 0; ///< from 1; 0: the face is the whole mirror
     std::vector<scene::TriangleIndexRun> triangles;
 };
 
 /// All mirrors that are drawn by mirrored views.
-struct MirroredFaces {
-    std::vector<MirroredFace> faces;
+struct FlatMirrorFaceList {
+    std::vector<FlatMirrorFace> faces;
     std::vector<std::optional<render::MirrorPlane>> planes; ///< plane of each face
     /// Mirrors with several faces, and their triangles that belong to no flat face.
     std::vector<std::pair<std::uint32_t, std::vector<scene::TriangleIndexRun>>> bodies;
 };
 
-MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
-                                  const MirrorAssignment& assignment) {
-    MirroredFaces all;
+FlatMirrorFaceList list_flat_mirror_faces_to_view(const render::GpuScene& scene,
+                                                  const TechniqueOfEachMirror& assignment) {
+    FlatMirrorFaceList all;
     for (std::uint32_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         if (!choice.technique->mirrored_bounces) continue;
@@ -48,10 +48,10 @@ MirroredFaces list_mirrored_faces(const render::GpuScene& scene,
 
 /// Returns the name of a view. "mirrored/2/1" is the view of mirror 1 inside mirror 2.
 /// "mirrored/2.3" is the view of face 3 of mirror 2.
-std::string mirrored_view_name(const MirroredFaces& all, const std::vector<MirroredView>& views,
-                               std::size_t view) {
+std::string mirrored_view_name(const FlatMirrorFaceList& all,
+                               const std::vector<MirroredView>& views, std::size_t view) {
     const auto& within = views[view].within;
-    const MirroredFace& face = all.faces[views[view].mirror];
+    const FlatMirrorFace& face = all.faces[views[view].mirror];
     return (within ? mirrored_view_name(all, views, *within) : "mirrored") + "/" +
            std::to_string(face.mirror + 1) +
            (face.number > 0 ? "." + std::to_string(face.number) : "");
@@ -60,10 +60,11 @@ std::string mirrored_view_name(const MirroredFaces& all, const std::vector<Mirro
 /// Adds to `looks` the mirror shading inside view `within`, or in the picture if it is none. Faces
 /// with views show the images `made`. Faces without views and triangles outside all faces are
 /// black.
-render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const MirroredFaces& all,
-                                              const std::vector<MirroredView>& views,
-                                              const std::vector<graph::ImageHandle>& made,
-                                              std::optional<std::size_t> within) {
+render::ShaderOfEachMirror
+add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const FlatMirrorFaceList& all,
+                                    const std::vector<MirroredView>& views,
+                                    const std::vector<graph::ImageHandle>& made,
+                                    std::optional<std::size_t> within) {
     const auto black = static_cast<std::uint32_t>(looks.looks.size());
     looks.looks.emplace_back();
     std::vector<std::uint32_t> of_face(all.faces.size(), black);
@@ -77,11 +78,11 @@ render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const
                                .buffers = {}});
     }
     for (const auto& [mirror, bent] : all.bodies) {
-        looks.of_mirror[mirror] = render::MirrorShaders::kShaderChosenByPart;
+        looks.of_mirror[mirror] = render::ShaderOfEachMirror::kShaderChosenByPart;
         if (!bent.empty()) looks.parts.push_back({mirror, black, bent});
     }
     for (std::size_t i = 0; i < all.faces.size(); ++i) {
-        const MirroredFace& face = all.faces[i];
+        const FlatMirrorFace& face = all.faces[i];
         const bool is_looked_through = within && views[*within].mirror == i;
         if (face.number == 0)
             looks.of_mirror[face.mirror] = of_face[i];
@@ -94,11 +95,11 @@ render::MirrorShaders add_shaders_within_view(render::MirrorShaders looks, const
 } // namespace
 
 std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
-                                            const MirrorAssignment& assignment,
+                                            const TechniqueOfEachMirror& assignment,
                                             const render::ShadingLights& lighting,
-                                            const render::MirrorShaders& others,
-                                            render::MirrorShaders& looks) {
-    const MirroredFaces all = list_mirrored_faces(inputs.scene, assignment);
+                                            const render::ShaderOfEachMirror& others,
+                                            render::ShaderOfEachMirror& looks) {
+    const FlatMirrorFaceList all = list_flat_mirror_faces_to_view(inputs.scene, assignment);
     int asked = 0;
     for (const auto& plane : all.planes) asked = std::max(asked, plane->bounces);
     int most = asked;
@@ -108,14 +109,14 @@ std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::F
     for (std::size_t i = views.size();
          i-- > 0;) { // inner views have larger indices and must be made first
         const std::uint32_t number = inputs.scene.add_view(views[i].view);
-        const MirroredFace& face = all.faces[views[i].mirror];
+        const FlatMirrorFace& face = all.faces[views[i].mirror];
         const std::optional<std::uint32_t> whole = face.number == 0 ? std::optional(face.mirror)
                                                                     : std::nullopt;
         made[i] = render::add_mirrored_view(
             graph, inputs, mirrored_view_name(all, views, i), views[i], number, lighting,
-            add_shaders_within_view(others, all, views, made, i), whole);
+            add_mirror_shaders_of_mirrored_view(others, all, views, made, i), whole);
     }
-    looks = add_shaders_within_view(std::move(looks), all, views, made, {});
+    looks = add_mirror_shaders_of_mirrored_view(std::move(looks), all, views, made, {});
     if (most == asked) return {};
     return {"flat mirrors show " + std::to_string(most) + " mirrors one behind the other, not " +
             std::to_string(asked) + ": a frame has at most " +

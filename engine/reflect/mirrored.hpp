@@ -12,9 +12,9 @@ namespace catoptric::reflect {
 /// Mirrors without a view are black. `others` is the mirror shading of all other mirrors inside the
 /// views. Returns notes, one sentence each, on views that differ from the request.
 std::vector<std::string> add_mirrored_views(graph::Graph& graph, const render::FrameInputs& inputs,
-                                            const MirrorAssignment& assignment,
+                                            const TechniqueOfEachMirror& assignment,
                                             const render::ShadingLights& lighting,
-                                            const render::MirrorShaders& others,
-                                            render::MirrorShaders& looks);
+                                            const render::ShaderOfEachMirror& others,
+                                            render::ShaderOfEachMirror& looks);
 
 } // namespace catoptric::reflect

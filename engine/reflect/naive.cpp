@@ -14,14 +14,15 @@ constexpr TechniqueKnob kBouncesKnob{
     .low = 0,
     .high = 8,
     .value = 3};
-constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob,       kCaptureFaceKnob, kCaptureColourKnob,
-                                         kRefractKnob,       kShadowKnob,      kShadowMapEdgeKnob,
-                                         kCaptureContentKnob};
+constexpr TechniqueKnob kNaiveKnobs[] = {
+    kBouncesKnob, kCaptureFaceKnob,   kCaptureColourKnob,      kGlassRefractionModelKnob,
+    kShadowKnob,  kShadowMapEdgeKnob, kCaptureContentCacheKnob};
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.
-MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                 const KnobSettings& settings, const MirrorShadingInputs& around) {
+MirrorShadingSetup make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                      const TechniqueKnobSettings& settings,
+                                      const MirrorShadingInputs& around) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
     render::MirrorShader look; // no fragment shader: black
@@ -32,8 +33,8 @@ MirrorShading make_naive_shading(graph::Graph& graph, const render::FrameInputs&
         std::vector of_mirrors(inputs.scene.mirror_count(), of_others);
         for (const std::uint32_t mirror : around.mirrors) of_mirrors[mirror] = options;
         const auto captures = std::make_shared<const render::MirrorCaptures>(
-            render::declare_captures(graph, inputs, "bounce" + std::to_string(bounce),
-                                     std::move(of_mirrors)));
+            render::declare_capture_images(graph, inputs, "bounce" + std::to_string(bounce),
+                                           std::move(of_mirrors)));
         render::add_capture_passes(graph, inputs, *captures,
                                    render::use_same_shader_for_mirrors(inputs.scene, look));
         look = make_capture_shader({captures, around.lighting, around.mirrors},
@@ -54,7 +55,7 @@ constexpr Technique kNaiveTechnique{
     .knobs = kNaiveKnobs,
     .compared = kNaiveDefaultRows,
     .scene_passes =
-        [](int mirrors, int lights, const KnobSettings& settings) {
+        [](int mirrors, int lights, const TechniqueKnobSettings& settings) {
             return mirrors * settings.knob_value_as_integer(kBouncesKnob) +
                    count_shadow_passes(lights, settings) + 1;
         },

@@ -8,24 +8,24 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kParallaxShader = "reflect/parallax.frag";
-constexpr std::array<std::string_view, 3> kDroppedParallaxRuleChoices{"none", "saturation",
+constexpr std::array<std::string_view, 3> kOmittedParallaxRuleChoices{"none", "saturation",
                                                                       "void_test"};
-enum class DroppedParallaxRule { none, saturation, void_test };
-constexpr TechniqueKnob kWithoutParallaxRuleKnob{
+enum class OmittedParallaxRule { none, saturation, void_test };
+constexpr TechniqueKnob kOmittedParallaxRuleKnob{
     .name = "without",
     .help = "rule of robustness to leave out, to measure its cost",
     .high = 2,
-    .choices = kDroppedParallaxRuleChoices};
+    .choices = kOmittedParallaxRuleChoices};
 constexpr TechniqueKnob kParallaxKnobs[] = {
-    kCaptureFaceKnob, kCaptureColourKnob, kCaptureDistanceKnob, kDistanceRangeKnob,
-    kRoughKnob,       kBlurLawKnob,       kFilterTapsKnob,      kRoughRaysKnob,
-    kRefractKnob,     kShadowKnob,        kShadowMapEdgeKnob,   kWithoutParallaxRuleKnob};
+    kCaptureFaceKnob,          kCaptureColourKnob, kCaptureDistanceKnob, kDistanceRangeKnob,
+    kRoughMirrorMethodKnob,    kBlurLawKnob,       kFilterTapsKnob,      kRoughRaysKnob,
+    kGlassRefractionModelKnob, kShadowKnob,        kShadowMapEdgeKnob,   kOmittedParallaxRuleKnob};
 
 render::CaptureOptions make_parallax_capture_options(const render::FrameInputs& inputs,
-                                                     const KnobSettings& settings) {
+                                                     const TechniqueKnobSettings& settings) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
-    options.saturates = settings.knob_value_as_enum<DroppedParallaxRule>(
-                            kWithoutParallaxRuleKnob) != DroppedParallaxRule::saturation;
+    options.saturates = settings.knob_value_as_enum<OmittedParallaxRule>(
+                            kOmittedParallaxRuleKnob) != OmittedParallaxRule::saturation;
     return options;
 }
 
@@ -37,14 +37,14 @@ constexpr Technique kParallaxTechnique{
     .order = 3,
     .knobs = kParallaxKnobs,
     .compared = kParallaxDefaultRows,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_parallax_capture_options,
     .in_captures = kParallaxShader,
-    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings& settings,
+    .look = [](graph::Graph&, const render::FrameInputs&, const TechniqueKnobSettings& settings,
                const MirrorShadingInputs& around) {
-        MirrorShading look{make_capture_shader(around, kParallaxShader, settings), {}};
-        if (settings.knob_value_as_enum<DroppedParallaxRule>(kWithoutParallaxRuleKnob) ==
-            DroppedParallaxRule::void_test)
+        MirrorShadingSetup look{make_capture_shader(around, kParallaxShader, settings), {}};
+        if (settings.knob_value_as_enum<OmittedParallaxRule>(kOmittedParallaxRuleKnob) ==
+            OmittedParallaxRule::void_test)
             look.mirror.constants.emplace_back("tests_void", 0u);
         return look;
     }};

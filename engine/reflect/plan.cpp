@@ -16,10 +16,10 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::string_view kRuleSeparators = " \t\n";
-constexpr std::size_t kMaxFileNameLength = 80;
+constexpr std::string_view kPlanRuleSeparators = " \t\n";
+constexpr std::size_t kMaxPlanFileNameLength = 80;
 
-constexpr double kMinReportedBentShare =
+constexpr double kMinReportedNonFlatShare =
     .001; // smallest share of area outside all flat faces that is reported
 
 std::string format_share_as_percent(double share) {
@@ -29,7 +29,7 @@ std::string format_share_as_percent(double share) {
 }
 
 /// How precisely an item of a pattern names a mirror; the smallest rank wins.
-enum PatternPrecision { kNumber, kName, kRest, kNone };
+enum MirrorPatternPrecision { kNumber, kName, kRest, kNone };
 
 /// Returns the item as a number, or none if it is not a number.
 std::optional<std::size_t> parse_mirror_number_item(const std::string& item) {
@@ -40,8 +40,8 @@ std::optional<std::size_t> parse_mirror_number_item(const std::string& item) {
 }
 
 /// Returns how precisely the item names mirror `index`, from 0.
-PatternPrecision find_pattern_precision(const std::string& item, std::size_t index,
-                                        const std::string& name) {
+MirrorPatternPrecision find_mirror_pattern_precision(const std::string& item, std::size_t index,
+                                                     const std::string& name) {
     if (item == "*") return kRest;
     if (const auto number = parse_mirror_number_item(item))
         return *number == index + 1 ? kNumber : kNone;
@@ -52,16 +52,16 @@ std::string quote_technique_names(const std::vector<std::string>& names) {
     constexpr std::size_t kMaxListedMirrors = 20;
     std::string list = std::to_string(names.size()) + (names.size() == 1 ? " mirror" : " mirrors");
     for (std::size_t i = 0; i < std::min(names.size(), kMaxListedMirrors); ++i)
-        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_as_printable_text(names[i]);
+        list += (i ? ", " : ": ") + std::to_string(i + 1) + " " + quote_text_with_escapes(names[i]);
     return list + (names.size() > kMaxListedMirrors ? ", ..." : "");
 }
 
-PlanRule parse_plan_rule(const std::string& text, std::string_view plan) {
+TechniquePlanRule parse_plan_rule(const std::string& text, std::string_view plan) {
     const auto equals = text.find('=');
     check(equals != std::string::npos && equals > 0 && text.find(':') > equals, Failure::usage,
           "plan '", plan, "': wanted PATTERN=TECHNIQUE, found '", text, "'");
-    PlanRule rule{text.substr(0, equals),
-                  parse_technique_choice(std::string_view(text).substr(equals + 1))};
+    TechniquePlanRule rule{text.substr(0, equals),
+                           parse_technique_choice(std::string_view(text).substr(equals + 1))};
     for (const std::string& item : split_text(rule.pattern, ","))
         check(!item.empty(), Failure::usage, "plan '", plan, "': pattern '", rule.pattern,
               "' has an empty entry");
@@ -81,15 +81,15 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
 /// Returns the technique of unfit mirrors, with the shadow settings of `choice`.
 TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
-    const KnobSettings defaults(choice.technique->knobs);
+    const TechniqueKnobSettings defaults(choice.technique->knobs);
     for (const TechniqueKnob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob}) {
-        const std::string value = choice.settings.format_value(*knob);
-        if (value == defaults.format_value(*knob)) continue;
-        rest.settings.set_knob(rest.technique->name, knob->name, value);
+        const std::string value = choice.settings.format_current_knob_value(*knob);
+        if (value == defaults.format_current_knob_value(*knob)) continue;
+        rest.settings.set_knob_from_text(rest.technique->name, knob->name, value);
         rest.label += (rest.label.find(':') == std::string::npos ? ":" : ",") +
                       std::string(knob->name) + "=" + value;
     }
-    rest.update_from_settings();
+    rest.update_shared_knobs_from_settings();
     return rest;
 }
 
@@ -103,15 +103,16 @@ std::string TechniquePlan::file_name() const {
     std::ranges::replace_if(
         name, [](unsigned char c) { return !std::isalnum(c) && c != '.' && c != '_' && c != '-'; },
         '-');
-    if (name.size() <= kMaxFileNameLength) return name;
+    if (name.size() <= kMaxPlanFileNameLength) return name;
     const std::size_t mark = std::hash<std::string>{}(label); // shortened names differ by this hash
-    return name.substr(0, kMaxFileNameLength - 7) + "-" + std::to_string(mark % 1000000);
+    return name.substr(0, kMaxPlanFileNameLength - 7) + "-" + std::to_string(mark % 1000000);
 }
 
 bool TechniquePlan::is_same_plan_as(const TechniquePlan& other) const {
-    return std::ranges::equal(rules, other.rules, [](const PlanRule& a, const PlanRule& b) {
-        return a.pattern == b.pattern && a.choice.is_same_choice_as(b.choice);
-    });
+    return std::ranges::equal(
+        rules, other.rules, [](const TechniquePlanRule& a, const TechniquePlanRule& b) {
+            return a.pattern == b.pattern && a.choice.is_same_choice_as(b.choice);
+        });
 }
 
 TechniquePlan parse_plan(std::string_view text) {
@@ -128,14 +129,14 @@ TechniquePlan parse_plan(std::string_view text) {
                 .is_technique = true,
                 .reasons = {}};
     TechniquePlan plan{.label = std::string(text), .rules = {}, .reasons = {}};
-    for (const std::string& rule : split_text(text, kRuleSeparators))
+    for (const std::string& rule : split_text(text, kPlanRuleSeparators))
         if (!rule.empty()) plan.rules.push_back(parse_plan_rule(rule, text));
     return plan;
 }
 
-MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
-                                              const std::vector<std::string>& names) {
-    MirrorAssignment assignment;
+TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
+                                                   const std::vector<std::string>& names) {
+    TechniqueOfEachMirror assignment;
     if (plan.is_technique) {
         assignment.choices = {plan.rules.front().choice};
         assignment.of_mirror.assign(names.size(), 0);
@@ -144,16 +145,17 @@ MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
         assignment.reasons.resize(names.size());
         return assignment;
     }
-    struct BestMatchingRule {
-        PatternPrecision rank = kNone;
-        const PlanRule* rule = nullptr;
+    struct MostPreciseMatchingRule {
+        MirrorPatternPrecision rank = kNone;
+        const TechniquePlanRule* rule = nullptr;
     };
-    std::vector<BestMatchingRule> best(names.size());
-    for (const PlanRule& rule : plan.rules) {
+    std::vector<MostPreciseMatchingRule> best(names.size());
+    for (const TechniquePlanRule& rule : plan.rules) {
         for (const std::string& item : split_text(rule.pattern, ",")) {
             bool matches = false;
             for (std::size_t i = 0; i < names.size(); ++i) {
-                const PatternPrecision rank = find_pattern_precision(item, i, names[i]);
+                const MirrorPatternPrecision rank = find_mirror_pattern_precision(item, i,
+                                                                                  names[i]);
                 matches = matches || rank != kNone;
                 if (rank < best[i].rank) best[i] = {rank, &rule};
             }
@@ -164,7 +166,7 @@ MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
         check(best[i].rule != nullptr, Failure::usage, "plan '", plan.label,
-              "': no rule for mirror ", i + 1, " ", quote_as_printable_text(names[i]),
+              "': no rule for mirror ", i + 1, " ", quote_text_with_escapes(names[i]),
               "; '*=TECHNIQUE' takes the rest");
         assignment.of_mirror.push_back(find_choice_index(best[i].rule->choice, assignment.choices));
         assignment.patterns.push_back(best[i].rule->pattern);
@@ -174,24 +176,24 @@ MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
     return assignment;
 }
 
-void add_demands_of_plan(require::RequiredWorkModelInput& question,
-                         const std::vector<TechniquePlan>& plans) {
+void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
+                               const std::vector<TechniquePlan>& plans) {
     std::optional<std::uint32_t> coarsest;
     for (const TechniquePlan& plan : plans)
         for (const auto& [pattern, choice] : plan.rules) {
             const TechniqueChoice& searching = choice.rest ? *choice.rest : choice;
             question.whole_cubes = question.whole_cubes || searching.technique->reads_whole_cubes;
             question.asks_all = question.asks_all || searching.shared.asks_all;
-            if (choice.shared.shadow == SharedKnobs::ShadowMethod::none) continue;
+            if (choice.shared.shadow == KnobsSharedByTechniques::ShadowMethod::none) continue;
             const std::uint32_t edge = choice.shared.shadow_map;
             coarsest = std::min(coarsest.value_or(edge), edge);
         }
     question.shadow_edge = coarsest.value_or(question.shadow_edge);
 }
 
-MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
-                                          const std::vector<scene::FlatFaces>& flats,
-                                          double tolerance) {
+TechniqueOfEachMirror
+replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
+                                    const std::vector<scene::FlatFaces>& flats, double tolerance) {
     std::vector<TechniqueChoice> choices; // only choices that some mirror still uses
     assignment.lacks.assign(assignment.of_mirror.size(), "");
     if (assignment.of_mirror.empty()) return assignment;
@@ -208,7 +210,7 @@ MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
             assignment.lacks[i] = lack + ", drawn by " + choice.label;
         } else if (choice.technique->mirrored_bounces) {
             const double bent = 1 - flats[i].flat_area_share(tolerance);
-            if (bent >= kMinReportedBentShare)
+            if (bent >= kMinReportedNonFlatShare)
                 assignment.lacks[i] = format_share_as_percent(bent) +
                                       " of its surface is not flat, black there";
         }

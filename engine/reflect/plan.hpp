@@ -12,7 +12,7 @@ namespace catoptric::reflect {
 
 /// One entry of a plan. The pattern is a list of mirror numbers from 1, names with shell wildcards,
 /// or `*`, separated by commas.
-struct PlanRule {
+struct TechniquePlanRule {
     std::string pattern;
     TechniqueChoice choice;
 };
@@ -20,7 +20,7 @@ struct PlanRule {
 /// The techniques of a frame as the user asked for them.
 struct TechniquePlan {
     std::string label; ///< "secant:face=64", "1=planar *=reuse", "plan:mixed.json"
-    std::vector<PlanRule> rules;
+    std::vector<TechniquePlanRule> rules;
     bool is_technique = false; ///< one technique for all mirrors; the scene may have none
     bool is_auto = false;      ///< no rules until a scene has suggested them (kAutoPlanName)
     /// Reason for the technique of each mirror, in suggested plans.
@@ -43,7 +43,7 @@ TechniquePlan parse_plan(std::string_view text);
 
 /// A plan applied to the mirrors of a scene. All lists but `choices` have one entry per mirror;
 /// entry n-1 belongs to mirror n.
-struct MirrorAssignment {
+struct TechniqueOfEachMirror {
     std::vector<TechniqueChoice> choices; ///< all different; at least one
     std::vector<std::uint32_t> of_mirror; ///< index into `choices`
     /// For each mirror: the pattern of the rule that chose its technique. Empty: one technique
@@ -61,21 +61,21 @@ struct MirrorAssignment {
 /// wins over a name and a name over `*`. Between equals the first rule wins. Throws
 /// `Failure::usage` for a pattern without a match and for a mirror without a rule. O(rules *
 /// mirrors).
-MirrorAssignment assign_techniques_to_mirrors(const TechniquePlan& plan,
-                                              const std::vector<std::string>& names);
+TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
+                                                   const std::vector<std::string>& names);
 
 /// Adds to the question the needs of the plans' techniques that do not depend on visibility: whole
 /// cubes, captures of all mirrors, and the edge of the coarsest shadow map.
-void add_demands_of_plan(require::RequiredWorkModelInput& question,
-                         const std::vector<TechniquePlan>& plans);
+void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
+                               const std::vector<TechniquePlan>& plans);
 
 /// Replaces the technique of each mirror that the technique cannot draw (Technique::unfit). The
 /// knob `rest` names the replacement, which keeps the shadow settings.
 ///
-/// MirrorAssignment::lacks reports the replacement, and the share of a mirror that lies in none of
-/// its flat faces. `flats` has one entry per mirror. `tolerance` is in radians.
-MirrorAssignment replace_unfit_techniques(MirrorAssignment assignment,
-                                          const std::vector<scene::FlatFaces>& flats,
-                                          double tolerance);
+/// TechniqueOfEachMirror::lacks reports the replacement, and the share of a mirror that lies in
+/// none of its flat faces. `flats` has one entry per mirror. `tolerance` is in radians.
+TechniqueOfEachMirror
+replace_techniques_unfit_for_mirror(TechniqueOfEachMirror assignment,
+                                    const std::vector<scene::FlatFaces>& flats, double tolerance);
 
 } // namespace catoptric::reflect

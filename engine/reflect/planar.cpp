@@ -10,7 +10,7 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kUnfitMirrorsChoices{
+constexpr std::array<std::string_view, 9> kNonPlanarMirrorTechniqueChoices{
     "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
 constexpr TechniqueKnob kBouncesKnob{
     .name = "bounces",
@@ -18,14 +18,15 @@ constexpr TechniqueKnob kBouncesKnob{
     .low = 0,
     .high = 16,
     .value = 2};
-constexpr TechniqueKnob kUnfitMirrorsKnob{.name = "rest",
-                                          .help = "technique of mirrors that are not flat",
-                                          .high = kUnfitMirrorsChoices.size() - 1,
-                                          .choices = kUnfitMirrorsChoices};
-constexpr TechniqueKnob kPlanarKnobs[] = {kBouncesKnob, kUnfitMirrorsKnob, kShadowKnob,
-                                          kShadowMapEdgeKnob, kCaptureContentKnob};
+constexpr TechniqueKnob kNonPlanarMirrorTechniqueKnob{
+    .name = "rest",
+    .help = "technique of mirrors that are not flat",
+    .high = kNonPlanarMirrorTechniqueChoices.size() - 1,
+    .choices = kNonPlanarMirrorTechniqueChoices};
+constexpr TechniqueKnob kPlanarKnobs[] = {kBouncesKnob, kNonPlanarMirrorTechniqueKnob, kShadowKnob,
+                                          kShadowMapEdgeKnob, kCaptureContentCacheKnob};
 
-std::string describe_planar_misfit(const scene::FlatFaces& flats, double tolerance) {
+std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);
     if (flats.flat_area_share(tolerance) >= scene::kMinFlatAreaShare) return {};
     char text[96] = "not flat";
@@ -44,15 +45,17 @@ constexpr Technique kPlanarTechnique{
     .knobs = kPlanarKnobs,
     .compared = kPlanarDefaultRows,
     .scene_passes =
-        [](int, int lights, const KnobSettings& settings) {
+        [](int, int lights, const TechniqueKnobSettings& settings) {
             return count_shadow_passes(lights, settings) + 1;
         },
-    .look = [](graph::Graph&, const render::FrameInputs&, const KnobSettings&,
-               const MirrorShadingInputs&) { return MirrorShading{}; },
+    .look = [](graph::Graph&, const render::FrameInputs&, const TechniqueKnobSettings&,
+               const MirrorShadingInputs&) { return MirrorShadingSetup{}; },
     .mirrored_bounces =
-        [](const KnobSettings& settings) { return settings.knob_value_as_integer(kBouncesKnob); },
-    .unfit = describe_planar_misfit,
-    .rest = &kUnfitMirrorsKnob};
+        [](const TechniqueKnobSettings& settings) {
+            return settings.knob_value_as_integer(kBouncesKnob);
+        },
+    .unfit = describe_why_mirror_is_not_planar,
+    .rest = &kNonPlanarMirrorTechniqueKnob};
 const RegisteredTechnique kPlanarRegistration{kPlanarTechnique};
 
 } // namespace

@@ -21,8 +21,9 @@ constexpr auto kProxyKnobs = [] {
 constexpr std::uint64_t kProxyStructBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl
 
 /// Declares the pass that derives one proxy per mirror. Returns the buffer of proxies.
-graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const std::shared_ptr<const render::MirrorCaptures>& captures) {
+graph::BufferHandle
+add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inputs,
+                             const std::shared_ptr<const render::MirrorCaptures>& captures) {
     const std::uint32_t mirrors = inputs.scene.mirror_count();
     const graph::BufferHandle proxies = graph.add_buffer(
         {inputs.prefix + "proxies", kProxyStructBytes * mirrors});
@@ -33,7 +34,7 @@ graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInput
             cubes.distance.value_or(cubes.colour)); // placeholder: never read without distance
         pass.reads(faces.back(), graph::ResourceUse::sampled);
     }
-    gpu::ComputeState state{"reflect/proxy.comp", {}};
+    gpu::ComputePipelineState state{"reflect/proxy.comp", {}};
     const render::CaptureOptions& options = captures->options.front();
     if (captures->table) {
         state.constants = {{"has_capture_table", 1u},
@@ -56,10 +57,12 @@ graph::BufferHandle add_proxy_pass(graph::Graph& graph, const render::FrameInput
     return proxies;
 }
 
-MirrorShading make_proxy_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                 const KnobSettings& settings, const MirrorShadingInputs& around) {
-    MirrorShading look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
-    look.mirror.buffers.emplace_back("Proxies", add_proxy_pass(graph, inputs, around.captures));
+MirrorShadingSetup make_proxy_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                      const TechniqueKnobSettings& settings,
+                                      const MirrorShadingInputs& around) {
+    MirrorShadingSetup look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
+    look.mirror.buffers.emplace_back("Proxies",
+                                     add_proxy_shape_fitting_pass(graph, inputs, around.captures));
     look.mirror.constants.emplace_back(
         "shape", static_cast<std::uint32_t>(settings.knob_value_as_integer(kProxyShapeKnob)));
     return look;
@@ -71,7 +74,7 @@ constexpr Technique kProxyTechnique{
         "Approximates each mirror's surroundings by a box or sphere, derived from the capture.",
     .order = 10,
     .knobs = kProxyKnobs,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .reads_whole_cubes = true,

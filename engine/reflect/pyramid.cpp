@@ -15,12 +15,12 @@ namespace {
 
 constexpr auto kPyramidKnobs = list_search_knobs(std::array<TechniqueKnob, 0>{});
 
-/// Returns the topmost level, which has one cell per face. Must match edge_of_pyramid_level and
-/// top_level_of_pyramid in shaders/reflect/pyramid.glsl.
-std::uint32_t top_level_of_pyramid(std::uint32_t face) {
+/// Returns the topmost level, which has one cell per face. Must match texel_edge_of_pyramid_level
+/// and topmost_level_of_pyramid in shaders/reflect/pyramid.glsl.
+std::uint32_t topmost_level_of_pyramid(std::uint32_t face) {
     return face <= 2 ? 1 : static_cast<std::uint32_t>(std::bit_width(face - 1));
 }
-std::uint32_t edge_of_pyramid_level(std::uint32_t face, std::uint32_t level) {
+std::uint32_t texel_edge_of_pyramid_level(std::uint32_t face, std::uint32_t level) {
     return (face + (1u << level) - 1) >> level;
 }
 
@@ -32,7 +32,8 @@ struct PyramidCubeRange {
 
 /// Returns the content hash of the distance bounds of a mirror's cube. It covers the whole cube,
 /// because cells at the edge of a face read the neighbouring faces.
-std::uint64_t hash_distance_bounds(const render::MirrorCaptures& captures, std::size_t mirror) {
+std::uint64_t hash_distance_pyramid_content(const render::MirrorCaptures& captures,
+                                            std::size_t mirror) {
     const render::CaptureOptions& options = captures.options[mirror];
     return ContentHash()
         .add_value(captures.drawings[mirror])
@@ -52,12 +53,12 @@ std::vector<PyramidCubeRange> find_outdated_pyramids(graph::Graph& graph,
     // read.
     const graph::ImageHandle distances = cubes.distance.value_or(cubes.colour);
     std::vector<PyramidCubeRange> runs;
-    for (const CubeLayerRange& run :
+    for (const CaptureCubeRange& run :
          find_outdated_cubes(graph, captures, array, bounds, [&](std::uint32_t mirror) {
-             return hash_distance_bounds(captures, mirror);
+             return hash_distance_pyramid_content(captures, mirror);
          }))
-        runs.push_back({distances.select_layers(run.first, run.count),
-                        bounds.select_layers(run.first, run.count), cubes.face});
+        runs.push_back({distances.select_image_layers(run.first, run.count),
+                        bounds.select_image_layers(run.first, run.count), cubes.face});
     return runs;
 }
 
@@ -72,11 +73,11 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
     std::uint32_t top_of_all = 0;
     for (std::uint32_t array = 0; array < captures.arrays.size(); ++array) {
         const render::CubeCaptureArray& cubes = captures.arrays[array];
-        const std::uint32_t top = top_level_of_pyramid(cubes.face);
+        const std::uint32_t top = topmost_level_of_pyramid(cubes.face);
         top_of_all = std::max(top_of_all, top);
         graph::ImageDesc desc{inputs.prefix + "pyramid" + (array ? std::to_string(array + 1) : ""),
-                              TexelFormat::r32ui, 1u << top, edge_of_pyramid_level(cubes.face, 1),
-                              cubes.colour.layer_count};
+                              TexelFormat::r32ui, 1u << top,
+                              texel_edge_of_pyramid_level(cubes.face, 1), cubes.colour.layer_count};
         pyramids.push_back(captures.drawings.empty() ? graph.add_image(std::move(desc))
                                                      : graph.add_persistent_image(std::move(desc)));
         std::ranges::copy(find_outdated_pyramids(graph, captures, array, pyramids.back()),
@@ -90,14 +91,14 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
     pass.record([top_of_all, runs = std::move(runs)](graph::PassCommands& commands) {
         for (std::uint32_t level = 1; level <= top_of_all; ++level) {
             if (level > 1) commands.storage_barrier();
-            commands.bind_pipeline(
-                gpu::ComputeState{"reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
+            commands.bind_pipeline(gpu::ComputePipelineState{
+                "reflect/pyramid.comp", {{"from_cells", level > 1 ? 1u : 0u}}});
             commands.push_constants(static_cast<std::int32_t>(level));
             for (const PyramidCubeRange& run : runs) {
-                if (level > top_level_of_pyramid(run.face)) continue;
+                if (level > topmost_level_of_pyramid(run.face)) continue;
                 commands.bind_resource("distances", run.distances);
                 commands.bind_resource("bounds", run.bounds);
-                const std::uint32_t groups = (edge_of_pyramid_level(run.face, level) + 7) / 8;
+                const std::uint32_t groups = (texel_edge_of_pyramid_level(run.face, level) + 7) / 8;
                 commands.dispatch(groups, groups, run.bounds.layer_count);
             }
         }
@@ -107,10 +108,10 @@ std::vector<graph::ImageHandle> add_pyramid_passes(graph::Graph& graph,
 
 } // namespace
 
-MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const KnobSettings& settings,
-                                   const MirrorShadingInputs& around) {
-    MirrorShading look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
+MirrorShadingSetup make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                        const TechniqueKnobSettings& settings,
+                                        const MirrorShadingInputs& around) {
+    MirrorShadingSetup look{make_capture_shader(around, "reflect/pyramid.frag", settings), {}};
     look.mirror.images.emplace_back("bounds", add_pyramid_passes(graph, inputs, *around.captures));
     return look;
 }
@@ -126,7 +127,7 @@ constexpr Technique kPyramidTechnique{
     .order = 13,
     .knobs = kPyramidKnobs,
     .compared = kPyramidDefaultRows,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_pyramid_shading};

@@ -5,7 +5,8 @@
 /// The search of `pyramid`, which other techniques use as well.
 namespace catoptric::reflect {
 
-MirrorShading make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                   const KnobSettings& settings, const MirrorShadingInputs& around);
+MirrorShadingSetup make_pyramid_shading(graph::Graph& graph, const render::FrameInputs& inputs,
+                                        const TechniqueKnobSettings& settings,
+                                        const MirrorShadingInputs& around);
 
 } // namespace catoptric::reflect

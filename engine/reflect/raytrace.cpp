@@ -13,10 +13,10 @@ constexpr std::array<std::string_view, 2> kExactSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
 /// Numbered as in shaders/lib/plain.glsl.
-constexpr std::array<std::string_view, 6> kDroppedTracerRuleChoices{
+constexpr std::array<std::string_view, 6> kOmittedTracerRuleChoices{
     "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
 enum class LampSamplingMethod { sampled, met };
-enum class IndirectLight { none, paths };
+enum class IndirectLightMethod { none, paths };
 enum class TracedSphereShape { mesh, exact };
 enum class FirstHitMethod { ray, raster };
 enum class RayHitPrecision { f32, f64 };
@@ -75,28 +75,29 @@ constexpr TechniqueKnob kHitPrecisionKnob{.name = "hit",
                                           .help = "precision of hit points: single or double",
                                           .high = 1,
                                           .choices = kHitPrecisionChoices};
-constexpr TechniqueKnob kWithoutTracerRuleKnob{
+constexpr TechniqueKnob kOmittedTracerRuleKnob{
     .name = "without",
     .help = "rule of robustness to leave out, to measure its cost",
     .high = 5,
-    .choices = kDroppedTracerRuleChoices};
+    .choices = kOmittedTracerRuleChoices};
 constexpr TechniqueKnob kRaytraceKnobs[] = {
-    kRayDepthKnob,      kSamplesPerPixelKnob, kLobeRaysKnob,          kLobeSeedKnob,
-    kLampSamplingKnob,  kIndirectKnob,        kTracedShadowKnob,      kExactSphereKnob,
-    kFirstHitKnob,      kHitPrecisionKnob,    kWithoutTracerRuleKnob, kShadowMapEdgeKnob,
-    kCaptureContentKnob};
+    kRayDepthKnob,           kSamplesPerPixelKnob, kLobeRaysKnob,          kLobeSeedKnob,
+    kLampSamplingKnob,       kIndirectKnob,        kTracedShadowKnob,      kExactSphereKnob,
+    kFirstHitKnob,           kHitPrecisionKnob,    kOmittedTracerRuleKnob, kShadowMapEdgeKnob,
+    kCaptureContentCacheKnob};
 
-bool are_first_hits_rasterised(const KnobSettings& settings) {
+bool are_first_hits_rasterised(const TechniqueKnobSettings& settings) {
     return settings.knob_value_as_enum<FirstHitMethod>(kFirstHitKnob) == FirstHitMethod::raster;
 }
 
-bool is_path_traced(const KnobSettings& settings) {
-    return settings.knob_value_as_enum<IndirectLight>(kIndirectKnob) == IndirectLight::paths;
+bool is_path_traced(const TechniqueKnobSettings& settings) {
+    return settings.knob_value_as_enum<IndirectLightMethod>(kIndirectKnob) ==
+           IndirectLightMethod::paths;
 }
 
-TracerSettings make_tracer_settings(const KnobSettings& settings,
-                                    const render::ShadingLights& lighting) {
-    const SharedKnobs::ShadowMethod shadow = read_shared_knobs(settings).shadow;
+TracerSettings make_ray_tracer_settings(const TechniqueKnobSettings& settings,
+                                        const render::ShadingLights& lighting) {
+    const KnobsSharedByTechniques::ShadowMethod shadow = read_shared_knobs(settings).shadow;
     return {.depth = static_cast<std::uint32_t>(settings.knob_value_as_integer(kRayDepthKnob)),
             .samples = settings.knob_value_as_integer(kSamplesPerPixelKnob),
             .rays = static_cast<std::uint32_t>(std::max(
@@ -106,8 +107,9 @@ TracerSettings make_tracer_settings(const KnobSettings& settings,
             .paths = is_path_traced(settings),
             .seed = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeSeedKnob)),
             // A scene without lights has no shadow map, and no light needs a shadow test.
-            .shadow = shadow == SharedKnobs::ShadowMethod::none ? TracerSettings::TracedShadow::none
-                      : shadow == SharedKnobs::ShadowMethod::map && lighting.shadow_map
+            .shadow = shadow == KnobsSharedByTechniques::ShadowMethod::none
+                          ? TracerSettings::TracedShadow::none
+                      : shadow == KnobsSharedByTechniques::ShadowMethod::map && lighting.shadow_map
                           ? TracerSettings::TracedShadow::map
                           : TracerSettings::TracedShadow::ray,
             .lighting = lighting,
@@ -117,15 +119,15 @@ TracerSettings make_tracer_settings(const KnobSettings& settings,
             .doubles = settings.knob_value_as_enum<RayHitPrecision>(kHitPrecisionKnob) ==
                        RayHitPrecision::f64,
             .without = static_cast<std::uint32_t>(
-                settings.knob_value_as_integer(kWithoutTracerRuleKnob))};
+                settings.knob_value_as_integer(kOmittedTracerRuleKnob))};
 }
 
-std::string describe_knob_conflict(const KnobSettings& settings) {
+std::string describe_raytrace_knob_conflict(const TechniqueKnobSettings& settings) {
     if (settings.knob_value_as_integer(kLobeRaysKnob) *
             std::int64_t{settings.knob_value_as_integer(kSamplesPerPixelKnob)} >
         kMaxPathsPerPixel)
-        return "rays=" + settings.format_value(kLobeRaysKnob) +
-               " for each of samples=" + settings.format_value(kSamplesPerPixelKnob) +
+        return "rays=" + settings.format_current_knob_value(kLobeRaysKnob) +
+               " for each of samples=" + settings.format_current_knob_value(kSamplesPerPixelKnob) +
                ": wanted at most 65536 in all";
     if (is_path_traced(settings)) {
         if (are_first_hits_rasterised(settings))
@@ -139,7 +141,7 @@ std::string describe_knob_conflict(const KnobSettings& settings) {
     if (settings.knob_value_as_integer(kSamplesPerPixelKnob) > 1)
         return "first=raster finds the surface in the middle of each pixel; wanted samples=1, found "
                "samples=" +
-               settings.format_value(kSamplesPerPixelKnob);
+               settings.format_current_knob_value(kSamplesPerPixelKnob);
     if (settings.knob_value_as_enum<TracedSphereShape>(kExactSphereKnob) ==
         TracedSphereShape::exact)
         return "first=raster draws the triangles of balls; wanted sphere=mesh, found sphere=exact";
@@ -147,27 +149,30 @@ std::string describe_knob_conflict(const KnobSettings& settings) {
 }
 
 /// Returns the scene passes: the view, if it is rasterised, and its shadow maps.
-int count_scene_passes(int, int lights, const KnobSettings& settings) {
+int count_scene_passes(int, int lights, const TechniqueKnobSettings& settings) {
     if (!are_first_hits_rasterised(settings)) return count_shadow_passes(lights, settings);
-    return 1 + (read_shared_knobs(settings).shadow == SharedKnobs::ShadowMethod::none ? 0 : lights);
+    return 1 + (read_shared_knobs(settings).shadow == KnobsSharedByTechniques::ShadowMethod::none
+                    ? 0
+                    : lights);
 }
 
 TechniqueOutputs add_ray_traced_picture(graph::Graph& graph, const render::FrameInputs& inputs,
-                                        const KnobSettings& settings,
+                                        const TechniqueKnobSettings& settings,
                                         const render::ShadingLights& lighting) {
     const TracedPicture traced = add_picture_tracing(graph, inputs,
-                                                     make_tracer_settings(settings, lighting));
+                                                     make_ray_tracer_settings(settings, lighting));
     return {traced.hdr, true, {traced.counters}, {}, {}};
 }
 
-MirrorShading make_ray_traced_shading(graph::Graph&, const render::FrameInputs& inputs,
-                                      const KnobSettings& settings,
-                                      const MirrorShadingInputs& around) {
-    MirrorShading look;
-    look.tracer = make_tracer_settings(settings, around.lighting);
+MirrorShadingSetup make_ray_traced_shading(graph::Graph&, const render::FrameInputs& inputs,
+                                           const TechniqueKnobSettings& settings,
+                                           const MirrorShadingInputs& around) {
+    MirrorShadingSetup look;
+    look.tracer = make_ray_tracer_settings(settings, around.lighting);
     look.mirror.fragment = "reflect/traced.frag";
     // In a view that others draw, blended surfaces would be drawn over the triangle's number.
-    if (!around.completes_view && inputs.scene.blends_surfaces()) look.tracer->first_raster = false;
+    if (!around.completes_view && inputs.scene.has_blended_surfaces())
+        look.tracer->first_raster = false;
     if (look.tracer->first_raster) look.mirror.variant = "#first";
     return look;
 }
@@ -186,7 +191,7 @@ constexpr Technique kRaytraceTechnique{
     .compared = kRaytraceDefaultRows,
     .scene_passes = count_scene_passes,
     .look = make_ray_traced_shading,
-    .conflict = describe_knob_conflict,
+    .conflict = describe_raytrace_knob_conflict,
     .completes_view = are_first_hits_rasterised,
     .picture = add_ray_traced_picture};
 const RegisteredTechnique kRaytraceRegistration{kRaytraceTechnique};

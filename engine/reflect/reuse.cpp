@@ -7,9 +7,10 @@ namespace catoptric::reflect {
 namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
-constexpr TechniqueKnob kReuseKnobs[] = {kCaptureFaceKnob, kCaptureColourKnob, kRoughKnob,
-                                         kFilterTapsKnob,  kRoughRaysKnob,     kRefractKnob,
-                                         kShadowKnob,      kShadowMapEdgeKnob};
+constexpr TechniqueKnob kReuseKnobs[] = {
+    kCaptureFaceKnob, kCaptureColourKnob, kRoughMirrorMethodKnob,
+    kFilterTapsKnob,  kRoughRaysKnob,     kGlassRefractionModelKnob,
+    kShadowKnob,      kShadowMapEdgeKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};
 
@@ -20,7 +21,7 @@ constexpr Technique kReuseTechnique{
     .order = 2,
     .knobs = kReuseKnobs,
     .compared = kReuseDefaultRows,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,
     .in_captures = kReuseShader,
     .search = kReuseShader};

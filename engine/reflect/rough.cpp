@@ -17,33 +17,33 @@ namespace {
 
 using graph::ImageHandle;
 using graph::ResourceUse;
-using RoughLookup = SharedKnobs::RoughLookup;
+using RoughMirrorLookup = KnobsSharedByTechniques::RoughMirrorLookup;
 
 /// Returns the face edge of a level, from 1, in texels.
-std::uint32_t face_edge_of_level(RoughLookup rough, std::uint32_t face, std::uint32_t level) {
-    return graph::size_at_mip(face, rough == RoughLookup::mips ? level : level + 1);
+std::uint32_t face_edge_of_level(RoughMirrorLookup rough, std::uint32_t face, std::uint32_t level) {
+    return graph::size_at_mip(face, rough == RoughMirrorLookup::mips ? level : level + 1);
 }
 
 /// Returns the number of levels above the capture: the box-filtered chain ends with one texel a
 /// face, and the prefiltered levels with the first whose lobe has a width alpha of at least 1.
-std::uint32_t count_capture_levels(RoughLookup rough, std::uint32_t face) {
+std::uint32_t count_capture_levels(RoughMirrorLookup rough, std::uint32_t face) {
     std::uint32_t level = 1;
     while (face_edge_of_level(rough, face, level) > 1 &&
-           (rough == RoughLookup::mips ||
+           (rough == RoughMirrorLookup::mips ||
             f32::alpha_of_capture_level(static_cast<float>(level), static_cast<float>(face)) < 1))
         ++level;
     return level;
 }
 
 /// Consecutive cubes of one array, and the levels that are computed from them.
-struct CubeLevelRange {
+struct CaptureLevelRange {
     ImageHandle captured, boxes, levels;
     std::uint32_t face = 0;
 };
 
 /// Returns an image for the levels of an array of captures.
 graph::ImageDesc make_level_image_desc(std::string name, const render::CubeCaptureArray& cubes,
-                                       RoughLookup rough) {
+                                       RoughMirrorLookup rough) {
     const std::uint32_t edge = face_edge_of_level(rough, cubes.face, 1);
     return {std::move(name),
             TexelFormat::rgba16f,
@@ -60,30 +60,31 @@ std::uint32_t count_work_groups_along_edge(std::uint32_t edge) { return (edge + 
 /// Declares that the pass writes all levels. A storage image has one mip.
 void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
     for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
-        pass.writes(levels.select_mip(mip), ResourceUse::storage_write);
+        pass.writes(levels.select_image_mip(mip), ResourceUse::storage_write);
 }
 
 void add_box_filter_pass(graph::Graph& graph, const std::string& name,
-                         const std::vector<CubeLevelRange>& runs) {
+                         const std::vector<CaptureLevelRange>& runs) {
     graph::PassBuilder pass = graph.add_pass(name);
-    for (const CubeLevelRange& run : runs) {
+    for (const CaptureLevelRange& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled);
         declare_level_writes(pass, run.boxes);
     }
     pass.record([runs](graph::PassCommands& commands) {
         const auto deepest = std::ranges::max(
-            runs, {}, [](const CubeLevelRange& run) { return run.boxes.mip_count; });
+            runs, {}, [](const CaptureLevelRange& run) { return run.boxes.mip_count; });
         for (std::uint32_t level = 1; level <= deepest.boxes.mip_count; ++level) {
             if (level > 1) commands.storage_barrier();
             commands.bind_pipeline(
-                gpu::ComputeState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
-            for (const CubeLevelRange& run : runs) {
+                gpu::ComputePipelineState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
+            for (const CaptureLevelRange& run : runs) {
                 if (level > run.boxes.mip_count) continue;
                 commands.bind_resource("captured", run.captured);
-                commands.bind_resource("below", run.boxes.select_mip(std::max(level, 2u) - 2));
-                commands.bind_resource("level", run.boxes.select_mip(level - 1));
+                commands.bind_resource("below",
+                                       run.boxes.select_image_mip(std::max(level, 2u) - 2));
+                commands.bind_resource("level", run.boxes.select_image_mip(level - 1));
                 const std::uint32_t groups = count_work_groups_along_edge(
-                    face_edge_of_level(RoughLookup::mips, run.face, level));
+                    face_edge_of_level(RoughMirrorLookup::mips, run.face, level));
                 commands.dispatch(groups, groups, run.boxes.layer_count);
             }
         }
@@ -97,27 +98,28 @@ struct PrefilterParameters {
 };
 
 /// Returns the samples of a texel of a level. A level of `fast` has twice those of the level below.
-std::uint32_t count_samples_per_texel(RoughLookup rough, std::uint32_t taps, std::uint32_t level) {
+std::uint32_t count_samples_per_texel(RoughMirrorLookup rough, std::uint32_t taps,
+                                      std::uint32_t level) {
     constexpr std::uint32_t kSamplesOfFirstLevel = 4;
-    if (rough != RoughLookup::fast || level > 16) return taps;
+    if (rough != RoughMirrorLookup::fast || level > 16) return taps;
     return std::min(taps, kSamplesOfFirstLevel << (level - 1));
 }
 
 void add_prefilter_pass(graph::Graph& graph, const std::string& name,
-                        const std::vector<CubeLevelRange>& runs, RoughLookup rough,
+                        const std::vector<CaptureLevelRange>& runs, RoughMirrorLookup rough,
                         std::uint32_t taps) {
     graph::PassBuilder pass = graph.add_pass(name);
-    for (const CubeLevelRange& run : runs) {
+    for (const CaptureLevelRange& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
         declare_level_writes(pass, run.levels);
     }
     pass.record([runs, rough, taps](graph::PassCommands& commands) {
-        commands.bind_pipeline(gpu::ComputeState{"rough/prefilter.comp", {}});
-        for (const CubeLevelRange& run : runs) {
+        commands.bind_pipeline(gpu::ComputePipelineState{"rough/prefilter.comp", {}});
+        for (const CaptureLevelRange& run : runs) {
             commands.bind_resource("captured", run.captured, graph::TextureFilter::linear);
             commands.bind_resource("boxes", run.boxes, graph::TextureFilter::mipmapped);
             for (std::uint32_t level = 1; level <= run.levels.mip_count; ++level) {
-                commands.bind_resource("level", run.levels.select_mip(level - 1));
+                commands.bind_resource("level", run.levels.select_image_mip(level - 1));
                 commands.push_constants(
                     PrefilterParameters{f32::alpha_of_capture_level(static_cast<float>(level),
                                                                     static_cast<float>(run.face)),
@@ -131,33 +133,34 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
 }
 
 /// Returns the name of the levels and passes of a way of filtering.
-std::string filtered_levels_name(const render::FrameInputs& inputs, RoughLookup rough,
-                                 std::uint32_t taps) {
+std::string filtered_capture_levels_name(const render::FrameInputs& inputs, RoughMirrorLookup rough,
+                                         std::uint32_t taps) {
     return inputs.prefix + "rough/" +
-           (rough == RoughLookup::mips
+           (rough == RoughMirrorLookup::mips
                 ? std::string("mips")
-                : std::string(kRoughChoices[static_cast<std::size_t>(rough)]) +
+                : std::string(kRoughMirrorMethodChoices[static_cast<std::size_t>(rough)]) +
                       std::to_string(taps));
 }
 
-std::string name_suffix_of_array(std::size_t array) {
+std::string name_suffix_of_cube_array(std::size_t array) {
     return array ? "." + std::to_string(array + 1) : "";
 }
 
 } // namespace
 
-RoughLevels::LevelFilterKind RoughLevels::filter_of_knobs(const SharedKnobs& knobs) {
+RoughLevels::LevelFilterKind
+RoughLevels::level_filter_from_knobs(const KnobsSharedByTechniques& knobs) {
     return {knobs.rough, knobs.are_levels_filtered_by_lobe() ? knobs.taps : 0};
 }
 
 RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
                          std::shared_ptr<const render::MirrorCaptures> captures,
-                         const std::vector<SharedKnobs>& knobs)
+                         const std::vector<KnobsSharedByTechniques>& knobs)
     : level_frame_inputs_(inputs), captures_(std::move(captures)) {
     for (std::uint32_t mirror = 0; captures_ && mirror < knobs.size(); ++mirror) {
         if (!knobs[mirror].uses_filtered_levels() || !inputs.scene.is_rough_mirror(mirror))
             continue;
-        FilteredCaptures& filtered = filtered_[filter_of_knobs(knobs[mirror])];
+        FilteredCaptures& filtered = filtered_[level_filter_from_knobs(knobs[mirror])];
         filtered.is_read.resize(knobs.size());
         filtered.is_read[mirror] = true;
         if (knobs[mirror].asks_all) filtered.is_read.assign(knobs.size(), true);
@@ -166,8 +169,8 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
         for (std::size_t array = 0; array < captures_->arrays.size(); ++array) {
             const render::CubeCaptureArray& cubes = captures_->arrays[array];
             graph::ImageDesc desc = make_level_image_desc(
-                filtered_levels_name(inputs, filter.rough, filter.taps) +
-                    name_suffix_of_array(array),
+                filtered_capture_levels_name(inputs, filter.rough, filter.taps) +
+                    name_suffix_of_cube_array(array),
                 cubes, filter.rough);
             filtered.levels.push_back(captures_->drawings.empty()
                                           ? graph.add_image(std::move(desc))
@@ -175,35 +178,38 @@ RoughLevels::RoughLevels(graph::Graph& graph, const render::FrameInputs& inputs,
         }
 }
 
-void RoughLevels::add_lookups(graph::Graph& graph, std::span<const std::uint32_t> mirrors,
-                              const SharedKnobs& knobs, render::MirrorShader& look,
-                              bool before) const {
+void RoughLevels::add_rough_lookup_mirrors(graph::Graph& graph,
+                                           std::span<const std::uint32_t> mirrors,
+                                           const KnobsSharedByTechniques& knobs,
+                                           render::MirrorShader& look, bool before) const {
     const auto is_rough = [&](std::uint32_t mirror) {
         return level_frame_inputs_.scene.is_rough_mirror(mirror);
     };
-    if (knobs.rough == RoughLookup::none || !look.captures ||
+    if (knobs.rough == RoughMirrorLookup::none || !look.captures ||
         !std::ranges::any_of(mirrors, is_rough))
         return;
-    const RoughLookup shown = knobs.rough == RoughLookup::fast ? RoughLookup::prefilter
-                                                               : knobs.rough;
+    const RoughMirrorLookup shown = knobs.rough == RoughMirrorLookup::fast
+                                        ? RoughMirrorLookup::prefilter
+                                        : knobs.rough;
     look.constants.emplace_back("rough", static_cast<std::uint32_t>(shown));
-    if (knobs.rough == RoughLookup::rays) {
+    if (knobs.rough == RoughMirrorLookup::rays) {
         look.constants.emplace_back("lobe_rays", knobs.lobe_rays);
         return;
     }
     look.constants.emplace_back("distance_law", static_cast<std::uint32_t>(knobs.law));
-    std::vector<ImageHandle> levels = filtered_.at(filter_of_knobs(knobs)).levels;
+    std::vector<ImageHandle> levels = filtered_.at(level_filter_from_knobs(knobs)).levels;
     if (before && captures_->drawings.empty())
         for (ImageHandle& image : levels) image = graph.previous_contents(image);
     look.images.emplace_back("rough_cubes", std::move(levels));
 }
 
 void RoughLevels::add_passes(graph::Graph& graph) const {
-    for (const auto& [filter, filtered] : filtered_) add_passes_of(graph, filter, filtered);
+    for (const auto& [filter, filtered] : filtered_)
+        add_passes_of_level_filter(graph, filter, filtered);
 }
 
-void RoughLevels::add_passes_of(graph::Graph& graph, const LevelFilterKind& filter,
-                                const FilteredCaptures& filtered) const {
+void RoughLevels::add_passes_of_level_filter(graph::Graph& graph, const LevelFilterKind& filter,
+                                             const FilteredCaptures& filtered) const {
     const auto hash_of = [&](std::uint32_t mirror) {
         if (!filtered.is_read[mirror])
             return ContentHash().add_value(std::uint64_t{0}).current_hash();
@@ -212,26 +218,28 @@ void RoughLevels::add_passes_of(graph::Graph& graph, const LevelFilterKind& filt
             .add_value(captures_->options[mirror].colour)
             .current_hash();
     };
-    const std::string name = filtered_levels_name(level_frame_inputs_, filter.rough, filter.taps);
-    std::vector<CubeLevelRange> runs;
+    const std::string name = filtered_capture_levels_name(level_frame_inputs_, filter.rough,
+                                                          filter.taps);
+    std::vector<CaptureLevelRange> runs;
     for (std::uint32_t array = 0; array < captures_->arrays.size(); ++array) {
         const render::CubeCaptureArray& cubes = captures_->arrays[array];
         const ImageHandle levels = filtered.levels[array];
-        const std::vector<CubeLayerRange> outdated = find_outdated_cubes(graph, *captures_, array,
-                                                                         levels, hash_of);
+        const std::vector<CaptureCubeRange> outdated = find_outdated_cubes(graph, *captures_, array,
+                                                                           levels, hash_of);
         if (outdated.empty()) continue;
         ImageHandle boxes = levels;
-        if (filter.rough != RoughLookup::mips)
-            boxes = graph.add_image(make_level_image_desc(
-                name + "/boxes" + name_suffix_of_array(array), cubes, RoughLookup::mips));
-        for (const CubeLayerRange& run : outdated)
-            runs.push_back({cubes.colour.select_layers(run.first, run.count),
-                            boxes.select_layers(run.first, run.count),
-                            levels.select_layers(run.first, run.count), cubes.face});
+        if (filter.rough != RoughMirrorLookup::mips)
+            boxes = graph.add_image(
+                make_level_image_desc(name + "/boxes" + name_suffix_of_cube_array(array), cubes,
+                                      RoughMirrorLookup::mips));
+        for (const CaptureCubeRange& run : outdated)
+            runs.push_back({cubes.colour.select_image_layers(run.first, run.count),
+                            boxes.select_image_layers(run.first, run.count),
+                            levels.select_image_layers(run.first, run.count), cubes.face});
     }
     if (runs.empty()) return;
     add_box_filter_pass(graph, name + "/boxes", runs);
-    if (filter.rough != RoughLookup::mips)
+    if (filter.rough != RoughMirrorLookup::mips)
         add_prefilter_pass(graph, name, runs, filter.rough, filter.taps);
 }
 

@@ -14,16 +14,17 @@ constexpr TechniqueKnob kSearchStepsKnob{
     .value = 2};
 constexpr auto kSecantKnobs = list_search_knobs(std::array{kSearchStepsKnob});
 
-MirrorShading make_secant_shading(graph::Graph&, const render::FrameInputs&,
-                                  const KnobSettings& settings, const MirrorShadingInputs& around) {
+MirrorShadingSetup make_secant_shading(graph::Graph&, const render::FrameInputs&,
+                                       const TechniqueKnobSettings& settings,
+                                       const MirrorShadingInputs& around) {
     const int steps = settings.knob_value_as_integer(kSearchStepsKnob);
     if (steps == 0) { // without the knobs of a search, which `parallax` does not have
-        MirrorShading look{make_capture_shader(around, "reflect/parallax.frag", KnobSettings({})),
-                           {}};
+        MirrorShadingSetup look{
+            make_capture_shader(around, "reflect/parallax.frag", TechniqueKnobSettings({})), {}};
         look.mirror.constants.emplace_back("refract_model", read_shared_knobs(settings).refract);
         return look;
     }
-    MirrorShading look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
+    MirrorShadingSetup look{make_capture_shader(around, "reflect/secant.frag", settings), {}};
     look.mirror.constants.emplace_back("steps", static_cast<std::uint32_t>(steps));
     return look;
 }
@@ -37,7 +38,7 @@ constexpr Technique kSecantTechnique{
     .order = 11,
     .knobs = kSecantKnobs,
     .compared = kSecantDefaultRows,
-    .scene_passes = count_feedback_passes,
+    .scene_passes = count_capture_passes_with_feedback,
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .look = make_secant_shading};

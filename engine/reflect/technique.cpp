@@ -8,11 +8,11 @@
 namespace catoptric::reflect {
 
 RegisteredTechnique::RegisteredTechnique(const Technique& technique) {
-    get_registered_rows<const Technique*>().push_back(&technique);
+    get_registered_table_entries<const Technique*>().push_back(&technique);
 }
 
 std::vector<const Technique*> list_techniques() {
-    return sort_registered_rows<const Technique*>(
+    return list_registered_entries_in_order<const Technique*>(
         [](const Technique* row) { return std::pair(row->order, row->name); });
 }
 
@@ -36,17 +36,17 @@ std::string TechniqueChoice::file_name() const {
     return name;
 }
 
-void TechniqueChoice::update_from_settings() {
+void TechniqueChoice::update_shared_knobs_from_settings() {
     shared = read_shared_knobs(settings);
-    rest = technique->rest ? std::make_shared<const TechniqueChoice>(
-                                 parse_technique_choice(settings.choice_name(*technique->rest)))
+    rest = technique->rest ? std::make_shared<const TechniqueChoice>(parse_technique_choice(
+                                 settings.selected_knob_choice_name(*technique->rest)))
                            : nullptr;
 }
 
 TechniqueChoice parse_technique_choice(std::string_view text) {
     const auto colon = text.find(':');
     const Technique& technique = find_technique(text.substr(0, colon));
-    TechniqueChoice choice{&technique, KnobSettings(technique.knobs), std::string(text)};
+    TechniqueChoice choice{&technique, TechniqueKnobSettings(technique.knobs), std::string(text)};
     std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
     while (colon != std::string_view::npos) {
         const auto comma = rest.find(',');
@@ -54,13 +54,14 @@ TechniqueChoice parse_technique_choice(std::string_view text) {
         const auto equals = item.find('=');
         check(equals != std::string_view::npos, Failure::usage, "technique '", text, "': '", item,
               "' should read knob=value");
-        choice.settings.set_knob(technique.name, item.substr(0, equals), item.substr(equals + 1));
+        choice.settings.set_knob_from_text(technique.name, item.substr(0, equals),
+                                           item.substr(equals + 1));
         if (comma == std::string_view::npos) break;
         rest = rest.substr(comma + 1);
     }
     const std::string conflict = technique.conflict ? technique.conflict(choice.settings) : "";
     check(conflict.empty(), Failure::usage, "technique '", text, "': ", conflict);
-    choice.update_from_settings();
+    choice.update_shared_knobs_from_settings();
     return choice;
 }
 

@@ -20,7 +20,7 @@ namespace catoptric::reflect {
 /// Images and buffers that a technique adds to the graph, with notes for the user.
 struct TechniqueOutputs {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f
-    /// Whether the alpha of `hdr` says which surface the ray met (shared::kHitMirrorBits).
+    /// Whether the alpha of `hdr` says which surface the ray met (shared::kBitsPerMirrorHit).
     bool has_hits = false;
     std::vector<graph::BufferHandle> counters; ///< shared::Counters of each tracing pass
     /// Image with the direction in which each mirror pixel looked into a capture
@@ -43,14 +43,14 @@ struct MirrorShadingInputs {
 };
 
 /// Shaders and resources with which the view draws mirrors.
-struct MirrorShading {
+struct MirrorShadingSetup {
     render::MirrorShader mirror;
     std::optional<TracerSettings>
         tracer; ///< traces the pixels that the mirror's shader leaves to rays
 };
 
 /// Values of the knobs that techniques share, as typed values.
-struct SharedKnobs {
+struct KnobsSharedByTechniques {
     enum class ShadowMethod { none, map, ray };
     ShadowMethod shadow = ShadowMethod::none;
     std::uint32_t shadow_map = 1; ///< edge of a shadow map's face in texels
@@ -64,22 +64,23 @@ struct SharedKnobs {
     bool by_object = false;              ///< lookup=object
     bool asks_all = false;               ///< captures=all
     bool leaves_out_spheres = false;     ///< mirrors=left_out
-    /// Look-up for rough surfaces; numbered as kRough... in shaders/lib/rough.glsl. Shaders look up
-    /// `fast` as `prefilter`.
-    enum class RoughLookup : std::uint32_t { none, mips, prefilter, rays, fast };
+    /// Look-up for rough surfaces; numbered as kRoughCornellScene... in shaders/lib/rough.glsl.
+    /// Shaders look up `fast` as `prefilter`.
+    enum class RoughMirrorLookup : std::uint32_t { none, mips, prefilter, rays, fast };
     /// Distance law; numbered as kLaw... in shaders/lib/math/rough.glsl.
     enum class DistanceLaw : std::uint32_t { none, frostbite, square, cone, exact };
-    RoughLookup rough = RoughLookup::none;
+    RoughMirrorLookup rough = RoughMirrorLookup::none;
     DistanceLaw law = DistanceLaw::none;
-    std::uint32_t taps = 0;      ///< most samples of each texel for RoughLookup::prefilter and fast
+    std::uint32_t taps =
+        0; ///< most samples of each texel for RoughMirrorLookup::prefilter and fast
     std::uint32_t lobe_rays = 1; ///< directions of each rough pixel
     /// Returns whether rough surfaces are looked up in filtered levels of captures.
     bool uses_filtered_levels() const {
-        return rough == RoughLookup::mips || are_levels_filtered_by_lobe();
+        return rough == RoughMirrorLookup::mips || are_levels_filtered_by_lobe();
     }
     /// Returns whether these levels are filtered by the lobe.
     bool are_levels_filtered_by_lobe() const {
-        return rough == RoughLookup::prefilter || rough == RoughLookup::fast;
+        return rough == RoughMirrorLookup::prefilter || rough == RoughMirrorLookup::fast;
     }
     std::uint32_t refract = shared::kRefractAuto; ///< how light passes glass
     /// Edge of the capture by which other mirrors show this mirror, in texels (`capture`); none:
@@ -89,7 +90,7 @@ struct SharedKnobs {
 };
 
 /// Reads the shared knobs.
-SharedKnobs read_shared_knobs(const KnobSettings& settings);
+KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings);
 
 struct Technique {
     std::string_view name;
@@ -99,24 +100,24 @@ struct Technique {
     /// Rows that `compare` uses by default: "name[:knob=value,...]" each.
     std::span<const std::string_view> compared = {};
     /// Returns the scene passes R per frame as the report counts them. A cube counts once.
-    int (*scene_passes)(int mirrors, int lights, const KnobSettings& settings) = nullptr;
+    int (*scene_passes)(int mirrors, int lights, const TechniqueKnobSettings& settings) = nullptr;
     /// Returns the options of the captures, one per mirror and frame. Null: the technique uses no
     /// such captures. In these captures, mirrors show last frame's captures by the shader
     /// `in_captures`.
     render::CaptureOptions (*capture)(const render::FrameInputs& inputs,
-                                      const KnobSettings& settings) = nullptr;
+                                      const TechniqueKnobSettings& settings) = nullptr;
     const char* in_captures = nullptr; ///< path of a fragment shader
     bool reads_whole_cubes = false;    ///< captures need all six faces
     /// Path of a fragment shader that needs only the captures. If set, `look` is null
     /// (reflect/captures.hpp, shading_of_search).
     const char* search = nullptr;
     /// Returns how the technique draws its mirrors, and declares the passes that this needs.
-    MirrorShading (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
-                          const KnobSettings& settings,
-                          const MirrorShadingInputs& around) = nullptr;
+    MirrorShadingSetup (*look)(graph::Graph& graph, const render::FrameInputs& inputs,
+                               const TechniqueKnobSettings& settings,
+                               const MirrorShadingInputs& around) = nullptr;
     /// Returns how many flat mirrors one behind the other a mirrored view shows. Null: the
     /// technique has no mirrored views (reflect/mirrored.hpp).
-    int (*mirrored_bounces)(const KnobSettings& settings) = nullptr;
+    int (*mirrored_bounces)(const TechniqueKnobSettings& settings) = nullptr;
     /// Returns why the technique cannot draw the mirror, as words after "it is"; empty: it can.
     /// Null: the technique draws any mirror. `tolerance`: scene::compute_flat_tolerance.
     std::string (*unfit)(const scene::FlatFaces& flats, double tolerance) = nullptr;
@@ -125,15 +126,15 @@ struct Technique {
     /// Returns why the technique cannot draw with these settings together, as words after
     /// "technique
     /// '...': "; empty: it can. Null: it can with all settings.
-    std::string (*conflict)(const KnobSettings& settings) = nullptr;
+    std::string (*conflict)(const TechniqueKnobSettings& settings) = nullptr;
     /// Returns whether the tracer of `look` completes a rasterised view in which all mirrors have
     /// this technique. The tracer then also draws surfaces that reflect without being mirrors, and
     /// pixels whose shadow the shadow map leaves open. `picture` is not used. Null: false.
-    bool (*completes_view)(const KnobSettings& settings) = nullptr;
+    bool (*completes_view)(const TechniqueKnobSettings& settings) = nullptr;
     /// Declares the whole picture without a rasterised view, if all mirrors have this technique.
     /// Null: the view is rasterised.
     TechniqueOutputs (*picture)(graph::Graph& graph, const render::FrameInputs& inputs,
-                                const KnobSettings& settings,
+                                const TechniqueKnobSettings& settings,
                                 const render::ShadingLights& lighting) = nullptr;
 };
 
@@ -150,14 +151,14 @@ const Technique& find_technique(std::string_view name);
 /// A technique with a value for each knob.
 struct TechniqueChoice {
     const Technique* technique = nullptr;
-    KnobSettings settings{{}};
-    std::string label;       ///< the technique as the user wrote it
-    SharedKnobs shared = {}; ///< read from `settings`
+    TechniqueKnobSettings settings{{}};
+    std::string label;                   ///< the technique as the user wrote it
+    KnobsSharedByTechniques shared = {}; ///< read from `settings`
     std::shared_ptr<const TechniqueChoice>
         rest; ///< draws the mirrors that are unfit; null: none are
 
     /// Reads `shared` and `rest` again, after a change of `settings`.
-    void update_from_settings();
+    void update_shared_knobs_from_settings();
     /// Returns the label as a file name: "naive-bounces3".
     std::string file_name() const;
     /// Returns whether technique and knob values are the same. The spelling of the labels does not

@@ -47,46 +47,47 @@ render::SphereIntersectionMode sphere_mode_of_tracer(const TracerSettings& trace
 
 /// Returns whether rays may aim at lamps. Exact spheres and points in double precision differ from
 /// the triangles on which points are drawn.
-bool may_aim_at_lamps(const TracerSettings& tracer) {
+bool may_sample_lamp_points(const TracerSettings& tracer) {
     return tracer.samples_lamps && tracer.rays > 0 && !tracer.exact_spheres && !tracer.doubles;
 }
 
 /// Announces what a tracing pass reads of the scene.
-void request_tracing(const render::GpuScene& scene, const TracerSettings& tracer) {
+void request_ray_tracing_data(const render::GpuScene& scene, const TracerSettings& tracer) {
     scene.request_ray_tracing(sphere_mode_of_tracer(tracer), tracer.first_raster);
-    if (may_aim_at_lamps(tracer)) scene.request_lamp_points();
+    if (may_sample_lamp_points(tracer)) scene.request_lamp_points();
 }
 
-bool does_tracer_read_shadow_map(const TracerSettings& tracer) {
+bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
-gpu::ComputeState make_tracer_state(const TracerSettings& tracer, const render::GpuScene& scene,
-                                    bool listed) {
+gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
+                                            const render::GpuScene& scene, bool listed) {
     std::string build;
     for (const auto& [wanted, name] :
          {std::pair{listed, "listed"}, std::pair{tracer.doubles, "doubles"}})
         if (wanted) build += (build.empty() ? "#" : "_") + std::string(name);
-    return {"raytrace.comp" + build,
-            {{"max_depth", tracer.depth},
-             {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
-             {"has_shadow_map", does_tracer_read_shadow_map(tracer) ? 1u : 0u},
-             {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
-             {"first_raster", tracer.first_raster ? 1u : 0u},
-             {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
-             {"samples_lamps", may_aim_at_lamps(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
-             {"traces_paths", tracer.paths ? 1u : 0u},
-             {"without", tracer.without},
-             {"fixed_offset", scene.scene_units().world_to_scene_length(kSeedReportRayOffset)}},
-            scene.tracing_features(sphere_mode_of_tracer(tracer))};
+    return {
+        "raytrace.comp" + build,
+        {{"max_depth", tracer.depth},
+         {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
+         {"has_shadow_map", does_ray_tracer_read_shadow_map(tracer) ? 1u : 0u},
+         {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
+         {"first_raster", tracer.first_raster ? 1u : 0u},
+         {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
+         {"samples_lamps", may_sample_lamp_points(tracer) && scene.has_sampled_lamps() ? 1u : 0u},
+         {"traces_paths", tracer.paths ? 1u : 0u},
+         {"without", tracer.without},
+         {"fixed_offset", scene.scene_units().world_to_scene_length(kSeedReportRayOffset)}},
+        scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))};
 }
 
 /// Binds the resources of a tracing pass.
 void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene& scene,
                            const TracerSettings& tracer) {
     scene.bind(commands);
-    scene.bind_tracing(commands, sphere_mode_of_tracer(tracer));
-    if (does_tracer_read_shadow_map(tracer))
+    scene.bind_ray_tracing_buffers(commands, sphere_mode_of_tracer(tracer));
+    if (does_ray_tracer_read_shadow_map(tracer))
         commands.bind_resource("shadow_map", *tracer.lighting.shadow_map,
                                graph::TextureFilter::compare);
 }
@@ -119,16 +120,18 @@ void dispatch_sample_passes(graph::PassCommands& commands, const TracerSettings&
 }
 
 /// The pixels to trace, the dispatch arguments in work groups, and counters.
-struct TracedPixelList {
+struct PixelsToTraceList {
     graph::BufferHandle pixels, arguments, counters;
 };
 
-TracedPixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& inputs,
-                               const std::string& suffix, std::uint32_t number, bool first_raster,
-                               const render::CameraPassOutputs& view) {
+PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
+                                                   const render::FrameInputs& inputs,
+                                                   const std::string& suffix, std::uint32_t number,
+                                                   bool first_raster,
+                                                   const render::CameraPassOutputs& view) {
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
-    TracedPixelList list;
+    PixelsToTraceList list;
     // Entries are those of shaders/lib/trace_list.glsl.
     const std::uint32_t words = first_raster ? 3 : 1;
     list.pixels = graph.add_buffer({name, words * sizeof(std::uint32_t) * size.x * size.y});
@@ -161,7 +164,7 @@ TracedPixelList add_pixel_list(graph::Graph& graph, const render::FrameInputs& i
             commands.bind_resource("arguments", list.arguments);
             commands.bind_resource("List", list.pixels);
             const char* const shader = in_alpha ? "trace_list.comp#first" : "trace_list.comp";
-            commands.bind_pipeline(gpu::ComputeState{
+            commands.bind_pipeline(gpu::ComputePipelineState{
                 shader, {{"tracer", number}, {"first_raster", first_raster ? 1u : 0u}}});
             commands.push_constants(size);
             commands.dispatch((size.x + 7) / 8, (size.y + 7) / 8);
@@ -180,9 +183,9 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     graph.add_pass(inputs.prefix + "raytrace/reset")
         .writes(traced.counters, ResourceUse::copy_to)
         .record([=](graph::PassCommands& commands) { commands.fill_buffer(traced.counters, 0); });
-    request_tracing(inputs.scene, tracer);
+    request_ray_tracing_data(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
-    if (does_tracer_read_shadow_map(tracer))
+    if (does_ray_tracer_read_shadow_map(tracer))
         pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
@@ -204,11 +207,11 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
                                               const TracerSettings& tracer, std::uint32_t number,
                                               const render::CameraPassOutputs& view) {
     const std::string suffix = number == 1 ? "" : std::to_string(number);
-    const TracedPixelList list = add_pixel_list(graph, inputs, suffix, number, tracer.first_raster,
-                                                view);
-    request_tracing(inputs.scene, tracer);
+    const PixelsToTraceList list = add_pass_listing_pixels_to_trace(graph, inputs, suffix, number,
+                                                                    tracer.first_raster, view);
+    request_ray_tracing_data(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
-    if (does_tracer_read_shadow_map(tracer))
+    if (does_ray_tracer_read_shadow_map(tracer))
         pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
     pass.reads(list.arguments, ResourceUse::indirect)
         .reads(list.pixels, ResourceUse::storage_read)

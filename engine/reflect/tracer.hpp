@@ -35,7 +35,7 @@ struct TracerSettings {
 
 struct TracedPicture {
     graph::ImageHandle hdr; ///< linear radiance, rgba32f; alpha says which surface the ray met
-                            ///< (shared::kHitMirrorBits)
+                            ///< (shared::kBitsPerMirrorHit)
     graph::BufferHandle counters;
 };
 TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs& inputs,

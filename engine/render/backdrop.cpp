@@ -16,20 +16,22 @@ constexpr std::size_t kMaxBackdropTests = 1
 /// tiny next to them.
 constexpr double kCoplanarTolerance = 0x1p-20;
 
-struct ShadowlessBackdropPlane {
+struct BackdropTrianglePlane {
     dvec3 normal; ///< unit length, towards the light
     double at;
     double room; ///< points up to this far behind the plane count as in it
     /// Distance of the point behind the plane.
-    double distance_behind_plane(const dvec3& point) const { return at - dot(normal, point); }
+    double signed_distance_behind_plane(const dvec3& point) const {
+        return at - dot(normal, point);
+    }
 };
 
 /// Returns how far the farthest corner of the box lies behind the plane.
-double max_distance_behind_plane(const ShadowlessBackdropPlane& plane, const Bounds<float>& box) {
+double max_box_distance_behind_plane(const BackdropTrianglePlane& plane, const Bounds<float>& box) {
     const dvec3 corner(plane.normal.x < 0 ? box.hi.x : box.lo.x,
                        plane.normal.y < 0 ? box.hi.y : box.lo.y,
                        plane.normal.z < 0 ? box.hi.z : box.lo.z);
-    return plane.distance_behind_plane(corner);
+    return plane.signed_distance_behind_plane(corner);
 }
 
 class ShadowlessBackdropSearch {
@@ -40,13 +42,13 @@ public:
     bool is_shadowless_backdrop(const ObjectDrawRange& range) {
         if (range.own || range.index_count > 3 * kMaxBackdropTriangles) return false;
         for (std::uint32_t k = 0; k < range.index_count; k += 3)
-            if (!is_all_geometry_before_triangle(range.first_index + k)) return false;
+            if (!is_all_geometry_in_front_of_triangle(range.first_index + k)) return false;
         return true;
     }
 
 private:
     /// Returns whether all geometry lies on the light's side of the triangle's plane.
-    bool is_all_geometry_before_triangle(std::uint32_t first_index) {
+    bool is_all_geometry_in_front_of_triangle(std::uint32_t first_index) {
         const auto corner = [&](std::uint32_t j) {
             return dvec3(
                 frame_geometry_.vertices[frame_geometry_.indices[first_index + j]].position);
@@ -54,31 +56,32 @@ private:
         const dvec3 across = cross(corner(1) - corner(0), corner(2) - corner(0));
         const double size = length(across);
         if (!(size > 0)) return true; // a triangle without area casts no shadow
-        ShadowlessBackdropPlane plane{across / size, 0, 0};
+        BackdropTrianglePlane plane{across / size, 0, 0};
         plane.at = dot(plane.normal, corner(0));
         for (std::uint32_t j = 0; j < 3; ++j)
             plane.room = std::max(plane.room, kCoplanarTolerance * f64::largest_vector_component(
                                                                        glm::abs(corner(j))));
         const double height = light_.kind == shared::kLightKindDirectional
                                   ? -dot(plane.normal, dvec3(light_.forward))
-                                  : -plane.distance_behind_plane(dvec3(light_.position));
+                                  : -plane.signed_distance_behind_plane(dvec3(light_.position));
         if (height == 0) return true; // edge-on to the light, so it casts no shadow
         if (height < 0) plane = {-plane.normal, -plane.at, plane.room};
         return std::ranges::all_of(frame_geometry_.ranges, [&](const ObjectDrawRange& other) {
             return ++looks_ < kMaxBackdropTests &&
-                   (max_distance_behind_plane(plane, other.bounds) <= plane.room ||
+                   (max_box_distance_behind_plane(plane, other.bounds) <= plane.room ||
                     are_all_vertices_in_front(plane, other));
         });
     }
 
-    bool are_all_vertices_in_front(const ShadowlessBackdropPlane& plane,
+    bool are_all_vertices_in_front(const BackdropTrianglePlane& plane,
                                    const ObjectDrawRange& range) {
         looks_ += range.index_count;
         if (range.own || looks_ >= kMaxBackdropTests) return false;
         for (std::uint32_t k = 0; k < range.index_count; ++k) {
             const auto& vertex =
                 frame_geometry_.vertices[frame_geometry_.indices[range.first_index + k]];
-            if (!(plane.distance_behind_plane(dvec3(vertex.position)) <= plane.room)) return false;
+            if (!(plane.signed_distance_behind_plane(dvec3(vertex.position)) <= plane.room))
+                return false;
         }
         return true;
     }

@@ -12,7 +12,7 @@ namespace catoptric::render {
 namespace {
 
 /// Names of the two sets of a sequence, and of the set for frames outside any sequence.
-constexpr std::array<const char*, 3> kCaptureSetNames{"a", "b", "aside"};
+constexpr std::array<const char*, 3> kCaptureImageSetNames{"a", "b", "aside"};
 
 /// Removes the captures of mirrors that need none. If no capture would remain, keeps all of them.
 std::vector<CaptureOptions> remove_unneeded_captures(const std::vector<CaptureOptions>& options,
@@ -73,17 +73,17 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
             return feeding.kept->faces[mirror][face].drawing;
         };
         const auto is_made = [&](std::uint32_t face) {
-            return feeding.work.work_of_capture_face(mirror, face) != CaptureFaceWork::keep ||
-                   !graph.holds_content(select_capture_faces(captures, mirror, face, 1).colour,
-                                        drawing(face));
+            return feeding.work.work_of_capture_face(mirror, face) != CaptureFaceUpdateKind::keep ||
+                   !graph.has_image_part_content_hash(
+                       select_capture_faces(captures, mirror, face, 1).colour, drawing(face));
         };
         const auto is_copied = [&](std::uint32_t face) {
-            const FrameCaptureWork& work = feeding.work;
+            const CaptureWorkOfFrame& work = feeding.work;
             return is_made(face) &&
-                   (work.work_of_capture_face(mirror, face) == CaptureFaceWork::keep ||
+                   (work.work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::keep ||
                     !work.drawn_face_part(mirror, face).is_whole_face());
         };
-        for_each_run_of_faces(is_copied, [&](std::uint32_t first, std::uint32_t end) {
+        for_each_consecutive_face_range(is_copied, [&](std::uint32_t first, std::uint32_t end) {
             for_each_cube_image_pair(
                 select_capture_faces(*feeding.last, mirror, first, end - first),
                 select_capture_faces(captures, mirror, first, end - first),
@@ -95,7 +95,7 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
             if (!is_made(face)) continue;
             const CubeCaptureArray part = select_capture_faces(captures, mirror, face, 1);
             for_each_cube_image_pair(part, part, [&](graph::ImageHandle image, graph::ImageHandle) {
-                graph.set_content_hash(image, drawing(face));
+                graph.set_content_hash_of_image_part(image, drawing(face));
             });
         }
     }
@@ -109,16 +109,16 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
 }
 
 /// Returns the images that captures of the next frame may sample: colours and distances.
-std::shared_ptr<const MirrorCaptures> captures_for_next_frame(MirrorCaptures captures) {
+std::shared_ptr<const MirrorCaptures> make_captures_for_next_frame(MirrorCaptures captures) {
     for (CubeCaptureArray& cubes : captures.arrays)
         cubes.surfaces.reset(), cubes.colour2.reset(), cubes.distance2.reset();
     return std::make_shared<const MirrorCaptures>(std::move(captures));
 }
 
-bool has_no_update(const FrameCaptureWork& work) {
-    return std::ranges::all_of(work.faces, [](const std::array<CaptureFaceWork, 6>& faces) {
+bool needs_no_capture_update(const CaptureWorkOfFrame& work) {
+    return std::ranges::all_of(work.faces, [](const std::array<CaptureFaceUpdateKind, 6>& faces) {
         return std::ranges::all_of(
-            faces, [](CaptureFaceWork what) { return what == CaptureFaceWork::keep; });
+            faces, [](CaptureFaceUpdateKind what) { return what == CaptureFaceUpdateKind::keep; });
     });
 }
 
@@ -129,7 +129,7 @@ FrameCaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& i
                                        std::vector<CaptureOptions> options) {
     FrameCaptureUpdate feeding;
     auto captures = std::make_shared<const MirrorCaptures>(
-        declare_captures(graph, inputs, name, std::move(options)));
+        declare_capture_images(graph, inputs, name, std::move(options)));
     feeding.last = std::make_shared<const MirrorCaptures>(
         declare_previous_captures(graph, *captures));
     feeding.was_there.assign(captures->options.size(),
@@ -157,8 +157,8 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
         remove_unneeded_captures(options, model), known);
     const auto declare = [&](const std::vector<CaptureOptions>& laid_out,
                              const CaptureCache& filled) {
-        MirrorCaptures captures = declare_captures(graph, inputs, name, laid_out,
-                                                   kCaptureSetNames[filled.set]);
+        MirrorCaptures captures = declare_capture_images(graph, inputs, name, laid_out,
+                                                         kCaptureImageSetNames[filled.set]);
         for (const std::array<CachedCaptureFace, 6>& faces : filled.faces)
             std::ranges::transform(faces, captures.drawings.emplace_back().begin(),
                                    &CachedCaptureFace::drawing);
@@ -175,21 +175,21 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
     bool any_there = false;
     std::vector<CaptureRedrawRequest> asking;
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror) {
-        feeding.was_there.push_back(decider.had_same_capture(mirror));
+        feeding.was_there.push_back(decider.had_same_capture_layout_before(mirror));
         any_there = any_there || feeding.was_there.back();
         if (layout[mirror].face == 0) continue;
-        decider.decide_faces(mirror, feeding.work, kept);
+        decider.decide_capture_face_work(mirror, feeding.work, kept);
         if (most > 0 && kept.changes[mirror] != CaptureChangeKind::none &&
-            decider.can_wait(mirror, feeding.work))
-            asking.push_back({mirror, decider.frames_waited(mirror)});
+            decider.can_capture_redraw_wait(mirror, feeding.work))
+            asking.push_back({mirror, decider.frames_since_capture_redraw(mirror)});
     }
     for (const std::uint32_t mirror : choose_postponed_capture_redraws(std::move(asking), most))
-        decider.postpone_redraw(mirror, feeding.work, kept);
+        decider.postpone_capture_redraw(mirror, feeding.work, kept);
     for (std::uint32_t mirror = 0; mirror < mirrors; ++mirror)
         kept.is_late = kept.is_late || (kept.changes[mirror] != CaptureChangeKind::none &&
-                                        decider.frames_waited(mirror) > 0);
+                                        decider.frames_since_capture_redraw(mirror) > 0);
     if (known && have_equal_capture_layouts(layout, known->options) &&
-        has_no_update(feeding.work)) {
+        needs_no_capture_update(feeding.work)) {
         kept.set = known->set;
         feeding.captures = declare(layout, kept);
         return feeding;
@@ -198,7 +198,7 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
     if (any_there) feeding.last = declare(known->options, *known);
     feeding.captures = declare(layout, kept);
     add_copy_pass_of_unchanged_captures(graph, inputs.prefix + name + ".keep", feeding);
-    if (any_there) feeding.last = captures_for_next_frame(*feeding.last);
+    if (any_there) feeding.last = make_captures_for_next_frame(*feeding.last);
     if (std::ranges::find(kept.changes, CaptureChangeKind::unknown) != kept.changes.end()) {
         kept.before = before;
         kept.differing = comparisons->buffer(mirrors);

@@ -27,7 +27,7 @@ struct CachedCaptureFace {
     /// Content hash of all surfaces and lights that the face shows, except mirrors and the moving
     /// objects in `pieces`.
     std::uint64_t settings = 0;
-    std::shared_ptr<const require::MovingFacePieces>
+    std::shared_ptr<const require::MovingObjectFaceParts>
         pieces; ///< moving pieces in the mirror's faces, as of `content_hash`
     bool operator==(const CachedCaptureFace&) const = default;
 };
@@ -75,7 +75,7 @@ void read_finished_face_comparisons(const std::shared_ptr<CaptureCache>& capture
 void mark_captures_unchanged(CaptureCache& captures);
 
 /// The work of a frame on one face.
-enum class CaptureFaceWork : std::uint8_t {
+enum class CaptureFaceUpdateKind : std::uint8_t {
     keep,
     clear, ///< clear the face, which has no contents yet and which no ray can ask for
     draw,  ///< draw the face, because the surfaces or lights that it shows have changed
@@ -84,21 +84,21 @@ enum class CaptureFaceWork : std::uint8_t {
 };
 
 /// The work of a frame on its captures.
-struct FrameCaptureWork {
+struct CaptureWorkOfFrame {
     /// Work on each face of each mirror; empty: all six faces are drawn.
-    std::vector<std::array<CaptureFaceWork, 6>> faces;
+    std::vector<std::array<CaptureFaceUpdateKind, 6>> faces;
     /// For each mirror: the part of each face that is redrawn. Outside the part, the texels equal
     /// those of the frame before.
     std::vector<std::array<require::CubeFacePart, 6>> parts;
-    CaptureFaceWork work_of_capture_face(std::uint32_t mirror, std::uint32_t face) const {
-        return faces.empty() ? CaptureFaceWork::draw : faces[mirror][face];
+    CaptureFaceUpdateKind work_of_capture_face(std::uint32_t mirror, std::uint32_t face) const {
+        return faces.empty() ? CaptureFaceUpdateKind::draw : faces[mirror][face];
     }
     require::CubeFacePart drawn_face_part(std::uint32_t mirror, std::uint32_t face) const {
         return parts.empty() ? require::CubeFacePart() : parts[mirror][face];
     }
     bool is_face_drawn(std::uint32_t mirror, std::uint32_t face) const {
-        return work_of_capture_face(mirror, face) == CaptureFaceWork::draw ||
-               work_of_capture_face(mirror, face) == CaptureFaceWork::compare;
+        return work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::draw ||
+               work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::compare;
     }
 };
 
@@ -108,30 +108,32 @@ struct FrameCaptureUpdate {
     /// Captures that other captures sample; null: none existed.
     std::shared_ptr<const MirrorCaptures> last;
     std::vector<bool> was_there; ///< for each mirror: whether `last` has a capture of the mirror
-    FrameCaptureWork work;
+    CaptureWorkOfFrame work;
     std::shared_ptr<CaptureCache> kept; ///< null: captures do not persist
 };
 
 /// The buffers of a session into which comparisons write their results.
-class ComparisonBuffers {
+class CaptureComparisonBufferPool {
 public:
     /// `has_ended`: called with the numbers of frames.
-    ComparisonBuffers(gpu::GpuDevice& device, std::function<bool(std::uint64_t)> has_ended)
+    CaptureComparisonBufferPool(gpu::GpuDevice& device,
+                                std::function<bool(std::uint64_t)> has_ended)
         : buffer_device_(device), has_ended_(std::move(has_ended)) {}
     /// Returns a buffer of zeros, one word a mirror, that neither the host nor the device uses.
     std::shared_ptr<gpu::GpuBuffer> buffer(std::size_t mirrors);
     /// Records that the frame `frame`, just submitted, writes to the buffer. Null is ignored.
-    void mark_used(const std::shared_ptr<const gpu::GpuBuffer>& buffer, std::uint64_t frame);
+    void mark_comparison_buffer_used(const std::shared_ptr<const gpu::GpuBuffer>& buffer,
+                                     std::uint64_t frame);
 
 private:
-    struct PooledComparisonBuffer {
+    struct PooledCaptureComparisonBuffer {
         /// A buffer of comparison results, which can be used again if this is its only owner.
         std::shared_ptr<gpu::GpuBuffer> buffer;
         std::uint64_t frame = 0; ///< number of the last frame that wrote to it
     };
     gpu::GpuDevice& buffer_device_;
     std::function<bool(std::uint64_t)> has_ended_;
-    std::vector<PooledComparisonBuffer> entries_;
+    std::vector<PooledCaptureComparisonBuffer> entries_;
 };
 
 /// Declares all captures of this frame and those of the frame before. Every capture is drawn again
@@ -146,7 +148,7 @@ struct PreviousCaptures {
     std::shared_ptr<CaptureCache> before;
     /// Buffers for the results of comparing captures. Null: the frame does not belong to the frame
     /// sequence and leaves nothing for the next frame.
-    ComparisonBuffers* comparisons = nullptr;
+    CaptureComparisonBufferPool* comparisons = nullptr;
     /// The capture budget: the most mirrors whose captures are drawn again; 0: no limit. The other
     /// captures stay as they are. A capture without valid contents in a needed face does not count
     /// and is always drawn.
@@ -174,7 +176,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
 
 /// Calls visit(first, end) for each run of a mirror's six faces for which `is` holds.
 template <typename Is, typename Visit>
-void for_each_run_of_faces(Is&& is, Visit&& visit) {
+void for_each_consecutive_face_range(Is&& is, Visit&& visit) {
     for (std::uint32_t first = 0; first < 6; ++first) {
         std::uint32_t end = first;
         while (end < 6 && is(end)) ++end;

@@ -40,10 +40,10 @@ void mark_captures_unchanged(CaptureCache& captures) {
     captures.differing = nullptr;
 }
 
-std::shared_ptr<gpu::GpuBuffer> ComparisonBuffers::buffer(std::size_t mirrors) {
+std::shared_ptr<gpu::GpuBuffer> CaptureComparisonBufferPool::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
     // A caller that discards a frame releases its buffer while the device may still write to it.
-    const auto fits = [&](const PooledComparisonBuffer& entry) {
+    const auto fits = [&](const PooledCaptureComparisonBuffer& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
                entry.buffer->size_in_bytes() >= sizeof(std::uint32_t) * mirrors;
     };
@@ -58,9 +58,11 @@ std::shared_ptr<gpu::GpuBuffer> ComparisonBuffers::buffer(std::size_t mirrors) {
     return found->buffer;
 }
 
-void ComparisonBuffers::mark_used(const std::shared_ptr<const gpu::GpuBuffer>& buffer,
-                                  std::uint64_t frame) {
-    const auto is_it = [&](const PooledComparisonBuffer& entry) { return entry.buffer == buffer; };
+void CaptureComparisonBufferPool::mark_comparison_buffer_used(
+    const std::shared_ptr<const gpu::GpuBuffer>& buffer, std::uint64_t frame) {
+    const auto is_it = [&](const PooledCaptureComparisonBuffer& entry) {
+        return entry.buffer == buffer;
+    };
     const auto found = std::ranges::find_if(entries_, is_it);
     if (found != entries_.end()) found->frame = frame;
 }
@@ -69,20 +71,21 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
                                  const FrameCaptureUpdate& feeding) {
     if (!feeding.kept || !feeding.kept->differing) return;
     const MirrorCaptures &last = *feeding.last, &now = *feeding.captures;
-    struct ComparisonParameters {
+    struct CaptureComparisonParameters {
         std::uint32_t before, after, mirror;
     };
     struct CubeImagePair {
         CubeCaptureArray before, after; ///< the whole arrays
-        ComparisonParameters push;
+        CaptureComparisonParameters push;
         std::uint32_t faces;
     };
     std::vector<CubeImagePair> all;
     for (std::uint32_t mirror = 0; mirror < now.places.size(); ++mirror)
-        for_each_run_of_faces(
+        for_each_consecutive_face_range(
             [&](std::uint32_t face) {
                 return now.places[mirror].has_capture() &&
-                       feeding.work.work_of_capture_face(mirror, face) == CaptureFaceWork::compare;
+                       feeding.work.work_of_capture_face(mirror, face) ==
+                           CaptureFaceUpdateKind::compare;
             },
             [&](std::uint32_t first, std::uint32_t end) {
                 const auto &from = last.places[mirror], &to = now.places[mirror];
@@ -91,7 +94,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
                                {6 * from.cube + first, 6 * to.cube + first, mirror},
                                end - first});
             });
-    const graph::BufferHandle differing = graph.import_external(
+    const graph::BufferHandle differing = graph.import_external_resource(
         graph::BufferDesc{inputs.prefix + now.name + ".differing",
                           feeding.kept->differing->size_in_bytes()},
         feeding.kept->differing.get());
@@ -105,7 +108,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
     for (const graph::ImageHandle image : images) pass.reads(image, graph::ResourceUse::sampled);
     pass.writes(differing, graph::ResourceUse::storage_write)
         .record([all = std::move(all), differing](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputeState{"differing.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"differing.comp", {}});
             commands.bind_resource("Differing", differing);
             for (const auto& [before, after, push, faces] : all) {
                 commands.bind_resource("colour_before", before.colour);

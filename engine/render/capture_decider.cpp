@@ -11,7 +11,7 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::uint64_t kClearedFaceHash = 1; // `drawing` of a face that holds nothing
+constexpr std::uint64_t kClearedCaptureFaceHash = 1; // `drawing` of a face that holds nothing
 
 } // namespace
 
@@ -23,78 +23,82 @@ CaptureUpdateDecider::CaptureUpdateDecider(const GpuScene& scene,
     if (before) changed_ = find_changed_captures(*before);
     ContentHash lit;
     for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
-        lit.add_values(std::span(scene.list_backdrops_of_light(light)));
+        lit.add_values(std::span(scene.shadowless_backdrops_of_light(light)));
         for (std::uint32_t face = 0; face < scene.drawn_shadow_faces(light); ++face)
             lit.add_value(scene.list_views()[scene.shadow_view_index(light) + face]);
     }
     shadow_views_ = lit.current_hash();
 }
 
-bool CaptureUpdateDecider::had_same_capture(std::uint32_t mirror) const {
+bool CaptureUpdateDecider::had_same_capture_layout_before(std::uint32_t mirror) const {
     return before_ && layout_[mirror].face > 0 &&
            have_equal_capture_contents(before_->options[mirror], layout_[mirror]);
 }
 
-std::uint32_t CaptureUpdateDecider::frames_waited(std::uint32_t mirror) const {
-    return had_same_capture(mirror) ? before_->waited[mirror] : 0;
+std::uint32_t CaptureUpdateDecider::frames_since_capture_redraw(std::uint32_t mirror) const {
+    return had_same_capture_layout_before(mirror) ? before_->waited[mirror] : 0;
 }
 
-void CaptureUpdateDecider::decide_faces(std::uint32_t mirror, FrameCaptureWork& work,
-                                        CaptureCache& kept) const {
+void CaptureUpdateDecider::decide_capture_face_work(std::uint32_t mirror, CaptureWorkOfFrame& work,
+                                                    CaptureCache& kept) const {
     CaptureChangeKind change = CaptureChangeKind::none;
     std::vector<std::uint32_t>& saw = kept.saw[mirror];
     for (std::uint32_t face = 0; face < 6; ++face) {
-        const std::vector<std::uint32_t> seen = mirrors_seen_by_face(mirror, face);
-        const CaptureFaceWork what = decide_faces(mirror, face, seen, kept.faces[mirror][face]);
+        const std::vector<std::uint32_t> seen = mirrors_visible_in_capture_face(mirror, face);
+        const CaptureFaceUpdateKind what = decide_capture_face_work(mirror, face, seen,
+                                                                    kept.faces[mirror][face]);
         work.faces[mirror][face] = what;
         if (work.is_face_drawn(mirror, face))
-            work.parts[mirror][face] = changing_face_part(mirror, face, seen,
-                                                          kept.faces[mirror][face]);
-        if (what == CaptureFaceWork::draw) change = CaptureChangeKind::some;
-        if (what != CaptureFaceWork::compare) continue;
+            work.parts[mirror][face] = changed_part_of_capture_face(mirror, face, seen,
+                                                                    kept.faces[mirror][face]);
+        if (what == CaptureFaceUpdateKind::draw) change = CaptureChangeKind::some;
+        if (what != CaptureFaceUpdateKind::compare) continue;
         change = std::max(change, CaptureChangeKind::unknown);
         saw.insert(saw.end(), seen.begin(), seen.end());
     }
     kept.changes[mirror] = change;
 }
 
-bool CaptureUpdateDecider::can_wait(std::uint32_t mirror, const FrameCaptureWork& work) const {
-    if (!had_same_capture(mirror)) return false;
+bool CaptureUpdateDecider::can_capture_redraw_wait(std::uint32_t mirror,
+                                                   const CaptureWorkOfFrame& work) const {
+    if (!had_same_capture_layout_before(mirror)) return false;
     for (std::uint32_t face = 0; face < 6; ++face)
         if (work.is_face_drawn(mirror, face) && before_->faces[mirror][face].content_hash == 0)
             return false;
     return true;
 }
 
-void CaptureUpdateDecider::postpone_redraw(std::uint32_t mirror, FrameCaptureWork& work,
-                                           CaptureCache& kept) const {
+void CaptureUpdateDecider::postpone_capture_redraw(std::uint32_t mirror, CaptureWorkOfFrame& work,
+                                                   CaptureCache& kept) const {
     for (std::uint32_t face = 0; face < 6; ++face) {
         if (!work.is_face_drawn(mirror, face)) continue;
         kept.faces[mirror][face] = before_->faces[mirror][face];
         kept.faces[mirror][face].is_behind = true;
-        work.faces[mirror][face] = CaptureFaceWork::keep, work.parts[mirror][face] = {};
+        work.faces[mirror][face] = CaptureFaceUpdateKind::keep, work.parts[mirror][face] = {};
     }
     kept.changes[mirror] = CaptureChangeKind::none;
     kept.saw[mirror].clear();
     kept.waited[mirror] = before_->waited[mirror] + 1;
 }
 
-std::vector<std::uint32_t> CaptureUpdateDecider::mirrors_seen_by_face(std::uint32_t mirror,
-                                                                      std::uint32_t face) const {
+std::vector<std::uint32_t>
+CaptureUpdateDecider::mirrors_visible_in_capture_face(std::uint32_t mirror,
+                                                      std::uint32_t face) const {
     const shared::View& view =
         gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face];
     std::vector<std::uint32_t> seen;
     for (const std::uint32_t other : model_.mirrors[mirror].sees)
         if (layout_[other].face > 0 &&
-            may_view_show_box(view,
-                              gpu_scene_.list_draw_ranges()[gpu_scene_.object_of_mirror(other)]))
+            may_view_show_box(
+                view, gpu_scene_.list_draw_ranges()[gpu_scene_.object_index_of_mirror(other)]))
             seen.push_back(other);
     return seen;
 }
 
-CaptureFaceWork CaptureUpdateDecider::decide_faces(std::uint32_t mirror, std::uint32_t face,
-                                                   const std::vector<std::uint32_t>& seen,
-                                                   CachedCaptureFace& now) const {
+CaptureFaceUpdateKind
+CaptureUpdateDecider::decide_capture_face_work(std::uint32_t mirror, std::uint32_t face,
+                                               const std::vector<std::uint32_t>& seen,
+                                               CachedCaptureFace& now) const {
     const require::MirrorRequirements& needs = model_.mirrors[mirror];
     ContentHash shown =
         ContentHash(shadow_views_)
@@ -102,28 +106,29 @@ CaptureFaceWork CaptureUpdateDecider::decide_faces(std::uint32_t mirror, std::ui
     for (const std::uint32_t other : seen) shown.add_value(other);
     const std::uint64_t content_hash =
         ContentHash(shown).add_value(needs.content_hashes[face]).current_hash();
-    now = had_same_capture(mirror) ? before_->faces[mirror][face] : CachedCaptureFace();
+    now = had_same_capture_layout_before(mirror) ? before_->faces[mirror][face]
+                                                 : CachedCaptureFace();
     const bool shows_same = now.drawing > 0 && now.content_hash == content_hash;
     const auto has_changed = [&](std::uint32_t other) { return changed_[other] != 0; };
     if (shows_same && !now.is_behind && std::ranges::none_of(seen, has_changed))
-        return CaptureFaceWork::keep;
+        return CaptureFaceUpdateKind::keep;
     if (!needs.is_captured || !(needs.faces >> face & 1)) {
         // Without a content hash, the face is drawn as soon as a ray needs it again.
         now.content_hash = 0, now.is_behind = false;
-        if (now.drawing > 0) return CaptureFaceWork::keep;
-        now.drawing = kClearedFaceHash;
-        return CaptureFaceWork::clear;
+        if (now.drawing > 0) return CaptureFaceUpdateKind::keep;
+        now.drawing = kClearedCaptureFaceHash;
+        return CaptureFaceUpdateKind::clear;
     }
-    now = {content_hash, face_picture_hash(content_hash, seen), false,
+    now = {content_hash, content_hash_of_capture_face(content_hash, seen), false,
            ContentHash(shown).add_value(needs.settings[face]).current_hash(), needs.pieces};
-    return shows_same && compares_ ? CaptureFaceWork::compare : CaptureFaceWork::draw;
+    return shows_same && compares_ ? CaptureFaceUpdateKind::compare : CaptureFaceUpdateKind::draw;
 }
 
 require::CubeFacePart
-CaptureUpdateDecider::changing_face_part(std::uint32_t mirror, std::uint32_t face,
-                                         const std::vector<std::uint32_t>& seen,
-                                         const CachedCaptureFace& now) const {
-    if (!had_same_capture(mirror)) return {};
+CaptureUpdateDecider::changed_part_of_capture_face(std::uint32_t mirror, std::uint32_t face,
+                                                   const std::vector<std::uint32_t>& seen,
+                                                   const CachedCaptureFace& now) const {
+    if (!had_same_capture_layout_before(mirror)) return {};
     const CachedCaptureFace& before = before_->faces[mirror][face];
     if (before.content_hash == 0 || before.is_behind || before.settings != now.settings ||
         !before.pieces || !now.pieces)
@@ -136,21 +141,23 @@ CaptureUpdateDecider::changing_face_part(std::uint32_t mirror, std::uint32_t fac
     // capture changes.
     for (const std::uint32_t other : seen)
         part = unite_face_parts(
-            part, face_part_showing_box(
-                      view, static_cast<int>(face),
-                      gpu_scene_.list_draw_ranges()[gpu_scene_.object_of_mirror(other)].bounds));
+            part,
+            face_part_showing_box(
+                view, static_cast<int>(face),
+                gpu_scene_.list_draw_ranges()[gpu_scene_.object_index_of_mirror(other)].bounds));
     return part.is_empty() ? require::CubeFacePart() : part;
 }
 
 std::uint64_t
-CaptureUpdateDecider::face_picture_hash(std::uint64_t content_hash,
-                                        const std::vector<std::uint32_t>& seen) const {
+CaptureUpdateDecider::content_hash_of_capture_face(std::uint64_t content_hash,
+                                                   const std::vector<std::uint32_t>& seen) const {
     ContentHash number;
     number.add_value(content_hash);
     for (const std::uint32_t other : seen)
         for (std::uint32_t face = 0; face < 6; ++face)
-            number.add_value(had_same_capture(other) ? before_->faces[other][face].drawing : 0);
-    return std::max<std::uint64_t>(number.current_hash(), kClearedFaceHash + 1);
+            number.add_value(
+                had_same_capture_layout_before(other) ? before_->faces[other][face].drawing : 0);
+    return std::max<std::uint64_t>(number.current_hash(), kClearedCaptureFaceHash + 1);
 }
 
 } // namespace catoptric::render

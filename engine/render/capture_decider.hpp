@@ -20,33 +20,36 @@ public:
                          bool compares);
 
     /// Returns whether the frame before left a capture of the mirror with the same options.
-    bool had_same_capture(std::uint32_t mirror) const;
+    bool had_same_capture_layout_before(std::uint32_t mirror) const;
     /// Returns for how many frames, up to the frame before, the redraw of the mirror's capture has
     /// waited.
-    std::uint32_t frames_waited(std::uint32_t mirror) const;
+    std::uint32_t frames_since_capture_redraw(std::uint32_t mirror) const;
 
     /// Decides for all six faces of the mirror. Fills the mirror's entries in `work` and `kept`.
-    void decide_faces(std::uint32_t mirror, FrameCaptureWork& work, CaptureCache& kept) const;
+    void decide_capture_face_work(std::uint32_t mirror, CaptureWorkOfFrame& work,
+                                  CaptureCache& kept) const;
     /// Returns whether the redraw can wait. The old contents must be valid in every face that would
     /// be drawn.
-    bool can_wait(std::uint32_t mirror, const FrameCaptureWork& work) const;
-    /// Cancels the redraw that `decide_faces` asked for; the old contents stay.
-    void postpone_redraw(std::uint32_t mirror, FrameCaptureWork& work, CaptureCache& kept) const;
+    bool can_capture_redraw_wait(std::uint32_t mirror, const CaptureWorkOfFrame& work) const;
+    /// Cancels the redraw that `decide_capture_face_work` asked for; the old contents stay.
+    void postpone_capture_redraw(std::uint32_t mirror, CaptureWorkOfFrame& work,
+                                 CaptureCache& kept) const;
 
 private:
     /// Returns the other mirrors whose captures the face shows.
-    std::vector<std::uint32_t> mirrors_seen_by_face(std::uint32_t mirror, std::uint32_t face) const;
-    CaptureFaceWork decide_faces(std::uint32_t mirror, std::uint32_t face,
-                                 const std::vector<std::uint32_t>& seen,
-                                 CachedCaptureFace& now) const;
+    std::vector<std::uint32_t> mirrors_visible_in_capture_face(std::uint32_t mirror,
+                                                               std::uint32_t face) const;
+    CaptureFaceUpdateKind decide_capture_face_work(std::uint32_t mirror, std::uint32_t face,
+                                                   const std::vector<std::uint32_t>& seen,
+                                                   CachedCaptureFace& now) const;
     /// Returns the part of a drawn face that may differ from its old contents.
-    require::CubeFacePart changing_face_part(std::uint32_t mirror, std::uint32_t face,
-                                             const std::vector<std::uint32_t>& seen,
-                                             const CachedCaptureFace& now) const;
+    require::CubeFacePart changed_part_of_capture_face(std::uint32_t mirror, std::uint32_t face,
+                                                       const std::vector<std::uint32_t>& seen,
+                                                       const CachedCaptureFace& now) const;
     /// Returns the number of a face's picture, from the content hash and the captures that the face
     /// shows.
-    std::uint64_t face_picture_hash(std::uint64_t content_hash,
-                                    const std::vector<std::uint32_t>& seen) const;
+    std::uint64_t content_hash_of_capture_face(std::uint64_t content_hash,
+                                               const std::vector<std::uint32_t>& seen) const;
 
     const GpuScene& gpu_scene_;
     const require::RequiredWorkModel& model_;

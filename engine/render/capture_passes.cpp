@@ -22,7 +22,7 @@ using graph::ResourceUse;
 /// and keeps the rest.
 void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options,
                          const CubeCaptureArray& cubes,
-                         const std::optional<graph::PixelArea>& area = {}) {
+                         const std::optional<graph::PixelRectangle>& area = {}) {
     // An empty direction has the distance +infinity. Unorm8 cannot store it and uses the end of its
     // range.
     const float nothing = options.distance == TexelFormat::r8_unorm
@@ -35,12 +35,12 @@ void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options
     write(cubes.colour, kClearColourBlack);
     if (cubes.distance) write(*cubes.distance, ClearValue{nothing, 0, 0, 0});
     if (cubes.surfaces) write(*cubes.surfaces, ClearValue{});
-    if (area) pass.set_area(*area);
+    if (area) pass.set_pass_render_area(*area);
 }
 
 /// Returns whether the part of the face may show the object.
-bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
-                          const require::CubeFacePart& part, std::size_t object) {
+bool may_capture_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint32_t face,
+                                  const require::CubeFacePart& part, std::size_t object) {
     return part.is_whole_face() ||
            !intersect_face_parts(
                 part, face_part_showing_box(
@@ -50,11 +50,11 @@ bool may_face_show_object(const GpuScene& scene, std::uint32_t mirror, std::uint
 }
 
 /// Returns the balls inside mirrors that a capture draws completely.
-std::vector<InnerOccluderBall> list_hiding_balls(const GpuScene& scene,
-                                                 const MirrorShaders& looks) {
+std::vector<InnerOccluderBall> list_occluding_inner_balls(const GpuScene& scene,
+                                                          const ShaderOfEachMirror& looks) {
     std::vector<InnerOccluderBall> balls;
     for (std::uint32_t mirror = 0; mirror < scene.mirror_count(); ++mirror)
-        if (looks.of_mirror[mirror] != MirrorShaders::kShaderChosenByPart)
+        if (looks.of_mirror[mirror] != ShaderOfEachMirror::kShaderChosenByPart)
             balls.push_back(scene.find_inner_ball_of_mirror(mirror));
     return balls;
 }
@@ -62,9 +62,9 @@ std::vector<InnerOccluderBall> list_hiding_balls(const GpuScene& scene,
 /// Declares a pass that draws a range of faces of a mirror's capture. `peeled`: draws only what
 /// lies behind these distances.
 void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                      const CubeFaceRange& faces, const std::string& pass_name,
+                      const CaptureFaceRange& faces, const std::string& pass_name,
                       const CubeCaptureArray& cubes,
-                      const std::shared_ptr<const MirrorShaders>& looks,
+                      const std::shared_ptr<const ShaderOfEachMirror>& looks,
                       std::optional<ImageHandle> peeled, const require::CubeFacePart& changing) {
     const std::string name = inputs.prefix + pass_name;
     const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f, options.face,
@@ -82,20 +82,20 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
                               .store = {{"distance_scale", 1 / options.stored_unit}},
                               .peeled = peeled};
     if (options.colour == TexelFormat::rgba16f && options.saturates)
-        drawing.store.emplace_back("largest_colour", kLargestHalfFloat);
+        drawing.store.emplace_back("largest_colour", kLargestFiniteHalfFloatValue);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == TexelFormat::r8_unorm)
         drawing.store.emplace_back("half_step", 0.5f / 255);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
-        .set_layer_count(faces.count)
+        .set_pass_layer_count(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,
                  edge = options.face, drawing = std::move(drawing),
                  leaves_out = options.leaves_out_spheres](PassCommands& commands) {
             const auto is_wanted = [&](std::size_t object) {
                 const ObjectDrawRange& range = scene.list_draw_ranges()[object];
-                return object != scene.object_of_mirror(mirror) &&
+                return object != scene.object_index_of_mirror(mirror) &&
                        !(leaves_out && range.mirror && range.exact_sphere && !range.lit) &&
-                       may_face_show_object(scene, mirror, face, part, object);
+                       may_capture_face_show_object(scene, mirror, face, part, object);
             };
             if (drawing.peeled) { // a second layer shows what the first layer hides
                 draw_scene(commands, scene, drawing, is_wanted);
@@ -104,7 +104,8 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
             const std::vector<std::uint8_t> shown = find_faces_showing_objects(
                 std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
                 {edge, scene.scene_device().vulkan_limits().subPixelPrecisionBits},
-                scene.list_draw_ranges(), list_hiding_balls(scene, *drawing.looks), is_wanted);
+                scene.list_draw_ranges(), list_occluding_inner_balls(scene, *drawing.looks),
+                is_wanted);
             const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
             draw_scene(commands, scene, drawing, is_shown, shown);
             draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
@@ -113,24 +114,24 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
 }
 
 /// Declares a pass that clears faces that no ray can ask for.
-void add_clear_pass(graph::Graph& graph, const FrameInputs& inputs, const CaptureOptions& options,
-                    const CubeFaceRange& faces, const std::string& name,
-                    const CubeCaptureArray& cubes) {
+void add_capture_clear_pass(graph::Graph& graph, const FrameInputs& inputs,
+                            const CaptureOptions& options, const CaptureFaceRange& faces,
+                            const std::string& name, const CubeCaptureArray& cubes) {
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + name_with_face_range(name, faces) +
                                              ".clear");
     declare_cube_writes(pass, options, cubes);
     if (cubes.colour2)
         declare_cube_writes(pass, options,
                             {cubes.face, *cubes.colour2, cubes.distance2, {}, {}, {}});
-    pass.set_layer_count(faces.count).record([](PassCommands&) {});
+    pass.set_pass_layer_count(faces.count).record([](PassCommands&) {});
 }
 
 } // namespace
 
 void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
-                        const MirrorCaptures& captures, MirrorShaders looks,
-                        const FrameCaptureWork& work) {
-    const auto shared = std::make_shared<const MirrorShaders>(std::move(looks));
+                        const MirrorCaptures& captures, ShaderOfEachMirror looks,
+                        const CaptureWorkOfFrame& work) {
+    const auto shared = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
     for (std::uint32_t mirror = 0; mirror < captures.options.size(); ++mirror) {
         if (!captures.places[mirror].has_capture()) continue;
         const auto& [array, cube] = captures.places[mirror];
@@ -138,7 +139,7 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
         const std::string number = "/" + std::to_string(mirror + 1);
         const auto draw = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                               std::uint32_t first, std::uint32_t end) {
-            const CubeFaceRange faces{mirror, first, end - first};
+            const CaptureFaceRange faces{mirror, first, end - first};
             const require::CubeFacePart changing = work.drawn_face_part(mirror, first);
             const CubeCaptureArray part = select_cube_layers(cubes, first_layer + first,
                                                              faces.count);
@@ -155,11 +156,11 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
         };
         const auto clear = [&, first_layer = 6 * cube, &cubes = captures.arrays[array]](
                                std::uint32_t first, std::uint32_t end) {
-            add_clear_pass(graph, inputs, options, {mirror, first, end - first},
-                           captures.name + number,
-                           select_cube_layers(cubes, first_layer + first, end - first));
+            add_capture_clear_pass(graph, inputs, options, {mirror, first, end - first},
+                                   captures.name + number,
+                                   select_cube_layers(cubes, first_layer + first, end - first));
         };
-        for_each_run_of_faces(
+        for_each_consecutive_face_range(
             [&](std::uint32_t face) {
                 return work.is_face_drawn(mirror, face) &&
                        work.drawn_face_part(mirror, face).is_whole_face();
@@ -167,9 +168,9 @@ void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
             draw);
         for (std::uint32_t face = 0; face < 6; ++face)
             if (!work.drawn_face_part(mirror, face).is_whole_face()) draw(face, face + 1);
-        for_each_run_of_faces(
+        for_each_consecutive_face_range(
             [&](std::uint32_t face) {
-                return work.work_of_capture_face(mirror, face) == CaptureFaceWork::clear;
+                return work.work_of_capture_face(mirror, face) == CaptureFaceUpdateKind::clear;
             },
             clear);
     }

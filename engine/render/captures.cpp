@@ -14,25 +14,26 @@ namespace {
 /// The properties that captures of one array share, except the edge.
 using CaptureContents = std::tuple<TexelFormat, std::optional<TexelFormat>, bool, bool, float>;
 
-CaptureContents contents_of_capture(const CaptureOptions& options) {
+CaptureContents image_contents_of_capture(const CaptureOptions& options) {
     return {options.colour, options.distance, options.second_layer, options.surfaces,
             options.stored_unit};
 }
 
 /// Mirrors by format and edge.
-using MirrorsByFormatAndEdge =
+using CaptureGroupsByFormatAndEdge =
     std::map<std::pair<CaptureContents, std::uint32_t>, std::vector<std::uint32_t>>;
 
-MirrorsByFormatAndEdge
+CaptureGroupsByFormatAndEdge
 group_mirrors_by_format_and_edge(const std::vector<CaptureOptions>& options) {
-    MirrorsByFormatAndEdge kinds;
+    CaptureGroupsByFormatAndEdge kinds;
     for (std::uint32_t mirror = 0; mirror < options.size(); ++mirror)
         if (options[mirror].face > 0)
-            kinds[{contents_of_capture(options[mirror]), options[mirror].face}].push_back(mirror);
+            kinds[{image_contents_of_capture(options[mirror]), options[mirror].face}].push_back(
+                mirror);
     return kinds;
 }
 
-std::size_t count_cube_arrays(const MirrorsByFormatAndEdge& kinds, std::size_t most_cubes) {
+std::size_t count_cube_arrays(const CaptureGroupsByFormatAndEdge& kinds, std::size_t most_cubes) {
     std::size_t arrays = 0;
     for (const auto& [kind, mirrors] : kinds)
         arrays += (mirrors.size() + most_cubes - 1) / most_cubes;
@@ -41,7 +42,8 @@ std::size_t count_cube_arrays(const MirrorsByFormatAndEdge& kinds, std::size_t m
 
 /// Enlarges one kind of captures to the next larger edge of the same format. Chooses the kind for
 /// which that adds the fewest texels. Returns false if no format has two edges.
-bool merge_smaller_captures(MirrorsByFormatAndEdge& kinds, std::vector<std::string>& notes) {
+bool merge_small_capture_groups(CaptureGroupsByFormatAndEdge& kinds,
+                                std::vector<std::string>& notes) {
     auto cheapest = kinds.end();
     double least = 0;
     for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
@@ -93,7 +95,7 @@ CubeCaptureArray declare_cube_array(graph::Graph& graph, const std::string& name
 /// Declares a buffer with the place of each mirror's capture, and the pass that fills it.
 graph::BufferHandle add_capture_table_buffer(graph::Graph& graph, const std::string& name,
                                              const MirrorCaptures& captures) {
-    shared::CaptureTable places{};
+    shared::CaptureLookupTable places{};
     for (std::size_t i = 0; i < captures.places.size(); ++i) {
         const auto& [array, cube] = captures.places[i];
         places.places[i] = array << 16 | cube;
@@ -116,10 +118,10 @@ graph::BufferHandle add_capture_table_buffer(graph::Graph& graph, const std::str
 CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t first,
                                     std::uint32_t count) {
     const auto part = [&](const std::optional<graph::ImageHandle>& image) {
-        return image ? std::optional(image->select_layers(first, count)) : image;
+        return image ? std::optional(image->select_image_layers(first, count)) : image;
     };
     return {cubes.face,
-            cubes.colour.select_layers(first, count),
+            cubes.colour.select_image_layers(first, count),
             part(cubes.distance),
             part(cubes.colour2),
             part(cubes.distance2),
@@ -127,19 +129,20 @@ CubeCaptureArray select_cube_layers(const CubeCaptureArray& cubes, std::uint32_t
 }
 
 bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b) {
-    return a.face == b.face && contents_of_capture(a) == contents_of_capture(b) &&
+    return a.face == b.face && image_contents_of_capture(a) == image_contents_of_capture(b) &&
            a.saturates == b.saturates && a.leaves_out_spheres == b.leaves_out_spheres;
 }
 
-MirrorCaptures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
-                                std::vector<CaptureOptions> options, const std::string& set) {
+MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& inputs,
+                                      std::string name, std::vector<CaptureOptions> options,
+                                      const std::string& set) {
     MirrorCaptures captures;
     captures.name = std::move(name);
-    MirrorsByFormatAndEdge kinds = group_mirrors_by_format_and_edge(options);
+    CaptureGroupsByFormatAndEdge kinds = group_mirrors_by_format_and_edge(options);
     const std::size_t most_cubes = inputs.scene.max_cube_count();
     bool merged = true;
     while (merged && count_cube_arrays(kinds, most_cubes) > shared::kMaxCubeArrays)
-        merged = merge_smaller_captures(kinds, captures.notes);
+        merged = merge_small_capture_groups(kinds, captures.notes);
     const std::size_t count = count_cube_arrays(kinds, most_cubes);
     check(count <= shared::kMaxCubeArrays && options.size() <= shared::kMaxCapturedMirrors,
           Failure::exhausted, "captures of ", options.size(), " mirrors in ", kinds.size(),
@@ -164,7 +167,7 @@ MirrorCaptures declare_captures(graph::Graph& graph, const FrameInputs& inputs, 
         }
     }
     captures.options = std::move(options);
-    std::vector<CaptureArraySlot> in_order;
+    std::vector<CubeArraySlotOfMirror> in_order;
     for (std::uint32_t mirror = 0; mirror < captures.places.size(); ++mirror)
         in_order.push_back({0, mirror});
     if (captures.places != in_order)

@@ -48,20 +48,20 @@ struct CaptureOptions {
 bool have_equal_capture_contents(const CaptureOptions& a, const CaptureOptions& b);
 
 /// The place of a mirror's capture in the arrays.
-struct CaptureArraySlot {
+struct CubeArraySlotOfMirror {
     /// Indices from 0; `array` is kMaxCubeArrays if the mirror has no capture.
     std::uint32_t array = shared::kMaxCubeArrays, cube = 0;
     bool has_capture() const { return array < shared::kMaxCubeArrays; }
-    bool operator==(const CaptureArraySlot&) const = default;
+    bool operator==(const CubeArraySlotOfMirror&) const = default;
 };
 
 /// The captures of all mirrors.
 struct MirrorCaptures {
-    std::string name;                     ///< passes have the names name/1, name/2, ...
-    std::vector<CaptureOptions> options;  ///< options of each mirror's capture
-    std::vector<CaptureArraySlot> places; ///< place of each mirror's capture
-    std::vector<CubeCaptureArray> arrays; ///< 1 to shared::kMaxCubeArrays arrays
-    /// Holds a shared::CaptureTable; absent if mirror n is cube n of the only array.
+    std::string name;                          ///< passes have the names name/1, name/2, ...
+    std::vector<CaptureOptions> options;       ///< options of each mirror's capture
+    std::vector<CubeArraySlotOfMirror> places; ///< place of each mirror's capture
+    std::vector<CubeCaptureArray> arrays;      ///< 1 to shared::kMaxCubeArrays arrays
+    /// Holds a shared::CaptureLookupTable; absent if mirror n is cube n of the only array.
     std::optional<graph::BufferHandle> table;
     std::vector<std::string> notes; ///< deviations from the request, one sentence each
     /// Numbers of the pictures in each face of each mirror's capture, if captures persist. Equal
@@ -81,8 +81,9 @@ struct MirrorCaptures {
 /// (graph::ImageLifetime::persistent). The name tells them from other arrays of the same
 /// captures. Throws `exhausted` if kMaxCubeArrays arrays cannot hold the captures. Costs
 /// O(mirrors).
-MirrorCaptures declare_captures(graph::Graph& graph, const FrameInputs& inputs, std::string name,
-                                std::vector<CaptureOptions> options, const std::string& set = "");
+MirrorCaptures declare_capture_images(graph::Graph& graph, const FrameInputs& inputs,
+                                      std::string name, std::vector<CaptureOptions> options,
+                                      const std::string& set = "");
 
 /// Returns the colours and distances of these captures at the end of the frame before.
 MirrorCaptures declare_previous_captures(graph::Graph& graph, const MirrorCaptures& captures);

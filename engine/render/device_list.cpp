@@ -15,8 +15,8 @@ std::size_t count_compared_pages(std::size_t bytes) {
 
 } // namespace
 
-bool DeviceDataList::set_list_contents(std::span<const std::byte> data, std::size_t from,
-                                       std::size_t to) {
+bool DoubleBufferedDeviceList::set_device_list_contents(std::span<const std::byte> data,
+                                                        std::size_t from, std::size_t to) {
     const std::size_t kept = std::min(data.size(), data_.size());
     const std::uint64_t next = version_ + 1;
     bool changed = data.size() != data_.size();
@@ -36,7 +36,7 @@ bool DeviceDataList::set_list_contents(std::span<const std::byte> data, std::siz
 }
 
 /// Returns a copy that no other slot binds.
-std::size_t DeviceDataList::find_free_copy(std::size_t slot) {
+std::size_t DoubleBufferedDeviceList::find_free_device_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)
             if (other != slot && bound_[other] == copy) return false;
@@ -49,13 +49,14 @@ std::size_t DeviceDataList::find_free_copy(std::size_t slot) {
     return copies_.size() - 1;
 }
 
-std::size_t DeviceDataList::write_changed_pages(gpu::GpuDevice& device, std::size_t slot) {
+std::size_t DoubleBufferedDeviceList::upload_changed_pages(gpu::GpuDevice& device,
+                                                           std::size_t slot) {
     const auto current = std::ranges::find(copies_, version_, &DeviceListCopy::version);
     if (current != copies_.end()) {
         bound_[slot] = static_cast<std::size_t>(current - copies_.begin());
         return 0;
     }
-    const std::size_t place = find_free_copy(slot);
+    const std::size_t place = find_free_device_copy(slot);
     DeviceListCopy& copy = copies_[place];
     if (!copy.buffer.buffer_handle() || copy.buffer.size_in_bytes() < data_.size()) {
         copy = {};

@@ -13,28 +13,28 @@ namespace catoptric::render {
 /// reads. Each slot (a frame in flight) binds one of several copies of the list; slots with equal
 /// contents bind the same copy. A list that never changes has one copy. A changing list has at most
 /// one a slot.
-class DeviceDataList {
+class DoubleBufferedDeviceList {
 public:
-    DeviceDataList(std::string name, gpu::BufferUsage use, std::size_t slots)
+    DoubleBufferedDeviceList(std::string name, gpu::BufferUsage use, std::size_t slots)
         : list_name_(std::move(name)), use_(use), bound_(slots) {}
 
-    /// Sets the contents for the next `write_changed_pages`. Returns whether they differ from the
+    /// Sets the contents for the next `upload_changed_pages`. Returns whether they differ from the
     /// last contents; equal contents change nothing. Costs a comparison.
     template <typename T>
-    bool set_list_contents(const std::vector<T>& data) {
-        return set_list_contents(data, 0, data.size());
+    bool set_device_list_contents(const std::vector<T>& data) {
+        return set_device_list_contents(data, 0, data.size());
     }
     /// Sets the contents, of which only entries from `first` up to, not including, `end` may differ
     /// from the last ones. Compares only these entries.
     template <typename T>
-    bool set_list_contents(const std::vector<T>& data, std::size_t first, std::size_t end) {
-        return set_list_contents(std::as_bytes(std::span(data)), first * sizeof(T),
-                                 end * sizeof(T));
+    bool set_device_list_contents(const std::vector<T>& data, std::size_t first, std::size_t end) {
+        return set_device_list_contents(std::as_bytes(std::span(data)), first * sizeof(T),
+                                        end * sizeof(T));
     }
     /// Makes slot `slot` bind the contents. No frame may be in flight in the slot. Returns the
     /// number of writes to device memory. Throws as gpu::GpuBuffer does.
-    std::size_t write_changed_pages(gpu::GpuDevice& device, std::size_t slot);
-    /// Returns the buffer that `write_changed_pages` chose for the slot.
+    std::size_t upload_changed_pages(gpu::GpuDevice& device, std::size_t slot);
+    /// Returns the buffer that `upload_changed_pages` chose for the slot.
     const gpu::GpuBuffer& buffer_of_device_copy(std::size_t slot) const {
         return copies_[*bound_[slot]].buffer;
     }
@@ -46,8 +46,9 @@ private:
         std::uint64_t version = 0;
     };
 
-    bool set_list_contents(std::span<const std::byte> data, std::size_t first, std::size_t end);
-    std::size_t find_free_copy(std::size_t slot);
+    bool set_device_list_contents(std::span<const std::byte> data, std::size_t first,
+                                  std::size_t end);
+    std::size_t find_free_device_copy(std::size_t slot);
 
     std::string list_name_;
     gpu::BufferUsage use_;

@@ -32,7 +32,8 @@ std::string choose_vertex_shader(bool own, const shared::View& view) {
 /// Draws one object into the layers whose views it may meet. Draws neighbouring layers in one call
 /// for each run of triangles.
 void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t object,
-                 std::uint32_t first_view, std::uint32_t layers, const DrawnObjectParts& parts) {
+                 std::uint32_t first_view, std::uint32_t layers,
+                 const OpaqueOrBlendedParts& parts) {
     const ObjectDrawRange& range = scene.list_draw_ranges()[object];
     const auto instance = static_cast<std::uint32_t>(object) << shared::kInstanceLayerBits;
     scene.bind_vertices(commands, object);
@@ -84,7 +85,8 @@ void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures)
 }
 
 /// Adds the constants that tell a shader where the captures are stored.
-void add_capture_place_constants(const MirrorCaptures& captures, gpu::ShaderConstants& constants) {
+void add_capture_slot_shader_constants(const MirrorCaptures& captures,
+                                       gpu::ShaderConstantValues& constants) {
     const auto unit_of = [](const CaptureOptions& options) { return options.stored_unit; };
     const float unit = unit_of(captures.options.front());
     const bool same = std::ranges::all_of(
@@ -99,9 +101,9 @@ void add_capture_place_constants(const MirrorCaptures& captures, gpu::ShaderCons
 }
 
 /// Returns the constants of the pass for fragment shaders that draw objects with a colour.
-gpu::ShaderConstants make_fragment_shader_constants(const GpuScene& scene,
-                                                    const SceneDrawSettings& drawing) {
-    gpu::ShaderConstants features;
+gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
+                                                         const SceneDrawSettings& drawing) {
+    gpu::ShaderConstantValues features;
     if (drawing.peeled) features.emplace_back("peels", 1u);
     if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
@@ -110,26 +112,27 @@ gpu::ShaderConstants make_fragment_shader_constants(const GpuScene& scene,
 
 void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                   const MirrorShader& look, const ObjectFilter& wanted,
-                  const DrawnObjectParts& parts) {
-    gpu::RasterState state{"", kBlackMirrorShader, drawing.store};
+                  const OpaqueOrBlendedParts& parts) {
+    gpu::RasterPipelineState state{"", kBlackMirrorShader, drawing.store};
     state.features = make_fragment_shader_constants(scene, drawing);
     if (!look.fragment.empty() && !look.blank) {
         state.fragment = look.fragment +
                          (look.ablated && !drawing.peeled ? "#ablate" : look.variant);
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
         if (look.captures) bind_capture_images(commands, *look.captures);
-        if (look.captures) add_capture_place_constants(*look.captures, state.constants);
+        if (look.captures) add_capture_slot_shader_constants(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind_resource(name, images);
         for (const auto& [name, buffer] : look.buffers) commands.bind_resource(name, buffer);
     }
-    const auto& draw = drawing.peeled ? draw_objects : draw_objects_without_backs;
+    const auto& draw = drawing.peeled ? draw_objects : draw_objects_with_backface_culling;
     draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted, parts);
 }
 
 /// Returns whether no back face of the object is visible in a view and back faces can be skipped.
 /// For a sphere they are half of all triangles. Returns false if the eye is inside the object's
 /// bounds or the view has a clip plane.
-bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::size_t object) {
+bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& view,
+                                   std::size_t object) {
     const ObjectDrawRange& range = scene.list_draw_ranges()[object];
     const bool within = all(lessThanEqual(range.bounds.lo, view.eye)) &&
                         all(lessThanEqual(view.eye, range.bounds.hi));
@@ -138,9 +141,9 @@ bool can_cull_back_faces(const GpuScene& scene, const shared::View& view, std::s
 
 /// Draws the parts of the wanted objects that are not opaque over the picture, the farthest object
 /// first, and of each object first what faces away. `state`: that of opaque objects.
-void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
-                          const SceneDrawSettings& drawing, const ObjectFilter& wanted,
-                          const DrawnObjectParts& parts) {
+void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
+                          gpu::RasterPipelineState state, const SceneDrawSettings& drawing,
+                          const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
     const shared::View& view = scene.list_views()[drawing.first_view];
     std::vector<std::pair<float, std::size_t>> order; // distance, object
     for (std::size_t i = 0; i < scene.list_draw_ranges().size(); ++i) {
@@ -152,7 +155,7 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::Ra
     std::ranges::stable_sort(order, std::ranges::greater(), &std::pair<float, std::size_t>::first);
     state.blended = true;
     state.constants.emplace_back("drawn_parts", shared::kDrawBlendedParts);
-    std::ranges::copy(scene.shader_features(drawing.first_view),
+    std::ranges::copy(scene.shader_feature_constants(drawing.first_view),
                       std::back_inserter(state.features));
     const gpu::TriangleWinding backs = find_back_face_winding(view),
                                fronts = backs == gpu::TriangleWinding::clockwise
@@ -173,10 +176,11 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene, gpu::Ra
 
 } // namespace
 
-void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
+void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipelineState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, const DrawnObjectParts& parts) {
-    std::ranges::copy(scene.shader_features(first_view), std::back_inserter(state.features));
+                  const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
+    std::ranges::copy(scene.shader_feature_constants(first_view),
+                      std::back_inserter(state.features));
     for (const bool own : {false, true}) {
         if (own && !scene.has_object_spaces()) break;
         state.vertex = choose_vertex_shader(own, scene.list_views()[first_view]);
@@ -192,12 +196,15 @@ void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterStat
     }
 }
 
-void draw_objects_without_backs(PassCommands& commands, const GpuScene& scene,
-                                gpu::RasterState state, std::uint32_t first_view,
-                                std::uint32_t layers, std::uint32_t ablated,
-                                const ObjectFilter& wanted, const DrawnObjectParts& parts) {
+void draw_objects_with_backface_culling(PassCommands& commands, const GpuScene& scene,
+                                        gpu::RasterPipelineState state, std::uint32_t first_view,
+                                        std::uint32_t layers, std::uint32_t ablated,
+                                        const ObjectFilter& wanted,
+                                        const OpaqueOrBlendedParts& parts) {
     const shared::View& view = scene.list_views()[first_view];
-    const auto is_front = [&](std::size_t i) { return can_cull_back_faces(scene, view, i); };
+    const auto is_front = [&](std::size_t i) {
+        return can_cull_back_faces_of_object(scene, view, i);
+    };
     draw_objects(
         commands, scene, state, first_view, layers, ablated,
         [&](std::size_t i) { return wanted(i) && !is_front(i); }, parts);
@@ -209,15 +216,17 @@ void draw_objects_without_backs(PassCommands& commands, const GpuScene& scene,
 
 void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSettings& drawing,
                 const ObjectFilter& wanted, std::span<const std::uint8_t> shown) {
-    const DrawnObjectParts whole{nullptr, shown};
+    const OpaqueOrBlendedParts whole{nullptr, shown};
     const auto& [first_view, layers, lighting, looks, store, completing_tracer, peeled] = drawing;
-    const gpu::ShaderConstants features = make_fragment_shader_constants(scene, drawing);
+    const gpu::ShaderConstantValues features = make_fragment_shader_constants(scene, drawing);
     scene.bind(commands);
-    if (std::ranges::any_of(looks->looks, &MirrorShader::ablated)) scene.bind_tracing(commands);
+    if (std::ranges::any_of(looks->looks, &MirrorShader::ablated))
+        scene.bind_ray_tracing_buffers(commands);
     if (lighting.shadow_map)
         commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
     if (peeled) commands.bind_resource("first_layer", *peeled);
-    gpu::RasterState diffuse{"", "diffuse.frag", store, gpu::TriangleWinding::none, features};
+    gpu::RasterPipelineState diffuse{"", "diffuse.frag", store, gpu::TriangleWinding::none,
+                                     features};
     if (completing_tracer.number > 0) {
         diffuse.fragment += "#first";
         diffuse.constants.emplace_back("tracer", completing_tracer.number);
@@ -237,7 +246,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     };
     const auto is_black = [&](std::size_t object) {
         return first_view == GpuScene::kCameraViewIndex &&
-               scene.hides_everything_from_camera(object);
+               scene.is_object_hidden_from_camera(object);
     };
     const auto draw_all_mirrors = [&] {
         for (std::uint32_t look = 0; look < looks->looks.size(); ++look)
@@ -249,7 +258,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
                            !is_black(i);
                 },
                 whole);
-        for (const MirrorPartShader& part : looks->parts)
+        for (const MirrorSubsetShader& part : looks->parts)
             draw_mirrors(commands, scene, drawing, looks->looks[part.look],
                          [&](std::size_t i) {
                              return scene.mirror_number_of_object(i) == part.mirror + 1 &&
@@ -259,7 +268,8 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     };
     // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
     // shading what they hide.
-    const bool mirrors_first = scene.uses_mirror_bvh() && first_view != GpuScene::kCameraViewIndex;
+    const bool mirrors_first = scene.uses_bvh_over_mirrors() &&
+                               first_view != GpuScene::kCameraViewIndex;
     if (mirrors_first) draw_all_mirrors();
     draw_diffuse(false, gpu::TriangleWinding::none);
     if (std::ranges::any_of(scene.list_draw_ranges(), &ObjectDrawRange::one_sided))
@@ -277,7 +287,8 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
 void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
                            const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                            std::span<const std::uint8_t> shown) {
-    if (!scene.blends_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled) return;
+    if (!scene.has_blended_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled)
+        return;
     scene.bind(commands);
     if (drawing.lighting.shadow_map)
         commands.bind_resource("shadow_map", *drawing.lighting.shadow_map, TextureFilter::compare);

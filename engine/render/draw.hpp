@@ -12,7 +12,7 @@ namespace catoptric::render {
 using ObjectFilter = std::function<bool(std::size_t)>;
 
 /// The part of each object to draw.
-struct DrawnObjectParts {
+struct OpaqueOrBlendedParts {
     const std::vector<scene::TriangleIndexRun>* triangles = nullptr; ///< null: all triangles
     /// For each object, the layers to draw it into: bit k stands for layer k (shown_faces.hpp).
     /// Empty: all layers whose views may meet the object.
@@ -22,30 +22,32 @@ struct DrawnObjectParts {
 /// Draws the wanted objects with this fragment shader and state. Draws each object into those
 /// layers whose views may meet it; the views start at `first_view`. Draws objects with an object
 /// space last.
-void draw_objects(graph::PassCommands& commands, const GpuScene& scene, gpu::RasterState state,
-                  std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
-                  const ObjectFilter& wanted, const DrawnObjectParts& parts = {});
+void draw_objects(graph::PassCommands& commands, const GpuScene& scene,
+                  gpu::RasterPipelineState state, std::uint32_t first_view, std::uint32_t layers,
+                  std::uint32_t ablated, const ObjectFilter& wanted,
+                  const OpaqueOrBlendedParts& parts = {});
 
 /// Draws as draw_objects does, but without back faces of objects that hide their own back. Not
 /// valid for depth peeling, which shows surfaces behind a first layer.
-void draw_objects_without_backs(graph::PassCommands& commands, const GpuScene& scene,
-                                gpu::RasterState state, std::uint32_t first_view,
-                                std::uint32_t layers, std::uint32_t ablated,
-                                const ObjectFilter& wanted, const DrawnObjectParts& parts = {});
+void draw_objects_with_backface_culling(graph::PassCommands& commands, const GpuScene& scene,
+                                        gpu::RasterPipelineState state, std::uint32_t first_view,
+                                        std::uint32_t layers, std::uint32_t ablated,
+                                        const ObjectFilter& wanted,
+                                        const OpaqueOrBlendedParts& parts = {});
 
 /// The settings with which a picture of the scene is drawn.
 struct SceneDrawSettings {
     std::uint32_t first_view = 0, layers = 1;
     ShadingLights lighting;
-    std::shared_ptr<const MirrorShaders> looks; ///< shaders of the mirrors
-    gpu::ShaderConstants store;                 ///< constants for storing distances and surfaces
+    std::shared_ptr<const ShaderOfEachMirror> looks; ///< shaders of the mirrors
+    gpu::ShaderConstantValues store; ///< constants for storing distances and surfaces
     ShadingTracer completing_tracer;
     /// Distances of a first layer; only surfaces behind them are drawn.
     std::optional<graph::ImageHandle> peeled;
 };
 
 /// Draws all wanted objects: non-mirrors first, then mirrors. Captures in scenes with many mirrors
-/// draw the mirrors first. `layers`: see DrawnObjectParts.
+/// draw the mirrors first. `layers`: see OpaqueOrBlendedParts.
 void draw_scene(graph::PassCommands& commands, const GpuScene& scene,
                 const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                 std::span<const std::uint8_t> layers = {});

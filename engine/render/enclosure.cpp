@@ -12,18 +12,19 @@ namespace {
 // Tolerance for a sum of solid angles, far above its rounding error.
 constexpr double kSolidAngleTolerance = 1e-3;
 
-using PointKey = std::array<double, 3>;
+using VertexPositionKey = std::array<double, 3>;
 
-PointKey make_point_key(const dvec3& p) { return {p.x, p.y, p.z}; }
+VertexPositionKey make_vertex_position_key(const dvec3& p) { return {p.x, p.y, p.z}; }
 
 /// Returns whether each edge is traversed equally often in both directions. Edges are compared by
 /// position, not by vertex index. `at(k)`: corner k, three corners a triangle.
 template <typename At>
-bool is_closed_surface(std::size_t corners, At&& at) {
-    std::map<std::pair<PointKey, PointKey>, int> runs;
+bool is_closed_triangle_surface(std::size_t corners, At&& at) {
+    std::map<std::pair<VertexPositionKey, VertexPositionKey>, int> runs;
     for (std::size_t k = 0; k < corners; k += 3)
         for (std::size_t j = 0; j < 3; ++j) {
-            const PointKey a = make_point_key(at(k + j)), b = make_point_key(at(k + (j + 1) % 3));
+            const VertexPositionKey a = make_vertex_position_key(at(k + j)),
+                                    b = make_vertex_position_key(at(k + (j + 1) % 3));
             if (a < b) ++runs[{a, b}];
             if (b < a) --runs[{b, a}];
         }
@@ -57,7 +58,7 @@ bool does_object_enclose_point(const FrameGeometry& geometry, const ObjectDrawRa
     // Inside, the sum is the whole sphere of directions. On a face it is half of that, and on an
     // edge or a corner a fraction. Outside it is 0.
     return std::abs(seen) > kSolidAngleTolerance &&
-           is_closed_surface(range.index_count, [&](std::size_t k) {
+           is_closed_triangle_surface(range.index_count, [&](std::size_t k) {
                return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);
            });
 }
@@ -70,7 +71,7 @@ bool is_closed_shell(const scene::Mesh& mesh) {
     const bool faces_out = std::ranges::all_of(mesh.triangles, [&](const uvec3& t) {
         return dot(arm(t.x), cross(arm(t.y), arm(t.z))) > 0;
     });
-    return faces_out && is_closed_surface(3 * mesh.triangles.size(), [&](std::size_t k) {
+    return faces_out && is_closed_triangle_surface(3 * mesh.triangles.size(), [&](std::size_t k) {
                return mesh.positions[mesh.triangles[k / 3][static_cast<int>(k % 3)]];
            });
 }

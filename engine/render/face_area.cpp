@@ -12,14 +12,14 @@ require::CubeFacePart grow_face_part_to_texels(const require::CubeFacePart& part
     return {first / size * 2. - 1., end / size * 2. - 1.};
 }
 
-std::optional<graph::PixelArea> face_part_to_pixel_area(const require::CubeFacePart& part,
-                                                        std::uint32_t edge) {
+std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::CubeFacePart& part,
+                                                             std::uint32_t edge) {
     if (part.is_whole_face()) return {};
     const auto texel = [&](const dvec2& place) {
         return uvec2(round((place * .5 + .5) * static_cast<double>(edge)));
     };
     const uvec2 first = texel(part.low), size = texel(part.high) - first;
-    return graph::PixelArea{first.x, first.y, size.x, size.y};
+    return graph::PixelRectangle{first.x, first.y, size.x, size.y};
 }
 
 require::CubeFacePart face_part_showing_box(const shared::View& view, int face,

@@ -14,8 +14,8 @@ namespace catoptric::render {
 require::CubeFacePart grow_face_part_to_texels(const require::CubeFacePart& part,
                                                std::uint32_t edge);
 /// Returns the texels of a part from grow_face_part_to_texels; nothing for a whole face.
-std::optional<graph::PixelArea> face_part_to_pixel_area(const require::CubeFacePart& part,
-                                                        std::uint32_t edge);
+std::optional<graph::PixelRectangle> face_part_to_pixel_area(const require::CubeFacePart& part,
+                                                             std::uint32_t edge);
 
 /// Returns the part of a capture face that shows a box in scene units. `view`: the view of that
 /// face.

@@ -15,7 +15,7 @@ constexpr double kRightAngleRadians = std::numbers::pi / 2;
 constexpr std::uint32_t kCaptureEdgeMultiple = 16;
 
 /// One triangle of a mirror.
-struct MirrorFacet {
+struct MirrorMeshTriangle {
     std::array<dvec3, 3> position, normal;
 
     dvec3 facet_centre() const { return (position[0] + position[1] + position[2]) / 3.0; }
@@ -27,7 +27,7 @@ struct MirrorFacet {
 /// Returns the least and the largest normal curvature of the surface with the facet's interpolated
 /// normals. They are the eigenvalues of the symmetric part of the matrix that maps two edges to the
 /// change of normal along them.
-std::array<double, 2> compute_principal_curvatures(const MirrorFacet& facet) {
+std::array<double, 2> compute_principal_curvatures(const MirrorMeshTriangle& facet) {
     const dvec3 edge1 = facet.position[1] - facet.position[0],
                 edge2 = facet.position[2] - facet.position[0];
     const dvec3 turn1 = facet.normal[1] - facet.normal[0],
@@ -49,7 +49,7 @@ std::array<dvec3, 5> list_picture_side_planes(const shared::View& view) {
     return {forward, forward + right, forward - right, forward + down, forward - down};
 }
 
-bool is_facet_in_picture(const PicturePixelGrid& pixels, const MirrorFacet& facet) {
+bool is_facet_in_picture(const PicturePixelGrid& pixels, const MirrorMeshTriangle& facet) {
     return std::ranges::none_of(list_picture_side_planes(pixels.view), [&](const dvec3& inward) {
         return std::ranges::all_of(facet.position, [&](const dvec3& corner) {
             return dot(inward, corner - dvec3(pixels.view.eye)) <= 0;
@@ -64,11 +64,11 @@ double cosine_to_view_axis(const shared::View& view, const dvec3& place) {
     return distance > 0 ? dot(seen, dvec3(view.forward)) / distance : 0;
 }
 
-double texels_needed_by_facet(const PicturePixelGrid& pixels, const MirrorFacet& facet) {
+double cube_edge_needed_by_facet(const PicturePixelGrid& pixels, const MirrorMeshTriangle& facet) {
     double to_axis = 1;
     for (const dvec3& corner : facet.position)
         to_axis = std::min(to_axis, cosine_to_view_axis(pixels.view, corner));
-    const double pixel_angle = pixels.angle_per_pixel(to_axis);
+    const double pixel_angle = pixels.camera_angle_per_pixel(to_axis);
     const dvec3 to_eye = dvec3(pixels.view.eye) - facet.facet_centre();
     const double distance = glm::length(to_eye);
     const double cosine = distance > 0 ? dot(to_eye, facet.mean_normal_of_vertices()) / distance
@@ -85,14 +85,14 @@ double texels_needed_by_facet(const PicturePixelGrid& pixels, const MirrorFacet&
 
 } // namespace
 
-double PicturePixelGrid::corner_cosine() const {
+double PicturePixelGrid::cosine_to_view_at_corner() const {
     const double across = 1 / glm::length(dvec3(view.right)),
                  up = 1 / glm::length(dvec3(view.down));
     return 1 / std::sqrt(1 + across * across + up * up);
 }
 
-double PicturePixelGrid::angle_per_pixel(double cosine) const {
-    const double at_most = std::max(cosine, corner_cosine());
+double PicturePixelGrid::camera_angle_per_pixel(double cosine) const {
+    const double at_most = std::max(cosine, cosine_to_view_at_corner());
     return 2 / (glm::length(dvec3(view.down)) * height) * at_most * at_most;
 }
 
@@ -104,12 +104,13 @@ double angle_between_reflected_pixels(double pixel_angle, double distance, doubl
 
 double cube_edge_texels_for_footprint(double footprint) { return kRightAngleRadians / footprint; }
 
-double texels_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre, double radius) {
+double cube_edge_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre,
+                                  double radius) {
     const dvec3 seen = dvec3(centre) - dvec3(pixels.view.eye);
     for (const dvec3& inward : list_picture_side_planes(pixels.view))
         if (dot(inward, seen) <= -radius * glm::length(inward)) return 0;
     const double distance = glm::length(seen);
-    if (distance <= radius) return cube_edge_texels_for_footprint(pixels.angle_per_pixel(0));
+    if (distance <= radius) return cube_edge_texels_for_footprint(pixels.camera_angle_per_pixel(0));
     // Samples the sphere in the plane of the axis and its centre, outwards from the centre, because
     // pixels shrink in that direction.
     const double axis = std::acos(
@@ -121,19 +122,20 @@ double texels_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centr
                               kCurvatureRadiusSamples; // distance of the ray from the centre
         const double cosine = std::sqrt(1 - across * across / (radius * radius));
         const double along = std::sqrt(distance * distance - across * across) - radius * cosine;
-        const double pixel = pixels.angle_per_pixel(std::cos(axis + std::asin(across / distance)));
+        const double pixel = pixels.camera_angle_per_pixel(
+            std::cos(axis + std::asin(across / distance)));
         need = std::max(need, cube_edge_texels_for_footprint(angle_between_reflected_pixels(
                                   pixel, along, 1 / radius, cosine)));
     }
     return need;
 }
 
-double texels_needed_by_mesh(const PicturePixelGrid& pixels,
-                             std::span<const shared::Vertex> vertices,
-                             std::span<const std::uint32_t> indices) {
+double cube_edge_needed_by_mesh(const PicturePixelGrid& pixels,
+                                std::span<const shared::Vertex> vertices,
+                                std::span<const std::uint32_t> indices) {
     double need = 0;
     for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
-        MirrorFacet facet;
+        MirrorMeshTriangle facet;
         for (std::size_t j = 0; j < 3; ++j) {
             const shared::Vertex& vertex = vertices[indices[k + j]];
             facet.position[j] = dvec3(vertex.position), facet.normal[j] = dvec3(vertex.normal);
@@ -141,14 +143,16 @@ double texels_needed_by_mesh(const PicturePixelGrid& pixels,
         const dvec3 area = glm::cross(facet.position[1] - facet.position[0],
                                       facet.position[2] - facet.position[0]);
         if (glm::length(area) > 0 && is_facet_in_picture(pixels, facet))
-            need = std::max(need, texels_needed_by_facet(pixels, facet));
+            need = std::max(need, cube_edge_needed_by_facet(pixels, facet));
     }
     return need;
 }
 
-double texels_needed_by_lobe(double alpha) { return f64::alpha_of_capture_level(1., 1.) / alpha; }
+double cube_edge_needed_by_lobe(double alpha) {
+    return f64::alpha_of_capture_level(1., 1.) / alpha;
+}
 
-std::uint32_t choose_common_capture_edge(std::span<const double> needs, std::uint32_t most) {
+std::uint32_t choose_common_capture_face_edge(std::span<const double> needs, std::uint32_t most) {
     const double need = needs.empty() ? 0 : *std::ranges::max_element(needs);
     if (!(need < most)) return most;
     const auto multiples = static_cast<std::uint32_t>(std::ceil(need / kCaptureEdgeMultiple));

@@ -20,9 +20,9 @@ struct PicturePixelGrid {
 
     /// Returns the smallest angle between neighbouring pixels. `cosine`: of the direction's angle
     /// to the axis, above 0. Directions beyond the picture's corner count as the corner.
-    double angle_per_pixel(double cosine) const;
+    double camera_angle_per_pixel(double cosine) const;
     /// Returns the cosine of the angle between the axis and the corner of the picture.
-    double corner_cosine() const;
+    double cosine_to_view_at_corner() const;
 };
 
 /// Returns the angle between the reflected directions of two neighbouring pixels on a mirror at
@@ -41,24 +41,25 @@ double cube_edge_texels_for_footprint(double footprint);
 
 /// Returns the largest cube_edge_texels_for_footprint on a sphere. The maximum lies near the
 /// sphere's point that is closest to the eye. Returns 0 for a sphere outside the picture.
-double texels_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre, double radius);
+double cube_edge_needed_by_sphere(const PicturePixelGrid& pixels, const vec3& centre,
+                                  double radius);
 
 /// Returns the largest cube_edge_texels_for_footprint of a mesh's triangles. Each triangle uses the
 /// two principal curvatures that its corner normals give (Rusinkiewicz 2004), and the pixel angle
 /// at the corner farthest from the axis. Facets without smooth normals are flat. Both sides of a
 /// triangle count as reflecting. Objects that hide the mirror are ignored. Returns 0 if no triangle
 /// with an area is in the picture.
-double texels_needed_by_mesh(const PicturePixelGrid& pixels,
-                             std::span<const shared::Vertex> vertices,
-                             std::span<const std::uint32_t> indices);
+double cube_edge_needed_by_mesh(const PicturePixelGrid& pixels,
+                                std::span<const shared::Vertex> vertices,
+                                std::span<const std::uint32_t> indices);
 
 /// Returns the texels along the edge of a cube face that a rough surface needs: with them, the
 /// lobe's width alpha is that of the first filtered level (shaders/lib/math/rough.glsl). A finer
 /// capture would be filtered to the same picture. `alpha`: above 0.
-double texels_needed_by_lobe(double alpha);
+double cube_edge_needed_by_lobe(double alpha);
 
 /// Returns the common edge of captures in one cube array: the largest need, rounded up to a
 /// multiple of 16, at least 16 and at most `most`. The small multiple keeps the excess small.
-std::uint32_t choose_common_capture_edge(std::span<const double> needs, std::uint32_t most);
+std::uint32_t choose_common_capture_face_edge(std::span<const double> needs, std::uint32_t most);
 
 } // namespace catoptric::render

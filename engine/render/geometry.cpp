@@ -35,9 +35,10 @@ void write_object_indices(FrameGeometry& geometry, const scene::Mesh& mesh,
 }
 
 /// Writes the vertices that all copies of a mesh share. Returns their space.
-SharedMeshSpace write_shared_vertices(FrameGeometry& geometry, const scene::Mesh& mesh,
-                                      const ObjectDrawRange& range) {
-    SharedMeshSpace space = make_mesh_space(mesh);
+SharedMeshCoordinateSpace write_shared_mesh_vertices(FrameGeometry& geometry,
+                                                     const scene::Mesh& mesh,
+                                                     const ObjectDrawRange& range) {
+    SharedMeshCoordinateSpace space = make_mesh_space(mesh);
     const dmat3 to_own(space.unit), normal_to_own(1);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const vec3 position(to_own * (mesh.positions[i] - space.middle));
@@ -52,7 +53,7 @@ SharedMeshSpace write_shared_vertices(FrameGeometry& geometry, const scene::Mesh
 
 /// Writes the vertices of a single object into its object space. Returns whether they changed.
 bool write_object_space_vertices(FrameGeometry& geometry, const scene::Scene& now,
-                                 const SceneUnits& space, std::size_t index) {
+                                 const SceneUnitTransform& space, std::size_t index) {
     const scene::Object& object = now.objects[index];
     const scene::Mesh& mesh = now.meshes[object.mesh];
     ObjectDrawRange& range = geometry.ranges[index];
@@ -84,7 +85,7 @@ bool write_object_space_vertices(FrameGeometry& geometry, const scene::Scene& no
 
 /// Writes the object's vertices in scene units.
 void write_scene_space_vertices(FrameGeometry& geometry, const scene::Scene& now,
-                                const SceneUnits& space, std::size_t index) {
+                                const SceneUnitTransform& space, std::size_t index) {
     const dmat4& world_from_object = now.objects[index].world_from_object;
     const scene::Mesh& mesh = now.meshes[now.objects[index].mesh];
     const dmat3 normal_to_world = scene::compute_normal_matrix(world_from_object);
@@ -212,18 +213,18 @@ void assign_attribute_ranges(FrameGeometry& geometry, const scene::Scene& now) {
 
 } // namespace
 
-FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnits& space,
-                                  VertexSpaceChoice spaces) {
+FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnitTransform& space,
+                                  VertexCoordinateSpaceChoice spaces) {
     FrameGeometry geometry{.core = space.core, .spaces = spaces};
-    const std::vector<bool> shared = spaces == VertexSpaceChoice::object_space
+    const std::vector<bool> shared = spaces == VertexCoordinateSpaceChoice::object_space
                                          ? find_objects_sharing_meshes(now)
                                          : std::vector<bool>(now.objects.size());
     for (std::size_t i = 0; i < now.objects.size(); ++i) {
         ObjectDrawRange range = make_draw_range(now, now.objects[i]);
         range.storage = static_cast<std::uint32_t>(i);
         range.shares = shared[i];
-        if (range.shares || (spaces == VertexSpaceChoice::object_space &&
-                             is_small_for_its_distance(now, now.objects[i], space)))
+        if (range.shares || (spaces == VertexCoordinateSpaceChoice::object_space &&
+                             is_object_small_for_its_distance(now, now.objects[i], space)))
             range.own.emplace();
         geometry.ranges.push_back(range);
     }
@@ -233,7 +234,8 @@ FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnits& spa
         const ObjectDrawRange& range = geometry.ranges[i];
         const std::size_t mesh = now.objects[i].mesh;
         if (range.shares && range.storage == i)
-            geometry.mesh_spaces[mesh] = write_shared_vertices(geometry, now.meshes[mesh], range);
+            geometry.mesh_spaces[mesh] = write_shared_mesh_vertices(geometry, now.meshes[mesh],
+                                                                    range);
         move_object_geometry(geometry, now, space, i);
     }
     return geometry;
@@ -255,20 +257,21 @@ float compute_bounding_radius(const FrameGeometry& geometry, const ObjectDrawRan
 }
 
 bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
-                              const SceneUnits& space, std::size_t object) {
-    if (geometry.spaces == VertexSpaceChoice::scene_space) return false;
+                              const SceneUnitTransform& space, std::size_t object) {
+    if (geometry.spaces == VertexCoordinateSpaceChoice::scene_space) return false;
     const ObjectDrawRange& range = geometry.ranges[object];
     if (range.shares) return !may_object_share_mesh(now, now.objects[object]);
-    return range.own.has_value() != is_small_for_its_distance(now, now.objects[object], space);
+    return range.own.has_value() !=
+           is_object_small_for_its_distance(now, now.objects[object], space);
 }
 
-bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
-                          std::size_t index) {
+bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now,
+                          const SceneUnitTransform& space, std::size_t index) {
     const scene::Object& object = now.objects[index];
     ObjectDrawRange& range = geometry.ranges[index];
     bool changed = !range.shares;
     if (range.shares) {
-        const SharedMeshSpace& mesh = geometry.mesh_spaces.at(object.mesh);
+        const SharedMeshCoordinateSpace& mesh = geometry.mesh_spaces.at(object.mesh);
         range.own = make_object_space(mesh, object.world_from_object, space);
         range.bounds = object_bounds_in_scene_units(*range.own, mesh.box);
     } else if (range.own) {

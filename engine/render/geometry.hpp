@@ -11,7 +11,7 @@
 namespace catoptric::render {
 
 /// The choice of objects that are stored in object space.
-enum class VertexSpaceChoice {
+enum class VertexCoordinateSpaceChoice {
     scene_space, ///< none: all vertices are in scene units
     object_space ///< some: see make_frame_geometry
 };
@@ -63,26 +63,27 @@ struct FrameGeometry {
     /// Vertex attributes, stored once for each mesh that has them.
     std::vector<shared::VertexAttribute> attributes;
     /// Object spaces of meshes that copies share, by mesh index.
-    std::map<std::size_t, SharedMeshSpace> mesh_spaces;
-    Bounds<float> core; ///< bounds of most of the scene (SceneUnits::core)
-    VertexSpaceChoice spaces = VertexSpaceChoice::scene_space;
+    std::map<std::size_t, SharedMeshCoordinateSpace> mesh_spaces;
+    Bounds<float> core; ///< bounds of most of the scene (SceneUnitTransform::core)
+    VertexCoordinateSpaceChoice spaces = VertexCoordinateSpaceChoice::scene_space;
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };
-/// Builds the geometry of a scene. With VertexSpaceChoice::object_space, an object keeps an object
-/// space if it is small (is_small) or one of many copies (shared_objects). Costs O(n) in stored
-/// vertices and triangles; a copy that shares its mesh costs O(1).
-FrameGeometry make_frame_geometry(const scene::Scene& now, const SceneUnits& space,
-                                  VertexSpaceChoice spaces = VertexSpaceChoice::scene_space);
+/// Builds the geometry of a scene. With VertexCoordinateSpaceChoice::object_space, an object keeps
+/// an object space if it is small (is_small) or one of many copies (shared_objects). Costs O(n) in
+/// stored vertices and triangles; a copy that shares its mesh costs O(1).
+FrameGeometry
+make_frame_geometry(const scene::Scene& now, const SceneUnitTransform& space,
+                    VertexCoordinateSpaceChoice spaces = VertexCoordinateSpaceChoice::scene_space);
 
 /// Returns whether `make_frame_geometry` would now choose another kind of space for the object.
 bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
-                              const SceneUnits& space, std::size_t object);
+                              const SceneUnitTransform& space, std::size_t object);
 
 /// Moves an object's triangles to their present place. Nothing else about the object may have
 /// changed since `make_frame_geometry`. Returns whether vertices changed; moving only an object
 /// space changes none. Throws as check_reach does.
-bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now, const SceneUnits& space,
-                          std::size_t index);
+bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now,
+                          const SceneUnitTransform& space, std::size_t index);
 
 /// Returns the squared distance from p to the triangle (Ericson, Real-Time Collision Detection,
 /// 5.1.5).

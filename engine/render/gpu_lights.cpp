@@ -12,7 +12,7 @@ namespace catoptric::render {
 namespace {
 
 /// Returns the light's entry, without its position and its shadow axes.
-shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits& space) {
+shared::Light make_light_entry(const scene::PointLight& light, const SceneUnitTransform& space) {
     const scene::LightKind& kind = scene::find_light_kind(light.kind);
     shared::Light entry{};
     entry.normal = vec3(light.normal);
@@ -34,7 +34,7 @@ shared::Light make_light_entry(const scene::PointLight& light, const SceneUnits&
 
 } // namespace
 
-void GpuScene::fill_lights(const scene::Scene& now, bool others) {
+void GpuScene::fill_light_table(const scene::Scene& now, bool others) {
     if (others) world_lights_ = scene::list_lights(now);
     check(world_lights_.size() <= shared::kMaxLights, Failure::exhausted, "the scene has ",
           world_lights_.size(), " lights, ", shared::kMaxLights, " are allowed");
@@ -72,7 +72,7 @@ void GpuScene::fill_lights(const scene::Scene& now, bool others) {
     }
     std::vector<shared::Light> all = lights_;
     all.resize(shared::kMaxLights);
-    light_buffer_.set_list_contents(all);
+    light_buffer_.set_device_list_contents(all);
 }
 
 std::vector<shared::View> GpuScene::shadow_views(const shared::Light& light) const {

@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint32_t kNoMirrorNumber = 0;
 
 shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
-                                   std::uint32_t mirror, const SceneUnits& space) {
+                                   std::uint32_t mirror, const SceneUnitTransform& space) {
     shared::Surface surface{};
     // Diffuse light of a mirror counts only if the mirror reflects less than all light.
     const bool is_pure = material.mirror && material.reflectance == vec3(1);
@@ -36,8 +36,8 @@ shared::Surface make_surface_entry(const scene::Object& object, const scene::Mat
 }
 
 /// Returns the flat faces of a mirror, in scene units.
-scene::FlatFaces flat_mirror_faces_in_scene_units(const SceneUnits& space, const scene::Scene& now,
-                                                  std::size_t object) {
+scene::FlatFaces flat_mirror_faces_in_scene_units(const SceneUnitTransform& space,
+                                                  const scene::Scene& now, std::size_t object) {
     scene::FlatFaces flats = scene::find_flat_faces(now, now.objects[object]);
     for (scene::FlatFace& face : flats.faces) {
         face.point = space.world_to_scene_units(face.point);
@@ -61,7 +61,8 @@ std::vector<bool> find_moving_objects(const scene::Scene& scene) {
 }
 
 /// Returns the scene after checking that it fits on the device.
-const scene::Scene& check_scene_fits(const gpu::GpuDevice& device, const scene::Scene& scene) {
+const scene::Scene& check_scene_fits_device_limits(const gpu::GpuDevice& device,
+                                                   const scene::Scene& scene) {
     check_geometry_limits(scene.name, count_scene_amounts(scene),
                           {device.max_texel_count(sizeof(vec4)),
                            device.vulkan_limits().maxStorageBufferRange,
@@ -71,7 +72,7 @@ const scene::Scene& check_scene_fits(const gpu::GpuDevice& device, const scene::
 
 /// Returns the objects that are in all lists. `lists`: by object, 1 for an object in the list.
 std::vector<std::uint8_t>
-intersect_object_lists(const std::vector<std::vector<std::uint8_t>>& lists) {
+intersect_object_flag_lists(const std::vector<std::vector<std::uint8_t>>& lists) {
     if (lists.empty()) return {};
     std::vector<std::uint8_t> result = lists.front();
     for (const std::vector<std::uint8_t>& list : lists)
@@ -82,7 +83,8 @@ intersect_object_lists(const std::vector<std::vector<std::uint8_t>>& lists) {
 } // namespace
 
 GpuScene::GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots)
-    : scene_device_(device), space_(make_scene_units(check_scene_fits(device, scene))),
+    : scene_device_(device),
+      space_(make_scene_units(check_scene_fits_device_limits(device, scene))),
       vertices_(find_moving_objects(scene), slots),
       view_buffer_("views", gpu::BufferUsage::plain, slots),
       frame_("frame", gpu::BufferUsage::uniform, slots),
@@ -99,10 +101,10 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     update_ms_ = 0, hierarchy_ms_before_ = tracing_->bvh_update_ms();
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = wants_lamp_points_ = false;
-    const SceneChanges changes = seen_.update_and_compare(now, !complete_);
+    const SceneChanges changes = seen_.update_and_find_scene_changes(now, !complete_);
     complete_ = false; // stays false if the update throws, so that the next update fills everything
     if (changes.layout)
-        rebuild_layout(now);
+        rebuild_geometry_layout(now);
     else
         move_objects(now, changes.moved);
     const bool moves_vertices = vertices_.geometry_set_count() != known_layouts_;
@@ -110,35 +112,35 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
         material_details_.fill(now, space_, geometry_, vertices_,
                                scene_device_.max_texel_count(sizeof(std::uint32_t)));
     if (changes.has_shape_changes() || changes.materials || moves_vertices) {
-        fill_surfaces(now);
+        fill_surface_table(now);
         has_lamp_table_ = false;
     }
-    if (changes.has_shape_changes()) fill_placements();
+    if (changes.has_shape_changes()) fill_instance_placement_table();
     known_layouts_ = vertices_.geometry_set_count();
-    if (changes.has_shape_changes() || changes.lights) fill_lights(now, changes.lights);
+    if (changes.has_shape_changes() || changes.lights) fill_light_table(now, changes.lights);
     if (changes.has_shape_changes() || changes.lights) {
         backdrops_.clear();
         for (const shared::Light& light : lights_)
             backdrops_.push_back(find_shadowless_backdrops(geometry_, light));
-        tracing_->set_backdrops(intersect_object_lists(backdrops_));
+        tracing_->set_backdrop_objects(intersect_object_flag_lists(backdrops_));
     }
     environment_.set_environment(now.environment, material_details_.has_lobe_surfaces());
     if (changes.has_shape_changes() || changes.lights || changes.materials)
-        fill_probes(now, changes);
+        fill_mirror_probe_table(now, changes);
     if (changes.has_shape_changes() || changes.lights || !is_same_camera(camera_, camera) ||
         size_ != size)
-        fill_views(camera, size);
+        fill_view_table(camera, size);
     if (face_needs_.empty())
-        face_needs_ = find_needed_face_edges(geometry_, mirror_objects_, probes_,
-                                             views_[kCameraViewIndex], eye_, size.y);
-    fill_frame(ambient);
-    write_buffers(slot);
+        face_needs_ = find_needed_capture_face_edges(geometry_, mirror_objects_, probes_,
+                                                     views_[kCameraViewIndex], eye_, size.y);
+    fill_frame_uniforms(ambient);
+    write_scene_buffers_to_device(slot);
     complete_ = true;
     if (first_update_ms_ == 0) first_update_ms_ = watch.elapsed_ms();
 }
 
-void GpuScene::rebuild_layout(const scene::Scene& now) {
-    geometry_ = make_frame_geometry(now, space_, VertexSpaceChoice::object_space);
+void GpuScene::rebuild_geometry_layout(const scene::Scene& now) {
+    geometry_ = make_frame_geometry(now, space_, VertexCoordinateSpaceChoice::object_space);
     has_object_spaces_ = std::ranges::any_of(
         geometry_.ranges, [](const ObjectDrawRange& range) { return range.own.has_value(); });
     mirror_objects_ = scene::mirrors(now);
@@ -165,7 +167,7 @@ void GpuScene::move_objects(const scene::Scene& now, const std::vector<std::size
     if (std::ranges::any_of(objects, [&](std::size_t object) {
             return needs_other_vertex_space(geometry_, now, space_, object);
         }))
-        return rebuild_layout(now);
+        return rebuild_geometry_layout(now);
     bool rebuild = false;
     for (const std::size_t object : objects) {
         const bool changed = move_object_geometry(geometry_, now, space_, object);
@@ -180,46 +182,47 @@ void GpuScene::move_objects(const scene::Scene& now, const std::vector<std::size
         vertices_.copy_moved_vertices(geometry_);
 }
 
-void GpuScene::fill_surfaces(const scene::Scene& now) {
+void GpuScene::fill_surface_table(const scene::Scene& now) {
     surfaces_.clear();
     std::uint32_t mirrors = 0;
     for (const scene::Object& object : now.objects) {
         const scene::Material& material = now.materials[object.material];
         surfaces_.push_back(make_surface_entry(
             object, material, scene::is_mirror(now, object) ? ++mirrors : kNoMirrorNumber, space_));
-        surfaces_.back().detail = material_details_.parameter_indices()[surfaces_.size() - 1];
+        surfaces_.back().detail =
+            material_details_.material_parameter_indices()[surfaces_.size() - 1];
     }
     // The traversal intersects exact spheres with an object space, so the shaders' list leaves them
     // out.
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;
-    surface_buffer_.set_list_contents(pack_structs_into_texels(listed));
+    surface_buffer_.set_device_list_contents(pack_structs_into_texels(listed));
 }
 
 /// Lists the triangles of lamps, for rays that aim at points on lamps.
 void GpuScene::fill_lamp_table() const {
     const std::vector<vec4> table = make_lamp_table(geometry_, surfaces_);
     has_sampled_lamps_ = !table.empty();
-    if (has_sampled_lamps_) lamp_buffer_.set_list_contents(table);
+    if (has_sampled_lamps_) lamp_buffer_.set_device_list_contents(table);
     has_lamp_table_ = true;
 }
 
 /// Writes the placements of object spaces: an entry for each object, or a single entry if no object
 /// has an object space.
-void GpuScene::fill_placements() {
+void GpuScene::fill_instance_placement_table() {
     std::vector<shared::Placement> placements(has_object_spaces_ ? geometry_.ranges.size() : 1);
     for (std::size_t i = 0; i < placements.size(); ++i) {
         const std::optional<ObjectSpace>& own = geometry_.ranges[i].own;
         if (!own) continue;
         const dmat3& axes = own->scene_from_own;
         placements[i] = {vec3(axes[0]), vec3(axes[1]), vec3(axes[2]), vec3(own->centre),
-                         bvh::float_rounding_error(own->centre)};
+                         bvh::double_to_float_rounding_error(own->centre)};
     }
-    placement_buffer_.set_list_contents(placements);
+    placement_buffer_.set_device_list_contents(placements);
 }
 
-bool GpuScene::has_other_mirrors() const {
+bool GpuScene::has_mirror_count_changed() const {
     return std::ranges::any_of(geometry_.ranges, [](const ObjectDrawRange& range) {
         return range.mirror && (!range.exact_sphere || range.lit);
     });
@@ -244,7 +247,7 @@ std::optional<scene::GlassBody> GpuScene::find_glass_body(const scene::Scene& no
 }
 
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.
-void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes) {
+void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChanges& changes) {
     const std::size_t known = changes.layout ? 0 : probes_.size();
     probes_.resize(mirror_objects_.size()), probe_places_.resize(mirror_objects_.size());
     flats_.resize(mirror_objects_.size()), inner_balls_.resize(mirror_objects_.size());
@@ -268,7 +271,7 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
         const scene::Material& material = now.materials[now.objects[object].material];
         probe.reflectance = material.mirror ? material.reflectance : material.albedo;
         const bool is_lit = geometry_.ranges[object].lit;
-        probe.kind = is_lit ? shared::kMirrorLit
+        probe.kind = is_lit ? shared::kMirrorNeedsDiffuseLight
                             : (material.mirror ? shared::kMirrorConstantReflectance
                                                : shared::kMirrorMetal);
         if (glass_bodies_[mirror]) probe.kind = static_cast<std::uint32_t>(*glass_bodies_[mirror]);
@@ -279,35 +282,36 @@ void GpuScene::fill_probes(const scene::Scene& now, const SceneChanges& changes)
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const ObjectDrawRange&) { return i == object; });
         for (shared::View& view : make_cube_views(probe.centre, gap)) {
-            view.eye_low = bvh::float_rounding_error(probe_places_[mirror]);
+            view.eye_low = bvh::double_to_float_rounding_error(probe_places_[mirror]);
             scene_views_.push_back(view);
         }
     }
     for (std::size_t light = 0; light < lights_.size(); ++light)
         for (shared::View& view : shadow_views(lights_[light])) {
-            view.eye_low = bvh::float_rounding_error(light_places_[light]);
+            view.eye_low = bvh::double_to_float_rounding_error(light_places_[light]);
             scene_views_.push_back(view);
         }
-    probe_buffer_.set_list_contents(pack_structs_into_texels(probes_));
-    if (uses_mirror_bvh()) mirror_tree_.set_list_contents(build_mirror_tree(probes_));
+    probe_buffer_.set_device_list_contents(pack_structs_into_texels(probes_));
+    if (uses_bvh_over_mirrors()) mirror_tree_.set_device_list_contents(build_mirror_tree(probes_));
 }
 
-void GpuScene::fill_frame(double ambient) {
-    frame_.set_list_contents(
+void GpuScene::fill_frame_uniforms(double ambient) {
+    frame_.set_device_list_contents(
         std::vector<shared::Frame>{{static_cast<float>(ambient), light_count(), mirror_count(),
                                     static_cast<std::uint32_t>(surfaces_.size()), shadow_faces_}});
 }
 
-std::uint32_t GpuScene::common_face_edge() const {
-    return choose_common_capture_edge(face_needs_,
-                                      scene_device_.vulkan_limits().maxImageDimensionCube);
+std::uint32_t GpuScene::common_capture_face_edge() const {
+    return choose_common_capture_face_edge(face_needs_,
+                                           scene_device_.vulkan_limits().maxImageDimensionCube);
 }
 
-void GpuScene::write_buffers(std::size_t slot) {
+void GpuScene::write_scene_buffers_to_device(std::size_t slot) {
     uploads_ += vertices_.write(scene_device_, slot) + environment_.write(scene_device_, slot);
-    for (DeviceDataList* buffer : {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_,
-                                   &light_buffer_, &probe_buffer_, &mirror_tree_, &lamp_buffer_})
-        uploads_ += buffer->write_changed_pages(scene_device_, slot);
+    for (DoubleBufferedDeviceList* buffer :
+         {&frame_, &view_buffer_, &surface_buffer_, &placement_buffer_, &light_buffer_,
+          &probe_buffer_, &mirror_tree_, &lamp_buffer_})
+        uploads_ += buffer->upload_changed_pages(scene_device_, slot);
     uploads_ += material_details_.write(scene_device_, slot);
 }
 
@@ -325,26 +329,28 @@ void GpuScene::bind(graph::PassCommands& commands) const {
     vertices_.bind(commands, slot_);
 }
 
-gpu::ShaderConstants GpuScene::shader_features(std::uint32_t view) const {
+gpu::ShaderConstantValues GpuScene::shader_feature_constants(std::uint32_t view) const {
     return {{"object_spaces", has_object_spaces() ? 1u : 0u},
             {"details", material_details_.has_varying_colours() ? 1u : 0u},
             {"masks", material_details_.has_cut_out_surfaces() ? 1u : 0u},
             {"has_lobes", material_details_.has_lobe_surfaces() ? 1u : 0u},
-            {"has_glass", material_details_.any_glass() ? 1u : 0u},
-            {"has_blending", blends_surfaces() ? 1u : 0u},
+            {"has_glass", material_details_.has_any_glass_material() ? 1u : 0u},
+            {"has_blending", has_blended_surfaces() ? 1u : 0u},
             {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},
             {"environment_kind", environment_.shader_environment_kind()},
             {"orthographic", views_[view].parallel},
-            {"mirror_tree", uses_mirror_bvh() ? 1u : 0u}};
+            {"mirror_tree", uses_bvh_over_mirrors() ? 1u : 0u}};
 }
 
-gpu::ShaderConstants GpuScene::tracing_features(SphereIntersectionMode spheres) const {
-    gpu::ShaderConstants constants = shader_features();
-    for (const auto& constant : make_tracer_constants(
-             scene_device_.list_variant_choices(), tracing_->largest_bytes(spheres, slot_),
-             scene_device_.vulkan_limits().maxStorageBufferRange))
+gpu::ShaderConstantValues
+GpuScene::ray_tracing_feature_constants(SphereIntersectionMode spheres) const {
+    gpu::ShaderConstantValues constants = shader_feature_constants();
+    for (const auto& constant :
+         make_tracer_constants(scene_device_.active_shader_variant_choices(),
+                               tracing_->largest_tree_buffer_bytes(spheres, slot_),
+                               scene_device_.vulkan_limits().maxStorageBufferRange))
         constants.push_back(constant);
     return constants;
 }
@@ -359,22 +365,24 @@ void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) 
 
 void GpuScene::prepare_frame() const {
     if (added_views_ > 0) {
-        view_buffer_.set_list_contents(views_);
-        uploads_ += view_buffer_.write_changed_pages(scene_device_, slot_);
+        view_buffer_.set_device_list_contents(views_);
+        uploads_ += view_buffer_.upload_changed_pages(scene_device_, slot_);
     }
     if (wants_lamp_points_) {
         if (!has_lamp_table_) fill_lamp_table();
-        uploads_ += lamp_buffer_.write_changed_pages(scene_device_, slot_);
+        uploads_ += lamp_buffer_.upload_changed_pages(scene_device_, slot_);
     }
     for (const SphereIntersectionMode spheres :
          {SphereIntersectionMode::mesh, SphereIntersectionMode::exact})
         if (wants_tracing_[static_cast<std::size_t>(spheres)])
-            tracing_->prepare_trees(scene_device_, geometry_, surfaces_, spheres, wants_first_hits_,
-                                    slot_);
+            tracing_->prepare_ray_tracing_trees(scene_device_, geometry_, surfaces_, spheres,
+                                                wants_first_hits_, slot_);
 }
 
-void GpuScene::bind_tracing(graph::PassCommands& commands, SphereIntersectionMode spheres) const {
-    tracing_->prepare_trees(scene_device_, geometry_, surfaces_, spheres, wants_first_hits_, slot_);
+void GpuScene::bind_ray_tracing_buffers(graph::PassCommands& commands,
+                                        SphereIntersectionMode spheres) const {
+    tracing_->prepare_ray_tracing_trees(scene_device_, geometry_, surfaces_, spheres,
+                                        wants_first_hits_, slot_);
     tracing_->bind(commands, spheres, slot_);
 }
 

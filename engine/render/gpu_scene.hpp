@@ -41,31 +41,33 @@ public:
 
     std::uint32_t mirror_count() const { return static_cast<std::uint32_t>(probes_.size()); }
     /// Returns whether there are so many mirrors that testing each of them costs more than a tree.
-    bool uses_mirror_bvh() const { return probes_.size() > kMaxMirrorsWithoutTree; }
+    bool uses_bvh_over_mirrors() const { return probes_.size() > kMaxMirrorsWithoutTree; }
     /// Returns whether some mirror is not an exact sphere or has light of its own.
-    bool has_other_mirrors() const;
+    bool has_mirror_count_changed() const;
     /// Returns whether some mirror reflects in lobes.
     bool has_rough_mirrors() const {
         return std::ranges::any_of(list_draw_ranges(), &ObjectDrawRange::rough);
     }
     /// Returns whether the mirror reflects in lobes. Mirrors count from 0 here.
     bool is_rough_mirror(std::uint32_t mirror) const {
-        return list_draw_ranges()[object_of_mirror(mirror)].rough;
+        return list_draw_ranges()[object_index_of_mirror(mirror)].rough;
     }
     std::uint32_t light_count() const { return static_cast<std::uint32_t>(lights_.size()); }
     /// Returns the layers of each light in shadow maps, and how many of them are drawn.
     std::uint32_t shadow_face_count() const { return shadow_faces_; }
     std::uint32_t drawn_shadow_faces(std::uint32_t light) const;
     /// Returns the result of find_backdrops for a light, by object.
-    const std::vector<std::uint8_t>& list_backdrops_of_light(std::uint32_t light) const {
+    const std::vector<std::uint8_t>& shadowless_backdrops_of_light(std::uint32_t light) const {
         return backdrops_[light];
     }
     const gpu::GpuDevice& scene_device() const { return scene_device_; }
-    const SceneUnits& scene_units() const { return space_; }
+    const SceneUnitTransform& scene_units() const { return space_; }
     const std::vector<ObjectDrawRange>& list_draw_ranges() const { return geometry_.ranges; }
     const std::vector<shared::View>& list_views() const { return views_; }
     /// Returns the index of the object that is the given mirror. Mirrors count from 0 here.
-    std::size_t object_of_mirror(std::uint32_t mirror) const { return mirror_objects_[mirror]; }
+    std::size_t object_index_of_mirror(std::uint32_t mirror) const {
+        return mirror_objects_[mirror];
+    }
     /// Returns a ball inside the mirror. Only mirrors that hide their own back have one.
     const InnerOccluderBall& find_inner_ball_of_mirror(std::uint32_t mirror) const {
         return inner_balls_[mirror];
@@ -82,19 +84,19 @@ public:
     MirroredViewEye eye() const;
     /// Returns whether the object is a closed mirror around the camera, which no light from outside
     /// reaches.
-    bool hides_everything_from_camera(std::size_t object) const { return hides_all_[object]; }
+    bool is_object_hidden_from_camera(std::size_t object) const { return hides_all_[object]; }
     /// Returns the texels that the edge of each mirror's cube needs (render/footprint.hpp); 0 for a
     /// mirror outside the picture. The first update computes them and later updates keep them,
     /// because cubes that change size lose the contents of the frame before.
     const std::vector<double>& needed_face_edges() const { return face_needs_; }
     /// Discards the results of needed_face_edges(), so that the next update computes the needed
     /// cube edges again.
-    void discard_face_needs() { face_needs_.clear(); }
+    void discard_needed_face_edges() { face_needs_.clear(); }
     bool has_needed_face_edges() const { return face_needs_.size() == mirror_objects_.size(); }
     /// Replaces the face needs by those of another sequence of frames.
     void set_needed_face_edges(std::vector<double> needs) { face_needs_ = std::move(needs); }
     /// Returns one edge for all cubes: the largest need, limited by the device.
-    std::uint32_t common_face_edge() const;
+    std::uint32_t common_capture_face_edge() const;
     /// Returns the most cubes in one array on this device.
     std::uint32_t max_cube_count() const {
         return scene_device_.vulkan_limits().maxImageArrayLayers / 6;
@@ -103,14 +105,16 @@ public:
     bool has_object_spaces() const { return has_object_spaces_; }
     /// Returns the constants for building shaders that show this view. Features that the scene
     /// lacks cost nothing.
-    gpu::ShaderConstants shader_features(std::uint32_t view = kCameraViewIndex) const;
-    /// Returns `shader_features` for the tracer, plus the device's choices that are not the default
-    /// (gpu/variants.hpp). Call it after `bind_tracing` with the same spheres.
-    gpu::ShaderConstants tracing_features(SphereIntersectionMode spheres) const;
+    gpu::ShaderConstantValues shader_feature_constants(std::uint32_t view = kCameraViewIndex) const;
+    /// Returns `shader_feature_constants` for the tracer, plus the device's choices that are not
+    /// the default (gpu/variants.hpp). Call it after `bind_ray_tracing_buffers` with the same
+    /// spheres.
+    gpu::ShaderConstantValues ray_tracing_feature_constants(SphereIntersectionMode spheres) const;
     /// Returns whether some surface is drawn over what is behind it. On devices that cannot blend
     /// one attachment alone, such surfaces are cut out where their alpha is small.
-    bool blends_surfaces() const {
-        return material_details_.any_blended() && scene_device_.supports_blending();
+    bool has_blended_surfaces() const {
+        return material_details_.has_any_blended_material() &&
+               scene_device_.supports_float_colour_blending();
     }
     /// Returns whether some surface has more than one colour.
     bool has_varying_colours() const { return material_details_.has_varying_colours(); }
@@ -157,8 +161,9 @@ public:
     /// passes are declared.
     void prepare_frame() const;
     /// Binds the hierarchy. Updates it first if `prepare_frame` has not.
-    void bind_tracing(graph::PassCommands& commands,
-                      SphereIntersectionMode spheres = SphereIntersectionMode::mesh) const;
+    void
+    bind_ray_tracing_buffers(graph::PassCommands& commands,
+                             SphereIntersectionMode spheres = SphereIntersectionMode::mesh) const;
 
     /// Returns the host milliseconds of the last update, and of hierarchies since it began.
     double scene_update_ms() const { return update_ms_; }
@@ -171,30 +176,32 @@ public:
     double first_bvh_build_ms() const { return tracing_->first_bvh_build_ms(); }
     /// Returns counts since construction: writes to device memory, hierarchies built, hierarchies
     /// refitted.
-    std::size_t device_write_count() const { return uploads_ + tracing_->device_write_count(); }
+    std::size_t device_buffer_write_count() const {
+        return uploads_ + tracing_->device_buffer_write_count();
+    }
     std::size_t built_bvh_count() const { return tracing_->built_tree_count(); }
     std::size_t refitted_bvh_count() const { return tracing_->refitted_tree_count(); }
 
 private:
-    void rebuild_layout(const scene::Scene& now);
+    void rebuild_geometry_layout(const scene::Scene& now);
     void find_closed_shells(const scene::Scene& now);
     void move_objects(const scene::Scene& now, const std::vector<std::size_t>& objects);
-    void fill_surfaces(const scene::Scene& now);
-    void fill_placements();
-    void fill_lights(const scene::Scene& now, bool others);
+    void fill_surface_table(const scene::Scene& now);
+    void fill_instance_placement_table();
+    void fill_light_table(const scene::Scene& now, bool others);
     void fill_lamp_table() const;
-    void fill_probes(const scene::Scene& now, const SceneChanges& changes);
+    void fill_mirror_probe_table(const scene::Scene& now, const SceneChanges& changes);
     /// Returns the body that stands for an object of glass, or nothing for other objects.
     std::optional<scene::GlassBody> find_glass_body(const scene::Scene& now,
                                                     const scene::Object& object);
     InnerOccluderBall make_inner_ball(std::size_t object, const dvec3& centre);
     std::vector<shared::View> shadow_views(const shared::Light& light) const;
-    void fill_views(const scene::Camera& camera, uvec2 size);
-    void fill_frame(double ambient);
-    void write_buffers(std::size_t slot);
+    void fill_view_table(const scene::Camera& camera, uvec2 size);
+    void fill_frame_uniforms(double ambient);
+    void write_scene_buffers_to_device(std::size_t slot);
 
     gpu::GpuDevice& scene_device_;
-    SceneUnits space_;
+    SceneUnitTransform space_;
     FrameGeometry geometry_;
     NearestTriangleQuery nearest_;
     SceneChangeTracker seen_;
@@ -214,7 +221,7 @@ private:
     std::vector<InnerOccluderBall> inner_balls_;                ///< ball inside each mirror
     std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< of each mirror of glass
     std::map<std::size_t, double> closed_volumes_;              ///< of meshes of glass, by mesh
-    std::vector<bool> hides_all_; ///< result of hides_everything_from_camera for each object
+    std::vector<bool> hides_all_; ///< result of is_object_hidden_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update
     uvec2 size_{0};
@@ -227,10 +234,10 @@ private:
     mutable std::size_t uploads_ = 0;
     std::size_t slot_ = 0, known_layouts_ = 0;
     double update_ms_ = 0, hierarchy_ms_before_ = 0, first_update_ms_ = 0;
-    mutable DeviceDataList view_buffer_;
-    DeviceDataList frame_, surface_buffer_, placement_buffer_, light_buffer_, probe_buffer_,
-        mirror_tree_;
-    mutable DeviceDataList lamp_buffer_;
+    mutable DoubleBufferedDeviceList view_buffer_;
+    DoubleBufferedDeviceList frame_, surface_buffer_, placement_buffer_, light_buffer_,
+        probe_buffer_, mirror_tree_;
+    mutable DoubleBufferedDeviceList lamp_buffer_;
     MaterialParameterLists material_details_;
     DeviceEnvironment environment_;
     std::unique_ptr<RayTracingTrees> tracing_;

@@ -7,7 +7,7 @@
 namespace catoptric::render {
 
 /// Fills the list of views: the camera's first, then those of mirrors and lights.
-void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
+void GpuScene::fill_view_table(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.world_to_scene_units(camera.eye);
     const float gap = nearest_.distance_to_nearest(
         geometry_, eye_,
@@ -22,7 +22,7 @@ void GpuScene::fill_views(const scene::Camera& camera, uvec2 size) {
         hides_all_.push_back(range.mirror && !range.glass && !is_parallel &&
                              does_object_enclose_point(geometry_, range, eye_));
     camera_ = camera, size_ = size;
-    view_buffer_.set_list_contents(views_);
+    view_buffer_.set_device_list_contents(views_);
 }
 
 MirroredViewEye GpuScene::eye() const {
@@ -41,7 +41,7 @@ std::uint32_t GpuScene::add_view(const shared::View& view) const {
 }
 
 bool GpuScene::has_new_views() const {
-    return added_views_ > 0 && view_buffer_.set_list_contents(views_);
+    return added_views_ > 0 && view_buffer_.set_device_list_contents(views_);
 }
 
 } // namespace catoptric::render

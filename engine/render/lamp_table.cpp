@@ -77,12 +77,12 @@ std::vector<vec4> make_lamp_table(const FrameGeometry& geometry,
     const std::vector<AliasTableCell> cells = make_alias_table(std::move(weights));
     std::vector<vec4> texels{
         {static_cast<float>(1 / power),
-         bvh::index_to_float_word(static_cast<std::uint32_t>(triangles.size())), 0, 0}};
+         bvh::index_to_bits_in_float(static_cast<std::uint32_t>(triangles.size())), 0, 0}};
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         texels.emplace_back(vec3(triangles[i].corner), static_cast<float>(cells[i].share));
-        texels.emplace_back(vec3(triangles[i].second), bvh::index_to_float_word(cells[i].rest));
+        texels.emplace_back(vec3(triangles[i].second), bvh::index_to_bits_in_float(cells[i].rest));
         texels.emplace_back(vec3(triangles[i].third),
-                            bvh::index_to_float_word(triangles[i].object));
+                            bvh::index_to_bits_in_float(triangles[i].object));
     }
     return texels;
 }

@@ -53,19 +53,19 @@ const std::vector<std::uint32_t>& get_lobe_albedo_table() {
     return kTable;
 }
 
-std::uint32_t flag_if_set(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
+std::uint32_t flag_bits_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
 shared::MaterialParameters make_material_parameters(const scene::Material& material,
                                                     const ObjectDrawRange& range) {
     shared::MaterialParameters detail{};
-    detail.flags = flag_if_set(range.varies, shared::kMaterialVariesFlag) |
-                   flag_if_set(range.first_attribute.has_value(),
-                               shared::kMaterialHasAttributesFlag) |
-                   flag_if_set(material.mirror, shared::kMaterialConstantReflectanceFlag) |
-                   flag_if_set(material.unlit, shared::kMaterialUnlitFlag) |
-                   flag_if_set(range.turns, shared::kMaterialTwoSidedFlag) |
-                   flag_if_set(range.glass, shared::kMaterialGlassFlag) |
-                   flag_if_set(range.blended, shared::kMaterialBlendedFlag);
+    detail.flags = flag_bits_if(range.varies, shared::kMaterialVariesFlag) |
+                   flag_bits_if(range.first_attribute.has_value(),
+                                shared::kMaterialHasAttributesFlag) |
+                   flag_bits_if(material.mirror, shared::kMaterialConstantReflectanceFlag) |
+                   flag_bits_if(material.unlit, shared::kMaterialUnlitFlag) |
+                   flag_bits_if(range.turns, shared::kMaterialTwoSidedFlag) |
+                   flag_bits_if(range.glass, shared::kMaterialGlassFlag) |
+                   flag_bits_if(range.blended, shared::kMaterialBlendedFlag);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -81,8 +81,8 @@ MaterialParameterLists::MaterialParameterLists(std::size_t slots)
       attributes_("attributes", gpu::BufferUsage::texels, slots),
       texels_("texels", gpu::BufferUsage::words, slots) {}
 
-shared::TextureUse
-MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) const {
+shared::TextureUse MaterialParameterLists::texture_use_of_material(
+    const std::optional<scene::Texture>& texture) const {
     shared::TextureUse use{};
     if (!texture) return use;
     const auto at = std::ranges::find(images_, texture->image) - images_.begin();
@@ -90,14 +90,14 @@ MaterialParameterLists::use_of(const std::optional<scene::Texture>& texture) con
     use.size = texture->image->size.x | texture->image->size.y << 16;
     use.how = static_cast<std::uint32_t>(texture->wrap_u) |
               static_cast<std::uint32_t>(texture->wrap_v) << 2 |
-              flag_if_set(texture->nearest, shared::kTextureNearestFlag) |
-              flag_if_set(texture->srgb, shared::kTextureSrgbFlag) |
-              flag_if_set(texture->uv_set == 1, shared::kTextureSecondUvFlag);
+              flag_bits_if(texture->nearest, shared::kTextureNearestFlag) |
+              flag_bits_if(texture->srgb, shared::kTextureSrgbFlag) |
+              flag_bits_if(texture->uv_set == 1, shared::kTextureSecondUvFlag);
     use.u_row = texture->u_row, use.v_row = texture->v_row;
     return use;
 }
 
-void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t most) {
+void MaterialParameterLists::fill_texture_texels(const scene::Scene& now, std::uint64_t most) {
     std::vector<std::shared_ptr<const scene::Image>> images;
     std::uint64_t count = kMaterialTableTexels;
     for (const scene::Object& object : now.objects) {
@@ -108,7 +108,7 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
             images.push_back((*texture)->image);
             count += images.back()->texels.size();
             check(count <= most, Failure::exhausted, "scene '", now.name, "': its images up to ",
-                  quote_as_printable_text(images.back()->name), " take ", count,
+                  quote_text_with_escapes(images.back()->name), " take ", count,
                   " texels, the device allows ", most);
         }
     }
@@ -128,16 +128,16 @@ void MaterialParameterLists::fill_texels(const scene::Scene& now, std::uint64_t 
         texels.insert(texels.end(), image->texels.begin(), image->texels.end());
     }
     images_ = std::move(images);
-    texels_.set_list_contents(texels);
+    texels_.set_device_list_contents(texels);
 }
 
-void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& space,
+void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransform& space,
                                   const FrameGeometry& geometry, const DeviceVertices& vertices,
                                   std::uint64_t most) {
     any_lobes_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::has_lobe);
     any_glass_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::glass);
     any_blended_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::blended);
-    fill_texels(now, most);
+    fill_texture_texels(now, most);
     std::vector<shared::MaterialParameters> details;
     std::unordered_map<std::string, std::uint32_t> known; // index by the bytes of the parameters
     indices_.clear();
@@ -150,32 +150,33 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
         detail.ior = material.ior;
         detail.absorption = material.absorption / space.world_to_scene_length(1);
         detail.max_specular_roughness = now.mirror_max_roughness;
-        detail.flags |= flag_if_set(now.has_multiple_scattering && range.has_lobe,
-                                    shared::kMaterialMultipleScatteringFlag);
+        detail.flags |= flag_bits_if(now.has_multiple_scattering && range.has_lobe,
+                                     shared::kMaterialMultipleScatteringFlag);
         // The difference may wrap around, because draws count vertices from the start of their own
         // buffer.
         if (range.first_attribute)
             detail.first_attribute = *range.first_attribute -
                                      vertices.first_vertex_of_object(range.storage);
-        detail.albedo = use_of(material.albedo_texture);
-        detail.emission = use_of(material.emission_texture);
-        detail.rough = use_of(material.roughness_texture);
-        detail.normal = use_of(material.normal_texture);
+        detail.albedo = texture_use_of_material(material.albedo_texture);
+        detail.emission = texture_use_of_material(material.emission_texture);
+        detail.rough = texture_use_of_material(material.roughness_texture);
+        detail.normal = texture_use_of_material(material.normal_texture);
         detail.normal_scale = material.normal_scale;
         if (range.glass && material.solid) {
             const scene::Mesh& mesh = now.meshes[now.objects[i].mesh];
             const auto [entry, is_new] = bodies.try_emplace(now.objects[i].mesh, false);
-            if (is_new) entry->second = scene::is_closed_surface(mesh.positions, mesh.triangles);
-            detail.flags |= flag_if_set(entry->second, shared::kMaterialSolidFlag);
+            if (is_new)
+                entry->second = scene::is_closed_triangle_surface(mesh.positions, mesh.triangles);
+            detail.flags |= flag_bits_if(entry->second, shared::kMaterialSolidFlag);
         }
         any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
         if (material.albedo != vec3(0) && !(range.mirror && !range.lit)) {
             const std::size_t mesh = now.objects[i].mesh;
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
-            if (is_new) entry->second = normals_differ_from_facets(now.meshes[mesh]);
+            if (is_new) entry->second = do_vertex_normals_differ_from_facets(now.meshes[mesh]);
             const bool differs = entry->second || range.has_normal_texture;
-            detail.flags |= flag_if_set(differs, shared::kMaterialTestsFacetSideFlag);
+            detail.flags |= flag_bits_if(differs, shared::kMaterialTestsFacetSideFlag);
             any_ = any_ || differs;
         }
         masks_ = masks_ || range.masked;
@@ -187,16 +188,16 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnits& spa
         indices_.push_back(entry->second);
     }
     if (details.empty()) details.emplace_back(); // buffers must not be empty
-    detail_words_.set_list_contents(details);
-    attributes_.set_list_contents(geometry.attributes.empty()
-                                      ? std::vector<shared::VertexAttribute>(1)
-                                      : geometry.attributes);
+    detail_words_.set_device_list_contents(details);
+    attributes_.set_device_list_contents(geometry.attributes.empty()
+                                             ? std::vector<shared::VertexAttribute>(1)
+                                             : geometry.attributes);
 }
 
 std::size_t MaterialParameterLists::write(gpu::GpuDevice& device, std::size_t slot) {
-    return detail_words_.write_changed_pages(device, slot) +
-           attributes_.write_changed_pages(device, slot) +
-           texels_.write_changed_pages(device, slot);
+    return detail_words_.upload_changed_pages(device, slot) +
+           attributes_.upload_changed_pages(device, slot) +
+           texels_.upload_changed_pages(device, slot);
 }
 
 void MaterialParameterLists::bind(graph::PassCommands& commands, std::size_t slot) const {

@@ -16,25 +16,27 @@ public:
     /// Fills the lists for a new geometry layout. Costs O(n) in attributes, and in texels if the
     /// images changed. Throws `exhausted` if the images and the tables before them take more than
     /// `most` texels.
-    void fill(const scene::Scene& now, const SceneUnits& space, const FrameGeometry& geometry,
-              const DeviceVertices& vertices, std::uint64_t most);
-    /// Writes the changes, like DeviceDataList::write_changed_pages.
+    void fill(const scene::Scene& now, const SceneUnitTransform& space,
+              const FrameGeometry& geometry, const DeviceVertices& vertices, std::uint64_t most);
+    /// Writes the changes, like DoubleBufferedDeviceList::upload_changed_pages.
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
-    bool any_glass() const { return any_glass_; }         ///< rays pass through some surface
-    bool any_blended() const { return any_blended_; }     ///< some surface covers by its alpha
+    bool has_any_glass_material() const { return any_glass_; } ///< rays pass through some surface
+    bool has_any_blended_material() const {
+        return any_blended_;
+    }                                                     ///< some surface covers by its alpha
     bool has_varying_colours() const { return any_; }     ///< some surface has more than one colour
     bool has_cut_out_surfaces() const { return masks_; }  ///< some surface is partly cut out
     bool has_lobe_surfaces() const { return any_lobes_; } ///< some surface reflects by a lobe
     bool has_normal_textures() const { return any_normal_textures_; }
     /// Returns, by object, the index of its material parameters. Objects with equal parameters
     /// share an entry.
-    const std::vector<std::uint32_t>& parameter_indices() const { return indices_; }
+    const std::vector<std::uint32_t>& material_parameter_indices() const { return indices_; }
 
 private:
-    shared::TextureUse use_of(const std::optional<scene::Texture>& texture) const;
-    void fill_texels(const scene::Scene& now, std::uint64_t most);
+    shared::TextureUse texture_use_of_material(const std::optional<scene::Texture>& texture) const;
+    void fill_texture_texels(const scene::Scene& now, std::uint64_t most);
 
     std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the order of the texel buffer
     std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
@@ -42,8 +44,8 @@ private:
     bool any_ = false, masks_ = false, any_normal_textures_ = false;
     bool any_lobes_ = false, any_glass_ = false, any_blended_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
-    bool texels_filled_ = false;  ///< `fill_texels` was called
-    DeviceDataList detail_words_, attributes_, texels_;
+    bool texels_filled_ = false;  ///< `fill_texture_texels` was called
+    DoubleBufferedDeviceList detail_words_, attributes_, texels_;
 };
 
 } // namespace catoptric::render

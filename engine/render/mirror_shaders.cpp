@@ -7,7 +7,7 @@ namespace catoptric::render {
 namespace {
 
 /// The resources that a pass has declared so far.
-struct DeclaredPassReads {
+struct PassReadDeclarations {
     graph::PassBuilder& pass;
     std::vector<graph::ImageHandle> images = {};
     std::vector<graph::BufferHandle> buffers = {};
@@ -34,13 +34,13 @@ struct DeclaredPassReads {
 
 } // namespace
 
-MirrorShaders use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look) {
+ShaderOfEachMirror use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look) {
     return {{std::move(look)}, std::vector<std::uint32_t>(scene.mirror_count(), 0)};
 }
 
 void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lighting,
-                          const MirrorShaders& looks) {
-    DeclaredPassReads reads{pass};
+                          const ShaderOfEachMirror& looks) {
+    PassReadDeclarations reads{pass};
     if (lighting.shadow_map) reads.add_image(*lighting.shadow_map);
     for (const MirrorShader& look : looks.looks) {
         if (look.captures) reads.add_captures(*look.captures);

@@ -14,7 +14,7 @@ namespace catoptric::render {
 struct MirrorShader {
     std::string fragment; ///< empty: the mirror is black
     std::string variant;  ///< suffix of `fragment`, where no cause of error is removed
-    gpu::ShaderConstants constants;
+    gpu::ShaderConstantValues constants;
     std::shared_ptr<const MirrorCaptures> captures;
     /// Further images that the mirror's shader samples (nearest), by their names in the shader. An
     /// entry has one image, or one for each array of captures.
@@ -26,26 +26,26 @@ struct MirrorShader {
 };
 
 /// A part of a mirror with its own shader.
-struct MirrorPartShader {
+struct MirrorSubsetShader {
     std::uint32_t mirror = 0; ///< number from 0
-    std::uint32_t look = 0;   ///< index into MirrorShaders::looks
+    std::uint32_t look = 0;   ///< index into ShaderOfEachMirror::looks
     std::vector<scene::TriangleIndexRun> triangles;
 };
 
 /// The shader of each mirror, chosen from a list.
-struct MirrorShaders {
+struct ShaderOfEachMirror {
     static constexpr std::uint32_t kShaderChosenByPart = ~0u;
     std::vector<MirrorShader> looks;
-    std::vector<std::uint32_t> of_mirror; ///< index into `looks`; kShaderChosenByPart: see `parts`
-    std::vector<MirrorPartShader> parts;  ///< triangles in no part are not drawn
+    std::vector<std::uint32_t> of_mirror;  ///< index into `looks`; kShaderChosenByPart: see `parts`
+    std::vector<MirrorSubsetShader> parts; ///< triangles in no part are not drawn
 };
 
 /// Returns shaders that draw all mirrors alike.
-MirrorShaders use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look);
+ShaderOfEachMirror use_same_shader_for_mirrors(const GpuScene& scene, MirrorShader look);
 
 /// Declares that a pass reads the resources of these shaders and of the lighting, each once.
 void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lighting,
-                          const MirrorShaders& looks);
+                          const ShaderOfEachMirror& looks);
 
 /// The tracer that completes surfaces that are no mirrors, where the shadow map leaves their light
 /// open or they reflect.

@@ -25,9 +25,11 @@ std::vector<vec4> build_mirror_tree(std::span<const shared::Probe> probes) {
     std::vector<Bounds<float>> boxes;
     for (const shared::Probe& probe : probes) boxes.push_back(compute_mirror_ray_bounds(probe));
     std::vector<vec4> texels;
-    for (const BoxTree::TreeWalkStep& step : BoxTree(boxes, 1).list_nodes()) {
-        texels.emplace_back(step.box.lo, bvh::index_to_float_word(step.only ? *step.only + 1 : 0));
-        texels.emplace_back(step.box.hi, bvh::index_to_float_word(step.past));
+    for (const BoundingBoxTree::BoxTreeTraversalStep& step :
+         BoundingBoxTree(boxes, 1).list_box_tree_nodes()) {
+        texels.emplace_back(step.box.lo,
+                            bvh::index_to_bits_in_float(step.only ? *step.only + 1 : 0));
+        texels.emplace_back(step.box.hi, bvh::index_to_bits_in_float(step.past));
     }
     return texels;
 }

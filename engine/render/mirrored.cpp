@@ -11,7 +11,7 @@ namespace catoptric::render {
 namespace {
 
 /// Planes; a point p is inside a plane if dot(xyz, p - eye) + w >= 0.
-using ClipPlanes = std::vector<dvec4>;
+using ViewClipPlanes = std::vector<dvec4>;
 using Polygon = std::vector<dvec3>; ///< convex, relative to the eye
 
 /// An eye nearer than this to a mirror's plane, in scene units, sees the mirror edge-on. The value
@@ -41,13 +41,13 @@ struct PictureSubrectangle {
     dvec2 low{-1}, high{1};
 };
 
-PictureSubrectangle area_to_picture_rectangle(const graph::PixelArea& area, uvec2 size) {
+PictureSubrectangle area_to_picture_rectangle(const graph::PixelRectangle& area, uvec2 size) {
     const dvec2 low(area.x, area.y), extent(area.width, area.height);
     return {low / dvec2(size) * 2.0 - 1.0, (low + extent) / dvec2(size) * 2.0 - 1.0};
 }
 
 /// Returns the side planes and the near plane of a part of the view.
-ClipPlanes list_view_side_planes(const shared::View& view, const PictureSubrectangle& part) {
+ViewClipPlanes list_view_side_planes(const shared::View& view, const PictureSubrectangle& part) {
     const dvec3 right(view.right), down(view.down), forward(view.forward);
     if (view.parallel != 0)
         return {{right, -part.low.x},
@@ -63,8 +63,9 @@ ClipPlanes list_view_side_planes(const shared::View& view, const PictureSubrecta
 }
 
 /// Returns the pixels that a visible polygon may cover, and one more on each side.
-graph::PixelArea find_pixels_covered_by_polygon(const Polygon& polygon, const shared::View& view,
-                                                uvec2 size, const graph::PixelArea& within) {
+graph::PixelRectangle find_pixels_covered_by_polygon(const Polygon& polygon,
+                                                     const shared::View& view, uvec2 size,
+                                                     const graph::PixelRectangle& within) {
     dvec2 low(1), high(-1);
     for (const dvec3& v : polygon) {
         const dvec2 at = project_to_picture(view, v);
@@ -96,7 +97,7 @@ MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatF
     };
     shared::View& view = made.view = from.view;
     view.eye = vec3(made.eye);
-    view.eye_low = bvh::float_rounding_error(made.eye);
+    view.eye_low = bvh::double_to_float_rounding_error(made.eye);
     view.right = turned(from.view.right), view.down = turned(from.view.down),
     view.forward = turned(from.view.forward);
     // Through the mirror, nothing is nearer than the mirror is to the eye, so the near plane stays.
@@ -127,13 +128,13 @@ std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
             return dot(dvec3(clip), corner) + clip.w <= kEdgeOnMirrorCosine;
         }))
         return {};
-    ClipPlanes planes = list_view_side_planes(from.view,
-                                              area_to_picture_rectangle(from.area, size));
+    ViewClipPlanes planes = list_view_side_planes(from.view,
+                                                  area_to_picture_rectangle(from.area, size));
     if (clip != dvec4(0)) planes.push_back(clip);
     for (const dvec4& plane : planes) polygon = clip_polygon(polygon, plane);
     if (polygon.empty()) return {};
-    const graph::PixelArea area = find_pixels_covered_by_polygon(polygon, from.view, size,
-                                                                 from.area);
+    const graph::PixelRectangle area = find_pixels_covered_by_polygon(polygon, from.view, size,
+                                                                      from.area);
     if (area.width == 0) return {};
     MirroredView made = make_view_behind_plane(from, mirror, height, everything);
     made.area = area;
@@ -184,8 +185,8 @@ find_mirrored_views(const MirroredViewEye& camera,
 }
 
 bool may_view_show_box(const MirroredView& view, uvec2 size, const Bounds<float>& box) {
-    ClipPlanes planes = list_view_side_planes(view.view,
-                                              area_to_picture_rectangle(view.area, size));
+    ViewClipPlanes planes = list_view_side_planes(view.view,
+                                                  area_to_picture_rectangle(view.area, size));
     planes.emplace_back(view.view.clip);
     const dvec3 middle = dvec3(box.centre()) - view.eye, half(dvec3(box.extent()) * .5);
     return std::ranges::all_of(planes, [&](const dvec4& plane) {

@@ -42,15 +42,15 @@ float min_distance_to_box(const vec3& point, const Bounds<float>& box) {
                                               f32::largest_vector_component(size));
 }
 
-BoxTree::BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
+BoundingBoxTree::BoundingBoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf)
     : first_leaf_(leaf), order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
-    if (!boxes.empty()) add_boxes(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+    if (!boxes.empty()) add_boxes_to_tree(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
 }
 
 /// Adds the node over these boxes. Splits it by count into halves along the longest axis.
-void BoxTree::add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t first,
-                        std::uint32_t count) {
+void BoundingBoxTree::add_boxes_to_tree(std::span<const Bounds<float>> boxes, std::uint32_t first,
+                                        std::uint32_t count) {
     const std::size_t place = nodes_.size();
     nodes_.emplace_back();
     Bounds<float> box, centres;
@@ -74,24 +74,24 @@ void BoxTree::add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t firs
                          const float at_a = along(a), at_b = along(b);
                          return at_a != at_b ? at_a < at_b : a < b;
                      });
-    add_boxes(boxes, first, count / 2);
+    add_boxes_to_tree(boxes, first, count / 2);
     nodes_[place].second = static_cast<std::uint32_t>(nodes_.size());
-    add_boxes(boxes, first + count / 2, count - count / 2);
+    add_boxes_to_tree(boxes, first + count / 2, count - count / 2);
 }
 
-void BoxTree::refit(std::span<const Bounds<float>> boxes) {
+void BoundingBoxTree::refit(std::span<const Bounds<float>> boxes) {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        BoxNode& node = nodes_[i];
+        BoundingBoxTreeNode& node = nodes_[i];
         node.box = {};
         for (std::uint32_t k = 0; k < node.count; ++k) node.box.add(boxes[order_[node.first + k]]);
         if (node.count == 0) node.box.add(nodes_[i + 1].box), node.box.add(nodes_[node.second].box);
     }
 }
 
-std::vector<BoxTree::TreeWalkStep> BoxTree::list_nodes() const {
-    std::vector<TreeWalkStep> steps(nodes_.size());
+std::vector<BoundingBoxTree::BoxTreeTraversalStep> BoundingBoxTree::list_box_tree_nodes() const {
+    std::vector<BoxTreeTraversalStep> steps(nodes_.size());
     for (std::size_t i = nodes_.size(); i-- > 0;) {
-        const BoxNode& node = nodes_[i];
+        const BoundingBoxTreeNode& node = nodes_[i];
         steps[i].box = node.box;
         steps[i].past = node.count > 0 ? static_cast<std::uint32_t>(i + 1)
                                        : steps[node.second].past;
@@ -101,7 +101,7 @@ std::vector<BoxTree::TreeWalkStep> BoxTree::list_nodes() const {
 }
 
 void NearestTriangleQuery::set_geometry(const FrameGeometry& geometry) {
-    objects_ = BoxTree(list_object_boxes(geometry));
+    objects_ = BoundingBoxTree(list_object_boxes(geometry));
     moved_ = false;
     parts_.assign(geometry.ranges.size(), {});
 }
@@ -110,8 +110,9 @@ void NearestTriangleQuery::record_moved_object(std::size_t object) {
     moved_ = parts_[object].moved = true;
 }
 
-void NearestTriangleQuery::visit_scene_triangle(const FrameGeometry& geometry, std::size_t object,
-                                                const vec3& point, float& squared) {
+void NearestTriangleQuery::visit_triangle_of_scene(const FrameGeometry& geometry,
+                                                   std::size_t object, const vec3& point,
+                                                   float& squared) {
     const ObjectDrawRange& range = geometry.ranges[object];
     const auto look = [&](std::uint32_t triangle) {
         const auto corner = [&](std::uint32_t j) {
@@ -127,22 +128,23 @@ void NearestTriangleQuery::visit_scene_triangle(const FrameGeometry& geometry, s
     }
     ObjectTriangleTree& part = parts_[range.storage];
     if (!part.tree)
-        part.tree = BoxTree(list_triangle_boxes(geometry, range));
+        part.tree = BoundingBoxTree(list_triangle_boxes(geometry, range));
     else if (part.moved)
         part.tree->refit(list_triangle_boxes(geometry, range));
     part.moved = false;
     part.tree->find_nearest(point, squared, look);
 }
 
-void NearestTriangleQuery::visit_own_triangle(const FrameGeometry& geometry, std::size_t object,
-                                              const dvec3& point, float& squared) {
+void NearestTriangleQuery::visit_triangle_of_same_object(const FrameGeometry& geometry,
+                                                         std::size_t object, const dvec3& point,
+                                                         float& squared) {
     constexpr double kTransformRoundingError =
         1e-5; // above the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
     // Starts from the known distance, so that farther triangles are skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kTransformRoundingError);
     float own_squared = static_cast<float>(known * known);
-    visit_scene_triangle(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);
+    visit_triangle_of_scene(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);
     const double gap = std::sqrt(double{own_squared}) * own.least;
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
@@ -157,10 +159,10 @@ float NearestTriangleQuery::distance_to_nearest(
     objects_.find_nearest(point, squared, [&](std::uint32_t object) {
         if (skip(object, geometry.ranges[object])) return;
         if (geometry.ranges[object].own)
-            visit_own_triangle(geometry, object, at, squared);
+            visit_triangle_of_same_object(geometry, object, at, squared);
         else if (const float gap = min_distance_to_box(point, geometry.ranges[object].bounds);
                  !(gap * gap >= squared))
-            visit_scene_triangle(geometry, object, point, squared);
+            visit_triangle_of_scene(geometry, object, point, squared);
     });
     return std::sqrt(squared);
 }

@@ -9,11 +9,11 @@
 namespace catoptric::render {
 
 /// A tree over boxes, built once and refitted when the boxes move.
-class BoxTree {
+class BoundingBoxTree {
 public:
-    BoxTree() = default;
+    BoundingBoxTree() = default;
     /// Builds a tree with at most `leaf` boxes, at least 1, in each leaf.
-    explicit BoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
+    explicit BoundingBoxTree(std::span<const Bounds<float>> boxes, std::uint32_t leaf = 4);
     /// Updates the tree for moved boxes. Costs O(n).
     void refit(std::span<const Bounds<float>> boxes);
     /// Calls visit(box) for every box that may hold a point nearer to `point` than
@@ -22,25 +22,26 @@ public:
     void find_nearest(const vec3& point, const float& squared, Visit&& visit) const;
 
     /// A node of a walk without a stack. If the ray misses the box, the walk goes on at `past`.
-    struct TreeWalkStep {
+    struct BoxTreeTraversalStep {
         Bounds<float> box;
         std::uint32_t past = 0;            ///< the node after the whole subtree
         std::optional<std::uint32_t> only; ///< index of the box, if the node holds a single one
     };
     /// Returns all nodes, parents before their children.
-    std::vector<TreeWalkStep> list_nodes() const;
+    std::vector<BoxTreeTraversalStep> list_box_tree_nodes() const;
 
 private:
-    struct BoxNode {
+    struct BoundingBoxTreeNode {
         Bounds<float> box;
         std::uint32_t first = 0, count = 0; ///< range of a leaf in `order_`
         std::uint32_t second = 0;           ///< the second child; the first child is the next node
     };
-    void add_boxes(std::span<const Bounds<float>> boxes, std::uint32_t first, std::uint32_t count);
+    void add_boxes_to_tree(std::span<const Bounds<float>> boxes, std::uint32_t first,
+                           std::uint32_t count);
 
     std::uint32_t first_leaf_ = 0;
     std::vector<std::uint32_t> order_;
-    std::vector<BoxNode> nodes_; ///< children after their parents
+    std::vector<BoundingBoxTreeNode> nodes_; ///< children after their parents
 };
 
 /// Distance queries to the nearest triangle of a scene. Keeps a tree over objects. Builds a tree
@@ -62,15 +63,15 @@ public:
 
 private:
     struct ObjectTriangleTree {
-        std::optional<BoxTree> tree;
+        std::optional<BoundingBoxTree> tree;
         bool moved = false;
     };
-    void visit_scene_triangle(const FrameGeometry& geometry, std::size_t object, const vec3& point,
-                              float& squared);
-    void visit_own_triangle(const FrameGeometry& geometry, std::size_t object, const dvec3& point,
-                            float& squared);
+    void visit_triangle_of_scene(const FrameGeometry& geometry, std::size_t object,
+                                 const vec3& point, float& squared);
+    void visit_triangle_of_same_object(const FrameGeometry& geometry, std::size_t object,
+                                       const dvec3& point, float& squared);
 
-    BoxTree objects_;
+    BoundingBoxTree objects_;
     bool moved_ = false;
     std::vector<ObjectTriangleTree> parts_; ///< tree of each object
 };
@@ -80,7 +81,7 @@ private:
 float min_distance_to_box(const vec3& point, const Bounds<float>& box);
 
 template <typename Visit>
-void BoxTree::find_nearest(const vec3& point, const float& squared, Visit&& visit) const {
+void BoundingBoxTree::find_nearest(const vec3& point, const float& squared, Visit&& visit) const {
     const auto may_be_nearer = [&](std::uint32_t node) {
         const float gap = min_distance_to_box(point, nodes_[node].box);
         return !(gap * gap >= squared);
@@ -91,7 +92,7 @@ void BoxTree::find_nearest(const vec3& point, const float& squared, Visit&& visi
         const std::uint32_t place = waiting.back();
         waiting.pop_back();
         if (!may_be_nearer(place)) continue;
-        const BoxNode& node = nodes_[place];
+        const BoundingBoxTreeNode& node = nodes_[place];
         for (std::uint32_t i = 0; i < node.count; ++i) visit(order_[node.first + i]);
         if (node.count > 0) continue;
         const bool swap = min_distance_to_box(point, nodes_[node.second].box) <

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMaxMatrixStretch = 64;
 
 /// Returns the power of two that scales `size` to about 1.
-double power_of_two_scaling_to_one(double size) { return std::exp2(-std::ceil(std::log2(size))); }
+double power_of_two_normalising_size(double size) { return std::exp2(-std::ceil(std::log2(size))); }
 
 Bounds<double> compute_mesh_bounds(const scene::Mesh& mesh) {
     Bounds<double> box;
@@ -48,8 +48,8 @@ bool may_object_share_mesh(const scene::Scene& now, const scene::Object& object)
     const scene::Material& material = now.materials[object.material];
     const bool is_lamp = scene::is_one_sided(material) &&
                          scene::emitted_radiance(material) != vec3(0);
-    return !is_lamp &&
-           bvh::max_rounding_amplification(dmat3(object.world_from_object)) <= kMaxMatrixStretch;
+    return !is_lamp && bvh::max_matrix_rounding_amplification(dmat3(object.world_from_object)) <=
+                           kMaxMatrixStretch;
 }
 
 std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene) {
@@ -60,18 +60,18 @@ std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene) {
     return objects;
 }
 
-bool is_small_for_its_distance(const scene::Scene& now, const scene::Object& object,
-                               const SceneUnits& space) {
-    return is_small_for_its_distance(scene::bounds(now, object), space.origin_world);
+bool is_object_small_for_its_distance(const scene::Scene& now, const scene::Object& object,
+                                      const SceneUnitTransform& space) {
+    return is_object_small_for_its_distance(scene::bounds(now, object), space.origin_world);
 }
 
-SharedMeshSpace make_mesh_space(const scene::Mesh& mesh) {
+SharedMeshCoordinateSpace make_mesh_space(const scene::Mesh& mesh) {
     const Bounds<double> box = compute_mesh_bounds(mesh);
-    return {box.centre(), power_of_two_scaling_to_one(largest_component(box.extent())), {}};
+    return {box.centre(), power_of_two_normalising_size(largest_component(box.extent())), {}};
 }
 
-ObjectSpace make_object_space(const SharedMeshSpace& mesh, const dmat4& world_from_object,
-                              const SceneUnits& space) {
+ObjectSpace make_object_space(const SharedMeshCoordinateSpace& mesh, const dmat4& world_from_object,
+                              const SceneUnitTransform& space) {
     ObjectSpace own;
     own.scene_from_own = dmat3(world_from_object) * (space.scale / mesh.unit);
     own.centre = space.world_to_scene_units(
@@ -83,10 +83,10 @@ ObjectSpace make_object_space(const SharedMeshSpace& mesh, const dmat4& world_fr
 }
 
 ObjectSpace make_object_space(const scene::Scene& now, const scene::Object& object,
-                              const SceneUnits& space) {
+                              const SceneUnitTransform& space) {
     const Bounds<double> box = scene::bounds(now, object);
     // Object space units in one world unit.
-    const double unit = power_of_two_scaling_to_one(largest_component(box.extent()));
+    const double unit = power_of_two_normalising_size(largest_component(box.extent()));
     ObjectSpace own;
     own.scene_from_own = dmat3(space.scale / unit);
     own.centre = space.world_to_scene_units(object.sphere ? object.sphere->centre : box.centre());

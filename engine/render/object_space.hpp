@@ -34,28 +34,28 @@ std::vector<bool> find_objects_sharing_meshes(const scene::Scene& scene);
 /// Returns whether a copy may share its mesh in its present state.
 bool may_object_share_mesh(const scene::Scene& now, const scene::Object& object);
 
-/// Returns whether the object is smaller than kSmallObjectRatio of its distance from the origin.
-/// Costs O(triangles).
-bool is_small_for_its_distance(const scene::Scene& now, const scene::Object& object,
-                               const SceneUnits& space);
+/// Returns whether the object is smaller than kSmallObjectSizeToDistanceRatio of its distance from
+/// the origin. Costs O(triangles).
+bool is_object_small_for_its_distance(const scene::Scene& now, const scene::Object& object,
+                                      const SceneUnitTransform& space);
 
 /// The object space of a mesh that copies share: the axes of the mesh, around the middle of its
 /// bounds.
-struct SharedMeshSpace {
+struct SharedMeshCoordinateSpace {
     dvec3 middle{0};
     double unit = 1;    ///< object space units in one unit of the mesh
     Bounds<double> box; ///< bounds in object space
 };
 /// Returns the space of a mesh, with an empty box.
-SharedMeshSpace make_mesh_space(const scene::Mesh& mesh);
+SharedMeshCoordinateSpace make_mesh_space(const scene::Mesh& mesh);
 /// Returns the placement of a copy's object space.
-ObjectSpace make_object_space(const SharedMeshSpace& mesh, const dmat4& world_from_object,
-                              const SceneUnits& space);
+ObjectSpace make_object_space(const SharedMeshCoordinateSpace& mesh, const dmat4& world_from_object,
+                              const SceneUnitTransform& space);
 
 /// Returns the object space of a single object. It has the world's axes, so that vertices need no
 /// rotation. Its middle is that of the exact sphere, or else of the bounds.
 ObjectSpace make_object_space(const scene::Scene& now, const scene::Object& object,
-                              const SceneUnits& space);
+                              const SceneUnitTransform& space);
 
 /// Returns the scene bounds of a box in object space, padded for rounding to float.
 Bounds<float> object_bounds_in_scene_units(const ObjectSpace& own, const Bounds<double>& box);

@@ -13,12 +13,12 @@ inline constexpr graph::ClearValue kClearToFarthestDepth{0, 0, 0,
                                                          0}; ///< 0, because depth is reversed
 
 /// A range of faces of a mirror's capture or of a light's shadow map.
-struct CubeFaceRange {
+struct CaptureFaceRange {
     std::uint32_t owner = 0, first = 0, count = 6;
 };
 
 /// Returns `name` for all six faces, else "NAME.FIRST-LAST".
-inline std::string name_with_face_range(const std::string& name, const CubeFaceRange& faces) {
+inline std::string name_with_face_range(const std::string& name, const CaptureFaceRange& faces) {
     if (faces.count == 6) return name;
     return name + "." + std::to_string(faces.first + 1) + "-" +
            std::to_string(faces.first + faces.count);

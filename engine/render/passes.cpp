@@ -16,8 +16,9 @@ using graph::PassPurpose;
 using graph::ResourceUse;
 
 /// Returns the same shaders with some causes of error removed.
-MirrorShaders remove_error_causes_of_shaders(MirrorShaders looks, const FrameInputs& inputs,
-                                             const ShadingLights& lighting) {
+ShaderOfEachMirror remove_error_causes_of_shaders(ShaderOfEachMirror looks,
+                                                  const FrameInputs& inputs,
+                                                  const ShadingLights& lighting) {
     if (!inputs.ablated) return looks;
     inputs.scene.request_ray_tracing();
     for (MirrorShader& look : looks.looks) {
@@ -35,7 +36,7 @@ MirrorShaders remove_error_causes_of_shaders(MirrorShaders looks, const FrameInp
 } // namespace
 
 CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
-                                  const ShadingLights& lighting, MirrorShaders looks,
+                                  const ShadingLights& lighting, ShaderOfEachMirror looks,
                                   bool is_traced, ShadingTracer completing_tracer) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.add_image(
@@ -60,7 +61,7 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
         .first_view = GpuScene::kCameraViewIndex,
         .layers = 1,
         .lighting = lighting,
-        .looks = std::make_shared<const MirrorShaders>(
+        .looks = std::make_shared<const ShaderOfEachMirror>(
             remove_error_causes_of_shaders(std::move(looks), inputs, lighting)),
         .store = {},
         .completing_tracer = completing_tracer,
@@ -81,7 +82,7 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
 ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                               const std::string& name, const MirroredView& view,
                               std::uint32_t number, const ShadingLights& lighting,
-                              MirrorShaders looks, std::optional<std::uint32_t> left_out) {
+                              ShaderOfEachMirror looks, std::optional<std::uint32_t> left_out) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.add_image(
         {inputs.prefix + name, TexelFormat::rgba32f, size.x, size.y});
@@ -93,15 +94,15 @@ ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
         .first_view = number,
         .layers = 1,
         .lighting = lighting,
-        .looks = std::make_shared<const MirrorShaders>(std::move(looks)),
+        .looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks)),
         .store = {},
         .peeled = {}};
     pass.writes(hdr, ResourceUse::colour, kClearColourBlack)
         .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
-        .set_area(view.area)
+        .set_pass_render_area(view.area)
         .record([&scene = inputs.scene, drawing, view, size, left_out](PassCommands& commands) {
             const auto is_left_out = [&](std::size_t object) {
-                return left_out && object == scene.object_of_mirror(*left_out);
+                return left_out && object == scene.object_index_of_mirror(*left_out);
             };
             const auto is_shown = [&](std::size_t object) {
                 return !is_left_out(object) &&
@@ -123,10 +124,10 @@ ImageHandle add_compose_pass(graph::Graph& graph, const FrameInputs& inputs, Ima
         .reads(hdr, ResourceUse::sampled)
         .writes(picture, ResourceUse::colour, kClearColourBlack)
         .record([=](PassCommands& commands) {
-            commands.bind_pipeline(gpu::RasterState{"screen.vert", "compose.frag", {}});
+            commands.bind_pipeline(gpu::RasterPipelineState{"screen.vert", "compose.frag", {}});
             commands.bind_resource("hdr", hdr);
             commands.push_constants(static_cast<float>(std::exp2(exposure_stops)));
-            commands.draw_covering_triangle();
+            commands.draw_fullscreen_triangle();
         });
     return picture;
 }

@@ -30,8 +30,8 @@ std::optional<graph::ImageHandle> add_shadow_passes(graph::Graph& graph, const F
 /// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a
 /// mirror is left out of its own capture.
 void add_capture_passes(graph::Graph& graph, const FrameInputs& inputs,
-                        const MirrorCaptures& captures, MirrorShaders looks,
-                        const FrameCaptureWork& work = {});
+                        const MirrorCaptures& captures, ShaderOfEachMirror looks,
+                        const CaptureWorkOfFrame& work = {});
 
 /// The outputs of the camera's view.
 struct CameraPassOutputs {
@@ -47,7 +47,7 @@ struct CameraPassOutputs {
 /// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see Drawing. With such
 /// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl).
 CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
-                                  const ShadingLights& lighting, MirrorShaders looks,
+                                  const ShadingLights& lighting, ShaderOfEachMirror looks,
                                   bool is_traced = false, ShadingTracer completing_tracer = {});
 
 /// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
@@ -56,7 +56,8 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
 graph::ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                                      const std::string& name, const MirroredView& view,
                                      std::uint32_t number, const ShadingLights& lighting,
-                                     MirrorShaders looks, std::optional<std::uint32_t> left_out);
+                                     ShaderOfEachMirror looks,
+                                     std::optional<std::uint32_t> left_out);
 
 /// Declares the pass that makes the final picture: exposure in stops, clamp and sRGB curve,
 /// rgba8_unorm.

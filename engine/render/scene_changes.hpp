@@ -21,7 +21,7 @@ class SceneChangeTracker {
 public:
     /// Returns the differences from the scene of the last call, then stores `now` in its place.
     /// `report_all`: reports all data of the scene as changed.
-    SceneChanges update_and_compare(const scene::Scene& now, bool report_all);
+    SceneChanges update_and_find_scene_changes(const scene::Scene& now, bool report_all);
 
 private:
     struct TrackedObjectState {

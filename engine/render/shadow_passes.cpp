@@ -28,7 +28,7 @@ std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::Require
         return content_hash.current_hash();
     const shared::View& view = scene.list_views()[scene.shadow_view_index(light) + face];
     content_hash.add_value(needs.content_hash).add_value(view);
-    content_hash.add_values(std::span(scene.list_backdrops_of_light(light)));
+    content_hash.add_values(std::span(scene.shadowless_backdrops_of_light(light)));
     for (const require::ShadowCaster& caster : model.casters)
         if (may_view_show_box(view, scene.list_draw_ranges()[caster.object]))
             content_hash.add_value(caster.object).add_value(caster.content_hash);
@@ -38,23 +38,23 @@ std::uint64_t hash_shadow_map_face(const GpuScene& scene, const require::Require
 /// Declares a pass that draws a range of faces of a light's shadow map. Without a map, only clears
 /// them to the farthest depth, so that nothing is in shadow.
 void add_shadow_pass(graph::Graph& graph, const GpuScene& scene, std::uint32_t light,
-                     const CubeFaceRange& faces, bool has_map, const std::string& name,
+                     const CaptureFaceRange& faces, bool has_map, const std::string& name,
                      ImageHandle part) {
     graph.add_pass(name, PassPurpose::scene)
         .writes(part, ResourceUse::depth, kClearToFarthestDepth)
-        .set_layer_count(faces.count)
+        .set_pass_layer_count(faces.count)
         .record([&scene, light, faces, has_map](PassCommands& commands) {
             const std::uint32_t drawn = scene.drawn_shadow_faces(light);
             if (!has_map || faces.first >= drawn) return;
             scene.bind(commands);
             for (const bool masked : {false, true})
-                draw_objects_without_backs(
+                draw_objects_with_backface_culling(
                     commands, scene, {"", masked ? "masked.frag" : "", {}},
                     scene.shadow_view_index(light) + faces.first,
                     std::min(faces.count, drawn - faces.first), 0, [&](std::size_t i) {
                         const ObjectDrawRange& range = scene.list_draw_ranges()[i];
                         return range.casts_shadow && range.masked == masked &&
-                               !scene.list_backdrops_of_light(light)[i];
+                               !scene.shadowless_backdrops_of_light(light)[i];
                     });
         });
 }
@@ -77,19 +77,20 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
         const std::string name = scene.light_count() == 1 ? "shadow"
                                                           : "shadow/" + std::to_string(light + 1);
         const auto part = [&](std::uint32_t first, std::uint32_t count) {
-            return map.select_layers(faces * light + first, count);
+            return map.select_image_layers(faces * light + first, count);
         };
         std::array<std::uint64_t, 6> content_hashes{};
         for (std::uint32_t face = 0; face < faces && !model.is_everything; ++face)
             content_hashes[face] = hash_shadow_map_face(scene, model, light, face);
         const auto is_drawn = [&](std::uint32_t face) {
-            return face < faces && (model.is_everything ||
-                                    !graph.holds_content(part(face, 1), content_hashes[face]));
+            return face < faces &&
+                   (model.is_everything ||
+                    !graph.has_image_part_content_hash(part(face, 1), content_hashes[face]));
         };
-        for_each_run_of_faces(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
-            const CubeFaceRange run{light, first, end - first};
+        for_each_consecutive_face_range(is_drawn, [&](std::uint32_t first, std::uint32_t end) {
+            const CaptureFaceRange run{light, first, end - first};
             for (std::uint32_t face = first; face < end && !model.is_everything; ++face)
-                graph.set_content_hash(part(face, 1), content_hashes[face]);
+                graph.set_content_hash_of_image_part(part(face, 1), content_hashes[face]);
             const std::string text = run.count == faces ? name : name_with_face_range(name, run);
             add_shadow_pass(graph, scene, light, run, has_map, inputs.prefix + text + suffix,
                             part(first, run.count));

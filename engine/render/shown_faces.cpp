@@ -23,16 +23,16 @@ float relative_place_rounding_error(const shared::View& view, const vec3& place)
 }
 
 /// A sphere as a face sees it: x to the right, y down, z forward.
-struct SphereInFaceView {
+struct SphereInCubeFaceView {
     vec3 centre;
     float distance; ///< of the centre; above `radius`
     float radius;
     float sine, cosine; ///< of half the angle that the sphere covers
 };
 
-SphereInFaceView make_sphere_in_face_view(const shared::View& view, const vec3& from_eye,
-                                          float radius) {
-    SphereInFaceView seen{
+SphereInCubeFaceView make_sphere_in_face_view(const shared::View& view, const vec3& from_eye,
+                                              float radius) {
+    SphereInCubeFaceView seen{
         {dot(view.right, from_eye), dot(view.down, from_eye), dot(view.forward, from_eye)},
         length(from_eye),
         radius,
@@ -50,7 +50,7 @@ struct ViewSlopeRange {
 
 /// Returns the slopes between the tangents to the sphere, in the plane of `across` and forward.
 /// A side without a tangent in front of the eye is not limited.
-ViewSlopeRange find_sphere_slopes(const SphereInFaceView& sphere, float across) {
+ViewSlopeRange find_sphere_slopes(const SphereInCubeFaceView& sphere, float across) {
     const float ahead = sphere.centre.z;
     const float squared = across * across + ahead * ahead - sphere.radius * sphere.radius;
     if (!(squared > 0)) return {};
@@ -68,9 +68,9 @@ ViewSlopeRange find_sphere_slopes(const SphereInFaceView& sphere, float across) 
 }
 
 /// The cells of a face. A cell holds one texel, or a square of neighbouring texels.
-class HiddenFaceCells {
+class HiddenCubeFaceCells {
 public:
-    explicit HiddenFaceCells(const FaceRasterSettings& raster)
+    explicit HiddenCubeFaceCells(const FaceRasterSettings& raster)
         : face_edge_(raster.edge),
           texels_((face_edge_ + kFaceCellsPerEdge - 1) / kFaceCellsPerEdge),
           cells_((face_edge_ + texels_ - 1) / texels_),
@@ -87,12 +87,12 @@ public:
         }
     }
 
-    void clear_cells() {
+    void clear_hidden_cells() {
         std::ranges::fill(hidden_beyond_, std::numeric_limits<float>::infinity());
     }
 
     /// Records that a ball hides what lies behind it.
-    void add_hiding_ball(const SphereInFaceView& ball) {
+    void mark_cells_hidden_by_ball(const SphereInCubeFaceView& ball) {
         for_each_cell_near_sphere(
             ball, 0, [&](std::size_t cell, const ViewSlopeRange& x, const ViewSlopeRange& y) {
                 // The cone around the ball is convex. Where it holds the outermost centres of the
@@ -115,7 +115,7 @@ public:
     }
 
     /// Returns whether the face may show something in the sphere.
-    bool may_face_show_sphere(const SphereInFaceView& sphere) const {
+    bool may_face_show_sphere(const SphereInCubeFaceView& sphere) const {
         const float nearest = sphere.distance - sphere.radius;
         // An angle is smaller than the way on the face that it spans.
         const float around = std::numbers::sqrt2_v<float> *
@@ -134,7 +134,7 @@ public:
     }
 
 private:
-    static float cosine_to_sphere_axis(const SphereInFaceView& sphere, const vec2& slopes) {
+    static float cosine_to_sphere_axis(const SphereInCubeFaceView& sphere, const vec2& slopes) {
         const vec3 direction(slopes, 1);
         return dot(direction, sphere.centre) / (length(direction) * sphere.distance);
     }
@@ -154,7 +154,7 @@ private:
     /// Calls visit(cell, slopes to the right, slopes down) for each cell with texel centres less
     /// than `beside` away from the square around the sphere, until `visit` returns true.
     template <typename Visit>
-    void for_each_cell_near_sphere(const SphereInFaceView& sphere, float beside,
+    void for_each_cell_near_sphere(const SphereInCubeFaceView& sphere, float beside,
                                    Visit&& visit) const {
         const ViewSlopeRange across = find_sphere_slopes(sphere, sphere.centre.x),
                              down = find_sphere_slopes(sphere, sphere.centre.y);
@@ -198,13 +198,13 @@ find_faces_showing_objects(std::span<const shared::View> faces, const FaceRaster
     for (const InnerOccluderBall& ball : balls)
         if (wanted(ball.object) && can_ball_hide_objects(faces.front(), ball, ranges[ball.object]))
             hiding.push_back(&ball);
-    HiddenFaceCells cells(raster);
+    HiddenCubeFaceCells cells(raster);
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const shared::View& view = faces[face];
-        cells.clear_cells();
+        cells.clear_hidden_cells();
         for (const InnerOccluderBall* const ball : hiding)
             if (may_view_show_box(view, ranges[ball->object]))
-                cells.add_hiding_ball(make_sphere_in_face_view(
+                cells.mark_cells_hidden_by_ball(make_sphere_in_face_view(
                     view, ball->centre - view.eye,
                     ball->radius - relative_place_rounding_error(view, ball->centre)));
         for (const std::size_t i : objects) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kNoEnvironmentKind = 0, kMapEnvironment = 1, kStudioEnvironment = 2;
 
-shared::Sky make_sky_entry(const scene::Environment& environment) {
+shared::Sky make_sky_uniforms(const scene::Environment& environment) {
     shared::Sky sky{};
     sky.size = environment.size;
     sky.scale = static_cast<float>(environment.scale);
@@ -26,8 +26,8 @@ shared::Sky make_sky_entry(const scene::Environment& environment) {
 }
 
 /// Appends what rough surfaces reflect.
-void append_sky_levels(const std::shared_ptr<const scene::Environment>& environment,
-                       shared::Sky& sky, std::vector<vec4>& texels) {
+void append_filtered_sky_levels(const std::shared_ptr<const scene::Environment>& environment,
+                                shared::Sky& sky, std::vector<vec4>& texels) {
     const std::shared_ptr<const FilteredSkyLevels> levels = find_sky_levels(environment);
     for (std::size_t k = 0; k < SKY_LEVEL_COUNT; ++k) {
         sky.level_first[k] = static_cast<std::uint32_t>(texels.size()) + levels->first[k];
@@ -43,7 +43,7 @@ DeviceEnvironment::DeviceEnvironment(std::size_t slots)
       texels_("sky.texels", gpu::BufferUsage::texels, slots),
       vertices_("sky.vertices", gpu::BufferUsage::vertex, slots),
       indices_("sky.indices", gpu::BufferUsage::index, slots) {
-    sky_entry_.set_list_contents(std::vector(1, shared::Sky{}));
+    sky_entry_.set_device_list_contents(std::vector(1, shared::Sky{}));
 }
 
 void DeviceEnvironment::set_environment(
@@ -59,23 +59,23 @@ void DeviceEnvironment::set_environment(
     kind_ = !environment          ? kNoEnvironmentKind
             : environment->studio ? kStudioEnvironment
                                   : kMapEnvironment;
-    shared::Sky sky = environment ? make_sky_entry(*environment) : shared::Sky{};
+    shared::Sky sky = environment ? make_sky_uniforms(*environment) : shared::Sky{};
     std::vector<vec4> texels;
     if (kind_ == kMapEnvironment)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
-    if (environment && has_lobes) append_sky_levels(environment, sky, texels);
-    sky_entry_.set_list_contents(std::vector(1, sky));
-    texels_.set_list_contents(texels);
+    if (environment && has_lobes) append_filtered_sky_levels(environment, sky, texels);
+    sky_entry_.set_device_list_contents(std::vector(1, sky));
+    texels_.set_device_list_contents(texels);
     if (kind_ == kNoEnvironmentKind) return;
-    vertices_.set_list_contents(
+    vertices_.set_device_list_contents(
         std::vector<shared::Vertex>{{{-1, -1, 0}, {}}, {{3, -1, 0}, {}}, {{-1, 3, 0}, {}}});
-    indices_.set_list_contents(std::vector<std::uint32_t>{0, 1, 2});
+    indices_.set_device_list_contents(std::vector<std::uint32_t>{0, 1, 2});
 }
 
 std::size_t DeviceEnvironment::write(gpu::GpuDevice& device, std::size_t slot) {
     std::size_t writes = 0;
-    for (DeviceDataList* buffer : {&sky_entry_, &texels_, &vertices_, &indices_})
-        writes += buffer->write_changed_pages(device, slot);
+    for (DoubleBufferedDeviceList* buffer : {&sky_entry_, &texels_, &vertices_, &indices_})
+        writes += buffer->upload_changed_pages(device, slot);
     return writes;
 }
 
@@ -85,17 +85,18 @@ void DeviceEnvironment::bind(graph::PassCommands& commands, std::size_t slot) co
 }
 
 void DeviceEnvironment::bind_vertices(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_geometry(vertices_.buffer_of_device_copy(slot),
-                           indices_.buffer_of_device_copy(slot));
+    commands.bind_vertex_and_index_buffers(vertices_.buffer_of_device_copy(slot),
+                                           indices_.buffer_of_device_copy(slot));
 }
 
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
-              std::uint32_t layers, const gpu::ShaderConstants& store) {
+              std::uint32_t layers, const gpu::ShaderConstantValues& store) {
     if (!scene.has_sky()) return;
-    commands.bind_pipeline(gpu::RasterState{.vertex = "sky.vert",
-                                            .fragment = "sky.frag",
-                                            .constants = store,
-                                            .features = scene.shader_features(first_view)});
+    commands.bind_pipeline(
+        gpu::RasterPipelineState{.vertex = "sky.vert",
+                                 .fragment = "sky.frag",
+                                 .constants = store,
+                                 .features = scene.shader_feature_constants(first_view)});
     commands.push_constants(shared::DrawParameters{.first_view = first_view});
     scene.bind_sky_vertices(commands);
     commands.draw(0, 3, 0, layers);

@@ -21,7 +21,7 @@ public:
     /// (find_sky_levels).
     void set_environment(const std::shared_ptr<const scene::Environment>& environment,
                          bool has_lobes);
-    /// Writes the changes, like DeviceDataList::write_changed_pages.
+    /// Writes the changes, like DoubleBufferedDeviceList::upload_changed_pages.
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
     /// Binds the triangle that covers the picture.
@@ -33,12 +33,12 @@ private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
     bool has_levels_ = false;
-    DeviceDataList sky_entry_, texels_, vertices_, indices_;
+    DoubleBufferedDeviceList sky_entry_, texels_, vertices_, indices_;
 };
 
 /// Draws the environment into pixels that no surface covers, into layers whose views start at
 /// `first_view`. `store`: as in Drawing.
 void draw_sky(graph::PassCommands& commands, const GpuScene& scene, std::uint32_t first_view,
-              std::uint32_t layers, const gpu::ShaderConstants& store);
+              std::uint32_t layers, const gpu::ShaderConstantValues& store);
 
 } // namespace catoptric::render

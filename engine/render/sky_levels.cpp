@@ -16,16 +16,16 @@ constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kSkyLevelWidths{256, 128, 6
                                                                      32,  32,  32, 32};
 constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kSkyLevelLobeSamples{64,  128, 256, 512,
                                                                           512, 512, 512, 512};
-constexpr float kSampleBoxOverlap =
+constexpr float kLobeSampleBoxOverlap =
     2; ///< area of a sample's box in areas for which the sample stands
-constexpr std::uint32_t kMinSkyBaseWidth = 64, kMaxBaseWidth = 1024;
+constexpr std::uint32_t kMinSkyBaseWidth = 64, kMaxSkyBaseWidth = 1024;
 
 /// Equirectangular map with twice as many columns as rows.
-struct SkyMap {
+struct EquirectangularSkyMap {
     std::uint32_t width = 0;
     std::vector<vec3> texels;
     std::uint32_t row_count() const { return width / 2; }
-    const vec3& texel_at(std::uint32_t column, std::uint32_t row) const {
+    const vec3& sky_map_texel_at(std::uint32_t column, std::uint32_t row) const {
         return texels[std::size_t{row} * width + column];
     }
 };
@@ -52,11 +52,11 @@ vec3 sample_sky_map(const std::vector<vec3>& texels, uvec2 size, const vec3& dir
 
 /// Returns the environment at a width that is a power of two, with several samples a texel where
 /// the environment is finer.
-SkyMap make_base_sky_map(const scene::Environment& environment) {
-    SkyMap base;
-    base.width = environment.studio ? kMaxBaseWidth / 2
+EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
+    EquirectangularSkyMap base;
+    base.width = environment.studio ? kMaxSkyBaseWidth / 2
                                     : std::clamp(std::bit_ceil(environment.size.x),
-                                                 kMinSkyBaseWidth, kMaxBaseWidth);
+                                                 kMinSkyBaseWidth, kMaxSkyBaseWidth);
     const std::uint32_t edge = environment.studio
                                    ? 1
                                    : std::max(1U,
@@ -81,8 +81,8 @@ SkyMap make_base_sky_map(const scene::Environment& environment) {
 }
 
 /// Returns the map at half the width. Texels count by their solid angle.
-SkyMap halve_sky_map(const SkyMap& fine) {
-    SkyMap half{fine.width / 2, {}};
+EquirectangularSkyMap halve_sky_map(const EquirectangularSkyMap& fine) {
+    EquirectangularSkyMap half{fine.width / 2, {}};
     for (std::uint32_t row = 0; row < half.row_count(); ++row) {
         const auto weight = [&](std::uint32_t of) {
             return std::sin(std::numbers::pi_v<float> * (float(of) + .5f) /
@@ -90,10 +90,10 @@ SkyMap halve_sky_map(const SkyMap& fine) {
         };
         const float upper = weight(2 * row), lower = weight(2 * row + 1);
         for (std::uint32_t column = 0; column < half.width; ++column) {
-            const vec3 above = fine.texel_at(2 * column, 2 * row) +
-                               fine.texel_at(2 * column + 1, 2 * row);
-            const vec3 below = fine.texel_at(2 * column, 2 * row + 1) +
-                               fine.texel_at(2 * column + 1, 2 * row + 1);
+            const vec3 above = fine.sky_map_texel_at(2 * column, 2 * row) +
+                               fine.sky_map_texel_at(2 * column + 1, 2 * row);
+            const vec3 below = fine.sky_map_texel_at(2 * column, 2 * row + 1) +
+                               fine.sky_map_texel_at(2 * column + 1, 2 * row + 1);
             half.texels.push_back((upper * above + lower * below) / (2 * (upper + lower)));
         }
     }
@@ -101,11 +101,12 @@ SkyMap halve_sky_map(const SkyMap& fine) {
 }
 
 /// Reads the mean of two neighbouring maps of the chain, the first of which is the finest.
-vec3 sample_sky_map_chain(const std::vector<SkyMap>& chain, float level, const vec3& direction) {
+vec3 sample_sky_map_chain(const std::vector<EquirectangularSkyMap>& chain, float level,
+                          const vec3& direction) {
     const float last = static_cast<float>(chain.size() - 1);
     level = std::clamp(level, 0.f, last);
     const auto finer = static_cast<std::size_t>(std::min(level, last - 1));
-    const auto read = [&](const SkyMap& map) {
+    const auto read = [&](const EquirectangularSkyMap& map) {
         return sample_sky_map(map.texels, {map.width, map.row_count()}, direction);
     };
     return glm::mix(read(chain[finer]), read(chain[finer + 1]), level - static_cast<float>(finer));
@@ -126,13 +127,14 @@ std::vector<LobeSample> make_lobe_samples(float alpha, std::uint32_t count) {
         if (!(drawn.z > 0)) continue;
         const vec3 half_way = f32::half_vector_between(vec3(0, 0, 1), drawn);
         const float density = f32::ggx_density(alpha, half_way) / 4;
-        samples.push_back({drawn, .5f * std::log2(kSampleBoxOverlap / (float(count) * density))});
+        samples.push_back(
+            {drawn, .5f * std::log2(kLobeSampleBoxOverlap / (float(count) * density))});
     }
     return samples;
 }
 
-vec3 filter_sky_texel(const std::vector<SkyMap>& chain, const std::vector<LobeSample>& samples,
-                      const vec3& normal) {
+vec3 filter_sky_texel(const std::vector<EquirectangularSkyMap>& chain,
+                      const std::vector<LobeSample>& samples, const vec3& normal) {
     constexpr float kPi = std::numbers::pi_v<float>;
     vec3 tangent, bitangent, sum(0);
     f32::tangent_frame(normal, tangent, bitangent);
@@ -149,7 +151,7 @@ vec3 filter_sky_texel(const std::vector<SkyMap>& chain, const std::vector<LobeSa
 }
 
 FilteredSkyLevels filter_environment(const scene::Environment& environment) {
-    std::vector<SkyMap> chain{make_base_sky_map(environment)};
+    std::vector<EquirectangularSkyMap> chain{make_base_sky_map(environment)};
     while (chain.back().width > 4) chain.push_back(halve_sky_map(chain.back()));
     FilteredSkyLevels levels;
     levels.width = kSkyLevelWidths;

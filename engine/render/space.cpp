@@ -21,31 +21,31 @@ dvec3 choose_scene_origin(const scene::Scene& scene, const Bounds<double>& core)
     Bounds<double> around;
     for (const std::size_t mirror : scene::mirrors(scene)) {
         const Bounds<double> box = scene::bounds(scene, scene.objects[mirror]);
-        if (!is_box_inside_view(box, core) || !is_small_for_its_distance(box, core.centre()))
+        if (!is_box_inside_view(box, core) || !is_object_small_for_its_distance(box, core.centre()))
             continue;
         small.push_back(box), around.add(box);
     }
     const dvec3 theirs = around.centre();
     const bool helps = !small.empty() && std::ranges::none_of(small, [&](const auto& box) {
-        return is_small_for_its_distance(box, theirs);
+        return is_object_small_for_its_distance(box, theirs);
     });
     return helps ? theirs : core.centre();
 }
 
 } // namespace
 
-bool is_small_for_its_distance(const Bounds<double>& box, const dvec3& origin) {
+bool is_object_small_for_its_distance(const Bounds<double>& box, const dvec3& origin) {
     if (box.empty()) return false;
     const double size = largest_component(box.extent()),
                  distance = largest_component(
                      glm::max(glm::abs(box.lo - origin), glm::abs(box.hi - origin)));
-    return size > 0 && size < kSmallObjectRatio * distance;
+    return size > 0 && size < kSmallObjectSizeToDistanceRatio * distance;
 }
 
-SceneUnits make_scene_units(const scene::Scene& scene) {
+SceneUnitTransform make_scene_units(const scene::Scene& scene) {
     const Bounds<double> core = scene::compute_core_bounds(scene);
     if (core.empty()) return {};
-    SceneUnits space;
+    SceneUnitTransform space;
     space.origin_world = choose_scene_origin(scene, core);
     if (const double extent = largest_component(core.extent()); extent > 0)
         space.scale = std::exp2(-std::ceil(std::log2(extent)));

@@ -19,7 +19,7 @@ namespace {
 std::uint32_t ray_mask_of_draw_range(const ObjectDrawRange& range) {
     return (range.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
            (range.casts_shadow ? 0 : bvh::kCastsNoShadowFlag) |
-           (range.exact_sphere ? bvh::kStandsForSphereFlag : 0) |
+           (range.exact_sphere ? bvh::kTriangleApproximatesSphereFlag : 0) |
            (range.one_sided ? bvh::kOneSidedFlag : 0) | (range.masked ? bvh::kAlphaMaskedFlag : 0);
 }
 
@@ -39,14 +39,14 @@ void read_object_triangles(const FrameGeometry& geometry, std::size_t object,
         for (std::uint32_t j = 0; j < 3; ++j) {
             const std::uint32_t local = geometry.indices[k + j] - range.first_vertex;
             normals[k + j] = vec4(vertex(j).normal,
-                                  bvh::index_to_float_word(range.first_attribute.value_or(0) +
-                                                           (range.first_attribute ? local : 0)));
+                                  bvh::index_to_bits_in_float(range.first_attribute.value_or(0) +
+                                                              (range.first_attribute ? local : 0)));
         }
     }
 }
 
 /// Adds `first` to the triangle numbers of a tree.
-void add_to_triangle_numbers(bvh::Bvh& tree, std::uint32_t first) {
+void offset_triangle_numbers_of_bvh(bvh::Bvh& tree, std::uint32_t first) {
     for (std::size_t i = 1; i < tree.triangles.size(); i += 3)
         tree.triangles[i].w = std::bit_cast<float>(
             std::bit_cast<std::uint32_t>(tree.triangles[i].w) + first);
@@ -107,16 +107,17 @@ std::vector<std::uint32_t> list_first_hit_words(const bvh::Bvh& shown,
         list[2 * std::size_t{instances[i].object}] = shown.first_record +
                                                      f32::kBvhNodesPerInstance * i;
     for (std::uint32_t place = 0; place < bvh::count_triangles(shown); ++place)
-        list[first + bvh::float_word_to_integer(shown.triangles[3 * std::size_t{place} + 1].w)] =
+        list[first + bvh::integer_from_float_bits(shown.triangles[3 * std::size_t{place} + 1].w)] =
             place;
     return list;
 }
 
 } // namespace
 
-gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, std::uint64_t bytes,
-                                           std::uint64_t most_of_storage) {
-    gpu::ShaderConstants constants;
+gpu::ShaderConstantValues make_tracer_constants(const gpu::ShaderVariantChoices& choices,
+                                                std::uint64_t bytes,
+                                                std::uint64_t most_of_storage) {
+    gpu::ShaderConstantValues constants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
         const std::string_view constant = gpu::list_shader_variants()[i].constant;
         if (choices[i] == 0 || (constant == kBvhInStorageConstant && bytes > most_of_storage))
@@ -130,7 +131,7 @@ RayTracingTrees::RayTracingTrees(std::size_t slots)
     : hierarchies_{DeviceBvh(slots), DeviceBvh(slots)},
       corner_normals_("normals", gpu::BufferUsage::texels, slots) {}
 
-void RayTracingTrees::set_backdrops(std::vector<std::uint8_t> backdrops) {
+void RayTracingTrees::set_backdrop_objects(std::vector<std::uint8_t> backdrops) {
     if (backdrops == backdrops_) return;
     backdrops_ = std::move(backdrops);
     record_layout_change();
@@ -141,9 +142,10 @@ void RayTracingTrees::record_layout_change() {
     moved_.clear();
 }
 
-void RayTracingTrees::build_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                                  std::span<const bvh::Triangle> flat) {
-    hierarchy.tree = bvh::build_bvh(flat, geometry.core, bvh::DuplicateSearchScope::across_objects);
+void RayTracingTrees::build_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                              std::span<const bvh::Triangle> flat) {
+    hierarchy.tree = bvh::build_bvh(flat, geometry.core,
+                                    bvh::DuplicateTriangleSearchScope::across_objects);
     hierarchy.reached.clear();
     hierarchy.lists_first_hits = false;
     hierarchy.cost_when_built = hierarchy.tree.cost;
@@ -151,17 +153,17 @@ void RayTracingTrees::build_trees(DeviceBvh& hierarchy, const FrameGeometry& geo
     ++built_;
 }
 
-void RayTracingTrees::refit_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                                  std::span<const bvh::Triangle> flat) {
+void RayTracingTrees::refit_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                              std::span<const bvh::Triangle> flat) {
     if (hierarchy.moved != hierarchy.reached) { // mostly the same objects move from frame to frame
-        hierarchy.reach = bvh::find_refit_region(hierarchy.tree, hierarchy.moved);
+        hierarchy.reach = bvh::find_bvh_region_to_refit(hierarchy.tree, hierarchy.moved);
         hierarchy.reached = hierarchy.moved;
     }
     hierarchy.changed = bvh::refit_bvh(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
     // Written so that NaN rebuilds too.
     if (!(hierarchy.tree.cost <= kMaxRefitCostRatio * hierarchy.cost_when_built))
-        build_trees(hierarchy, geometry, flat);
+        build_ray_tracing_trees(hierarchy, geometry, flat);
 }
 
 void RayTracingTrees::build_object_space_tree(const FrameGeometry& geometry, std::size_t object) {
@@ -169,7 +171,7 @@ void RayTracingTrees::build_object_space_tree(const FrameGeometry& geometry, std
     bvh::Bvh& tree = own_trees_[object];
     tree = bvh::build_bvh(
         std::span(triangles_).subspan(range.first_index / 3, range.index_count / 3));
-    add_to_triangle_numbers(tree, range.first_index / 3);
+    offset_triangle_numbers_of_bvh(tree, range.first_index / 3);
 }
 
 /// Reads the objects that have moved.
@@ -190,7 +192,7 @@ void RayTracingTrees::read_moved_objects(const FrameGeometry& geometry) {
             if (!own) hierarchy.moved[object] = 1;
         }
     }
-    corner_normals_.set_list_contents(normals_, changed.first, changed.end);
+    corner_normals_.set_device_list_contents(normals_, changed.first, changed.end);
 }
 
 /// Reads a new layout, or the objects that have moved.
@@ -210,7 +212,7 @@ void RayTracingTrees::read_geometry_changes(const FrameGeometry& geometry) {
                 read_object_triangles(geometry, i, backdrop_triangle_flag(i), triangles_, normals_);
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i)
             if (has_object_space(geometry, i)) build_object_space_tree(geometry, i);
-        corner_normals_.set_list_contents(normals_);
+        corner_normals_.set_device_list_contents(normals_);
     }
     is_read_ = true;
     moved_.clear();
@@ -240,46 +242,49 @@ RayTracingTrees::list_bvh_instances(const FrameGeometry& geometry) const {
 }
 
 /// Assembles the trees that the device walks. `first_hits`: lists the places of triangles, too.
-void RayTracingTrees::assemble_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                                     bool first_hits) const {
+void RayTracingTrees::assemble_two_level_tree(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                              bool first_hits) const {
     const std::vector<bvh::BvhInstance> instances = this->list_bvh_instances(geometry);
     const bvh::Bvh whole = instances.empty()
                                ? bvh::Bvh()
                                : bvh::assemble_two_level_bvh(hierarchy.tree, instances);
     const bvh::Bvh& shown = instances.empty() ? hierarchy.tree : whole;
-    hierarchy.node_list.set_list_contents(shown.nodes);
+    hierarchy.node_list.set_device_list_contents(shown.nodes);
     if (instances.empty())
-        hierarchy.triangles.set_list_contents(shown.triangles, hierarchy.changed.first,
-                                              hierarchy.changed.end);
+        hierarchy.triangles.set_device_list_contents(shown.triangles, hierarchy.changed.first,
+                                                     hierarchy.changed.end);
     else
-        hierarchy.triangles.set_list_contents(shown.triangles);
+        hierarchy.triangles.set_device_list_contents(shown.triangles);
     // A refit keeps the places of triangles, but assembling may change them.
     hierarchy.lists_first_hits = hierarchy.lists_first_hits && instances.empty();
     if (!first_hits || hierarchy.lists_first_hits) return;
-    hierarchy.first_hits.set_list_contents(
+    hierarchy.first_hits.set_device_list_contents(
         list_first_hit_words(shown, instances, geometry, triangles_.size()));
     hierarchy.lists_first_hits = true;
 }
 
 /// `flat`: the triangles and spheres in scene units.
-void RayTracingTrees::rebuild_or_refit(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                                       std::span<const bvh::Triangle> flat, bool first_hits) {
+void RayTracingTrees::rebuild_or_refit_ray_tracing_trees(DeviceBvh& hierarchy,
+                                                         const FrameGeometry& geometry,
+                                                         std::span<const bvh::Triangle> flat,
+                                                         bool first_hits) {
     // Triangles left out as copies may no longer coincide after a move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
     hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call fills everything
     if (is_new)
-        build_trees(hierarchy, geometry, flat);
+        build_ray_tracing_trees(hierarchy, geometry, flat);
     else if (std::ranges::find(hierarchy.moved, 1) != hierarchy.moved.end())
-        refit_trees(hierarchy, geometry, flat);
-    assemble_trees(hierarchy, geometry, first_hits);
+        refit_ray_tracing_trees(hierarchy, geometry, flat);
+    assemble_two_level_tree(hierarchy, geometry, first_hits);
     hierarchy.moved.clear();
     hierarchy.seen = version_;
 }
 
-void RayTracingTrees::prepare_trees(gpu::GpuDevice& device, const FrameGeometry& geometry,
-                                    std::span<const shared::Surface> surfaces,
-                                    SphereIntersectionMode spheres, bool first_hits,
-                                    std::size_t slot) {
+void RayTracingTrees::prepare_ray_tracing_trees(gpu::GpuDevice& device,
+                                                const FrameGeometry& geometry,
+                                                std::span<const shared::Surface> surfaces,
+                                                SphereIntersectionMode spheres, bool first_hits,
+                                                std::size_t slot) {
     const Stopwatch watch(ms_);
     const bool is_first = built_ == 0;
     read_geometry_changes(geometry);
@@ -287,24 +292,27 @@ void RayTracingTrees::prepare_trees(gpu::GpuDevice& device, const FrameGeometry&
     if (hierarchy.seen != version_) {
         const std::size_t count = geometry.flat_indices / 3;
         if (spheres == SphereIntersectionMode::mesh)
-            rebuild_or_refit(hierarchy, geometry, std::span(triangles_).first(count), first_hits);
+            rebuild_or_refit_ray_tracing_trees(hierarchy, geometry,
+                                               std::span(triangles_).first(count), first_hits);
         else
-            rebuild_or_refit(
+            rebuild_or_refit_ray_tracing_trees(
                 hierarchy, geometry,
                 replace_by_exact_spheres(std::span(triangles_).first(count), geometry, surfaces),
                 first_hits);
     }
-    if (first_hits && !hierarchy.lists_first_hits) assemble_trees(hierarchy, geometry, true);
+    if (first_hits && !hierarchy.lists_first_hits)
+        assemble_two_level_tree(hierarchy, geometry, true);
     const double build_ms = watch.elapsed_ms();
-    for (DeviceDataList* buffer : {&hierarchy.node_list, &hierarchy.triangles, &corner_normals_})
-        writes_ += buffer->write_changed_pages(device, slot);
+    for (DoubleBufferedDeviceList* buffer :
+         {&hierarchy.node_list, &hierarchy.triangles, &corner_normals_})
+        writes_ += buffer->upload_changed_pages(device, slot);
     if (hierarchy.lists_first_hits)
-        writes_ += hierarchy.first_hits.write_changed_pages(device, slot);
+        writes_ += hierarchy.first_hits.upload_changed_pages(device, slot);
     if (is_first) first_build_ms_ = build_ms, first_write_ms_ = watch.elapsed_ms() - build_ms;
 }
 
-std::uint64_t RayTracingTrees::largest_bytes(SphereIntersectionMode spheres,
-                                             std::size_t slot) const {
+std::uint64_t RayTracingTrees::largest_tree_buffer_bytes(SphereIntersectionMode spheres,
+                                                         std::size_t slot) const {
     const DeviceBvh& hierarchy = hierarchies_[static_cast<std::size_t>(spheres)];
     return std::max(hierarchy.node_list.buffer_of_device_copy(slot).size_in_bytes(),
                     hierarchy.triangles.buffer_of_device_copy(slot).size_in_bytes());

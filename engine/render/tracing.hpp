@@ -24,8 +24,8 @@ enum class SphereIntersectionMode { mesh, exact };
 /// Returns the constants with which the tracer's shaders are built for a device's choices, without
 /// defaults. `bytes`: the size of the nodes or triangles. If it exceeds `most_of_storage`, they are
 /// texel buffers instead of storage buffers.
-gpu::ShaderConstants make_tracer_constants(const gpu::VariantChoices& choices, std::uint64_t bytes,
-                                           std::uint64_t most_of_storage);
+gpu::ShaderConstantValues make_tracer_constants(const gpu::ShaderVariantChoices& choices,
+                                                std::uint64_t bytes, std::uint64_t most_of_storage);
 
 /// The hierarchies that rays walk. Each is built at its first use for a layout of objects, and
 /// refitted after objects have moved.
@@ -37,7 +37,7 @@ public:
     void record_layout_change();
     /// Records which objects cast a shadow on nothing for any light, by object (see backdrop.hpp).
     /// Shadow rays pass through such objects. Another set needs new hierarchies.
-    void set_backdrops(std::vector<std::uint8_t> backdrops);
+    void set_backdrop_objects(std::vector<std::uint8_t> backdrops);
     /// Records that an object moved. `vertices`: its vertices changed, not only the placement of
     /// its object space.
     void record_moved_object(std::size_t object, bool vertices) {
@@ -46,19 +46,20 @@ public:
     /// Brings a hierarchy up to date for slot `slot`. Does nothing if nothing changed since the
     /// last call. `surfaces`: by object, scene units. `first_hits`: the list that finds a triangle
     /// of the rasteriser in the hierarchy is needed, too. A build costs O(n log^2 n), a refit O(n).
-    void prepare_trees(gpu::GpuDevice& device, const FrameGeometry& geometry,
-                       std::span<const shared::Surface> surfaces, SphereIntersectionMode spheres,
-                       bool first_hits, std::size_t slot);
+    void prepare_ray_tracing_trees(gpu::GpuDevice& device, const FrameGeometry& geometry,
+                                   std::span<const shared::Surface> surfaces,
+                                   SphereIntersectionMode spheres, bool first_hits,
+                                   std::size_t slot);
     void bind(graph::PassCommands& commands, SphereIntersectionMode spheres,
               std::size_t slot) const;
     /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
     /// slot.
-    std::uint64_t largest_bytes(SphereIntersectionMode spheres, std::size_t slot) const;
+    std::uint64_t largest_tree_buffer_bytes(SphereIntersectionMode spheres, std::size_t slot) const;
 
     std::size_t built_tree_count() const { return built_; }
     std::size_t refitted_tree_count() const { return refitted_; }
     /// Number of writes to device memory since construction.
-    std::size_t device_write_count() const { return writes_; }
+    std::size_t device_buffer_write_count() const { return writes_; }
     double bvh_update_ms() const { return ms_; } ///< host time in ms since construction
     /// Returns the host milliseconds of the first use, which `bvh_update_ms` includes: for building
     /// the trees, and for writing them to the device.
@@ -85,14 +86,14 @@ private:
         SceneGeometryVersion seen;
         std::vector<char> moved; ///< for each object in scene units: whether it moved since `seen`
         std::vector<char> reached; ///< for each object: whether `reach` includes it
-        bvh::BvhRefitRegion reach;
-        bvh::IndexRange
-            changed; ///< range of the tree's triangles that changed since the last `assemble_trees`
+        bvh::ChangedBvhRegion reach;
+        bvh::IndexRange changed; ///< range of the tree's triangles that changed since the last
+                                 ///< `assemble_two_level_tree`
         bool lists_first_hits = false; ///< `first_hits` describes the hierarchy
-        DeviceDataList node_list, triangles;
+        DoubleBufferedDeviceList node_list, triangles;
         /// Finds a triangle of the rasteriser in the hierarchy: see known_hit in
         /// shaders/lib/whitted.glsl.
-        DeviceDataList first_hits;
+        DoubleBufferedDeviceList first_hits;
     };
     DeviceBvh& bvh_of_sphere_mode(SphereIntersectionMode spheres) {
         return hierarchies_[static_cast<std::size_t>(spheres)];
@@ -101,19 +102,20 @@ private:
         return object < backdrops_.size() && backdrops_[object] != 0 ? bvh::kCastsNoShadowFlag : 0;
     }
     void read_geometry_changes(const FrameGeometry& geometry);
-    void rebuild_or_refit(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                          std::span<const bvh::Triangle> flat, bool first_hits);
-    void build_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                     std::span<const bvh::Triangle> flat);
-    void refit_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
-                     std::span<const bvh::Triangle> flat);
+    void rebuild_or_refit_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                            std::span<const bvh::Triangle> flat, bool first_hits);
+    void build_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                 std::span<const bvh::Triangle> flat);
+    void refit_ray_tracing_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                 std::span<const bvh::Triangle> flat);
     void read_moved_objects(const FrameGeometry& geometry);
     void build_object_space_tree(const FrameGeometry& geometry, std::size_t object);
     std::vector<bvh::BvhInstance> list_bvh_instances(const FrameGeometry& geometry) const;
-    void assemble_trees(DeviceBvh& hierarchy, const FrameGeometry& geometry, bool first_hits) const;
+    void assemble_two_level_tree(DeviceBvh& hierarchy, const FrameGeometry& geometry,
+                                 bool first_hits) const;
 
     std::vector<bvh::Triangle> triangles_; ///< as FrameGeometry::indices lists them
-    std::vector<std::uint8_t> backdrops_;  ///< see set_backdrops
+    std::vector<std::uint8_t> backdrops_;  ///< see set_backdrop_objects
     std::vector<vec4> normals_;
     /// Trees of meshes in object space, by the object that owns the vertices.
     std::map<std::size_t, bvh::Bvh> own_trees_;
@@ -121,7 +123,7 @@ private:
     bool is_read_ = false;           ///< the present layout has been read
     std::vector<MovedObject> moved_; ///< moves since the triangles were read
     std::array<DeviceBvh, 2> hierarchies_;
-    DeviceDataList corner_normals_;
+    DoubleBufferedDeviceList corner_normals_;
     std::size_t built_ = 0, refitted_ = 0, writes_ = 0;
     double ms_ = 0, first_build_ms_ = 0, first_write_ms_ = 0;
 };

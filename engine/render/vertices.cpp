@@ -29,9 +29,9 @@ void DeviceVertices::set_geometry(const FrameGeometry& geometry) {
             indices[k] = geometry.indices[k] - range.first_vertex + places_[i].first;
     }
     anything_moves_ = std::ranges::any_of(places_, &ObjectVertexRange::moves);
-    static_vertices_.set_list_contents(still);
-    moving_.set_list_contents(moving);
-    indices_.set_list_contents(indices);
+    static_vertices_.set_device_list_contents(still);
+    moving_.set_device_list_contents(moving);
+    indices_.set_device_list_contents(indices);
 }
 
 bool DeviceVertices::record_moved_object(std::size_t object) {
@@ -46,25 +46,25 @@ void DeviceVertices::copy_moved_vertices(const FrameGeometry& geometry) {
         if (places_[i].moves && range.storage == i)
             moving.insert(moving.end(), first, first + range.vertex_count);
     }
-    moving_.set_list_contents(moving);
+    moving_.set_device_list_contents(moving);
 }
 
 std::size_t DeviceVertices::write(gpu::GpuDevice& device, std::size_t slot) {
-    return static_vertices_.write_changed_pages(device, slot) +
-           moving_.write_changed_pages(device, slot) + indices_.write_changed_pages(device, slot);
+    return static_vertices_.upload_changed_pages(device, slot) +
+           moving_.upload_changed_pages(device, slot) + indices_.upload_changed_pages(device, slot);
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_geometry(static_vertices_.buffer_of_device_copy(slot),
-                           indices_.buffer_of_device_copy(slot));
+    commands.bind_vertex_and_index_buffers(static_vertices_.buffer_of_device_copy(slot),
+                                           indices_.buffer_of_device_copy(slot));
 }
 
 void DeviceVertices::bind(graph::PassCommands& commands, std::size_t slot,
                           std::size_t object) const {
     if (!anything_moves_) return;
-    const DeviceDataList& vertices = places_[object].moves ? moving_ : static_vertices_;
-    commands.bind_geometry(vertices.buffer_of_device_copy(slot),
-                           indices_.buffer_of_device_copy(slot));
+    const DoubleBufferedDeviceList& vertices = places_[object].moves ? moving_ : static_vertices_;
+    commands.bind_vertex_and_index_buffers(vertices.buffer_of_device_copy(slot),
+                                           indices_.buffer_of_device_copy(slot));
 }
 
 } // namespace catoptric::render

@@ -70,8 +70,8 @@ Bounds<float> compute_geometry_bounds(const FrameGeometry& geometry) {
     return everything;
 }
 
-shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& space, uvec2 size,
-                              float gap, const Bounds<float>& everything) {
+shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransform& space,
+                              uvec2 size, float gap, const Bounds<float>& everything) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 right = glm::normalize(glm::cross(forward, camera.up));
     const dvec3 down = glm::cross(forward, right);
@@ -94,7 +94,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& spa
                            {std::max(depth.low, dot(forward, eye)), depth.high});
     }
     view.eye = vec3(eye);
-    view.eye_low = bvh::float_rounding_error(eye);
+    view.eye_low = bvh::double_to_float_rounding_error(eye);
     // Written so that NaN fails too.
     check(length(view.eye) <= scene::kMaxSceneRadius && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,

@@ -9,8 +9,8 @@ namespace catoptric::render {
 /// Returns the camera's projection onto a picture of `size` pixels. `gap`: distance to the nearest
 /// surface. An orthographic view starts at the eye, or where `everything` begins if that lies in
 /// front of the eye, and ends where `everything` ends.
-shared::View make_camera_view(const scene::Camera& camera, const SceneUnits& space, uvec2 size,
-                              float gap, const Bounds<float>& everything = {});
+shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransform& space,
+                              uvec2 size, float gap, const Bounds<float>& everything = {});
 
 /// Returns the bounds of all objects of the geometry.
 Bounds<float> compute_geometry_bounds(const FrameGeometry& geometry);

@@ -17,18 +17,18 @@ namespace catoptric::report {
 namespace {
 
 /// Returns a member of an object, or null JSON.
-Json member_of(const Json& object, const char* name) {
+Json find_json_member(const Json& object, const char* name) {
     return object.is_object() && object.contains(name) ? object.at(name) : Json();
 }
 
 /// Returns a number of an object, or NaN.
-double number_of(const Json& object, const char* name) {
-    const Json value = member_of(object, name);
+double read_json_number_member(const Json& object, const char* name) {
+    const Json value = find_json_member(object, name);
     return value.is_number() ? value.get<double>() : NAN;
 }
 
-measure::Interval interval_of(const Json& summary) {
-    const Json ci95 = member_of(summary, "ci95");
+measure::Interval read_interval_of_time_summary(const Json& summary) {
+    const Json ci95 = find_json_member(summary, "ci95");
     if (!ci95.is_array() || ci95.size() != 2 || !ci95[0].is_number() || !ci95[1].is_number())
         return {};
     return {ci95[0].get<double>(), ci95[1].get<double>()};
@@ -37,21 +37,24 @@ measure::Interval interval_of(const Json& summary) {
 /// Returns the document of the comparison's scene in a report of one or several scenes.
 Json find_scene_report(const Json& document, const Comparison& comparison,
                        const std::string& file) {
-    if (member_of(document, "schema") == "catoptric/compare/1") return document;
-    const Json scenes = member_of(document, "scenes");
-    check(member_of(document, "schema") == "catoptric/compare-scenes/1" && scenes.is_array(),
+    if (find_json_member(document, "schema") == "catoptric/compare/1") return document;
+    const Json scenes = find_json_member(document, "scenes");
+    check(find_json_member(document, "schema") == "catoptric/compare-scenes/1" && scenes.is_array(),
           Failure::bad_data, file, ": wanted a report.json of 'catoptric compare', found schema ",
-          describe_json_value(member_of(document, "schema")));
+          describe_json_value(find_json_member(document, "schema")));
     for (const Json& scene : scenes) // two scenes may have one name, but not one hash
-        if (member_of(member_of(scene, "scene"), "hash") == comparison.scene.hash) return scene;
+        if (find_json_member(find_json_member(scene, "scene"), "hash") == comparison.scene.hash)
+            return scene;
     fail(Failure::bad_data, file, ": wanted the scene ",
-         quote_as_printable_text(comparison.scene.name), " as it is now (", comparison.scene.hash,
+         quote_text_with_escapes(comparison.scene.name), " as it is now (", comparison.scene.hash,
          "), found others");
 }
 
 /// Throws unless both comparisons show the same picture against the same reference.
-void check_same_question(const Json& before, const Json& now, const std::string& file) {
-    check(member_of(before, "complete") == true && member_of(before, "rows").is_array(),
+void check_baseline_has_same_settings(const Json& before, const Json& now,
+                                      const std::string& file) {
+    check(find_json_member(before, "complete") == true &&
+              find_json_member(before, "rows").is_array(),
           Failure::bad_data, file, ": wanted a complete report, found one that was stopped");
     const auto check_equal = [&](const std::string& name, const Json& a, const Json& b) {
         // Other programs may have written the members in another order.
@@ -61,30 +64,32 @@ void check_same_question(const Json& before, const Json& now, const std::string&
               describe_json_value(a));
     };
     for (const char* name : {"hash", "camera"})
-        check_equal(std::string("scene.") + name, member_of(member_of(before, "scene"), name),
-                    member_of(member_of(now, "scene"), name));
+        check_equal(std::string("scene.") + name,
+                    find_json_member(find_json_member(before, "scene"), name),
+                    find_json_member(find_json_member(now, "scene"), name));
     for (const char* name : {"size", "time", "exposure", "ambient", "timing", "together"})
-        check_equal(name, member_of(before, name), member_of(now, name));
-    check_equal("reference.label", member_of(member_of(before, "reference"), "label"),
-                member_of(member_of(now, "reference"), "label"));
+        check_equal(name, find_json_member(before, name), find_json_member(now, name));
+    check_equal("reference.label", find_json_member(find_json_member(before, "reference"), "label"),
+                find_json_member(find_json_member(now, "reference"), "label"));
 }
 
 std::string baseline_row_name(const Json& row) {
-    const std::string label = member_of(row, "label"), model = ", model=required";
-    return member_of(row, "model") != "required" || label.ends_with(model) ? label : label + model;
+    const std::string label = find_json_member(row, "label"), model = ", model=required";
+    return find_json_member(row, "model") != "required" || label.ends_with(model) ? label
+                                                                                  : label + model;
 }
 
-const Json* find_equal_row(const Json& rows, const Json& row) {
+const Json* find_baseline_row_with_same_settings(const Json& rows, const Json& row) {
     for (const Json& other : rows)
-        if (member_of(other, "label") == member_of(row, "label") &&
-            member_of(other, "model") == member_of(row, "model"))
+        if (find_json_member(other, "label") == find_json_member(row, "label") &&
+            find_json_member(other, "model") == find_json_member(row, "model"))
             return &other;
     return nullptr;
 }
 
 /// Returns the smallest and the largest ratio of two quantities from their intervals.
-measure::Interval ratio_of_intervals(const measure::Interval& now,
-                                     const measure::Interval& before) {
+measure::Interval ratio_interval_of_two_intervals(const measure::Interval& now,
+                                                  const measure::Interval& before) {
     if (!now.is_known() || !before.is_known() || !(before.low > 0)) return {};
     return {now.low / before.high, now.high / before.low};
 }
@@ -94,56 +99,63 @@ measure::Interval ratio_of_intervals(const measure::Interval& now,
 constexpr double kMinJudgedPassShare = .05;
 
 /// Returns the median device time of a row or a pass, ms, or NaN.
-double median_of_time(const Json& timed) { return number_of(member_of(timed, "gpu_ms"), "median"); }
+double read_median_gpu_ms(const Json& timed) {
+    return read_json_number_member(find_json_member(timed, "gpu_ms"), "median");
+}
 
-class BaselineJudge {
+class BaselineRegressionJudge {
 public:
-    BaselineJudge(const Json& before, const Json& now, const BaselineLimits& limits)
-        : limits_(limits),
-          same_device_(is_same_device(member_of(before, "device"), member_of(now, "device"))),
+    BaselineRegressionJudge(const Json& before, const Json& now, const BaselineLimits& limits)
+        : limits_(limits), same_device_(is_same_device(find_json_member(before, "device"),
+                                                       find_json_member(now, "device"))),
           floor_(find_noise_floor(now)) {
-        const measure::Interval control = ratio_of_intervals(
-            interval_of(member_of(now, "clear_ms")), interval_of(member_of(before, "clear_ms")));
+        const measure::Interval control = ratio_interval_of_two_intervals(
+            read_interval_of_time_summary(find_json_member(now, "clear_ms")),
+            read_interval_of_time_summary(find_json_member(before, "clear_ms")));
         if (control.low > 1) machine_ratio_ = control;
     }
 
-    std::vector<BaselineFinding> judge_row(const Json& before, const Json& now) const {
+    std::vector<BaselineFinding> judge_row_against_baseline(const Json& before,
+                                                            const Json& now) const {
         const std::string name = baseline_row_name(before);
-        std::vector<BaselineFinding> findings{judge_flip(name, before, now)};
-        for (BaselineFinding& finding : judge_work(name, before, now))
+        std::vector<BaselineFinding> findings{judge_flip_against_baseline(name, before, now)};
+        for (BaselineFinding& finding : judge_work_against_baseline(name, before, now))
             findings.push_back(std::move(finding));
-        const bool noisy = member_of(before, "noisy") == true || member_of(now, "noisy") == true;
-        if (!member_of(before, "gpu_ms").is_object() || !member_of(now, "gpu_ms").is_object())
+        const bool noisy = find_json_member(before, "noisy") == true ||
+                           find_json_member(now, "noisy") == true;
+        if (!find_json_member(before, "gpu_ms").is_object() ||
+            !find_json_member(now, "gpu_ms").is_object())
             return findings; // a picture of another renderer has no time
-        findings.push_back(judge_time(name, "ms", before, now, noisy));
-        const double least = kMinJudgedPassShare * median_of_time(now);
-        for (const Json& pass : member_of(before, "passes"))
-            for (const Json& other : member_of(now, "passes"))
-                if (member_of(pass, "name") == member_of(other, "name") &&
-                    median_of_time(other) >= least)
-                    findings.push_back(
-                        judge_time(name, "ms of " + member_of(pass, "name").get<std::string>(),
-                                   pass, other, noisy));
+        findings.push_back(judge_time_against_baseline(name, "ms", before, now, noisy));
+        const double least = kMinJudgedPassShare * read_median_gpu_ms(now);
+        for (const Json& pass : find_json_member(before, "passes"))
+            for (const Json& other : find_json_member(now, "passes"))
+                if (find_json_member(pass, "name") == find_json_member(other, "name") &&
+                    read_median_gpu_ms(other) >= least)
+                    findings.push_back(judge_time_against_baseline(
+                        name, "ms of " + find_json_member(pass, "name").get<std::string>(), pass,
+                        other, noisy));
         return findings;
     }
 
 private:
     static bool is_same_device(const Json& before, const Json& now) {
         for (const char* name : {"name", "driver", "threads"})
-            if (member_of(before, name) != member_of(now, name)) return false;
+            if (find_json_member(before, name) != find_json_member(now, name)) return false;
         return true;
     }
 
     static double find_noise_floor(const Json& report) {
-        const double floor = number_of(member_of(member_of(report, "reference"), "noise"),
-                                       "flip_floor");
+        const double floor = read_json_number_member(
+            find_json_member(find_json_member(report, "reference"), "noise"), "flip_floor");
         return std::isnan(floor) ? 0 : floor;
     }
 
-    BaselineFinding judge_flip(const std::string& row, const Json& before, const Json& now) const {
+    BaselineFinding judge_flip_against_baseline(const std::string& row, const Json& before,
+                                                const Json& now) const {
         BaselineFinding finding{.row = row, .quantity = "flip", .says = {}};
-        finding.before = number_of(member_of(before, "error"), "flip");
-        finding.now = number_of(member_of(now, "error"), "flip");
+        finding.before = read_json_number_member(find_json_member(before, "error"), "flip");
+        finding.now = read_json_number_member(find_json_member(now, "error"), "flip");
         if (std::isnan(finding.before) || std::isnan(finding.now)) {
             finding.verdict = BaselineVerdict::unknown;
             finding.says = "FLIP is not known in both reports";
@@ -159,15 +171,15 @@ private:
 
     /// Judges each kind of counted work that both reports have. Counts repeat exactly, so no
     /// interval is needed.
-    std::vector<BaselineFinding> judge_work(const std::string& row, const Json& before,
-                                            const Json& now) const {
+    std::vector<BaselineFinding>
+    judge_work_against_baseline(const std::string& row, const Json& before, const Json& now) const {
         std::vector<BaselineFinding> findings;
-        const Json work = member_of(before, "work");
+        const Json work = find_json_member(before, "work");
         if (!work.is_object()) return findings;
         for (const auto& [kind, count] : work.items()) {
             BaselineFinding finding{.row = row, .quantity = "work: " + kind, .says = {}};
-            finding.before = number_of(work, kind.c_str());
-            finding.now = number_of(member_of(now, "work"), kind.c_str());
+            finding.before = read_json_number_member(work, kind.c_str());
+            finding.now = read_json_number_member(find_json_member(now, "work"), kind.c_str());
             if (std::isnan(finding.before) || std::isnan(finding.now)) continue;
             if (finding.now > limits_.max_time_ratio * finding.before)
                 finding.verdict = BaselineVerdict::worse;
@@ -178,12 +190,15 @@ private:
         return findings;
     }
 
-    BaselineFinding judge_time(const std::string& row, const std::string& quantity,
-                               const Json& before, const Json& now, bool noisy) const {
+    BaselineFinding judge_time_against_baseline(const std::string& row, const std::string& quantity,
+                                                const Json& before, const Json& now,
+                                                bool noisy) const {
         BaselineFinding finding{.row = row, .quantity = quantity, .says = {}};
-        const Json a = member_of(before, "gpu_ms"), b = member_of(now, "gpu_ms");
-        finding.before = number_of(a, "median"), finding.now = number_of(b, "median");
-        measure::Interval ratio = ratio_of_intervals(interval_of(b), interval_of(a));
+        const Json a = find_json_member(before, "gpu_ms"), b = find_json_member(now, "gpu_ms");
+        finding.before = read_json_number_member(a, "median"),
+        finding.now = read_json_number_member(b, "median");
+        measure::Interval ratio = ratio_interval_of_two_intervals(read_interval_of_time_summary(b),
+                                                                  read_interval_of_time_summary(a));
         ratio = {ratio.low / machine_ratio_.high, ratio.high / machine_ratio_.low};
         const std::string times = fmt::format("{} ms, before {} ms", format_ms(finding.now),
                                               format_ms(finding.before));
@@ -210,48 +225,51 @@ private:
     measure::Interval machine_ratio_{1, 1}; ///< how much slower the machine itself is now
 };
 
-std::vector<const BaselineFinding*> list_findings_of(const std::vector<BaselineFinding>& findings,
-                                                     BaselineVerdict verdict) {
+std::vector<const BaselineFinding*>
+list_baseline_findings_with_verdict(const std::vector<BaselineFinding>& findings,
+                                    BaselineVerdict verdict) {
     std::vector<const BaselineFinding*> list;
     for (const BaselineFinding& finding : findings)
         if (finding.verdict == verdict) list.push_back(&finding);
     return list;
 }
 
-std::string format_counts(const std::vector<BaselineFinding>& findings) {
-    return fmt::format("baseline: {} worse, {} unknown, {} kept",
-                       list_findings_of(findings, BaselineVerdict::worse).size(),
-                       list_findings_of(findings, BaselineVerdict::unknown).size(),
-                       list_findings_of(findings, BaselineVerdict::kept).size());
+std::string format_baseline_verdict_counts(const std::vector<BaselineFinding>& findings) {
+    return fmt::format(
+        "baseline: {} worse, {} unknown, {} kept",
+        list_baseline_findings_with_verdict(findings, BaselineVerdict::worse).size(),
+        list_baseline_findings_with_verdict(findings, BaselineVerdict::unknown).size(),
+        list_baseline_findings_with_verdict(findings, BaselineVerdict::kept).size());
 }
 
 } // namespace
 
 const char* baseline_verdict_name(BaselineVerdict verdict) {
-    constexpr const char* kNames[] = {"kept", "worse", "unknown"};
-    return kNames[static_cast<std::size_t>(verdict)];
+    constexpr const char* kRoughnessLabelTexts[] = {"kept", "worse", "unknown"};
+    return kRoughnessLabelTexts[static_cast<std::size_t>(verdict)];
 }
 
-void check_baseline_fits(const Comparison& comparison, const std::string& json,
-                         const std::string& file) {
-    check_same_question(find_scene_report(parse_json<Json>(file, json), comparison, file),
-                        make_report_json(comparison), file);
+void check_baseline_matches_comparison(const Comparison& comparison, const std::string& json,
+                                       const std::string& file) {
+    check_baseline_has_same_settings(
+        find_scene_report(parse_json<Json>(file, json), comparison, file),
+        make_report_json(comparison), file);
 }
 
-std::vector<BaselineFinding> judge_against_baseline(const Comparison& comparison,
-                                                    const std::string& json,
-                                                    const std::string& file,
-                                                    const BaselineLimits& limits) {
+std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison& comparison,
+                                                               const std::string& json,
+                                                               const std::string& file,
+                                                               const BaselineLimits& limits) {
     const Json before = find_scene_report(parse_json<Json>(file, json), comparison, file),
                now = make_report_json(comparison);
-    check_same_question(before, now, file);
-    const BaselineJudge judge(before, now, limits);
+    check_baseline_has_same_settings(before, now, file);
+    const BaselineRegressionJudge judge(before, now, limits);
     std::vector<BaselineFinding> findings;
     for (const Json& row : before.at("rows")) {
-        check(member_of(row, "label").is_string(), Failure::bad_data, file,
+        check(find_json_member(row, "label").is_string(), Failure::bad_data, file,
               ": wanted rows with a label, found ", describe_json_value(row));
-        if (const Json* same = find_equal_row(now.at("rows"), row)) {
-            for (BaselineFinding& finding : judge.judge_row(row, *same))
+        if (const Json* same = find_baseline_row_with_same_settings(now.at("rows"), row)) {
+            for (BaselineFinding& finding : judge.judge_row_against_baseline(row, *same))
                 findings.push_back(std::move(finding));
         } else {
             findings.push_back({baseline_row_name(row), "row", BaselineVerdict::worse, NAN, NAN,
@@ -264,22 +282,25 @@ std::vector<BaselineFinding> judge_against_baseline(const Comparison& comparison
 std::string format_baseline_findings(const std::vector<BaselineFinding>& findings) {
     std::string text;
     for (const BaselineVerdict verdict : {BaselineVerdict::worse, BaselineVerdict::unknown})
-        for (const BaselineFinding* finding : list_findings_of(findings, verdict))
+        for (const BaselineFinding* finding :
+             list_baseline_findings_with_verdict(findings, verdict))
             text += fmt::format("{}: {}, {}: {}\n", baseline_verdict_name(verdict), finding->row,
                                 finding->quantity, finding->says);
-    return text + format_counts(findings) + "\n";
+    return text + format_baseline_verdict_counts(findings) + "\n";
 }
 
 std::string make_baseline_markdown(const std::vector<BaselineFinding>& findings,
                                    const std::string& scene) {
-    const bool is_worse = !list_findings_of(findings, BaselineVerdict::worse).empty();
+    const bool is_worse =
+        !list_baseline_findings_with_verdict(findings, BaselineVerdict::worse).empty();
     std::string text = fmt::format("### {}: {}\n\n{}\n", escape_markdown(scene),
                                    is_worse ? "worse than the baseline"
                                             : "not worse than the baseline",
-                                   format_counts(findings));
+                                   format_baseline_verdict_counts(findings));
     std::string table;
     for (const BaselineVerdict verdict : {BaselineVerdict::worse, BaselineVerdict::unknown})
-        for (const BaselineFinding* finding : list_findings_of(findings, verdict))
+        for (const BaselineFinding* finding :
+             list_baseline_findings_with_verdict(findings, verdict))
             table += fmt::format("| {} | {} | {} | {} |\n", baseline_verdict_name(verdict),
                                  escape_markdown(finding->row), escape_markdown(finding->quantity),
                                  escape_markdown(finding->says));
@@ -292,8 +313,9 @@ std::string make_baseline_junit(const std::vector<BaselineFinding>& findings,
     // HTML and XML need the same five characters escaped.
     std::string xml = fmt::format(
         "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n", escape_html(scene),
-        findings.size(), list_findings_of(findings, BaselineVerdict::worse).size(),
-        list_findings_of(findings, BaselineVerdict::unknown).size());
+        findings.size(),
+        list_baseline_findings_with_verdict(findings, BaselineVerdict::worse).size(),
+        list_baseline_findings_with_verdict(findings, BaselineVerdict::unknown).size());
     for (const BaselineFinding& finding : findings) {
         xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escape_html(finding.row),
                            escape_html(finding.quantity));

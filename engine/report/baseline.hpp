@@ -36,8 +36,8 @@ struct BaselineFinding {
 /// Throws `bad_data` if the baseline is no report, is incomplete, or shows another scene, camera,
 /// instant, size, exposure, ambient light, way of timing or reference. `json` is a report.json of
 /// one scene or of several; `file` names it in messages. The comparison may be unfinished.
-void check_baseline_fits(const Comparison& comparison, const std::string& json,
-                         const std::string& file);
+void check_baseline_matches_comparison(const Comparison& comparison, const std::string& json,
+                                       const std::string& file);
 
 /// Judges each row of the baseline against the row with the same label and model. A row that is
 /// missing now is worse. Device times of rows, and of passes with at least a twentieth of their
@@ -45,11 +45,12 @@ void check_baseline_fits(const Comparison& comparison, const std::string& json,
 /// whole. If the time to clear the cubes, a constant work, has risen with confidence, that rise is
 /// divided out. Times are `unknown` on another device, if a row was noisy, or if the intervals
 /// reach over the limit. Counted work, if both reports have it, is held to the same factor. A rise
-/// of FLIP below the noise of the reference is kept. Throws as check_baseline_fits does.
-std::vector<BaselineFinding> judge_against_baseline(const Comparison& comparison,
-                                                    const std::string& json,
-                                                    const std::string& file,
-                                                    const BaselineLimits& limits);
+/// of FLIP below the noise of the reference is kept. Throws as check_baseline_matches_comparison
+/// does.
+std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison& comparison,
+                                                               const std::string& json,
+                                                               const std::string& file,
+                                                               const BaselineLimits& limits);
 
 /// Returns one line for each finding that is not kept, and a last line with the numbers of all.
 std::string format_baseline_findings(const std::vector<BaselineFinding>& findings);

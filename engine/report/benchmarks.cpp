@@ -16,10 +16,10 @@ namespace catoptric::report {
 
 namespace {
 
+using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
-using measure::CostKind;
 
 Json make_context_json(const BenchmarkRun& run) {
     Json context{{"date", run.date}};
@@ -77,15 +77,21 @@ Json make_median_json(const BenchmarkResult& benchmark, std::size_t family) {
     json["aggregate_name"] = "median";
     json["aggregate_unit"] = "time";
     json["iterations"] = benchmark.rounds.size();
-    add_median_field(json, "real_time", measure::list_round_costs(benchmark, CostKind::real_time));
-    add_median_field(json, "cpu_time", measure::list_round_costs(benchmark, CostKind::cpu_time));
+    add_median_field(
+        json, "real_time",
+        measure::list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time));
+    add_median_field(
+        json, "cpu_time",
+        measure::list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time));
     json["time_unit"] = "ms";
     if (benchmark.rounds.front().cycles)
-        add_median_field(json, "cycles", measure::list_round_costs(benchmark, CostKind::cycles));
+        add_median_field(
+            json, "cycles",
+            measure::list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cycles));
     return json;
 }
 
-Json make_benchmark_ratio_json(const measure::CostRatio& ratio) {
+Json make_benchmark_ratio_json(const measure::BenchmarkCostRatio& ratio) {
     return {{"median", make_number_json(ratio.median)}, {"ci95", make_interval_json(ratio.ci95)}};
 }
 
@@ -94,16 +100,18 @@ struct BenchmarkJsonEntry {
     const Json& json;
     std::string place;
 
-    Json member_or_null(const char* member) const { return json.value(member, Json()); }
+    Json benchmark_json_member_or_null(const char* member) const {
+        return json.value(member, Json());
+    }
     std::string read_text(const char* member) const {
-        const Json value = member_or_null(member);
+        const Json value = benchmark_json_member_or_null(member);
         check(value.is_string(), Failure::bad_data, place, ".", member, ": wanted text, found ",
               describe_json_value(value));
         return value.get<std::string>();
     }
     /// Returns a member that must be a finite number of at least 0.
     double read_measured_number(const char* member) const {
-        const Json value = member_or_null(member);
+        const Json value = benchmark_json_member_or_null(member);
         const double found = value.is_number() ? value.get<double>() : NAN;
         check(std::isfinite(found) && found >= 0, Failure::bad_data, place, ".", member,
               ": wanted a number of at least 0, found ", describe_json_value(value));
@@ -119,11 +127,12 @@ struct BenchmarkJsonEntry {
         for (const auto& [name, ms] : kTimeUnits)
             if (unit == name) return ms;
         fail(Failure::bad_data, place, ".time_unit: wanted ns, us, ms or s, found ",
-             quote_as_printable_text(unit));
+             quote_text_with_escapes(unit));
     }
     /// Returns whether the entry is a round: it is no aggregate and reports no error.
-    bool is_single_round() const {
-        const Json type = member_or_null("run_type"), failed = member_or_null("error_occurred");
+    bool is_benchmark_single_round() const {
+        const Json type = benchmark_json_member_or_null("run_type"),
+                   failed = benchmark_json_member_or_null("error_occurred");
         return (!type.is_string() || type == "iteration") && failed != true;
     }
 };
@@ -142,7 +151,8 @@ BenchmarkRound read_benchmark_round(const BenchmarkJsonEntry& entry) {
                          .cycles = entry.read_optional_count("cycles"),
                          .instructions = entry.read_optional_count("instructions"),
                          .counters = {}};
-    if (const Json count = entry.member_or_null("iterations"); count.is_number_unsigned())
+    if (const Json count = entry.benchmark_json_member_or_null("iterations");
+        count.is_number_unsigned())
         round.iterations = count.get<std::uint64_t>();
     for (const auto& [name, value] : entry.json.items())
         if (value.is_number() &&
@@ -227,7 +237,7 @@ BenchmarkRun read_benchmarks(const std::string& text, const std::string& file) {
         const BenchmarkJsonEntry entry{list[i], file + ": benchmarks[" + std::to_string(i) + "]"};
         check(list[i].is_object(), Failure::bad_data, entry.place, ": wanted an object, found ",
               describe_json_value(list[i]));
-        if (!entry.is_single_round()) continue;
+        if (!entry.is_benchmark_single_round()) continue;
         const std::string name = entry.read_text(list[i].contains("run_name") ? "run_name"
                                                                               : "name");
         find_or_add_benchmark(run.benchmarks, name).rounds.push_back(read_benchmark_round(entry));

@@ -40,7 +40,7 @@ std::string format_budget_limits(const Comparison& comparison) {
 
 std::string describe_budget_answer(const Comparison& comparison) {
     if (!measure::has_time_or_flip_budget(comparison)) return "";
-    const measure::BudgetedRows answer = measure::find_row_within_budget(comparison);
+    const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
     const std::string where = format_budget_limits(comparison) + " on " + comparison.device.name;
     std::string text;
     if (answer.row != nullptr)

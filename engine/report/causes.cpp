@@ -31,13 +31,13 @@ const CausePictureColour kCauseColours[] = {
 
 /// Kind of line in the table: its name, and the function that computes its cells as shares of the
 /// row's error.
-struct CauseTableLine {
+struct ErrorCauseTableRow {
     const char* name;
     double (*part)(const ErrorCauseShare& cause, double squared_error);
     bool adds_up;
 };
 
-constexpr CauseTableLine kCauseTableLines[] = {
+constexpr ErrorCauseTableRow kCauseTableLines[] = {
     {"all", [](const ErrorCauseShare& cause, double) { return cause.share; }, true},
     {"first order", [](const ErrorCauseShare& cause, double) { return cause.share_first_order; },
      true},
@@ -46,7 +46,7 @@ constexpr CauseTableLine kCauseTableLines[] = {
     {"bound", [](const ErrorCauseShare& cause, double whole) { return cause.alone / whole; },
      false}};
 
-std::vector<std::string> format_cause_cells(const CauseTableLine& line, const Causes& causes) {
+std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, const Causes& causes) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
     for (const CausePictureColour& colour : list_cause_colours()) {
@@ -61,7 +61,7 @@ std::vector<std::string> format_cause_cells(const CauseTableLine& line, const Ca
     return cells;
 }
 
-const RegisteredReportPart kCausesPart{
+const RegisteredReportPart kErrorCausesReportPart{
     {.name = "causes",
      .order = 400,
      .tables =
@@ -113,7 +113,7 @@ ReportTable make_cause_table(const Comparison& comparison) {
     table.columns.emplace_back("At light edges");
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
-        for (const CauseTableLine& line : kCauseTableLines) {
+        for (const ErrorCauseTableRow& line : kCauseTableLines) {
             std::vector<std::string> cells = format_cause_cells(line, *row.causes);
             cells.insert(cells.begin(), &line == kCauseTableLines ? row.label : std::string());
             if (&line == kCauseTableLines)

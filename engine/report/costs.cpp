@@ -21,8 +21,9 @@ namespace {
 constexpr const char* kCostsSchema = "catoptric/costs/1";
 constexpr const char* kMeasuredTimesSchema = "catoptric/times/1";
 constexpr std::uintmax_t kMaxCostFileBytes = std::uintmax_t{16} << 20;
-constexpr measure::CostOrigin kAllCostOrigins[] = {
-    measure::CostOrigin::fitted, measure::CostOrigin::literature, measure::CostOrigin::given};
+constexpr measure::UnitCostOrigin kAllCostOrigins[] = {measure::UnitCostOrigin::fitted,
+                                                       measure::UnitCostOrigin::literature,
+                                                       measure::UnitCostOrigin::given};
 
 /// A value of a document, with its place for messages: "costs.json: costs[2].ns".
 struct CostJsonValue {
@@ -46,7 +47,7 @@ struct CostJsonValue {
             check(std::ranges::find(names, name) != names.end(), Failure::bad_data, place,
                   place.ends_with(":") ? "" : ":", " wanted the members ",
                   fmt::format("{}", fmt::join(names, ", ")), ", found ",
-                  quote_as_printable_text(name));
+                  quote_text_with_escapes(name));
     }
     std::vector<CostJsonValue> list_elements() const {
         if (!json.is_array() || json.empty())
@@ -62,7 +63,7 @@ struct CostJsonValue {
         return json.get<std::string>();
     }
     /// Returns the text, or an empty one if the member is absent.
-    std::string read_text_if_any() const { return json.is_null() ? std::string() : read_text(); }
+    std::string read_text_or_empty() const { return json.is_null() ? std::string() : read_text(); }
     double read_number(double low, const char* wanted) const {
         if (!json.is_number() || !std::isfinite(json.get<double>()) || json.get<double>() < low)
             fail_with_expected_value(wanted);
@@ -70,20 +71,20 @@ struct CostJsonValue {
     }
 };
 
-WorkKind read_work_kind(const CostJsonValue& value) {
+CountedWorkKind read_work_kind(const CostJsonValue& value) {
     const std::string name = value.read_text();
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < kWorkKindCount; ++i) {
-        if (kWorkKinds[i].name == name) return static_cast<WorkKind>(i);
-        names.emplace_back(kWorkKinds[i].name);
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i) {
+        if (kCountedWorkKinds[i].name == name) return static_cast<CountedWorkKind>(i);
+        names.emplace_back(kCountedWorkKinds[i].name);
     }
     fail(Failure::bad_data, value.place, ": wanted a kind of work, found '", name, "'",
          suggest_nearest_name(name, names));
 }
 
-measure::CostOrigin read_cost_origin(const CostJsonValue& value) {
+measure::UnitCostOrigin read_cost_origin(const CostJsonValue& value) {
     const std::string name = value.read_text();
-    for (const measure::CostOrigin origin : kAllCostOrigins)
+    for (const measure::UnitCostOrigin origin : kAllCostOrigins)
         if (measure::cost_origin_name(origin) == name) return origin;
     value.fail_with_expected_value("fitted, literature or given");
 }
@@ -106,7 +107,7 @@ measure::WorkUnitCost read_unit_cost(const CostJsonValue& value) {
     unit.kind = read_work_kind(value.find_member("work"));
     unit.ns = value.find_member("ns").read_number(0, "nanoseconds of at least 0");
     unit.range = read_cost_range(value.find_member("range"), unit.ns);
-    unit.source = value.find_member("source").read_text_if_any();
+    unit.source = value.find_member("source").read_text_or_empty();
     return unit;
 }
 
@@ -131,22 +132,22 @@ measure::DeviceCosts read_costs_document(const Json& json, const std::string& fi
     measure::DeviceCosts costs;
     costs.device = document.find_member("device").read_text();
     costs.origin = read_cost_origin(document.find_member("origin"));
-    costs.note = document.find_member("note").read_text_if_any();
+    costs.note = document.find_member("note").read_text_or_empty();
     for (const CostJsonValue& value : document.find_member("costs").list_elements()) {
         const measure::WorkUnitCost unit = read_unit_cost(value);
         check(std::ranges::find(costs.units, unit.kind, &measure::WorkUnitCost::kind) ==
                   costs.units.end(),
               Failure::bad_data, value.place, ".work: '",
-              kWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
+              kCountedWorkKinds[static_cast<std::size_t>(unit.kind)].name, "' is given twice");
         costs.units.push_back(unit);
     }
     return costs;
 }
 
-Json to_json(const measure::CostFitQuality& fit) {
+Json to_json(const measure::UnitCostFitQuality& fit) {
     Json json{{"rows", fit.samples.size()},
-              {"within_20_percent", make_number_json(fit.fraction_within(1.2))},
-              {"within_50_percent", make_number_json(fit.fraction_within(1.5))},
+              {"within_20_percent", make_number_json(fit.share_of_predictions_within_factor(1.2))},
+              {"within_50_percent", make_number_json(fit.share_of_predictions_within_factor(1.5))},
               {"left_out", Json::array()}};
     for (std::size_t i = 0; i < fit.samples.size(); ++i)
         json["left_out"].push_back({{"row", fit.samples[i].name},
@@ -163,7 +164,7 @@ std::string to_json(const measure::DeviceCosts& costs) {
               {"origin", measure::cost_origin_name(costs.origin)}};
     if (!costs.note.empty()) json["note"] = costs.note;
     json["costs"] = make_list_json(costs.units, [](const measure::WorkUnitCost& unit) {
-        Json one{{"work", kWorkKinds[static_cast<std::size_t>(unit.kind)].name},
+        Json one{{"work", kCountedWorkKinds[static_cast<std::size_t>(unit.kind)].name},
                  {"ns", make_number_json(unit.ns)}};
         if (unit.range.is_known()) one["range"] = make_interval_json(unit.range);
         if (!unit.source.empty()) one["source"] = unit.source;
@@ -188,7 +189,7 @@ OtherDeviceTimes read_times_file(const std::filesystem::path& file) {
     document.check_member_names({"schema", "device", "note", "work", "rows"});
     OtherDeviceTimes times;
     times.device = document.find_member("device").read_text();
-    times.note = document.find_member("note").read_text_if_any();
+    times.note = document.find_member("note").read_text_or_empty();
     for (const CostJsonValue& kind : document.find_member("work").list_elements())
         times.kinds.push_back(read_work_kind(kind));
     for (const CostJsonValue& row : document.find_member("rows").list_elements()) {

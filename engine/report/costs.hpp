@@ -23,7 +23,7 @@ measure::DeviceCosts read_costs_file(const std::filesystem::path& file);
 /// Times of rows that were measured on another device, by techniques of this program.
 struct OtherDeviceTimes {
     std::string device, note;
-    std::vector<WorkKind> kinds; ///< the kinds of work whose costs are to be fitted
+    std::vector<CountedWorkKind> kinds; ///< the kinds of work whose costs are to be fitted
     struct TimedRowElsewhere {
         std::string technique;
         double ms = 0;

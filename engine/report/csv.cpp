@@ -101,8 +101,8 @@ struct CsvFieldAdder {
     void operator()(const std::vector<double>& list) const {
         line.add_field(name, format_number_list(list), in_table);
     }
-    void operator()(const std::vector<measure::MetricValueParts>& list) const {
-        for (const measure::MetricValueParts& parts : list)
+    void operator()(const std::vector<measure::NamedMetricValueParts>& list) const {
+        for (const measure::NamedMetricValueParts& parts : list)
             for (const auto& [what, value] : parts.values)
                 line.add_field(name + "_" + parts.name + "_" + std::string(what), value, false);
     }
@@ -126,14 +126,14 @@ void add_difference_metrics(CsvLine& line, const std::string& mask,
                             const measure::Difference& error, Predicate is_in_table) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         line.add_field(mask + "_" + std::string(quantity.name),
-                       measure::metric_value(quantity, error), is_in_table(quantity));
+                       measure::metric_value_of_difference(quantity, error), is_in_table(quantity));
 }
 
 /// Adds the errors over all masks and over single mirrors. Each line has columns of `mirrors`
 /// mirrors, even if its row has fewer.
 void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                       std::size_t mirrors) {
-    for (const measure::RowMask& mask : measure::list_row_masks())
+    for (const measure::RowPixelMask& mask : measure::list_row_masks())
         if (measure::has_table_columns(mask, comparison))
             add_difference_metrics(line, std::string(mask.name), row.*mask.error,
                                    [&](const measure::Metric& metric) {
@@ -142,7 +142,8 @@ void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& ro
                                    });
     for (std::size_t i = 0; i < mirrors; ++i)
         add_difference_metrics(
-            line, "mirror_" + std::to_string(MirrorId::of_list_index(i).mirror_number()),
+            line,
+            "mirror_" + std::to_string(MirrorId::mirror_id_from_list_index(i).mirror_number()),
             i < row.error_per_mirror.size() ? row.error_per_mirror[i] : measure::Difference{},
             [](const measure::Metric&) { return false; });
 }
@@ -155,7 +156,8 @@ void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& r
         if (quantity.mask != "each") {
             std::string name(quantity.name);
             std::ranges::replace(name, '/', '_');
-            line.add_field(name, measure::metric_value(quantity, row), is_in_rows_table(quantity));
+            line.add_field(name, measure::metric_value_of_difference(quantity, row),
+                           is_in_rows_table(quantity));
         } else if (!std::exchange(has_errors, true)) {
             add_error_fields(line, comparison, row, mirrors);
         }
@@ -166,7 +168,7 @@ void add_metric_fields(CsvLine& line, const Comparison& comparison, const Row& r
 void add_view_fields(CsvLine& line, const Comparison& comparison, const Row& row) {
     if (comparison.views.empty()) return;
     for (const measure::Metric& quantity : measure::list_difference_metrics()) {
-        if (!measure::is_single_number(quantity)) continue;
+        if (!measure::is_scalar_metric(quantity)) continue;
         const measure::MetricOverViews over = measure::compute_metric_over_views(
             row, measure::list_row_masks().front(), quantity);
         const std::string name = "views_" + std::string(quantity.name);
@@ -226,14 +228,14 @@ CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t 
     line.add_field("label", row.label);
     line.add_field("settings", format_row_settings(row));
     line.add_field("model", row.model);
-    const measure::TimeRankRange places = measure::find_time_places(comparison, row);
+    const measure::TimeRankRange places = measure::find_time_rank_range_of_row(comparison, row);
     const bool has_place = places.first > 0;
     line.add_field("place_first", has_place ? static_cast<double>(places.first) : NAN);
     line.add_field("place_last", has_place ? static_cast<double>(places.last) : NAN);
     add_metric_fields(line, comparison, row, mirrors);
     add_view_fields(line, comparison, row);
     line.add_field("image", report_image_path(comparison, row.image + ".png"));
-    line.add_field("on_front", measure::is_on_front(comparison, row));
+    line.add_field("on_front", measure::is_on_pareto_front(comparison, row));
     line.add_field("is_reference", row.is_reference);
     add_identity_fields(line, comparison, row);
     line.add_field("incomplete", describe_incomplete_run(comparison));

@@ -105,7 +105,7 @@ std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison) {
     };
 }
 
-std::vector<std::string> list_reader_cautions(const Comparison& comparison) {
+std::vector<std::string> list_report_cautions(const Comparison& comparison) {
     std::vector<std::string> list;
     if (!comparison.complete)
         list.push_back("Incomplete, " + describe_incomplete_run(comparison) + ".");

@@ -16,7 +16,7 @@ namespace catoptric::report {
 
 namespace {
 
-using OptionalSentence = std::optional<std::string>;
+using OptionalReportSentence = std::optional<std::string>;
 
 std::string format_percent(double share) {
     return format_fixed(100 * share, share < 0.1 ? 1 : 0) + " %";
@@ -24,11 +24,12 @@ std::string format_percent(double share) {
 
 std::string format_rmse(const Row& row) { return format_picture_error(row.error.rmse); }
 
-std::string format_both_times(const Row& a, const Row& b) {
+std::string format_times_of_two_rows(const Row& a, const Row& b) {
     return format_ms(a.time_ms().median) + " against " + format_ms(b.time_ms().median) + " ms";
 }
 /// Text for rows whose times cannot be told apart.
-constexpr const char* kTieText = ": round by round neither is the faster, they are not told apart";
+constexpr const char* kTimeTieText =
+    ": round by round neither is the faster, they are not told apart";
 
 /// Returns " (95 %: 1.10 to 1.25)", for example, or an empty text if the interval is not known.
 std::string format_ratio_interval(const measure::Interval& ratio) {
@@ -36,7 +37,7 @@ std::string format_ratio_interval(const measure::Interval& ratio) {
     return fmt::format(" (95 %: {:.3g} to {:.3g})", ratio.low, ratio.high);
 }
 
-OptionalSentence describe_undrawn_dielectrics(const Comparison& comparison) {
+OptionalReportSentence describe_undrawn_dielectrics(const Comparison& comparison) {
     const auto finding = measure::find_undrawn_dielectrics(comparison);
     if (!finding) return {};
     const std::string tracing = join_labels_of_rows(finding->tracing);
@@ -48,15 +49,15 @@ OptionalSentence describe_undrawn_dielectrics(const Comparison& comparison) {
         format_picture_error(finding->best->error_dielectrics.flip), finding->best->label);
 }
 
-std::string describe_clear_verdict(const measure::ClearCostFinding& finding) {
+std::string describe_clear_verdict(const measure::CaptureClearCostResult& finding) {
     switch (finding.verdict) {
-    case measure::ClearCostFinding::ClearCostVerdict::slower_without:
+    case measure::CaptureClearCostResult::CaptureClearCostVerdict::slower_without:
         return "part one is slower without any clear, so clearing alone does not explain the order "
                "on this device";
-    case measure::ClearCostFinding::ClearCostVerdict::too_little:
+    case measure::CaptureClearCostResult::CaptureClearCostVerdict::too_little:
         return "added to part one that still leaves it no slower than part two, so clearing alone "
                "does not explain the report's order on this device";
-    case measure::ClearCostFinding::ClearCostVerdict::explains: break;
+    case measure::CaptureClearCostResult::CaptureClearCostVerdict::explains: break;
     }
     return fmt::format(
         "added to part one that would put it {} behind part two (the report: {}), so "
@@ -64,25 +65,25 @@ std::string describe_clear_verdict(const measure::ClearCostFinding& finding) {
         format_percent(finding.gap), format_percent(measure::kSeedReportClearCostShare));
 }
 
-OptionalSentence describe_clear_cost(const Comparison& comparison) {
-    using measure::kSeedReportPartOne, measure::kSeedReportPartTwo;
-    const auto finding = measure::find_clear_cost_finding(comparison);
+OptionalReportSentence describe_clear_cost(const Comparison& comparison) {
+    using measure::kSeedReportNaiveRow, measure::kSeedReportReuseRow;
+    const auto finding = measure::find_capture_clear_cost_result(comparison);
     if (!finding) return {};
     const char* order = finding->one_is_slower ? "slower than" : "not slower than";
     std::string text = fmt::format("Clears: the report's part one without inter-reflections took "
                                    "{:.1f} ms more than its part two ({:.1f} against {:.1f} ms), "
                                    "which it puts down to clearing the cube maps. Here part one, "
                                    "{}, is {} part two ({})",
-                                   measure::kSeedReportClearMs, kSeedReportPartOne.ms,
-                                   kSeedReportPartTwo.ms, finding->one->label, order,
-                                   format_both_times(*finding->one, *finding->two));
+                                   measure::kSeedReportClearMs, kSeedReportNaiveRow.ms,
+                                   kSeedReportReuseRow.ms, finding->one->label, order,
+                                   format_times_of_two_rows(*finding->one, *finding->two));
     if (!finding->clear_ms) return text + "; what a clear costs was not measured.";
     return text + ". Clearing the cubes of all mirrors costs " + format_ms(*finding->clear_ms) +
            " ms: " + describe_clear_verdict(*finding) + ".";
 }
 
-OptionalSentence describe_stored_distance(const Comparison& comparison) {
-    const auto finding = measure::find_stored_distance_finding(comparison);
+OptionalReportSentence describe_stored_distance_formats(const Comparison& comparison) {
+    const auto finding = measure::find_stored_distance_format_result(comparison);
     if (!finding) return {};
     std::string text = "Stored distance: rmse over the mirrors is " + format_rmse(*finding->plain) +
                        " without correction, " + format_rmse(*finding->full) +
@@ -102,8 +103,8 @@ OptionalSentence describe_stored_distance(const Comparison& comparison) {
            "made that way.";
 }
 
-OptionalSentence describe_bounces(const Comparison& comparison) {
-    const auto finding = measure::find_bounce_finding(comparison);
+OptionalReportSentence describe_bounces_versus_error(const Comparison& comparison) {
+    const auto finding = measure::find_bounces_versus_error_result(comparison);
     if (!finding) return {};
     std::vector<std::string> figures;
     for (const Row* row : finding->steps) figures.push_back(format_rmse(*row));
@@ -123,16 +124,16 @@ OptionalSentence describe_bounces(const Comparison& comparison) {
     return text + ".";
 }
 
-OptionalSentence describe_correction_price(const Comparison& comparison) {
+OptionalReportSentence describe_parallax_correction_price(const Comparison& comparison) {
     const auto finding = measure::find_parallax_correction_price(comparison);
     if (!finding) return {};
     std::string text = fmt::format(
         "Price of the correction: in the seed report, part three takes {:.1f} ms instead of {:.1f} ms, "
         "and the complexity of its code is the only drawback that is named. Here part three takes ",
-        measure::kSeedReportPartThree.ms, measure::kSeedReportPartTwo.ms);
-    const std::string times = format_both_times(*finding->three, *finding->two);
+        measure::kSeedReportParallaxRow.ms, measure::kSeedReportReuseRow.ms);
+    const std::string times = format_times_of_two_rows(*finding->three, *finding->two);
     if (finding->tie)
-        text += "as long as part two (" + times + kTieText + ")";
+        text += "as long as part two (" + times + kTimeTieText + ")";
     else
         text += format_percent(std::abs(finding->more)) + (finding->more < 0 ? " less" : " more") +
                 " time than part two (" + times + "), " + format_ms(1 + finding->more) +
@@ -143,18 +144,18 @@ OptionalSentence describe_correction_price(const Comparison& comparison) {
     return text + ".";
 }
 
-OptionalSentence describe_ray_tracing_time(const Comparison& comparison) {
-    using measure::kSeedReportPartThree, measure::kSeedReportRayTracing;
-    const auto finding = measure::find_tracing_time_finding(comparison);
+OptionalReportSentence describe_ray_tracing_time(const Comparison& comparison) {
+    using measure::kSeedReportParallaxRow, measure::kSeedReportRayTracingRow;
+    const auto finding = measure::find_ray_tracing_time_result(comparison);
     if (!finding) return {};
     const Row &three = *finding->three, &traced = *finding->traced;
     std::string text = fmt::format("Ray tracing: in the report it takes {:.1f} times as long as "
                                    "part three ({:.1f} against {:.1f} ms); here {} takes ",
-                                   measure::kSeedReportRayTracingRatio, kSeedReportRayTracing.ms,
-                                   kSeedReportPartThree.ms, traced.label);
-    const std::string times = format_both_times(traced, three);
+                                   measure::kSeedReportRayTracingRatio, kSeedReportRayTracingRow.ms,
+                                   kSeedReportParallaxRow.ms, traced.label);
+    const std::string times = format_times_of_two_rows(traced, three);
     if (finding->tie)
-        text += "as long as " + three.label + " (" + times + kTieText + ")";
+        text += "as long as " + three.label + " (" + times + kTimeTieText + ")";
     else
         text += format_ms(finding->ratio) + " times as long" +
                 format_ratio_interval(finding->ratio_ci95) + " as " + three.label + " (" + times +
@@ -208,20 +209,20 @@ std::string make_findings_title(const Comparison& comparison) {
 
 std::vector<std::string> list_findings(const Comparison& comparison) {
     struct ReportFinding {
-        OptionalSentence (*say)(const Comparison&);
+        OptionalReportSentence (*say)(const Comparison&);
         /// Compares with the seed report's numbers, so it applies to that report's scene only.
         bool beside_the_report;
     };
     std::vector<std::string> list;
     for (const auto& [say, beside_the_report] : {ReportFinding{describe_undrawn_dielectrics, false},
                                                  {describe_clear_cost, true},
-                                                 {describe_bounces, false},
-                                                 {describe_stored_distance, true},
-                                                 {describe_correction_price, true},
+                                                 {describe_bounces_versus_error, false},
+                                                 {describe_stored_distance_formats, true},
+                                                 {describe_parallax_correction_price, true},
                                                  {describe_ray_tracing_time, true},
                                                  {describe_measured_lag, false}}) {
         if (beside_the_report && !comparison.scene.is_seed) continue;
-        if (const OptionalSentence sentence = say(comparison)) list.push_back(*sentence);
+        if (const OptionalReportSentence sentence = say(comparison)) list.push_back(*sentence);
     }
     return list;
 }

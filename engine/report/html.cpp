@@ -128,7 +128,7 @@ std::string make_html_row_article(const Comparison& comparison, const EncodedPic
                                    make_html_anchor_of_row(comparison, index),
                                    escape_html(row.label));
     for (const auto& [holds, name] :
-         {std::pair(measure::is_on_front(comparison, row), "on the front"),
+         {std::pair(measure::is_on_pareto_front(comparison, row), "on the front"),
           std::pair(row.is_reference, "the reference"),
           std::pair(measure::has_nonfinite_pixels(row), "failed"), std::pair(row.noisy, "noisy")})
         if (holds) html += fmt::format("<span class=\"badge\">{}</span>", name);
@@ -188,8 +188,8 @@ std::string make_html_pictures(const Comparison& comparison, const EncodedPictur
 }
 
 /// Returns the tables, sentences and pictures of a part.
-std::string make_html_part(const Comparison& comparison, const EncodedPictures& encoded,
-                           const ReportPart& part) {
+std::string make_html_report_part(const Comparison& comparison, const EncodedPictures& encoded,
+                                  const ReportPart& part) {
     std::string html;
     for (const ReportTable& table : part.tables(comparison))
         html += to_html(table, std::string(part.look), part.links_rows ? &comparison : nullptr);
@@ -202,7 +202,7 @@ std::string make_html_part(const Comparison& comparison, const EncodedPictures& 
     return html;
 }
 
-std::string make_html_front(const Comparison& comparison) {
+std::string make_html_pareto_front(const Comparison& comparison) {
     std::string html;
     if (const std::string drawing = make_comparison_plot(comparison); !drawing.empty())
         html =
@@ -216,7 +216,7 @@ std::string make_html_front(const Comparison& comparison) {
                                     html + make_html_list(describe_pareto_front(comparison)));
 }
 
-std::string make_html_circumstances(const Comparison& comparison) {
+std::string make_html_measuring_circumstances(const Comparison& comparison) {
     std::string html = "<dl class=\"facts\">";
     for (const ReportHeaderLine& fact : list_report_facts(comparison))
         html += fmt::format("<dt>{0}</dt><dd><{1}>{2}</{1}></dd>", fact.name,
@@ -273,13 +273,13 @@ std::string make_html_section(const Comparison& comparison, const EncodedPicture
                    escape_html(describe_budget_answer(comparison)) + "</strong></p>"
              : "") +
         "<p class=\"lede\">" + escape_html(summarise_ray_tracing_verdict(comparison)) + "</p>";
-    const std::vector<std::string> notes = list_reader_cautions(comparison);
+    const std::vector<std::string> notes = list_report_cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + make_html_list(notes) + "</aside>";
     const bool is_page = make_html_id_prefix(comparison).empty(); // a page has exactly one <main>
     html += make_html_headlines(comparison) + "</div>" + make_html_comparer(comparison) +
             "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
-            make_html_front(comparison) +
-            (comparison.scene.is_seed ? to_html(make_seed_table(comparison), "seed") : "");
+            make_html_pareto_front(comparison) +
+            (comparison.scene.is_seed ? to_html(make_seed_report_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = list_findings(comparison);
     if (!sentences.empty())
         html += make_html_titled_section(make_findings_title(comparison),
@@ -290,10 +290,10 @@ std::string make_html_section(const Comparison& comparison, const EncodedPicture
             to_html(make_rows_table(comparison), "all", &comparison) +
             to_html(make_plan_table(comparison), "plans", &comparison);
     for (const ReportPart& part : list_report_parts())
-        html += make_html_part(comparison, encoded, part);
+        html += make_html_report_part(comparison, encoded, part);
     html += make_html_pictures(comparison, encoded) +
             to_html(make_unsupported_table(comparison.scene), "gaps") +
-            make_html_circumstances(comparison);
+            make_html_measuring_circumstances(comparison);
     return html + (is_page ? "</main>\n" : "</div>\n");
 }
 

@@ -40,7 +40,7 @@ Json make_interval_json(const measure::Interval& interval) {
 std::string describe_json_value(const Json& value) {
     if (value.is_null()) return "nothing";
     if (value.is_structured()) return value.is_array() ? "a list" : "an object";
-    return quote_as_printable_text(value.dump(-1, ' ', true, Json::error_handler_t::replace));
+    return quote_text_with_escapes(value.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
 Json make_device_json(const DeviceFacts& device) {
@@ -70,7 +70,7 @@ Json to_json(const measure::SampleSummary& summary) {
             {"samples", make_number_list_json(summary.samples)}};
 }
 
-Json to_json(const measure::MetricValueParts& parts) {
+Json to_json(const measure::NamedMetricValueParts& parts) {
     Json json{{parts.kind, parts.name}};
     for (const auto& [name, value] : parts.values)
         json[std::string(name)] = make_metric_value_json(value);
@@ -87,9 +87,9 @@ struct JsonValueWriter {
     }
     Json operator()(const measure::SampleSummary& times) const { return to_json(times); }
     Json operator()(const std::vector<double>& list) const { return make_number_list_json(list); }
-    Json operator()(const std::vector<measure::MetricValueParts>& list) const {
+    Json operator()(const std::vector<measure::NamedMetricValueParts>& list) const {
         return make_list_json(
-            list, [](const measure::MetricValueParts& parts) { return to_json(parts); });
+            list, [](const measure::NamedMetricValueParts& parts) { return to_json(parts); });
     }
 };
 
@@ -97,13 +97,13 @@ struct JsonValueWriter {
 Json add_difference_metrics_json(Json json, const measure::Difference& error) {
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         json[std::string(quantity.name)] = make_metric_value_json(
-            measure::metric_value(quantity, error));
+            measure::metric_value_of_difference(quantity, error));
     return json;
 }
 
 /// Returns the budgets, and the labels of the rows that answer them.
 Json make_budget_json(const Comparison& comparison) {
-    const measure::BudgetedRows answer = measure::find_row_within_budget(comparison);
+    const measure::BestRowsWithinBudget answer = measure::find_best_rows_within_budget(comparison);
     const auto label = [](const Row* row) { return row == nullptr ? Json() : Json(row->label); };
     const auto labels = [](const std::vector<const Row*>& rows) {
         Json list = Json::array();
@@ -120,13 +120,14 @@ Json make_budget_json(const Comparison& comparison) {
 }
 
 void add_error_fields_json(Json& json, const Row& row) {
-    for (const measure::RowMask& mask : measure::list_row_masks())
+    for (const measure::RowPixelMask& mask : measure::list_row_masks())
         json[std::string(mask.field)] = add_difference_metrics_json({{"mask", mask.name}},
                                                                     row.*mask.error);
     Json& list = json["error_per_mirror"] = Json::array();
     for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i)
         list.push_back(add_difference_metrics_json(
-            {{"mirror", MirrorId::of_list_index(i).mirror_number()}}, row.error_per_mirror[i]));
+            {{"mirror", MirrorId::mirror_id_from_list_index(i).mirror_number()}},
+            row.error_per_mirror[i]));
 }
 
 /// Adds a metric to an object of metrics. The object is null as long as none of its metrics has a
@@ -141,7 +142,7 @@ void add_metric_to_object(Json& json, const measure::Metric& quantity,
 }
 
 void add_metric_json(Json& json, const measure::Metric& quantity, const Row& row) {
-    const measure::MetricValue value = measure::metric_value(quantity, row);
+    const measure::MetricValue value = measure::metric_value_of_difference(quantity, row);
     const bool* mark = std::get_if<bool>(&value);
     if (quantity.only_where_true && mark != nullptr && !*mark) return;
     if (quantity.name.find('/') != std::string_view::npos)

@@ -18,9 +18,9 @@ namespace catoptric::report {
 namespace {
 
 using measure::Difference;
-using measure::percentile_over_instants;
+using measure::percentile_error_over_instants;
 
-constexpr auto kFlipOfDifference = &Difference::flip;
+constexpr auto kFlipMemberOfDifference = &Difference::flip;
 
 Json to_json(const SettlingAfterCut& settling) {
     return {{"rmse_settled", make_number_json(settling.rmse_settled)},
@@ -35,8 +35,9 @@ void add_lag_metrics(Json& json, const std::string& prefix, const std::vector<Di
          {std::pair("flip", &Difference::flip), std::pair("off", &Difference::off),
           std::pair("mae", &Difference::mae), std::pair("rmse", &Difference::rmse)}) {
         json[prefix + name + "_mean"] = make_number_json(
-            measure::mean_over_instants(errors, figure));
-        json[prefix + name] = make_number_list_json(measure::list_metric_values(errors, figure));
+            measure::mean_error_over_instants(errors, figure));
+        json[prefix + name] = make_number_list_json(
+            measure::list_error_metric_at_instants(errors, figure));
     }
 }
 
@@ -47,9 +48,9 @@ Json to_json(const LagAtSpeed& at) {
          {std::pair("flip", &Difference::flip), std::pair("rmse", &Difference::rmse)}) {
         const std::string prefix(name);
         json[prefix + "_median"] = make_number_json(
-            measure::percentile_over_instants(at.errors, figure, .5));
+            measure::percentile_error_over_instants(at.errors, figure, .5));
         json[prefix + "_max"] = make_number_json(
-            measure::percentile_over_instants(at.errors, figure, 1));
+            measure::percentile_error_over_instants(at.errors, figure, 1));
     }
     add_lag_metrics(json, "reference_", at.reference_errors);
     return json;
@@ -88,18 +89,22 @@ std::string describe_lag_limits(const LagResults& lag) {
 
 /// Returns the FLIP of the instants: mean, median and largest.
 std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
-    return {format_picture_error(measure::mean_over_instants(at.errors, kFlipOfDifference)),
-            format_picture_error(percentile_over_instants(at.errors, kFlipOfDifference, .5)),
-            format_picture_error(percentile_over_instants(at.errors, kFlipOfDifference, 1))};
+    return {
+        format_picture_error(measure::mean_error_over_instants(at.errors, kFlipMemberOfDifference)),
+        format_picture_error(
+            percentile_error_over_instants(at.errors, kFlipMemberOfDifference, .5)),
+        format_picture_error(
+            percentile_error_over_instants(at.errors, kFlipMemberOfDifference, 1))};
 }
 
-std::vector<std::string> make_lag_line(const LagResults& lag, const LagRow& row,
-                                       const LagAtSpeed& at) {
+std::vector<std::string> make_lag_table_row(const LagResults& lag, const LagRow& row,
+                                            const LagAtSpeed& at) {
     const auto mean = [&](double Difference::*figure) {
-        return measure::mean_over_instants(at.errors, figure);
+        return measure::mean_error_over_instants(at.errors, figure);
     };
     const auto flip_to_reference = [](const std::vector<Difference>& errors) {
-        return format_picture_error(measure::mean_over_instants(errors, kFlipOfDifference));
+        return format_picture_error(
+            measure::mean_error_over_instants(errors, kFlipMemberOfDifference));
     };
     const auto [flip, median, largest] = format_flip_values(at);
     return {row.label,
@@ -110,7 +115,7 @@ std::vector<std::string> make_lag_line(const LagResults& lag, const LagRow& row,
             format_picture_error(mean(&Difference::rmse)),
             median,
             largest,
-            format_fixed(measure::find_worst_instant(lag, at), 2),
+            format_fixed(measure::find_instant_of_worst_lag(lag, at), 2),
             flip_to_reference(at.reference_errors),
             flip_to_reference(row.still_reference_errors)};
 }
@@ -145,8 +150,9 @@ std::string make_html_lag_along_path(const LagResults& lag, const LagRow& row) {
         plot.x_ticks.push_back(lag.seconds.front() + share * lag.path);
     std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
-        plot.lines.push_back({format_motion_speed(at.speed),
-                              measure::list_metric_values(at.errors, kFlipOfDifference)});
+        plot.lines.push_back(
+            {format_motion_speed(at.speed),
+             measure::list_error_metric_at_instants(at.errors, kFlipMemberOfDifference)});
     return make_line_plot(plot);
 }
 
@@ -160,7 +166,7 @@ std::string make_html_lag_against_speed(const LagResults& lag) {
     for (const LagRow& row : lag.rows) {
         PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, {}});
         for (const LagAtSpeed& at : row.speeds)
-            line.y.push_back(measure::mean_over_instants(at.errors, kFlipOfDifference));
+            line.y.push_back(measure::mean_error_over_instants(at.errors, kFlipMemberOfDifference));
     }
     return make_line_plot(plot);
 }
@@ -208,7 +214,7 @@ ReportTable make_lag_table(const Comparison& comparison) {
     table.note = describe_lag_limits(*comparison.lag);
     for (const LagRow& row : comparison.lag->rows)
         for (const LagAtSpeed& at : row.speeds)
-            table.rows.push_back(make_lag_line(*comparison.lag, row, at));
+            table.rows.push_back(make_lag_table_row(*comparison.lag, row, at));
     return table;
 }
 
@@ -265,7 +271,7 @@ std::string make_lag_plots(const Comparison& comparison) {
                   "instant, over the mirrors. The lane below is 0.</p></section>\n";
 }
 
-const RegisteredReportPart kLagPart{
+const RegisteredReportPart kLagReportPart{
     {.name = "lag",
      .order = 500,
      .tables =

@@ -90,9 +90,10 @@ std::string to_markdown(const Comparison& comparison) {
     for (const ReportHeaderLine& fact : list_report_facts(comparison))
         text += "- **" + fact.name + "**: " + escape_markdown(fact.value) + "\n";
     text += "\n";
-    for (const std::string& caution : list_reader_cautions(comparison))
+    for (const std::string& caution : list_report_cautions(comparison))
         text += "> " + escape_markdown(caution) + "\n>\n";
-    text += "\n" + (comparison.scene.is_seed ? to_markdown(make_seed_table(comparison)) : "") +
+    text += "\n" +
+            (comparison.scene.is_seed ? to_markdown(make_seed_report_table(comparison)) : "") +
             "**Set-up**, once: " + escape_markdown(describe_setup_times(comparison.setup)) +
             "\n\n" + to_markdown(make_rows_table(comparison)) +
             to_markdown(make_plan_table(comparison));

@@ -38,7 +38,7 @@ struct ChartFrame {
     double width, height, left, right, top, lane, bottom;
     double tick_gap;  ///< between a number of the y axis and the axis
     double y_name_at; ///< x of the y axis's name
-    double y_of_zero_lane() const { return (lane + bottom) / 2; }
+    double plot_y_of_zero_value_lane() const { return (lane + bottom) / 2; }
     /// Returns the lane and the axes with grid, numbers and names.
     std::string axes(const std::vector<AxisTick>& x_ticks, const std::vector<AxisTick>& y_ticks,
                      const std::string& x_name, const std::string& y_name) const;
@@ -96,7 +96,7 @@ std::string ChartFrame::axes(const std::vector<AxisTick>& x_ticks,
     for (const auto& [value, y] : y_ticks)
         svg += make_svg_grid_line(left, y, right, y) +
                make_svg_text(left - tick_gap, y + 4, "end", fmt::format("{:g}", value));
-    return svg + make_svg_text(left - tick_gap, y_of_zero_lane() + 4, "end", "0") +
+    return svg + make_svg_text(left - tick_gap, plot_y_of_zero_value_lane() + 4, "end", "0") +
            make_svg_text((left + right) / 2, bottom + 38, "middle", escape_html(x_name)) +
            fmt::format("<g transform=\"translate({} {}) rotate(-90)\">", y_name_at,
                        (top + lane) / 2) +
@@ -107,7 +107,7 @@ std::string ChartFrame::axes(const std::vector<AxisTick>& x_ticks,
 constexpr ChartFrame kLinePlotFrame{500, 300, 66, 340, 12, 226, 250, 6, 12};
 constexpr std::size_t kMaxAxisTicks = 8;
 
-double to_plot_x(const LinePlot& plot, double x) {
+double data_to_plot_x(const LinePlot& plot, double x) {
     const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
     const double first = along(plot.x.front()), last = along(plot.x.back());
     return last > first ? kLinePlotFrame.left + (along(x) - first) / (last - first) *
@@ -115,8 +115,8 @@ double to_plot_x(const LinePlot& plot, double x) {
                         : kLinePlotFrame.left;
 }
 
-double to_plot_y(const LogarithmicAxisScale& scale, double y) {
-    return y > 0 ? scale(y) : kLinePlotFrame.y_of_zero_lane();
+double data_to_plot_y(const LogarithmicAxisScale& scale, double y) {
+    return y > 0 ? scale(y) : kLinePlotFrame.plot_y_of_zero_value_lane();
 }
 
 std::vector<double> list_y_ticks(const LogarithmicAxisScale& scale) {
@@ -135,7 +135,7 @@ std::string make_svg_path_of_line(const LinePlot& plot, const PlotLine& line,
     for (std::size_t i = 0; i < line.y.size(); ++i)
         if (std::isfinite(line.y[i]))
             path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
-                                to_plot_x(plot, plot.x[i]), to_plot_y(y, line.y[i]));
+                                data_to_plot_x(plot, plot.x[i]), data_to_plot_y(y, line.y[i]));
     return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", opacity, path);
 }
 
@@ -144,7 +144,7 @@ std::string make_svg_line_names(const LinePlot& plot, const LogarithmicAxisScale
     std::vector<std::pair<double, std::string>> places;
     for (const PlotLine& line : plot.lines)
         if (!line.y.empty() && std::isfinite(line.y.back()))
-            places.emplace_back(to_plot_y(y, line.y.back()), line.name);
+            places.emplace_back(data_to_plot_y(y, line.y.back()), line.name);
     std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
     std::string drawn;
     double free = kLinePlotFrame.bottom + kTextLineHeight;
@@ -166,9 +166,9 @@ struct RowPlotPoint {
     std::size_t picture; ///< number of the row's picture in the comparer
 };
 
-struct PlotLabelBox {
+struct PlotLabelRectangle {
     double x0, y0, x1, y1;
-    bool intersects_box(const PlotLabelBox& other) const {
+    bool intersects_box(const PlotLabelRectangle& other) const {
         return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
     }
 };
@@ -218,9 +218,10 @@ std::string make_svg_row_mark(const RowPlotPoint& point) {
 
 /// Returns the first of several places around the point where the label overlaps no earlier label,
 /// or the last place. Points on the front try the left side first, because no stairs lie there.
-PlotLabelBox choose_label_place(const RowPlotPoint& point, const std::vector<PlotLabelBox>& taken) {
+PlotLabelRectangle choose_label_place(const RowPlotPoint& point,
+                                      const std::vector<PlotLabelRectangle>& taken) {
     const double width = kLabelLetterWidth * static_cast<double>(point.row->label.size());
-    PlotLabelBox box{};
+    PlotLabelRectangle box{};
     for (const double rise : {0.0, -1.0, 1.0, -2.0, 2.0, -3.0, 3.0, -4.0, 4.0})
         for (const bool first : {true, false}) {
             const double x = first != point.front ? point.x + 9 : point.x - 9 - width;
@@ -230,7 +231,7 @@ PlotLabelBox choose_label_place(const RowPlotPoint& point, const std::vector<Plo
                                 box.x1 <= kComparisonPlotFrame.right &&
                                 box.y0 >= kComparisonPlotFrame.top &&
                                 box.y1 <= kComparisonPlotFrame.bottom;
-            if (inside && std::ranges::none_of(taken, [&](const PlotLabelBox& other) {
+            if (inside && std::ranges::none_of(taken, [&](const PlotLabelRectangle& other) {
                     return box.intersects_box(other);
                 }))
                 return box;
@@ -249,12 +250,12 @@ std::string make_svg_noise_floor(const Comparison& comparison, const Logarithmic
 }
 
 std::string make_svg_labels(const std::vector<RowPlotPoint>& points) {
-    std::vector<PlotLabelBox> taken;
+    std::vector<PlotLabelRectangle> taken;
     for (const RowPlotPoint& point : points)
         taken.push_back({point.x - 6, point.y - 6, point.x + 6, point.y + 6});
     std::string svg;
     for (const RowPlotPoint& point : points) {
-        const PlotLabelBox box = choose_label_place(point, taken);
+        const PlotLabelRectangle box = choose_label_place(point, taken);
         taken.push_back(box);
         svg += fmt::format(R"(<text class="label" x="{:.1f}" y="{:.1f}">{}</text>)", box.x0,
                            box.y1 - 3, escape_html(point.row->label));
@@ -279,7 +280,7 @@ std::string make_line_plot(const LinePlot& plot) {
                                     kLinePlotFrame.width, kLinePlotFrame.height,
                                     escape_html(plot.says));
     std::vector<AxisTick> x_ticks;
-    for (const double value : plot.x_ticks) x_ticks.push_back({value, to_plot_x(plot, value)});
+    for (const double value : plot.x_ticks) x_ticks.push_back({value, data_to_plot_x(plot, value)});
     drawn += kLinePlotFrame.axes(x_ticks, make_axis_ticks(y, list_y_ticks(y)), plot.x_name,
                                  plot.y_name);
     const double count = static_cast<double>(plot.lines.size());
@@ -307,13 +308,13 @@ std::string make_comparison_plot(const Comparison& comparison) {
     for (const Row& row : comparison.rows) {
         if (!has_time_and_flip_to_plot(row)) continue;
         const measure::Interval& ci95 = row.time_ms().ci95;
-        points.push_back(
-            {x(row.time_ms().median),
-             row.error.flip > 0 ? y(row.error.flip) : kComparisonPlotFrame.y_of_zero_lane(),
-             std::max(x(ci95.low), kComparisonPlotFrame.left),
-             std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
-             measure::is_on_front(comparison, row),
-             static_cast<std::size_t>(&row - comparison.rows.data()) + 1});
+        points.push_back({x(row.time_ms().median),
+                          row.error.flip > 0 ? y(row.error.flip)
+                                             : kComparisonPlotFrame.plot_y_of_zero_value_lane(),
+                          std::max(x(ci95.low), kComparisonPlotFrame.left),
+                          std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
+                          measure::is_on_pareto_front(comparison, row),
+                          static_cast<std::size_t>(&row - comparison.rows.data()) + 1});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"

@@ -9,7 +9,7 @@
 
 namespace catoptric::report {
 
-bool MultiSceneReport::is_complete() const {
+bool MultiSceneReport::is_report_complete() const {
     return list.size() == asked.size() && std::ranges::all_of(list, &Comparison::complete);
 }
 
@@ -48,7 +48,7 @@ std::string to_json(const MultiSceneReport& scenes) {
         json["command"] = first.command;
         json["date"] = first.date;
     }
-    json["complete"] = scenes.is_complete();
+    json["complete"] = scenes.is_report_complete();
     json["asked"] = scenes.asked;
     json["scenes"] = Json::array();
     for (const Comparison& comparison : scenes.list)

@@ -9,7 +9,7 @@
 /// Reports of the results of `stress`.
 namespace catoptric::report {
 
-using measure::SkippedStressPart;
+using measure::SkippedStressTestPart;
 using measure::stress_verdict_name;
 using measure::StressCase;
 using measure::StressPicture;

@@ -39,7 +39,7 @@ const Row* find_row_of_this_program(const Comparison& comparison,
         return measure::find_naive_row(comparison, seed.inter_reflections);
     if (seed.technique == "parallax") return measure::find_parallax_row(comparison);
     if (seed.technique == "raytrace") return measure::find_ray_traced_row(comparison);
-    return measure::find_row_by_knobs(comparison, seed.technique);
+    return measure::find_row_of_technique_with_knobs(comparison, seed.technique);
 }
 
 std::vector<std::string> make_seed_report_cells(const measure::SeedReportRow& seed) {
@@ -57,7 +57,7 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             std::to_string(row.scene_draws),
             format_fixed(row.time_ms().median, decimals),
             format_median_interval(row.time_ms(), decimals),
-            format_time_places(measure::find_time_places(comparison, row)),
+            format_time_places(measure::find_time_rank_range_of_row(comparison, row)),
             format_fps(row.time_ms().median),
             format_flip(row.error),
             format_fixed(100 * row.error.off, 2),
@@ -66,7 +66,7 @@ std::vector<std::string> format_measured_cells(const Comparison& comparison, con
             format_flip(row.error_first_order)};
 }
 
-std::string make_seed_table_note(const Comparison& comparison) {
+std::string make_seed_report_table_note(const Comparison& comparison) {
     std::string note =
         "Left: the seed report, frames per second in a browser on a GeForce GTX 770; R by its "
         "formula for four mirrors. Right: this run; R counted in the executed plan, a cube counted "
@@ -80,11 +80,11 @@ std::string make_seed_table_note(const Comparison& comparison) {
     return note;
 }
 
-std::string make_row_remark(const Comparison& comparison, const Row& row) {
+std::string make_report_row_remark(const Comparison& comparison, const Row& row) {
     std::vector<std::string> remarks;
     if (measure::has_nonfinite_pixels(row)) remarks.push_back("failed");
     if (row.is_reference) remarks.push_back("reference");
-    if (measure::is_on_front(comparison, row)) remarks.push_back("front");
+    if (measure::is_on_pareto_front(comparison, row)) remarks.push_back("front");
     if (row.noisy) remarks.push_back("noisy");
     if (row.model != "everything") remarks.push_back("model " + row.model);
     for (std::string& note : measure::list_row_notes(comparison, row))
@@ -118,14 +118,14 @@ std::string format_flip_cell(const measure::Difference& error) {
 struct MetricTableColumn {
     const measure::Metric* quantity;
     measure::MetricColumn column;
-    const measure::RowMask* mask = nullptr;
+    const measure::RowPixelMask* mask = nullptr;
 
-    int column_order() const { return column.order != 0 ? column.order : quantity->order; }
+    int metric_column_order() const { return column.order != 0 ? column.order : quantity->order; }
     measure::MetricValue metric_value_of_row(const Row& row) const {
-        return mask == nullptr ? measure::metric_value(*quantity, row)
-                               : measure::metric_value(*quantity, row.*mask->error);
+        return mask == nullptr ? measure::metric_value_of_difference(*quantity, row)
+                               : measure::metric_value_of_difference(*quantity, row.*mask->error);
     }
-    std::string column_title() const {
+    std::string metric_column_title() const {
         const std::string words(column.title);
         return mask == nullptr || mask->title.empty() ? words
                                                       : words + ", " + std::string(mask->title);
@@ -139,7 +139,7 @@ std::vector<MetricTableColumn> list_metric_columns(measure::MetricTableKind tabl
     std::vector<MetricTableColumn> columns;
     int last = 0; // the last order of a metric of differences
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        if (quantity.order < measure::kFirstOrderAfterDifferences) last = quantity.order;
+        if (quantity.order < measure::kFirstMetricOrderAfterDifferences) last = quantity.order;
     for (const measure::Metric& quantity : measure::list_metrics())
         for (const measure::MetricColumn& column : quantity.columns) {
             if (column.table != table || !measure::is_metric_shown(quantity, comparison)) continue;
@@ -147,20 +147,20 @@ std::vector<MetricTableColumn> list_metric_columns(measure::MetricTableKind tabl
                 columns.push_back({&quantity, column});
                 continue;
             }
-            for (const measure::RowMask& mask : measure::list_row_masks()) {
+            for (const measure::RowPixelMask& mask : measure::list_row_masks()) {
                 if (!mask.title.empty() && !quantity.each_mask_in_table) continue;
                 if (!measure::has_table_columns(mask, comparison)) continue;
                 columns.push_back({&quantity, column, &mask});
                 if (!mask.title.empty()) columns.back().column.order = last;
             }
         }
-    std::ranges::stable_sort(columns, {}, &MetricTableColumn::column_order);
+    std::ranges::stable_sort(columns, {}, &MetricTableColumn::metric_column_order);
     return columns;
 }
 
 void add_metric_columns(ReportTable& table, const std::vector<MetricTableColumn>& columns) {
     for (const MetricTableColumn& column : columns)
-        table.columns.emplace_back(column.column_title());
+        table.columns.emplace_back(column.metric_column_title());
 }
 
 std::vector<std::string>
@@ -246,7 +246,7 @@ TableColumn make_text_column(const char* title) {
     return column;
 }
 
-ReportTable make_seed_table(const Comparison& comparison) {
+ReportTable make_seed_report_table(const Comparison& comparison) {
     // "llvmpipe" for "llvmpipe (LLVM 15.0.6, 256 bits)"
     const std::string device = comparison.device.name.substr(0, comparison.device.name.find(" ("));
     ReportTable table{"The seed report's Table 1, measured again",
@@ -254,7 +254,7 @@ ReportTable make_seed_table(const Comparison& comparison) {
                        "ms, GTX 770", make_text_column("Here"), "R", "Draws", "ms, " + device,
                        "95 %", "Place", "FPS, " + device, "FLIP", "off, %", "MAE", "rmse",
                        "FLIP, first order"},
-                      make_seed_table_note(comparison)};
+                      make_seed_report_table_note(comparison)};
     const int decimals = choose_ms_decimals(comparison);
     for (const measure::SeedReportRow& seed : measure::kSeedReportTable) {
         std::vector<std::string>& cells = table.rows.emplace_back(make_seed_report_cells(seed));
@@ -290,9 +290,9 @@ ReportTable make_rows_table(const Comparison& comparison) {
         std::vector<std::string>& cells = table.rows.emplace_back(
             format_row_cells(row, columns, decimals));
         cells.insert(cells.begin() + 1,
-                     format_time_places(measure::find_time_places(comparison, row)));
-        cells.push_back(make_row_remark(comparison, row));
-        table.marked.push_back(measure::is_on_front(comparison, row));
+                     format_time_places(measure::find_time_rank_range_of_row(comparison, row)));
+        cells.push_back(make_report_row_remark(comparison, row));
+        table.marked.push_back(measure::is_on_pareto_front(comparison, row));
     }
     return table;
 }
@@ -303,8 +303,8 @@ ReportTable make_mirror_table(const Comparison& comparison) {
     std::size_t mirrors = 0;
     for (const Row& row : comparison.rows) mirrors = std::max(mirrors, row.error_per_mirror.size());
     for (std::size_t i = 0; i < mirrors; ++i)
-        table.columns.push_back("Mirror " +
-                                std::to_string(MirrorId::of_list_index(i).mirror_number()));
+        table.columns.push_back(
+            "Mirror " + std::to_string(MirrorId::mirror_id_from_list_index(i).mirror_number()));
     for (const Row& row : comparison.rows) {
         std::vector<std::string>& cells = table.rows.emplace_back(1, row.label);
         for (const measure::Difference& error : row.error_per_mirror)
@@ -348,14 +348,14 @@ ReportTable make_plan_table(const Comparison& comparison) {
     return table;
 }
 
-const RegisteredReportPart kMirrorsPart{
+const RegisteredReportPart kMirrorErrorsReportPart{
     {.name = "mirrors",
      .order = 200,
      .tables =
          [](const Comparison& comparison) { return std::vector{make_mirror_table(comparison)}; },
      .look = "mirrors",
      .links_rows = true}};
-const RegisteredReportPart kLookupsPart{
+const RegisteredReportPart kLookupErrorsReportPart{
     {.name = "lookups",
      .order = 300,
      .tables =

@@ -38,7 +38,7 @@ std::string format_metric_number(double value, const measure::MetricColumn& colu
 std::string to_markdown(const ReportTable& table);
 
 /// Returns the seed report's ReportTable 1 beside our measurements.
-ReportTable make_seed_table(const Comparison& comparison);
+ReportTable make_seed_report_table(const Comparison& comparison);
 /// Returns the table of all rows with all its metrics. Rows on the Pareto front are marked.
 ReportTable make_rows_table(const Comparison& comparison);
 /// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
@@ -89,7 +89,7 @@ std::vector<ReportHeaderLine> list_report_facts(const Comparison& comparison);
 std::string describe_setup_times(const SetupFacts& setup);
 /// Returns cautions for the reader: a processor as device, a run cut short, rows measured together,
 /// warnings.
-std::vector<std::string> list_reader_cautions(const Comparison& comparison);
+std::vector<std::string> list_report_cautions(const Comparison& comparison);
 
 /// Returns the findings of a run. For the seed report's scene they include its statements about its
 /// Table 1 and figures 5 and 7.

@@ -23,7 +23,7 @@ std::vector<DrawnViewMetric> list_view_metrics() {
     std::vector<DrawnViewMetric> list;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         for (const measure::MetricColumn& column : quantity.columns)
-            if (measure::is_single_number(quantity)) list.push_back({&quantity, &column});
+            if (measure::is_scalar_metric(quantity)) list.push_back({&quantity, &column});
     return list;
 }
 
@@ -38,7 +38,7 @@ std::string format_view_cell(const Row& row, const DrawnViewMetric& figure) {
 }
 
 /// Returns the title of the metric's column without the unit.
-std::string_view title_of_metric(const measure::Metric& quantity) {
+std::string_view title_of_report_metric(const measure::Metric& quantity) {
     const std::string_view title = quantity.columns.front().title;
     return title.substr(0, title.find(','));
 }
@@ -61,10 +61,10 @@ std::string format_tied_rows(const measure::MetricRowOrder& order) {
 }
 
 /// Returns all metrics that are one number, over one mask.
-Json make_view_metrics_json(const Row& row, const measure::RowMask& mask) {
+Json make_view_metrics_json(const Row& row, const measure::RowPixelMask& mask) {
     Json figures = Json::object();
     for (const measure::Metric& quantity : measure::list_difference_metrics()) {
-        if (!measure::is_single_number(quantity)) continue;
+        if (!measure::is_scalar_metric(quantity)) continue;
         const measure::MetricOverViews over = measure::compute_metric_over_views(row, mask,
                                                                                  quantity);
         figures[std::string(quantity.name)] = {{"median", make_number_json(over.median)},
@@ -88,7 +88,7 @@ std::string make_html_worst_pictures(const Comparison& comparison, const Encoded
     return make_html_titled_section("Worst views", html);
 }
 
-const RegisteredReportPart kViewsPart{
+const RegisteredReportPart kDrawnViewsReportPart{
     {.name = "views",
      .order = 100,
      .tables =
@@ -111,7 +111,7 @@ Json make_views_json(const Comparison& comparison) {
 Json make_views_json(const Comparison& comparison, const Row& row) {
     if (row.views.empty()) return nullptr;
     Json json = Json::object();
-    for (const measure::RowMask& mask : measure::list_row_masks())
+    for (const measure::RowPixelMask& mask : measure::list_row_masks())
         json[std::string(mask.field)] = make_view_metrics_json(row, mask);
     json["worst"] = nullptr;
     if (row.worst)
@@ -153,7 +153,7 @@ std::vector<std::string> describe_drawn_views(const Comparison& comparison) {
     std::vector<std::string> sentences;
     for (const measure::MetricRowOrder& order : measure::order_rows_over_views(comparison))
         sentences.push_back(fmt::format("By {}, view by view, the least first: {}. {}",
-                                        title_of_metric(*order.figure),
+                                        title_of_report_metric(*order.figure),
                                         join_labels_of_rows(order.rows), format_tied_rows(order)));
     if (!sentences.empty())
         sentences.emplace_back(

@@ -70,7 +70,7 @@ struct MultiSceneReport {
     std::vector<std::string> asked; ///< scenes as the user named them
     std::vector<Comparison> list;   ///< finished comparisons, each with its own `images`
     /// Returns whether the list has a complete comparison of every requested scene.
-    bool is_complete() const;
+    bool is_report_complete() const;
 };
 /// Returns JSON of schema "catoptric/compare-scenes/1": version, commit, command, complete, asked,
 /// and in "scenes" the document of each scene.

@@ -14,16 +14,17 @@ Bounds<double> bounds_relative_to_centre(const dvec3& centre, const Bounds<doubl
     return {box.lo - centre, box.hi - centre};
 }
 
-bool may_appear_small(const VisibilityWorld& world, const VisibilityWorldObject& thing) {
+bool may_object_appear_small(const VisibilityScene& world, const VisibilityObject& thing) {
     Bounds<double> around = world.bounds_of_static_objects();
     around.add(thing.box);
     const auto largest = [](const dvec3& v) { return std::max({v.x, v.y, v.z}); };
-    return largest(thing.tight.extent()) < kSmallObjectRatio * largest(around.extent());
+    return largest(thing.tight.extent()) <
+           kSmallObjectSizeToDistanceRatio * largest(around.extent());
 }
 
 } // namespace
 
-void ContentHashes::move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge) {
+void ContentHashes::move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge) {
     const bool is_new_layout = layout_ != world.object_list_change_count();
     if (!world.has_world_changed() && !is_new_layout && shadow_edge_ == shadow_edge) return;
     if (is_new_layout) mirrors_.assign(world.list_mirror_objects().size(), {});
@@ -42,50 +43,51 @@ void ContentHashes::move_to_instant(const VisibilityWorld& world, std::uint32_t 
     landings_.clear();
     if (is_much_) return;
     find_shadow_receivers(world, shadow_edge, landings_);
-    is_much_ = landings_.size() * mirrors > kMaxShadowLandingTests;
+    is_much_ = landings_.size() * mirrors > kMaxShadowReceiverTests;
 }
 
 const ContentHashes::CaptureFaceHashes&
-ContentHashes::face_hashes_of_mirror(const VisibilityWorld& world, std::size_t mirror) {
+ContentHashes::content_hashes_of_mirror_faces(const VisibilityScene& world, std::size_t mirror) {
     CaptureFaceHashes& faces = mirrors_[mirror];
     const std::size_t object = world.list_mirror_objects()[mirror];
-    const VisibilityWorldObject& own = world.list_objects()[object];
+    const VisibilityObject& own = world.list_objects()[object];
     if (faces.made_at == changes_) return faces;
     faces.made_at = changes_;
     faces.pieces = nullptr;
     if (is_much_ || own.has_moved || own.box.empty())
         faces.content_hashes.fill(ContentHash(all_).add_value(mirror).current_hash());
     else
-        combine_face_hashes(world, faces, mirror);
+        combine_capture_face_hashes(world, faces, mirror);
     return faces;
 }
 
-void ContentHashes::combine_face_hashes(const VisibilityWorld& world, CaptureFaceHashes& faces,
-                                        std::size_t mirror) const {
+void ContentHashes::combine_capture_face_hashes(const VisibilityScene& world,
+                                                CaptureFaceHashes& faces,
+                                                std::size_t mirror) const {
     const std::size_t object = world.list_mirror_objects()[mirror];
-    const VisibilityWorldObject& own = world.list_objects()[object];
+    const VisibilityObject& own = world.list_objects()[object];
     const dvec3 centre = own.tight.centre();
     // Hashes are summed, because the order of the movers has no meaning.
     std::array<std::uint64_t, 6> sums{};
-    const auto pieces = std::make_shared<MovingFacePieces>();
+    const auto pieces = std::make_shared<MovingObjectFaceParts>();
     bool are_many = false;
-    const auto add = [&](FaceBits which, std::uint64_t content_hash, auto&& part_of) {
+    const auto add = [&](CubeFaceBits which, std::uint64_t content_hash, auto&& part_of) {
         for (int face = 0; face < 6; ++face) {
             if ((which >> face & 1) == 0) continue;
             sums[face] += content_hash;
-            are_many = are_many || pieces->faces[face].size() == kMaxPiecesPerFace;
+            are_many = are_many || pieces->faces[face].size() == kMaxMovingPartsPerFace;
             if (!are_many) pieces->faces[face].push_back({content_hash, part_of(face)});
         }
     };
     for (const std::size_t mover : world.list_moving_objects()) {
-        const VisibilityWorldObject& thing = world.list_objects()[mover];
+        const VisibilityObject& thing = world.list_objects()[mover];
         if (mover == object || thing.box.empty()) continue;
         const Bounds<double> box = bounds_relative_to_centre(centre, thing.box);
-        if (may_appear_small(world, thing))
-            add(kAllFaceBits, thing.content_hash, [](int) { return CubeFacePart(); });
+        if (may_object_appear_small(world, thing))
+            add(kAllCubeFaceBits, thing.content_hash, [](int) { return CubeFacePart(); });
         else
-            add(faces_that_may_show_box(box) &
-                    faces_that_may_show_box(thing.middle - centre, thing.radius),
+            add(cube_faces_that_may_show_box(box) &
+                    cube_faces_that_may_show_box(thing.middle - centre, thing.radius),
                 thing.content_hash, [&](int face) { return face_part_containing(face, box); });
     }
     for (const ShadowReceiver& landing : landings_) {
@@ -93,7 +95,7 @@ void ContentHashes::combine_face_hashes(const VisibilityWorld& world, CaptureFac
         const Bounds<double> box = bounds_relative_to_centre(centre, landing.box),
                              from = bounds_relative_to_centre(centre, landing.shade.from),
                              to = bounds_relative_to_centre(centre, landing.shade.to);
-        add(faces_that_may_show_box(box) & faces_that_may_show_box(from, to),
+        add(cube_faces_that_may_show_box(box) & cube_faces_that_may_show_box(from, to),
             ContentHash(world.list_objects()[landing.caster].content_hash)
                 .add_value(landing.receiver)
                 .current_hash(),
@@ -112,14 +114,14 @@ void ContentHashes::combine_face_hashes(const VisibilityWorld& world, CaptureFac
             ContentHash(faces.settings[face]).add_value(sums[face]).current_hash();
     }
     if (are_many) return;
-    pieces->sort_pieces();
+    pieces->sort_moving_face_pieces();
     faces.pieces = pieces;
 }
 
-std::vector<ShadowCaster> ContentHashes::list_shadow_casters(const VisibilityWorld& world) const {
+std::vector<ShadowCaster> ContentHashes::list_shadow_casters(const VisibilityScene& world) const {
     std::vector<ShadowCaster> casters;
     for (const std::size_t mover : world.list_moving_objects())
-        if (const VisibilityWorldObject& thing = world.list_objects()[mover]; thing.casts_shadow)
+        if (const VisibilityObject& thing = world.list_objects()[mover]; thing.casts_shadow)
             casters.push_back({static_cast<std::uint32_t>(mover), thing.content_hash});
     return casters;
 }

@@ -10,13 +10,13 @@
 namespace catoptric::require {
 
 /// World objects may get a coordinate space of their own on the device if they are small
-/// (render::kSmallObjectRatio). This is the limit, as a part of their largest possible distance
-/// from the scene's origin. When such an object comes or goes, the shaders of other objects change
-/// as well.
-inline constexpr double kSmallObjectRatio = 0x1p-12;
+/// (render::kSmallObjectSizeToDistanceRatio). This is the limit, as a part of their largest
+/// possible distance from the scene's origin. When such an object comes or goes, the shaders of
+/// other objects change as well.
+inline constexpr double kSmallObjectSizeToDistanceRatio = 0x1p-12;
 /// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
 /// falls.
-inline constexpr std::size_t kMaxShadowLandingTests = 1 << 17;
+inline constexpr std::size_t kMaxShadowReceiverTests = 1 << 17;
 
 /// Content hashes of the faces of captures. The hash of a face stands for:
 /// - the epoch: all objects that never moved, materials, environment and lights;
@@ -34,25 +34,25 @@ inline constexpr std::size_t kMaxShadowLandingTests = 1 << 17;
 /// tested.
 class ContentHashes {
 public:
-    /// Takes over an instant, after VisibilityWorld::move_to_instant. O(movers * (lights * objects
+    /// Takes over an instant, after VisibilityScene::move_to_instant. O(movers * (lights * objects
     /// + walls)).
-    void move_to_instant(const VisibilityWorld& world, std::uint32_t shadow_edge);
+    void move_to_instant(const VisibilityScene& world, std::uint32_t shadow_edge);
     /// Content hashes of the six faces of a mirror's capture.
     struct CaptureFaceHashes {
         std::uint64_t made_at = 0; ///< value of `changes_` for which the hashes were computed
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
-        std::shared_ptr<const MovingFacePieces> pieces;
+        std::shared_ptr<const MovingObjectFaceParts> pieces;
     };
     /// Returns the content hashes of a mirror's faces (MirrorRequirements). O(movers + landings);
     /// O(1) if nothing has changed since the last call.
-    const CaptureFaceHashes& face_hashes_of_mirror(const VisibilityWorld& world,
-                                                   std::size_t mirror);
+    const CaptureFaceHashes& content_hashes_of_mirror_faces(const VisibilityScene& world,
+                                                            std::size_t mirror);
     /// Returns the movers that cast shadows.
-    std::vector<ShadowCaster> list_shadow_casters(const VisibilityWorld& world) const;
+    std::vector<ShadowCaster> list_shadow_casters(const VisibilityScene& world) const;
 
 private:
-    void combine_face_hashes(const VisibilityWorld& world, CaptureFaceHashes& faces,
-                             std::size_t mirror) const;
+    void combine_capture_face_hashes(const VisibilityScene& world, CaptureFaceHashes& faces,
+                                     std::size_t mirror) const;
 
     std::vector<CaptureFaceHashes> mirrors_;
     std::vector<ShadowReceiver> landings_;

@@ -11,10 +11,10 @@ namespace catoptric::require {
 
 namespace {
 
-using NumberList = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
+using NumberedItemList = std::vector<std::size_t>; ///< numbers of mirrors or lights, from 1
 
 /// Returns `one` with its number and name, or the plural with several numbers.
-std::string format_numbered_items(const std::string& one, const NumberList& numbers,
+std::string format_numbered_items(const std::string& one, const NumberedItemList& numbers,
                                   const std::string& name) {
     if (numbers.size() == 1)
         return one + " " + format_number_ranges(numbers) + (name.empty() ? "" : " " + name);
@@ -22,7 +22,7 @@ std::string format_numbered_items(const std::string& one, const NumberList& numb
 }
 
 std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
-    return quote_as_printable_text(scene.objects[object].name);
+    return quote_text_with_escapes(scene.objects[object].name);
 }
 
 /// Returns why the mirrors are invisible. `seen`: number of visible mirrors.
@@ -53,7 +53,7 @@ void add_unseen_mirrors(std::vector<CulledWork>& all, const RequiredWorkModel& m
                         const std::vector<std::size_t>& mirrors) {
     const auto seen = static_cast<std::size_t>(
         std::ranges::count_if(model.mirrors, &MirrorRequirements::is_seen));
-    std::map<std::pair<UnseenMirrorReason::UnseenMirrorCause, std::size_t>, NumberList> alike;
+    std::map<std::pair<UnseenMirrorReason::UnseenMirrorCause, std::size_t>, NumberedItemList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         if (!model.mirrors[i].is_captured && findings.camera[i])
             alike[{findings.camera[i]->why, findings.camera[i]->wall}].push_back(i + 1);
@@ -73,16 +73,16 @@ void add_unseen_mirrors(std::vector<CulledWork>& all, const RequiredWorkModel& m
 
 void add_culled_faces(std::vector<CulledWork>& all, const RequiredWorkModel& model,
                       const scene::Scene& scene, const std::vector<std::size_t>& mirrors) {
-    std::map<FaceBits, NumberList> alike;
+    std::map<CubeFaceBits, NumberedItemList> alike;
     for (std::size_t i = 0; i < mirrors.size(); ++i)
-        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllFaceBits)
+        if (model.mirrors[i].is_captured && model.mirrors[i].faces != kAllCubeFaceBits)
             alike[model.mirrors[i].faces].push_back(i + 1);
     for (const auto& [faces, numbers] : alike) {
-        const auto without = static_cast<FaceBits>(kAllFaceBits & ~faces);
+        const auto without = static_cast<CubeFaceBits>(kAllCubeFaceBits & ~faces);
         const int count = std::popcount(without);
         const bool is_one = numbers.size() == 1;
         all.push_back(
-            {.what = std::string(count == 1 ? "face " : "faces ") + list_face_names(without) +
+            {.what = std::string(count == 1 ? "face " : "faces ") + list_cube_face_names(without) +
                      (is_one ? " of the capture of " : " of the captures of ") +
                      format_numbered_items("mirror", numbers,
                                            quote_object_name(scene, mirrors[numbers[0] - 1])),
@@ -109,7 +109,7 @@ void add_culled_shadow_maps(std::vector<CulledWork>& all, const RequiredWorkMode
 
 } // namespace
 
-void fill_findings_hash(VisibilityFindings& findings, const RequiredWorkModel& model) {
+void add_hash_of_visibility_findings(VisibilityFindings& findings, const RequiredWorkModel& model) {
     findings.key.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i) {
         const MirrorRequirements& needs = model.mirrors[i];
@@ -150,13 +150,13 @@ std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::
     std::vector<std::string> names;
     for (const scene::Object& object : scene.objects)
         if (scene::emitted_radiance(scene.materials[object.material]) != vec3(0))
-            names.push_back(quote_as_printable_text(object.name));
+            names.push_back(quote_text_with_escapes(object.name));
     for (const scene::PunctualLight& punctual : scene.punctual)
-        names.push_back(quote_as_printable_text(punctual.name));
+        names.push_back(quote_text_with_escapes(punctual.name));
     return names.size() == count ? names[light] : "";
 }
 
-std::string list_face_names(FaceBits faces) {
+std::string list_cube_face_names(CubeFaceBits faces) {
     constexpr const char* kFaceNames[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
     std::string text;
     for (std::size_t face = 0; face < 6; ++face)

@@ -17,7 +17,7 @@ struct VisibilityFindings {
     /// again only if the key changes.
     std::vector<std::uint64_t> key;
 };
-void fill_findings_hash(VisibilityFindings& findings, const RequiredWorkModel& model);
+void add_hash_of_visibility_findings(VisibilityFindings& findings, const RequiredWorkModel& model);
 
 /// Returns numbers in ascending order as text: "1", "2-5", "1-3, 7".
 std::string format_number_ranges(const std::vector<std::size_t>& numbers);
@@ -32,6 +32,6 @@ std::vector<CulledWork> list_culled_work(const RequiredWorkModel& model,
 /// light has a name.
 std::string quote_light_name(const scene::Scene& scene, std::size_t light, std::size_t count);
 /// Returns the names of the faces, such as "+X -Y".
-std::string list_face_names(FaceBits faces);
+std::string list_cube_face_names(CubeFaceBits faces);
 
 } // namespace catoptric::require

@@ -34,15 +34,15 @@ PictureFrustum::PictureFrustum(const scene::Camera& camera, uvec2 size) : eye_(c
     planes_[4] = {half * along - down, beyond * half};
 }
 
-bool PictureFrustum::may_contain_box(const Bounds<double>& box) const {
+bool PictureFrustum::may_frustum_contain_box(const Bounds<double>& box) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
         return dot(plane.first, box_corner_farthest_along(box, plane.first) - eye_) < -plane.second;
     });
 }
 
 /// Clips the triangle by one plane after the other (Sutherland and Hodgman 1974).
-bool PictureFrustum::may_contain_triangle(const std::array<dvec3, 3>& triangle,
-                                          double margin) const {
+bool PictureFrustum::may_frustum_contain_triangle(const std::array<dvec3, 3>& triangle,
+                                                  double margin) const {
     constexpr std::size_t kMaxClippedCorners = 3 + 5; // each plane adds at most one corner
     std::array<dvec3, kMaxClippedCorners> corners{triangle[0], triangle[1], triangle[2]}, kept;
     std::size_t count = 3;
@@ -63,7 +63,7 @@ bool PictureFrustum::may_contain_triangle(const std::array<dvec3, 3>& triangle,
     return true;
 }
 
-bool PictureFrustum::may_contain_ball(const dvec3& centre, double radius) const {
+bool PictureFrustum::may_frustum_contain_ball(const dvec3& centre, double radius) const {
     return std::ranges::none_of(planes_, [&](const auto& plane) {
         return dot(plane.first, centre - eye_) + plane.second < -radius * length(plane.first);
     });
@@ -73,8 +73,8 @@ double PictureFrustum::pixel_angle(double distance) const {
     return is_parallel_ ? pixel_ / distance : pixel_;
 }
 
-FaceBits faces_that_may_show_box(const Bounds<double>& box) {
-    FaceBits faces = 0;
+CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& box) {
+    CubeFaceBits faces = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
         // For the face towards +a, some of the box needs a >= |u| and a >= |v|. Each of these
@@ -84,25 +84,26 @@ FaceBits faces_that_may_show_box(const Bounds<double>& box) {
             return furthest >= 0 && furthest + box.hi[u] >= 0 && furthest - box.lo[u] >= 0 &&
                    furthest + box.hi[v] >= 0 && furthest - box.lo[v] >= 0;
         };
-        if (reaches(hi)) faces |= static_cast<FaceBits>(1 << (2 * axis));
-        if (reaches(lo)) faces |= static_cast<FaceBits>(2 << (2 * axis));
+        if (reaches(hi)) faces |= static_cast<CubeFaceBits>(1 << (2 * axis));
+        if (reaches(lo)) faces |= static_cast<CubeFaceBits>(2 << (2 * axis));
     }
     return faces;
 }
 
-FaceBits faces_that_may_show_box(const dvec3& centre, double radius) {
-    FaceBits faces = 0;
+CubeFaceBits cube_faces_that_may_show_box(const dvec3& centre, double radius) {
+    CubeFaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         const double ahead = face % 2 == 0 ? centre[face / 2] : -centre[face / 2];
         const double aside = std::max(std::abs(centre[(face / 2 + 1) % 3]),
                                       std::abs(centre[(face / 2 + 2) % 3]));
-        if (ahead - aside >= -std::sqrt(2.0) * radius) faces |= static_cast<FaceBits>(1 << face);
+        if (ahead - aside >= -std::sqrt(2.0) * radius)
+            faces |= static_cast<CubeFaceBits>(1 << face);
     }
     return faces;
 }
 
-FaceBits faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b) {
-    FaceBits faces = 0;
+CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b) {
+    CubeFaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         dvec3 forward(0);
         forward[face / 2] = face % 2 == 0 ? 1 : -1;
@@ -113,13 +114,13 @@ FaceBits faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& 
             meets = dot(normal, box_corner_farthest_along(a, normal)) >= 0 ||
                     dot(normal, box_corner_farthest_along(b, normal)) >= 0;
         }
-        if (meets) faces |= static_cast<FaceBits>(1 << face);
+        if (meets) faces |= static_cast<CubeFaceBits>(1 << face);
     }
     return faces;
 }
 
-FaceBits faces_in_front_of_plane(const dvec3& normal, double sine) {
-    FaceBits faces = 0;
+CubeFaceBits cube_faces_in_front_of_plane(const dvec3& normal, double sine) {
+    CubeFaceBits faces = 0;
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double ahead = face % 2 == 0 ? normal[axis] : -normal[axis];
@@ -127,7 +128,7 @@ FaceBits faces_in_front_of_plane(const dvec3& normal, double sine) {
         // axes permuted.
         const double most = ahead + std::abs(normal[(axis + 1) % 3]) +
                             std::abs(normal[(axis + 2) % 3]);
-        if (most > -sine * std::sqrt(3.0)) faces |= static_cast<FaceBits>(1 << face);
+        if (most > -sine * std::sqrt(3.0)) faces |= static_cast<CubeFaceBits>(1 << face);
     }
     return faces;
 }

@@ -18,12 +18,12 @@ public:
     bool is_orthographic() const { return is_parallel_; }
     /// Returns whether the camera's view volume may contain a part of the box. Returns false if all
     /// corners of the box lie beyond one of the five planes that bound the view volume.
-    bool may_contain_box(const Bounds<double>& box) const;
+    bool may_frustum_contain_box(const Bounds<double>& box) const;
     /// Returns false if no point of the triangle is inside. The planes are moved outwards by
     /// `margin`, in world units.
-    bool may_contain_triangle(const std::array<dvec3, 3>& triangle, double margin) const;
+    bool may_frustum_contain_triangle(const std::array<dvec3, 3>& triangle, double margin) const;
     /// Returns false if the ball is certainly outside.
-    bool may_contain_ball(const dvec3& centre, double radius) const;
+    bool may_frustum_contain_ball(const dvec3& centre, double radius) const;
     /// Returns the angle between neighbouring pixels on the axis, in radians. In an orthographic
     /// picture, this is the angle of a pixel's width at `distance`.
     double pixel_angle(double distance) const;
@@ -40,16 +40,16 @@ private:
 
 /// Returns the faces of a capture at the origin that may show some of the box. Each face tests the
 /// four planes between it and its neighbours. An empty box meets no face.
-FaceBits faces_that_may_show_box(const Bounds<double>& box);
+CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& box);
 
 /// Returns the faces that may show some of a ball.
-FaceBits faces_that_may_show_box(const dvec3& centre, double radius);
+CubeFaceBits cube_faces_that_may_show_box(const dvec3& centre, double radius);
 
 /// Returns the faces that may show some of the hull of a and b.
-FaceBits faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b);
+CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& a, const Bounds<double>& b);
 
 /// Returns the faces with at least one direction whose product with the normal is above -`sine`.
 /// These faces may show what a viewer in front of the plane sees mirrored in it.
-FaceBits faces_in_front_of_plane(const dvec3& normal, double sine);
+CubeFaceBits cube_faces_in_front_of_plane(const dvec3& normal, double sine);
 
 } // namespace catoptric::require

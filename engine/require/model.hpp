@@ -31,9 +31,9 @@ struct RequiredWorkModelInput {
 };
 
 /// Six bits, one per face of a capture, in the order of render::make_cube_views.
-using FaceBits = std::uint8_t;
-struct MovingFacePieces; // parts of a capture's faces that movers change
-inline constexpr FaceBits kAllFaceBits = 0x3f;
+using CubeFaceBits = std::uint8_t;
+struct MovingObjectFaceParts; // parts of a capture's faces that movers change
+inline constexpr CubeFaceBits kAllCubeFaceBits = 0x3f;
 
 struct MirrorRequirements {
     bool is_seen = true; ///< whether the camera or a visible mirror sees the mirror
@@ -43,7 +43,7 @@ struct MirrorRequirements {
     /// continued from other mirrors, or by any search with RequiredWorkModelInput::asks_all.
     bool is_captured = true;
     /// Faces of its capture that hold directions which may be read.
-    FaceBits faces = kAllFaceBits;
+    CubeFaceBits faces = kAllCubeFaceBits;
     std::uint32_t edge = 0; ///< sufficient edge of a face in texels; 0: as many as the row asks for
     /// Content hash of the surfaces that each face of the capture shows and of their lighting,
     /// except reflections in mirrors. The bytes of a face stay the same while this hash, the view
@@ -51,7 +51,7 @@ struct MirrorRequirements {
     std::array<std::uint64_t, 6> content_hashes{};
     /// Content hashes of the same data without the movers and shadows that `pieces` lists.
     std::array<std::uint64_t, 6> settings{};
-    std::shared_ptr<const MovingFacePieces> pieces; ///< null: movers are not listed one by one
+    std::shared_ptr<const MovingObjectFaceParts> pieces; ///< null: movers are not listed one by one
     std::vector<std::uint32_t>
         /// The other mirrors that its capture shows, numbered from 0, in ascending order.
         sees;
@@ -102,7 +102,7 @@ public:
     /// Returns the model of a picture. The reference is valid until the next call. O(objects) if
     /// nothing has changed; else also mirrors * (walls + movers + their shadows). Figures are in
     /// docs/require.md.
-    const RequiredWorkModel& model_for(const RequiredWorkModelInput& question);
+    const RequiredWorkModel& make_work_model_for_request(const RequiredWorkModelInput& question);
 
 private:
     struct Impl;

@@ -30,7 +30,7 @@ public:
         std::vector<bvh::Triangle> triangles;
         for (std::size_t i = 0; i < now.objects.size(); ++i)
             trace_path_of_pixel(question, i, triangles);
-        tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateSearchScope::across_objects);
+        tree_ = bvh::build_bvh(triangles, {}, bvh::DuplicateTriangleSearchScope::across_objects);
     }
 
     struct TracedMirrorPath {

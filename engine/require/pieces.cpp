@@ -14,7 +14,7 @@ namespace {
 constexpr double kUnboundedSlope = std::numeric_limits<double>::infinity();
 
 /// The least s in [-1, 1] with aside <= s * ahead for all points. It is 1 if no such s exists.
-class LeastHullSlope {
+class LeastSlopeOfMovingHull {
 public:
     void add_point(double aside, double ahead) {
         if (ahead > 0)
@@ -24,15 +24,15 @@ public:
         else if (aside > 0)
             most_ = -kUnboundedSlope;
     }
-    double least_slope() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
+    double least_slope_of_hull() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
     /// Returns whether the hull ahead lies entirely beyond the opposite edge of the face, at -1.
-    bool is_beyond_face() const { return least_ <= most_ && least_ < -1; }
+    bool is_hull_beyond_face() const { return least_ <= most_ && least_ < -1; }
 
 private:
     double least_ = -kUnboundedSlope, most_ = kUnboundedSlope;
 };
 
-auto face_piece_sort_key(const MovingFacePiece& piece) {
+auto moving_face_part_sort_key(const MovingObjectFacePart& piece) {
     const CubeFacePart& part = piece.part;
     return std::tuple(piece.content_hash, part.low.x, part.low.y, part.high.x, part.high.y);
 }
@@ -53,15 +53,16 @@ CubeFacePart face_part_containing(int face, std::span<const dvec3> places) {
     const dvec3 right = f64::cube_direction(face, dvec3(1, 0, 0)),
                 down = f64::cube_direction(face, dvec3(0, 1, 0)),
                 forward = f64::cube_direction(face, dvec3(0, 0, 1));
-    std::array<LeastHullSlope, 4> slopes; // right, left, down, up
+    std::array<LeastSlopeOfMovingHull, 4> slopes; // right, left, down, up
     for (const dvec3& place : places) {
         const double ahead = dot(forward, place), x = dot(right, place), y = dot(down, place);
         slopes[0].add_point(x, ahead), slopes[1].add_point(-x, ahead);
         slopes[2].add_point(y, ahead), slopes[3].add_point(-y, ahead);
     }
-    if (std::ranges::any_of(slopes, &LeastHullSlope::is_beyond_face)) return kEmptyFacePart;
-    return {dvec2(-slopes[1].least_slope(), -slopes[3].least_slope()),
-            dvec2(slopes[0].least_slope(), slopes[2].least_slope())};
+    if (std::ranges::any_of(slopes, &LeastSlopeOfMovingHull::is_hull_beyond_face))
+        return kEmptyFacePart;
+    return {dvec2(-slopes[1].least_slope_of_hull(), -slopes[3].least_slope_of_hull()),
+            dvec2(slopes[0].least_slope_of_hull(), slopes[2].least_slope_of_hull())};
 }
 
 CubeFacePart face_part_containing(int face, const Bounds<double>& box) {
@@ -75,23 +76,23 @@ CubeFacePart face_part_containing(int face, const Bounds<double>& a, const Bound
     return face_part_containing(face, corners);
 }
 
-void MovingFacePieces::sort_pieces() {
-    for (std::vector<MovingFacePiece>& pieces : faces)
-        std::ranges::sort(pieces, {}, face_piece_sort_key);
+void MovingObjectFaceParts::sort_moving_face_pieces() {
+    for (std::vector<MovingObjectFacePart>& pieces : faces)
+        std::ranges::sort(pieces, {}, moving_face_part_sort_key);
 }
 
-CubeFacePart find_changed_face_part(std::span<const MovingFacePiece> before,
-                                    std::span<const MovingFacePiece> after) {
+CubeFacePart find_changed_face_part(std::span<const MovingObjectFacePart> before,
+                                    std::span<const MovingObjectFacePart> after) {
     CubeFacePart part = kEmptyFacePart;
     for (std::size_t i = 0, k = 0; i < before.size() || k < after.size();) {
         const bool ends = i == before.size() || k == after.size();
-        if (!ends && face_piece_sort_key(before[i]) == face_piece_sort_key(after[k])) {
+        if (!ends && moving_face_part_sort_key(before[i]) == moving_face_part_sort_key(after[k])) {
             ++i, ++k;
             continue;
         }
         const bool is_before = k == after.size() ||
-                               (i < before.size() &&
-                                face_piece_sort_key(before[i]) < face_piece_sort_key(after[k]));
+                               (i < before.size() && moving_face_part_sort_key(before[i]) <
+                                                         moving_face_part_sort_key(after[k]));
         part = unite_face_parts(part, (is_before ? before[i++] : after[k++]).part);
     }
     return part;

@@ -37,25 +37,26 @@ CubeFacePart face_part_containing(int face, const Bounds<double>& box);
 CubeFacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b);
 
 /// A mover, or the shadow of a mover on an object, that a face may show.
-struct MovingFacePiece {
+struct MovingObjectFacePart {
     std::uint64_t content_hash = 0; ///< equal hashes stand for equal looks
     CubeFacePart part;
 };
 
 /// Largest number of pieces (moving objects and shadows) that are stored per face. If a face has
 /// more pieces, none are stored for the capture.
-inline constexpr std::size_t kMaxPiecesPerFace = 64;
+inline constexpr std::size_t kMaxMovingPartsPerFace = 64;
 
 /// The pieces in each face of a capture.
-struct MovingFacePieces {
-    std::array<std::vector<MovingFacePiece>, 6> faces;
-    void sort_pieces(); ///< sorts the pieces in the order that `find_changed_face_part` needs
+struct MovingObjectFaceParts {
+    std::array<std::vector<MovingObjectFacePart>, 6> faces;
+    void sort_moving_face_pieces(); ///< sorts the pieces in the order that `find_changed_face_part`
+                                    ///< needs
 };
 
 /// Compares the moving objects and shadows (pieces) that a face shows in two frames. Returns a
 /// rectangle that contains all pieces that only one of the two lists has. Both lists must be
 /// sorted. O(pieces).
-CubeFacePart find_changed_face_part(std::span<const MovingFacePiece> before,
-                                    std::span<const MovingFacePiece> after);
+CubeFacePart find_changed_face_part(std::span<const MovingObjectFacePart> before,
+                                    std::span<const MovingObjectFacePart> after);
 
 } // namespace catoptric::require

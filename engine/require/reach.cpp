@@ -29,8 +29,8 @@ dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh) {
     return normal;
 }
 
-FaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& normal,
-                                     double margin, std::span<const Bounds<double>> viewers) {
+CubeFaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& normal,
+                                         double margin, std::span<const Bounds<double>> viewers) {
     const auto [low, high] = project_box_on_axis(normal, mirror);
     bool front = true, back = true;
     for (const Bounds<double>& viewer : viewers) {
@@ -40,11 +40,11 @@ FaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& 
         front = front && viewer_low > high;
         back = back && viewer_high < low;
     }
-    if (front == back) return kAllFaceBits; // no viewer, or viewers on both sides
-    return faces_in_front_of_plane(front ? normal : -normal, 2 * kMaxNormalDeviation);
+    if (front == back) return kAllCubeFaceBits; // no viewer, or viewers on both sides
+    return cube_faces_in_front_of_plane(front ? normal : -normal, 2 * kMaxNormalDeviation);
 }
 
-bool may_light_box(const scene::PointLight& light, const Bounds<double>& box, double margin) {
+bool may_light_reach_box(const scene::PointLight& light, const Bounds<double>& box, double margin) {
     if (light.directional) return true;
     const dvec3 nearest = glm::clamp(light.position, box.lo, box.hi);
     if (!(length(nearest - light.position) <= light.range + margin)) return false;

@@ -28,11 +28,11 @@ dvec3 find_normal_of_flat_mesh(const scene::Mesh& mesh);
 ///
 /// A viewer within `margin` of the plane sees nothing of the mirror, such as another panel on the
 /// same wall. If viewers lie on both sides, all faces are needed.
-FaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& normal,
-                                     double margin, std::span<const Bounds<double>> viewers);
+CubeFaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dvec3& normal,
+                                         double margin, std::span<const Bounds<double>> viewers);
 
 /// Returns whether the light may shine on something in the box: within the light's range and, for a
 /// lamp, in front of the lamp.
-bool may_light_box(const scene::PointLight& light, const Bounds<double>& box, double margin);
+bool may_light_reach_box(const scene::PointLight& light, const Bounds<double>& box, double margin);
 
 } // namespace catoptric::require

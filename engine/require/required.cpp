@@ -11,7 +11,7 @@
 namespace catoptric::require {
 
 struct RequiredWorkModelBuilder::Impl {
-    VisibilityWorld world;
+    VisibilityScene world;
     MirrorVisibility sight;
     ContentHashes content_hashes;
     VisibilityFindings findings;
@@ -24,15 +24,15 @@ struct RequiredWorkModelBuilder::Impl {
 
     explicit Impl(const scene::Scene& rest) : world(rest) { model.is_everything = false; }
 
-    void find_seen(const PictureFrustum& picture, const scene::Scene& now);
-    void find_captured(std::size_t mirror, bool asks_all);
-    FaceBits faces_of(const PictureFrustum& picture, std::size_t mirror);
-    void find_lights(const PictureFrustum& picture);
+    void find_mirrors_seen_by_camera(const PictureFrustum& picture, const scene::Scene& now);
+    void find_mirrors_needing_captures(std::size_t mirror, bool asks_all);
+    CubeFaceBits needed_capture_faces_of_mirror(const PictureFrustum& picture, std::size_t mirror);
+    void find_lights_needing_shadow_maps(const PictureFrustum& picture);
 };
 
 /// Finds the mirrors that the camera sees, the mirrors that these can see, and so on.
-void RequiredWorkModelBuilder::Impl::find_seen(const PictureFrustum& picture,
-                                               const scene::Scene& now) {
+void RequiredWorkModelBuilder::Impl::find_mirrors_seen_by_camera(const PictureFrustum& picture,
+                                                                 const scene::Scene& now) {
     const std::size_t count = world.list_mirror_objects().size();
     model.mirrors.resize(count), findings.camera.resize(count), listed.resize(count);
     waiting.clear();
@@ -49,15 +49,17 @@ void RequiredWorkModelBuilder::Impl::find_seen(const PictureFrustum& picture,
     for (std::size_t next = 0; next < waiting.size() && waiting.size() < count; ++next)
         for (std::size_t i = 0; i < count; ++i) {
             MirrorRequirements& needs = model.mirrors[i];
-            if (needs.is_seen || !sight.may_reach_object(world, waiting[next], i)) continue;
+            if (needs.is_seen || !sight.may_light_path_reach_object(world, waiting[next], i))
+                continue;
             needs.is_seen = true;
-            needs.seen_in = MirrorId::of_list_index(waiting[next]);
+            needs.seen_in = MirrorId::mirror_id_from_list_index(waiting[next]);
             waiting.push_back(i);
         }
 }
 
-/// Finds what a mirror's capture shows, after find_seen.
-void RequiredWorkModelBuilder::Impl::find_captured(std::size_t mirror, bool asks_all) {
+/// Finds what a mirror's capture shows, after find_mirrors_seen_by_camera.
+void RequiredWorkModelBuilder::Impl::find_mirrors_needing_captures(std::size_t mirror,
+                                                                   bool asks_all) {
     MirrorRequirements& needs = model.mirrors[mirror];
     needs.is_captured = needs.is_seen || asks_all;
     if (!needs.is_captured) {
@@ -67,31 +69,32 @@ void RequiredWorkModelBuilder::Impl::find_captured(std::size_t mirror, bool asks
         needs.pieces = nullptr;
         return;
     }
-    const ContentHashes::CaptureFaceHashes& faces = content_hashes.face_hashes_of_mirror(world,
-                                                                                         mirror);
+    const ContentHashes::CaptureFaceHashes& faces = content_hashes.content_hashes_of_mirror_faces(
+        world, mirror);
     needs.content_hashes = faces.content_hashes, needs.settings = faces.settings,
     needs.pieces = faces.pieces;
     if (listed[mirror] && !sight.has_visibility_changed(mirror)) return;
     listed[mirror] = true;
     needs.sees.clear();
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
-        if (sight.capture_may_show(world, mirror, i))
+        if (sight.may_capture_show_object(world, mirror, i))
             needs.sees.push_back(static_cast<std::uint32_t>(i));
 }
 
-FaceBits RequiredWorkModelBuilder::Impl::faces_of(const PictureFrustum& picture,
-                                                  std::size_t mirror) {
-    const VisibilityWorldObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
+CubeFaceBits
+RequiredWorkModelBuilder::Impl::needed_capture_faces_of_mirror(const PictureFrustum& picture,
+                                                               std::size_t mirror) {
+    const VisibilityObject& thing = world.list_objects()[world.list_mirror_objects()[mirror]];
     const dvec3 flat = world.list_mesh_shapes()[thing.mesh].flat_normal;
     if (flat == dvec3(0) || thing.is_glass || !model.mirrors[mirror].is_captured)
-        return kAllFaceBits;
+        return kAllCubeFaceBits;
     viewers.clear();
     // The rays of an orthographic picture start in a plane, not at one eye.
-    if (!findings.camera[mirror] && picture.is_orthographic()) return kAllFaceBits;
+    if (!findings.camera[mirror] && picture.is_orthographic()) return kAllCubeFaceBits;
     if (!findings.camera[mirror])
         viewers.push_back({picture.eye_position(), picture.eye_position()});
     for (std::size_t i = 0; i < model.mirrors.size(); ++i)
-        if (model.mirrors[i].is_captured && sight.may_reach_object(world, i, mirror))
+        if (model.mirrors[i].is_captured && sight.may_light_path_reach_object(world, i, mirror))
             viewers.push_back(world.list_objects()[world.list_mirror_objects()[i]].box);
     const dvec3 normal = scene::transform_normal_to_world(scene::compute_normal_matrix(thing.place),
                                                           flat);
@@ -101,7 +104,8 @@ FaceBits RequiredWorkModelBuilder::Impl::faces_of(const PictureFrustum& picture,
 
 /// Finds whether each light may shine on something that is seen. If any capture is made, all
 /// objects count as seen; else only those that the camera may see.
-void RequiredWorkModelBuilder::Impl::find_lights(const PictureFrustum& picture) {
+void RequiredWorkModelBuilder::Impl::find_lights_needing_shadow_maps(
+    const PictureFrustum& picture) {
     model.lights.resize(world.list_point_lights().size());
     model.casters = content_hashes.list_shadow_casters(world);
     const bool all_around = std::ranges::any_of(model.mirrors, &MirrorRequirements::is_captured);
@@ -109,11 +113,12 @@ void RequiredWorkModelBuilder::Impl::find_lights(const PictureFrustum& picture) 
         model.lights[i].content_hash =
             ContentHash(world.static_change_count()).add_value(i).current_hash();
         model.lights[i].has_map = std::ranges::any_of(
-            world.list_objects(), [&](const VisibilityWorldObject& thing) {
+            world.list_objects(), [&](const VisibilityObject& thing) {
                 return !thing.box.empty() &&
-                       may_light_box(world.list_point_lights()[i], thing.box,
-                                     world.max_position_rounding_error()) &&
-                       (all_around || (thing.seen_by_camera && picture.may_contain_box(thing.box)));
+                       may_light_reach_box(world.list_point_lights()[i], thing.box,
+                                           world.max_position_rounding_error()) &&
+                       (all_around ||
+                        (thing.seen_by_camera && picture.may_frustum_contain_box(thing.box)));
             });
     }
 }
@@ -126,21 +131,21 @@ RequiredWorkModelBuilder&
 RequiredWorkModelBuilder::operator=(RequiredWorkModelBuilder&&) noexcept = default;
 
 const RequiredWorkModel&
-RequiredWorkModelBuilder::model_for(const RequiredWorkModelInput& question) {
+RequiredWorkModelBuilder::make_work_model_for_request(const RequiredWorkModelInput& question) {
     Impl& impl = *impl_;
     const PictureFrustum picture(question.camera, question.size);
     impl.world.move_to_instant(question.now);
     impl.sight.move_to_instant(impl.world);
     impl.content_hashes.move_to_instant(impl.world, question.shadow_edge);
-    impl.find_seen(picture, question.now);
+    impl.find_mirrors_seen_by_camera(picture, question.now);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
-        impl.find_captured(i, question.asks_all);
+        impl.find_mirrors_needing_captures(i, question.asks_all);
     for (std::size_t i = 0; i < impl.model.mirrors.size(); ++i)
         impl.model.mirrors[i].faces = question.asks_all || question.whole_cubes
-                                          ? kAllFaceBits
-                                          : impl.faces_of(picture, i);
-    impl.find_lights(picture);
-    fill_findings_hash(impl.findings, impl.model);
+                                          ? kAllCubeFaceBits
+                                          : impl.needed_capture_faces_of_mirror(picture, i);
+    impl.find_lights_needing_shadow_maps(picture);
+    add_hash_of_visibility_findings(impl.findings, impl.model);
     if (impl.findings.key != impl.known_key) {
         impl.known_key = impl.findings.key;
         impl.model.left_out = list_culled_work(impl.model, impl.findings, question.now);
@@ -149,7 +154,7 @@ RequiredWorkModelBuilder::model_for(const RequiredWorkModelInput& question) {
 }
 
 RequiredWorkModel make_required_model(const RequiredWorkModelInput& question) {
-    return RequiredWorkModelBuilder(question.now).model_for(question);
+    return RequiredWorkModelBuilder(question.now).make_work_model_for_request(question);
 }
 
 } // namespace catoptric::require

@@ -8,12 +8,12 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr double kUnreachableDistance = std::numeric_limits<double>::infinity();
+constexpr double kUnreachableShadowDistance = std::numeric_limits<double>::infinity();
 
 /// Returns how many times further from the light than the box a shaded point can be.
 double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
                                  const Bounds<double>& everything) {
-    double times = kUnreachableDistance;
+    double times = kUnreachableShadowDistance;
     for (int axis = 0; axis < 3; ++axis) {
         // (wall - L) / (b - L) is largest for the b nearest to the light.
         const double above = box.lo[axis] - light[axis], below = light[axis] - box.hi[axis];
@@ -25,7 +25,7 @@ double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
 
 double max_shadow_distance_along(const dvec3& axis, const Bounds<double>& box,
                                  const Bounds<double>& everything) {
-    double times = kUnreachableDistance;
+    double times = kUnreachableShadowDistance;
     for (int i = 0; i < 3; ++i) {
         if (axis[i] > 0) times = std::min(times, (everything.hi[i] - box.lo[i]) / axis[i]);
         if (axis[i] < 0) times = std::min(times, (everything.lo[i] - box.hi[i]) / axis[i]);
@@ -48,7 +48,7 @@ double shadow_filter_length_at_box(const scene::PointLight& light, const Bounds<
     return kShadowFilterTexels * span / std::max(edge, 1u);
 }
 
-Bounds<double> grow_box_by(const Bounds<double>& box, double by) {
+Bounds<double> expand_box_by_length(const Bounds<double>& box, double by) {
     return {box.lo - by, box.hi + by};
 }
 
@@ -62,23 +62,23 @@ ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bou
                                        const Bounds<double>& everything) {
     if (light.directional) {
         const double far = max_shadow_distance_along(light.axis, caster, everything);
-        if (far == kUnreachableDistance) return {everything, everything};
+        if (far == kUnreachableShadowDistance) return {everything, everything};
         return {caster, {caster.lo + far * light.axis, caster.hi + far * light.axis}};
     }
     const double times = max_shadow_stretch_factor(light.position, caster, everything);
-    if (times == kUnreachableDistance) return {everything, everything};
+    if (times == kUnreachableShadowDistance) return {everything, everything};
     return {caster,
             {light.position + times * (caster.lo - light.position),
              light.position + times * (caster.hi - light.position)}};
 }
 
-void find_shadow_receivers(const VisibilityWorld& world, std::uint32_t edge,
+void find_shadow_receivers(const VisibilityScene& world, std::uint32_t edge,
                            std::vector<ShadowReceiver>& landings) {
     landings.clear();
     Bounds<double> everything;
-    for (const VisibilityWorldObject& thing : world.list_objects()) everything.add(thing.box);
+    for (const VisibilityObject& thing : world.list_objects()) everything.add(thing.box);
     for (const std::size_t mover : world.list_moving_objects()) {
-        const VisibilityWorldObject& caster = world.list_objects()[mover];
+        const VisibilityObject& caster = world.list_objects()[mover];
         if (!caster.casts_shadow || caster.box.empty()) continue;
         for (const scene::PointLight& light : world.list_point_lights()) {
             const auto [from, to] = compute_shadowed_volume(light, caster.box, everything);
@@ -88,10 +88,14 @@ void find_shadow_receivers(const VisibilityWorld& world, std::uint32_t edge,
                 const Bounds<double>& receiver = world.list_objects()[i].box;
                 if (receiver.empty()) continue;
                 const double room = shadow_filter_length_at_box(light, receiver, everything, edge);
-                const Bounds<double> box = intersect_boxes(grow_box_by(shade, room), receiver);
+                const Bounds<double> box = intersect_boxes(expand_box_by_length(shade, room),
+                                                           receiver);
                 if (!box.empty())
                     landings.push_back(
-                        {mover, i, box, {grow_box_by(from, room), grow_box_by(to, room)}});
+                        {mover,
+                         i,
+                         box,
+                         {expand_box_by_length(from, room), expand_box_by_length(to, room)}});
             }
         }
     }

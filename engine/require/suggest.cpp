@@ -16,9 +16,9 @@ namespace catoptric::require {
 
 namespace {
 
-constexpr PictureCostTable kPictureCosts;
-constexpr TechniqueErrorTable kTechniqueErrors;
-constexpr double kEqualErrorFactor = 1.1; // errors within this factor count as equal
+constexpr PictureCostTable kPictureCostTable;
+constexpr TechniqueErrorTable kTechniqueErrorTable;
+constexpr double kMaxEqualErrorFactor = 1.1; // errors within this factor count as equal
 /// Where some mirror is traced anyway, so is each mirror with at least this share of the pixels on
 /// mirrors whose centre does not see all that it shows.
 constexpr double kLargeMirrorShare = .1;
@@ -27,7 +27,7 @@ constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggest
 constexpr double kMaxBlackPixelShare = .01; // share of mirror pixels that may need more bounces
 
 /// Facts about a picture's mirrors that the choice depends on.
-struct MirrorCostFacts {
+struct MirrorCostInputs {
     MirrorPathCounts paths;
     std::vector<bool> is_flat, is_seen, is_glass; ///< one entry per mirror
     double triangles = 0;                         ///< number of triangles in the scene
@@ -37,7 +37,7 @@ struct MirrorCostFacts {
 
     std::size_t mirror_count() const { return is_flat.size(); }
     /// Returns how many pixels of the picture this number of paths stands for.
-    double estimate_pixels_of_paths(std::size_t paths_through) const {
+    double estimate_pixels_of_mirror_paths(std::size_t paths_through) const {
         return pixels * static_cast<double>(paths_through) / static_cast<double>(paths.count);
     }
 };
@@ -57,7 +57,7 @@ std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
 }
 
 /// Returns how many flat mirrors one behind the other the picture shows, ignoring few pixels.
-int count_bounces_between_flat_mirrors(const MirrorCostFacts& known) {
+int count_bounces_between_flat_mirrors(const MirrorCostInputs& known) {
     for (int bounces = kMinPlanarBounces; bounces < kMaxSuggestedBounces; ++bounces) {
         double more = 0;
         for (const auto& [path, count] : known.paths.through)
@@ -69,8 +69,8 @@ int count_bounces_between_flat_mirrors(const MirrorCostFacts& known) {
     return kMaxSuggestedBounces;
 }
 
-MirrorCostFacts gather_mirror_cost_facts(const RequiredWorkModelInput& question) {
-    MirrorCostFacts known{.paths = trace_mirror_paths(question)};
+MirrorCostInputs gather_mirror_cost_inputs(const RequiredWorkModelInput& question) {
+    MirrorCostInputs known{.paths = trace_mirror_paths(question)};
     for (const std::size_t object : scene::mirrors(question.now)) {
         known.is_flat.push_back(is_mirror_flat(question, question.now.objects[object]));
         known.is_glass.push_back(
@@ -90,76 +90,78 @@ MirrorCostFacts gather_mirror_cost_facts(const RequiredWorkModelInput& question)
     return known;
 }
 
-double estimate_pass_cost(const MirrorCostFacts& known, double pixels) {
-    return kPictureCosts.pass + kPictureCosts.triangle * known.triangles +
-           kPictureCosts.pixel * pixels;
+double estimate_pass_cost(const MirrorCostInputs& known, double pixels) {
+    return kPictureCostTable.pass + kPictureCostTable.triangle * known.triangles +
+           kPictureCostTable.pixel * pixels;
 }
 
 constexpr const char* kTracedGlassTechnique = "raytrace";
 
 /// The ways to draw a mirror.
-enum class MirrorDrawingMethod { planes, hybrid, march, small };
+enum class MirrorTechniqueCostOption { planes, hybrid, march, small };
 
 /// Returns whether tracing what its capture does not show reduces the mirror's estimated error by
 /// more than a tenth.
-bool should_trace_mirror(const MirrorCostFacts& known, std::size_t mirror) {
+bool should_trace_mirror(const MirrorCostInputs& known, std::size_t mirror) {
     if (known.is_glass[mirror]) return true; // captures only approximate what passes the body
     const auto first = static_cast<double>(known.paths.first[mirror]),
                hidden = static_cast<double>(known.paths.hidden[mirror]);
-    return hidden * (kTechniqueErrors.unknown - kTechniqueErrors.search) >
-           (kEqualErrorFactor - 1) * kTechniqueErrors.search * first;
+    return hidden * (kTechniqueErrorTable.unknown - kTechniqueErrorTable.search) >
+           (kMaxEqualErrorFactor - 1) * kTechniqueErrorTable.search * first;
 }
 
 /// Adds cost and error of a mirror that is seen in flat mirrors with mirrored views. `path` lists
 /// the mirrors that `count` rays meet; this mirror is the last. A mirrored view looks into the
 /// mirror's capture but traces nothing, so it can only guess what the capture does not show.
-void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorCostFacts& known,
+void add_cost_in_flat_mirrors(PlanCandidate& candidate, const MirrorCostInputs& known,
                               const std::vector<std::uint32_t>& path, std::size_t count,
-                              MirrorDrawingMethod way) {
-    const bool is_searched = way != MirrorDrawingMethod::small;
+                              MirrorTechniqueCostOption way) {
+    const bool is_searched = way != MirrorTechniqueCostOption::small;
     if (is_searched)
-        candidate.cost += kPictureCosts.searched * known.estimate_pixels_of_paths(count);
-    const double error = is_searched ? kTechniqueErrors.search : kTechniqueErrors.reuse;
-    candidate.error += static_cast<double>(count) * (error - kTechniqueErrors.planar);
+        candidate.cost += kPictureCostTable.searched * known.estimate_pixels_of_mirror_paths(count);
+    const double error = is_searched ? kTechniqueErrorTable.search : kTechniqueErrorTable.reuse;
+    candidate.error += static_cast<double>(count) * (error - kTechniqueErrorTable.planar);
     const auto found = known.paths.hidden_after.find(path);
     if (is_searched && found != known.paths.hidden_after.end())
-        candidate.error += static_cast<double>(found->second) * (kTechniqueErrors.unknown - error);
+        candidate.error += static_cast<double>(found->second) *
+                           (kTechniqueErrorTable.unknown - error);
 }
 
 /// Adds cost and error of the candidate's techniques. `face` is the edge in texels of the captures
 /// of mirrors drawn by `planar`; 0: no captures.
-void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostFacts& known,
-                                  const std::vector<MirrorDrawingMethod>& ways,
+void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostInputs& known,
+                                  const std::vector<MirrorTechniqueCostOption>& ways,
                                   std::uint32_t face) {
     std::vector<bool> by_planes;
-    for (const MirrorDrawingMethod way : ways)
-        by_planes.push_back(way == MirrorDrawingMethod::planes);
+    for (const MirrorTechniqueCostOption way : ways)
+        by_planes.push_back(way == MirrorTechniqueCostOption::planes);
     candidate.cost = estimate_pass_cost(known, known.pixels);
     for (std::size_t i = 0; i < known.mirror_count() && face > 0; ++i) {
-        const double edge = by_planes[i]                            ? face
-                            : ways[i] == MirrorDrawingMethod::small ? kSmallCaptureFaceEdge
-                                                                    : kUsualFaceEdge,
+        const double edge = by_planes[i]                                  ? face
+                            : ways[i] == MirrorTechniqueCostOption::small ? kSmallCaptureFaceEdge
+                                                                          : kUsualFaceEdge,
                      pixels = 6 * edge * edge;
         candidate.cost += estimate_pass_cost(known, pixels);
-        if (ways[i] == MirrorDrawingMethod::hybrid) candidate.cost += kPictureCosts.bounds * pixels;
+        if (ways[i] == MirrorTechniqueCostOption::hybrid)
+            candidate.cost += kPictureCostTable.bounds * pixels;
     }
     for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         const auto first = static_cast<double>(known.paths.first[i]);
-        const bool is_searched = ways[i] == MirrorDrawingMethod::hybrid ||
-                                 ways[i] == MirrorDrawingMethod::march;
+        const bool is_searched = ways[i] == MirrorTechniqueCostOption::hybrid ||
+                                 ways[i] == MirrorTechniqueCostOption::march;
         if (is_searched)
-            candidate.cost += kPictureCosts.searched *
-                              known.estimate_pixels_of_paths(known.paths.first[i]);
-        if (ways[i] == MirrorDrawingMethod::hybrid)
-            candidate.cost += kPictureCosts.traced *
-                              known.estimate_pixels_of_paths(
+            candidate.cost += kPictureCostTable.searched *
+                              known.estimate_pixels_of_mirror_paths(known.paths.first[i]);
+        if (ways[i] == MirrorTechniqueCostOption::hybrid)
+            candidate.cost += kPictureCostTable.traced *
+                              known.estimate_pixels_of_mirror_paths(
                                   known.is_glass[i] ? known.paths.first[i] : known.paths.hidden[i]);
-        if (ways[i] == MirrorDrawingMethod::march)
+        if (ways[i] == MirrorTechniqueCostOption::march)
             candidate.error += static_cast<double>(known.paths.hidden[i]) *
-                               (kTechniqueErrors.unknown - kTechniqueErrors.search);
-        candidate.error += first * (by_planes[i]  ? kTechniqueErrors.planar
-                                    : is_searched ? kTechniqueErrors.search
-                                                  : kTechniqueErrors.reuse);
+                               (kTechniqueErrorTable.unknown - kTechniqueErrorTable.search);
+        candidate.error += first * (by_planes[i]  ? kTechniqueErrorTable.planar
+                                    : is_searched ? kTechniqueErrorTable.search
+                                                  : kTechniqueErrorTable.reuse);
     }
     for (const auto& [path, count] : known.paths.through) {
         const auto bounces = static_cast<std::size_t>(known.bounces);
@@ -168,21 +170,22 @@ void add_cost_and_error_of_mirror(PlanCandidate& candidate, const MirrorCostFact
             add_cost_in_flat_mirrors(candidate, known, path, count, ways[path.back()]);
         if (planes != path.size()) continue;
         if (path.size() <= bounces)
-            candidate.cost += estimate_pass_cost(known, known.estimate_pixels_of_paths(count));
+            candidate.cost += estimate_pass_cost(known,
+                                                 known.estimate_pixels_of_mirror_paths(count));
         if (path.size() == bounces + 1)
             candidate.error += static_cast<double>(count) *
-                               (kTechniqueErrors.black - kTechniqueErrors.planar);
+                               (kTechniqueErrorTable.black - kTechniqueErrorTable.planar);
     }
     candidate.error /= known.on_mirrors;
 }
 
 /// Returns the techniques of a candidate, each once, without those of hardly seen mirrors: "planar,
 /// hybrid".
-std::string candidate_technique_names(const std::vector<MirrorDrawingMethod>& ways) {
+std::string candidate_technique_names(const std::vector<MirrorTechniqueCostOption>& ways) {
     std::string name;
-    for (const auto& [way, word] : {std::pair(MirrorDrawingMethod::planes, "planar"),
-                                    std::pair(MirrorDrawingMethod::hybrid, "hybrid"),
-                                    std::pair(MirrorDrawingMethod::march, "march")})
+    for (const auto& [way, word] : {std::pair(MirrorTechniqueCostOption::planes, "planar"),
+                                    std::pair(MirrorTechniqueCostOption::hybrid, "hybrid"),
+                                    std::pair(MirrorTechniqueCostOption::march, "march")})
         if (std::ranges::find(ways, way) != ways.end())
             name += (name.empty() ? "" : ", ") + std::string(word);
     return name.empty() ? "reuse" : name;
@@ -190,26 +193,27 @@ std::string candidate_technique_names(const std::vector<MirrorDrawingMethod>& wa
 
 /// Returns a candidate. Flat mirrors get `planar` if `planes` is set. Hardly seen mirrors get small
 /// captures, and all others get searches.
-PlanCandidate make_plan_candidate(const MirrorCostFacts& known, bool planes) {
-    std::vector<MirrorDrawingMethod> ways(known.mirror_count(), MirrorDrawingMethod::small);
+PlanCandidate make_plan_candidate(const MirrorCostInputs& known, bool planes) {
+    std::vector<MirrorTechniqueCostOption> ways(known.mirror_count(),
+                                                MirrorTechniqueCostOption::small);
     bool is_searched = false; // whether any mirror's capture is searched
     for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         if (!known.is_seen[i] || (planes && known.is_flat[i])) continue;
-        ways[i] = should_trace_mirror(known, i) ? MirrorDrawingMethod::hybrid
-                                                : MirrorDrawingMethod::march;
+        ways[i] = should_trace_mirror(known, i) ? MirrorTechniqueCostOption::hybrid
+                                                : MirrorTechniqueCostOption::march;
         is_searched = true;
     }
-    if (std::ranges::find(ways, MirrorDrawingMethod::hybrid) != ways.end())
+    if (std::ranges::find(ways, MirrorTechniqueCostOption::hybrid) != ways.end())
         for (std::size_t i = 0; i < known.mirror_count(); ++i)
-            if (ways[i] == MirrorDrawingMethod::march && known.paths.hidden[i] > 0 &&
+            if (ways[i] == MirrorTechniqueCostOption::march && known.paths.hidden[i] > 0 &&
                 static_cast<double>(known.paths.first[i]) >= kLargeMirrorShare * known.on_mirrors)
-                ways[i] = MirrorDrawingMethod::hybrid;
+                ways[i] = MirrorTechniqueCostOption::hybrid;
     bool has_captures = false;
     for (std::size_t i = 0; i < known.mirror_count(); ++i) {
         // If no mirror is searched, a mirrored view costs less than a capture.
         if (planes && known.is_flat[i] && (known.is_seen[i] || !is_searched))
-            ways[i] = MirrorDrawingMethod::planes;
-        has_captures = has_captures || ways[i] != MirrorDrawingMethod::planes;
+            ways[i] = MirrorTechniqueCostOption::planes;
+        has_captures = has_captures || ways[i] != MirrorTechniqueCostOption::planes;
     }
     std::string planar = "planar";
     const char* between = ":";
@@ -219,10 +223,10 @@ PlanCandidate make_plan_candidate(const MirrorCostFacts& known, bool planes) {
     if (known.bounces != kMinPlanarBounces) add("bounces=" + std::to_string(known.bounces));
     if (has_captures && !is_searched) add("capture=" + std::to_string(kSmallCaptureFaceEdge));
     PlanCandidate candidate{.name = candidate_technique_names(ways)};
-    for (const MirrorDrawingMethod way : ways)
-        candidate.techniques.push_back(way == MirrorDrawingMethod::planes   ? planar
-                                       : way == MirrorDrawingMethod::hybrid ? "hybrid"
-                                       : way == MirrorDrawingMethod::march
+    for (const MirrorTechniqueCostOption way : ways)
+        candidate.techniques.push_back(way == MirrorTechniqueCostOption::planes   ? planar
+                                       : way == MirrorTechniqueCostOption::hybrid ? "hybrid"
+                                       : way == MirrorTechniqueCostOption::march
                                            ? "march"
                                            : "reuse:face=" + std::to_string(kSmallCaptureFaceEdge));
     add_cost_and_error_of_mirror(candidate, known, ways,
@@ -233,17 +237,17 @@ PlanCandidate make_plan_candidate(const MirrorCostFacts& known, bool planes) {
 }
 
 /// Returns whether glass is all that is to be seen of the mirrors.
-bool is_all_seen_glass(const MirrorCostFacts& known) {
+bool are_all_seen_mirrors_glass(const MirrorCostInputs& known) {
     for (std::size_t i = 0; i < known.mirror_count(); ++i)
         if (known.is_seen[i] && !known.is_glass[i]) return false;
     return true;
 }
 
 /// Returns the candidate that traces the whole picture. It needs no captures.
-PlanCandidate make_traced_candidate(const MirrorCostFacts& known) {
+PlanCandidate make_traced_candidate(const MirrorCostInputs& known) {
     PlanCandidate candidate{.name = "raytrace"};
     candidate.techniques.assign(known.mirror_count(), kTracedGlassTechnique);
-    candidate.cost = kPictureCosts.whole * known.pixels;
+    candidate.cost = kPictureCostTable.whole * known.pixels;
     return candidate;
 }
 
@@ -255,7 +259,7 @@ std::string format_percent(double share) {
 
 /// Returns the reason that follows the mirror's technique.
 std::string explain_technique_choice(const RequiredWorkModelInput& question,
-                                     const MirrorCostFacts& known, std::size_t mirror,
+                                     const MirrorCostInputs& known, std::size_t mirror,
                                      const scene::Object& object, const std::string& technique) {
     const auto share = [&](std::size_t paths) {
         return format_percent(static_cast<double>(paths) / static_cast<double>(known.paths.count));
@@ -289,8 +293,9 @@ std::string explain_technique_choice(const RequiredWorkModelInput& question,
 
 /// Returns a plan such as "1,3=planar *=hybrid". All techniques other than `rest` list their
 /// mirrors by number.
-std::string write_plan_text(const std::map<std::string, std::vector<std::size_t>>& mirrors,
-                            const std::string& rest) {
+std::string
+write_technique_plan_text(const std::map<std::string, std::vector<std::size_t>>& mirrors,
+                          const std::string& rest) {
     if (mirrors.empty()) return rest;
     if (mirrors.size() == 1) return mirrors.begin()->first;
     std::string plan;
@@ -314,7 +319,7 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
         suggestion.plan = "hybrid";
         return suggestion;
     }
-    const MirrorCostFacts known = gather_mirror_cost_facts(question);
+    const MirrorCostInputs known = gather_mirror_cost_inputs(question);
     suggestion.candidates.push_back(make_plan_candidate(known, true));
     if (PlanCandidate searched = make_plan_candidate(known, false);
         searched.techniques != suggestion.candidates.front().techniques) {
@@ -322,14 +327,14 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
         const bool is_cheaper = searched.cost < planes.cost,
                    is_better =
                        searched.error *
-                       kEqualErrorFactor<planes.error, is_worse = searched.error> planes.error *
-                       kEqualErrorFactor;
+                       kMaxEqualErrorFactor<planes.error, is_worse = searched.error> planes.error *
+                       kMaxEqualErrorFactor;
         const bool wins = is_better || (!is_worse && is_cheaper);
         suggestion.candidates.insert(wins ? suggestion.candidates.begin()
                                           : suggestion.candidates.end(),
                                      std::move(searched));
     }
-    if (known.paths.count_paths_on_mirrors() > 0 && is_all_seen_glass(known))
+    if (known.paths.count_paths_on_mirrors() > 0 && are_all_seen_mirrors_glass(known))
         if (PlanCandidate traced = make_traced_candidate(known);
             traced.cost < suggestion.candidates.front().cost)
             suggestion.candidates.insert(suggestion.candidates.begin(), std::move(traced));
@@ -342,7 +347,7 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
                                                               question.now.objects[mirrors[i]],
                                                               technique));
     }
-    suggestion.plan = write_plan_text(of_technique, "hybrid");
+    suggestion.plan = write_technique_plan_text(of_technique, "hybrid");
     return suggestion;
 }
 

@@ -20,17 +20,18 @@ std::string describe_capture_needs(const MirrorRequirements& needs, const scene:
     if (!needs.is_captured) return "not seen";
     std::string text = needs.seen_in ? "in the view of mirror " +
                                            std::to_string(needs.seen_in.mirror_number())
-                       : !has_few_triangles(mesh) ? "its bounds are in the camera's view"
-                                                  : "in the camera's view";
+                       : !has_few_mesh_triangles(mesh) ? "its bounds are in the camera's view"
+                                                       : "in the camera's view";
     text += "; captured, ";
-    text += needs.faces == kAllFaceBits ? "six faces" : "faces " + list_face_names(needs.faces);
+    text += needs.faces == kAllCubeFaceBits ? "six faces"
+                                            : "faces " + list_cube_face_names(needs.faces);
     if (needs.edge > 0) text += " of " + std::to_string(needs.edge) + " texels an edge";
     text += needs.sees.empty() ? ", no other mirror in it"
                                : ", mirrors " + format_mirror_numbers(needs.sees) + " in it";
     return text;
 }
 
-std::string format_estimated_error(double error) {
+std::string format_estimated_plan_error(double error) {
     if (error == 0) return "no pixel";
     std::ostringstream text;
     text << "pixels by at most " << error << " of 1";
@@ -74,7 +75,7 @@ std::string describe_model(const RequiredWorkModel& model, const scene::Scene& s
         while (end < model.mirrors.size() && text_of(end) == needs) ++end;
         if (end == i + 1)
             text << "  mirror " << end << " "
-                 << quote_as_printable_text(scene.objects[mirrors[i]].name);
+                 << quote_text_with_escapes(scene.objects[mirrors[i]].name);
         else
             text << "  mirrors " << i + 1 << "-" << end;
         text << ": " << needs << "\n";
@@ -89,7 +90,7 @@ std::string describe_model(const RequiredWorkModel& model, const scene::Scene& s
     text << (model.left_out.empty() ? "nothing is left out\n" : "left out\n");
     for (const CulledWork& thing : model.left_out)
         text << "  " << thing.what << "\n    why: " << thing.why << "\n    saves: " << thing.saves
-             << "\n    changes: " << format_estimated_error(thing.error) << "\n";
+             << "\n    changes: " << format_estimated_plan_error(thing.error) << "\n";
     return text.str();
 }
 

@@ -8,7 +8,7 @@ namespace catoptric::require {
 namespace {
 
 /// Returns whether all corners turn the same way and the four lie in one plane.
-bool is_convex_quad(const Quad& quad) {
+bool is_convex_quad(const QuadCorners& quad) {
     const dvec3 normal = cross(quad[2] - quad[0], quad[3] - quad[1]);
     const double size = length(normal);
     if (!(size > 0)) return false;
@@ -21,25 +21,25 @@ bool is_convex_quad(const Quad& quad) {
 }
 
 /// Returns the convex quadrilateral that the two triangles form, or none.
-std::optional<Quad> join_triangles_to_quad(const scene::Mesh& mesh, const uvec3& one,
-                                           const uvec3& other) {
+std::optional<QuadCorners> join_triangles_to_quad(const scene::Mesh& mesh, const uvec3& one,
+                                                  const uvec3& other) {
     const auto at = [&](const uvec3& triangle, int i) { return mesh.positions[triangle[i % 3]]; };
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             // Neighbours with the same orientation run along their shared edge in opposite
             // directions.
             if (at(one, i) != at(other, j + 1) || at(one, i + 1) != at(other, j)) continue;
-            const Quad quad{at(one, i), at(other, j + 2), at(one, i + 1), at(one, i + 2)};
+            const QuadCorners quad{at(one, i), at(other, j + 2), at(one, i + 1), at(one, i + 2)};
             if (is_convex_quad(quad)) return quad;
         }
     return std::nullopt;
 }
 
 /// The corners of a box, or its only point if the box is a point.
-struct BoxCorners {
+struct BoundingBoxCorners {
     std::array<dvec3, 8> at;
     std::size_t count = 8;
-    explicit BoxCorners(const Bounds<double>& box) : at(list_box_corners(box)) {
+    explicit BoundingBoxCorners(const Bounds<double>& box) : at(list_box_corners(box)) {
         if (box.lo == box.hi) count = 1;
     }
 };
@@ -70,16 +70,16 @@ std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double
     return {middle - reach, middle + reach};
 }
 
-std::vector<Quad> find_convex_quads(const scene::Mesh& mesh) {
-    std::vector<Quad> quads;
+std::vector<QuadCorners> find_convex_quads(const scene::Mesh& mesh) {
+    std::vector<QuadCorners> quads;
     const std::size_t count = mesh.triangles.size();
     if (count > kMaxWallMeshTriangles) return quads;
     std::vector<bool> is_used(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = i + 1; j < count && !is_used[i]; ++j) {
             if (is_used[j]) continue;
-            const std::optional<Quad> quad = join_triangles_to_quad(mesh, mesh.triangles[i],
-                                                                    mesh.triangles[j]);
+            const std::optional<QuadCorners> quad = join_triangles_to_quad(mesh, mesh.triangles[i],
+                                                                           mesh.triangles[j]);
             if (!quad) continue;
             quads.push_back(*quad);
             is_used[i] = is_used[j] = true;
@@ -87,7 +87,7 @@ std::vector<Quad> find_convex_quads(const scene::Mesh& mesh) {
     return quads;
 }
 
-OccluderWall make_occluder_wall(const Quad& corners, std::size_t object) {
+OccluderWall make_occluder_wall(const QuadCorners& corners, std::size_t object) {
     OccluderWall wall{.corners = corners, .object = object};
     const dvec3 twice = cross(corners[2] - corners[0], corners[3] - corners[1]);
     wall.area = length(twice) / 2;
@@ -107,7 +107,7 @@ bool wall_hides_box(const OccluderWall& wall, const Bounds<double>& viewer,
     const bool from_front = viewer_low > above && target_high < below;
     const bool from_behind = viewer_high < below && target_low > above && !wall.front_only;
     if (!(from_front || from_behind)) return false;
-    const BoxCorners from(viewer), to(target);
+    const BoundingBoxCorners from(viewer), to(target);
     std::array<OccluderWallDistances, 8> there;
     for (std::size_t j = 0; j < to.count; ++j)
         there[j] = distances_to_occluder_wall(wall, to.at[j]);

@@ -10,7 +10,7 @@
 namespace catoptric::require {
 
 /// Four corners in a plane, in order around. From the front, the order is counterclockwise.
-using Quad = std::array<dvec3, 4>;
+using QuadCorners = std::array<dvec3, 4>;
 
 /// Returns the eight corners of a box.
 std::array<dvec3, 8> list_box_corners(const Bounds<double>& box);
@@ -22,13 +22,13 @@ std::array<double, 2> project_box_on_axis(const dvec3& axis, const Bounds<double
 /// triangles share an edge, lie in one plane (within kCoplanarTolerance of their extent) and have
 /// one orientation, and every corner is convex. Each triangle is in at most one pair. Returns none
 /// for a mesh with more than kMaxWallMeshTriangles. O(triangles^2).
-std::vector<Quad> find_convex_quads(const scene::Mesh& mesh);
+std::vector<QuadCorners> find_convex_quads(const scene::Mesh& mesh);
 inline constexpr double kCoplanarTolerance = 1e-9;
 inline constexpr std::size_t kMaxWallMeshTriangles = 64;
 
 /// An opaque quadrilateral in world space.
 struct OccluderWall {
-    Quad corners;
+    QuadCorners corners;
     std::size_t object = 0;
     bool front_only = false; ///< whether the wall hides nothing from viewers behind it
     bool seen_by_camera = true;
@@ -45,7 +45,7 @@ struct OccluderWall {
     }
 };
 /// Returns the wall of a quadrilateral of an object. A wall of zero area hides nothing.
-OccluderWall make_occluder_wall(const Quad& corners, std::size_t object);
+OccluderWall make_occluder_wall(const QuadCorners& corners, std::size_t object);
 
 /// Returns whether each segment from a point of `viewer` to a point of `target` crosses the wall.
 /// Crossings must lie at least `margin` inside the wall's edges. The ends must lie on different

@@ -14,8 +14,8 @@ namespace catoptric::require {
 
 namespace {
 
-MeshShapeFacts compute_mesh_facts(const scene::Mesh& mesh) {
-    MeshShapeFacts facts;
+MeshShapeSummary compute_mesh_shape_summary(const scene::Mesh& mesh) {
+    MeshShapeSummary facts;
     for (const uvec3& triangle : mesh.triangles)
         for (int i = 0; i < 3; ++i) facts.box.add(mesh.positions[triangle[i]]);
     const dvec3 middle = facts.box.centre();
@@ -67,15 +67,15 @@ bool can_object_be_wall(const scene::Material& material, bool is_mirror) {
 
 } // namespace
 
-VisibilityWorld::VisibilityWorld(const scene::Scene& rest) {
-    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(compute_mesh_facts(mesh));
+VisibilityScene::VisibilityScene(const scene::Scene& rest) {
+    for (const scene::Mesh& mesh : rest.meshes) meshes_.push_back(compute_mesh_shape_summary(mesh));
     things_.resize(rest.objects.size());
     for (std::size_t i = 0; i < things_.size(); ++i)
         things_[i].is_mover = !std::holds_alternative<std::monostate>(rest.objects[i].motion);
     set_layout(rest);
 }
 
-void VisibilityWorld::set_layout(const scene::Scene& now) {
+void VisibilityScene::set_layout(const scene::Scene& now) {
     ++layouts_;
     materials_ = now.materials, environment_ = now.environment, punctual_ = now.punctual;
     materials_stamp_ = hash_materials(now.materials);
@@ -84,7 +84,7 @@ void VisibilityWorld::set_layout(const scene::Scene& now) {
     mirrors_ = scene::mirrors(now), movers_.clear(), still_ = {};
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const scene::Object& object = now.objects[i];
-        VisibilityWorldObject& thing = things_[i];
+        VisibilityObject& thing = things_[i];
         thing.mesh = object.mesh, thing.material = object.material;
         thing.rest = object.world_from_object;
         thing.seen_by_camera = object.seen_by_camera;
@@ -102,20 +102,20 @@ void VisibilityWorld::set_layout(const scene::Scene& now) {
     const dvec3 extent = around.empty() ? dvec3(0) : around.extent();
     middle_ = around.empty() ? dvec3(0) : around.centre();
     rounding_ = kPositionRoundingError * std::max({extent.x, extent.y, extent.z});
-    for (std::size_t i = 0; i < things_.size(); ++i) move_object(now, i);
+    for (std::size_t i = 0; i < things_.size(); ++i) move_visibility_object(now, i);
     lights_ = scene::list_lights(now);
-    find_walls();
-    find_epoch();
+    find_occluder_walls();
+    find_static_object_epoch();
 }
 
 /// Returns whether the scene is the one that was laid out, except for where movers are.
-bool VisibilityWorld::has_same_layout(const scene::Scene& now) const {
+bool VisibilityScene::has_same_object_layout(const scene::Scene& now) const {
     if (now.objects.size() != things_.size() || now.environment != environment_ ||
         now.materials != materials_ || now.punctual.size() != punctual_.size())
         return false;
     for (std::size_t i = 0; i < things_.size(); ++i) {
         const scene::Object& object = now.objects[i];
-        const VisibilityWorldObject& thing = things_[i];
+        const VisibilityObject& thing = things_[i];
         if (object.mesh != thing.mesh || object.material != thing.material ||
             object.seen_by_camera != thing.seen_by_camera ||
             scene::is_mirror(now, object) != thing.is_mirror ||
@@ -126,9 +126,9 @@ bool VisibilityWorld::has_same_layout(const scene::Scene& now) const {
 }
 
 /// Moves an object to its current place.
-void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
+void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_t index) {
     const scene::Object& object = now.objects[index];
-    VisibilityWorldObject& thing = things_[index];
+    VisibilityObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
     const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
     thing.tight = is_shifted ? translate_bounds(thing.tight_rest,
@@ -141,7 +141,7 @@ void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});
     thing.box = {thing.tight.lo - room, thing.tight.hi + room};
-    const MeshShapeFacts& mesh = meshes_[thing.mesh];
+    const MeshShapeSummary& mesh = meshes_[thing.mesh];
     if (!mesh.box.empty())
         thing.middle = scene::transform_point_to_world(thing.place, mesh.box.centre());
     thing.radius = mesh.radius * bound_matrix_stretch(dmat3(thing.place)) + 2 * room;
@@ -154,64 +154,64 @@ void VisibilityWorld::move_object(const scene::Scene& now, std::size_t index) {
     thing.content_hash = content_hash.current_hash();
 }
 
-void VisibilityWorld::move_to_instant(const scene::Scene& now) {
+void VisibilityScene::move_to_instant(const scene::Scene& now) {
     has_changed_ = false;
-    if (!has_same_layout(now)) {
+    if (!has_same_object_layout(now)) {
         for (std::size_t i = 0; i < std::min(things_.size(), now.objects.size()); ++i)
             if (now.objects[i].world_from_object != things_[i].rest) things_[i].is_mover = true;
         set_layout(now);
-        for (VisibilityWorldObject& thing : things_) thing.has_moved = thing.is_mover;
+        for (VisibilityObject& thing : things_) thing.has_moved = thing.is_mover;
         has_changed_ = true;
         return;
     }
     bool lights_moved = !std::ranges::equal(punctual_, now.punctual, scene::have_equal_emission);
     for (const std::size_t mover : movers_) {
-        VisibilityWorldObject& thing = things_[mover];
+        VisibilityObject& thing = things_[mover];
         const scene::Object& object = now.objects[mover];
         thing.has_moved = object.world_from_object != thing.place ||
                           !are_equal_spheres(object.sphere, thing.sphere);
         if (!thing.has_moved) continue;
-        move_object(now, mover);
+        move_visibility_object(now, mover);
         has_changed_ = true;
         lights_moved = lights_moved || !thing.casts_shadow;
     }
     if (!lights_moved) return;
     punctual_ = now.punctual;
     lights_ = scene::list_lights(now);
-    find_epoch();
+    find_static_object_epoch();
     has_changed_ = true;
 }
 
-void VisibilityWorld::find_walls() {
+void VisibilityScene::find_occluder_walls() {
     walls_.clear();
     const auto keep_largest = [&] { // keeps the first of equal walls
         std::ranges::stable_sort(walls_, std::ranges::greater(), &OccluderWall::area);
-        if (walls_.size() > kMaxWalls) walls_.resize(kMaxWalls);
+        if (walls_.size() > kMaxOccluderWalls) walls_.resize(kMaxOccluderWalls);
     };
     const double extent = rounding_ / kPositionRoundingError,
                  least = kMinWallAreaShare * extent * extent;
     for (std::size_t i = 0; i < things_.size(); ++i) {
-        const VisibilityWorldObject& thing = things_[i];
+        const VisibilityObject& thing = things_[i];
         const scene::Material& material = materials_[thing.material];
         if (thing.is_mover || !can_object_be_wall(material, thing.is_mirror)) continue;
-        for (Quad quad : meshes_[thing.mesh].quads) {
+        for (QuadCorners quad : meshes_[thing.mesh].quads) {
             for (dvec3& corner : quad) corner = scene::transform_point_to_world(thing.rest, corner);
             OccluderWall wall = make_occluder_wall(quad, i);
             wall.front_only = material.front_only && !thing.is_mirror;
             wall.seen_by_camera = thing.seen_by_camera;
             if (wall.area > 0 && wall.area >= least) walls_.push_back(wall);
         }
-        if (walls_.size() >= 8 * kMaxWalls) keep_largest();
+        if (walls_.size() >= 8 * kMaxOccluderWalls) keep_largest();
     }
     keep_largest();
 }
 
-void VisibilityWorld::find_epoch() {
+void VisibilityScene::find_static_object_epoch() {
     ContentHash content_hash;
     content_hash.add_value(materials_stamp_)
         .add_value(environment_stamp_)
         .add_value(things_.size());
-    for (const VisibilityWorldObject& thing : things_)
+    for (const VisibilityObject& thing : things_)
         content_hash.add_value(thing.is_mover ? 0 : thing.content_hash);
     for (const scene::PointLight& light : lights_) content_hash.add_value(hash_point_light(light));
     epoch_ = content_hash.current_hash();

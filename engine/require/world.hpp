@@ -19,20 +19,20 @@ namespace catoptric::require {
 inline constexpr double kPositionRoundingError = 0x1p-20;
 /// Largest number of walls that are tested. Only the largest quadrilaterals that never moved are
 /// walls.
-inline constexpr std::size_t kMaxWalls = 32;
+inline constexpr std::size_t kMaxOccluderWalls = 32;
 /// Least area of a wall, as a part of the square of the extent of all objects that never moved.
 inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
-struct MeshShapeFacts {
+struct MeshShapeSummary {
     Bounds<double> box; ///< in the mesh's own space
     double radius = 0;  ///< of all its triangles, around the middle of `box`
     std::uint64_t content_hash = 0;
-    std::vector<Quad> quads;
+    std::vector<QuadCorners> quads;
     dvec3 flat_normal{0}; ///< normal of a flat mesh, zero for other meshes (require/reach.hpp)
 };
 
-struct VisibilityWorldObject {
+struct VisibilityObject {
     std::size_t mesh = 0, material = 0;
     dmat4 rest{1}, place{1}; ///< world from object: at rest, and now
     std::optional<scene::Sphere> sphere;
@@ -51,11 +51,11 @@ struct VisibilityWorldObject {
 /// A scene as the rules see it, from instant to instant. Objects that never moved are kept apart
 /// from movers. Objects that never moved cannot change a capture, so one number (the epoch) covers
 /// all of them in content hashes.
-class VisibilityWorld {
+class VisibilityScene {
 public:
     /// Takes the scene at rest. O(vertices + texels of images), for the bounds and content hashes
     /// of meshes and the content hashes of materials.
-    explicit VisibilityWorld(const scene::Scene& rest);
+    explicit VisibilityScene(const scene::Scene& rest);
 
     /// Takes over an instant. O(objects), and O(vertices) for mirrors that turn and lamps that
     /// move. An object that stood still and has moved (an edit) is a mover from then on. Such an
@@ -63,16 +63,18 @@ public:
     /// environment also begins a new `static_change_count`.
     void move_to_instant(const scene::Scene& now);
 
-    const std::vector<VisibilityWorldObject>& list_objects() const { return things_; }
+    const std::vector<VisibilityObject>& list_objects() const { return things_; }
     const std::vector<std::size_t>& list_mirror_objects() const {
         return mirrors_;
     } ///< indices of objects
     const std::vector<std::size_t>& list_moving_objects() const {
         return movers_;
-    }                                                                      ///< indices of objects
-    const std::vector<OccluderWall>& list_walls() const { return walls_; } ///< the largest first
+    } ///< indices of objects
+    const std::vector<OccluderWall>& list_occluder_walls() const {
+        return walls_;
+    } ///< the largest first
     const std::vector<scene::PointLight>& list_point_lights() const { return lights_; }
-    const std::vector<MeshShapeFacts>& list_mesh_shapes() const { return meshes_; }
+    const std::vector<MeshShapeSummary>& list_mesh_shapes() const { return meshes_; }
     const Bounds<double>& bounds_of_static_objects() const {
         return still_;
     } ///< bounds of all that never moved
@@ -90,17 +92,17 @@ public:
 
 private:
     void set_layout(const scene::Scene& now);
-    bool has_same_layout(const scene::Scene& now) const;
-    void move_object(const scene::Scene& now, std::size_t object);
-    void find_walls();
-    void find_epoch();
+    bool has_same_object_layout(const scene::Scene& now) const;
+    void move_visibility_object(const scene::Scene& now, std::size_t object);
+    void find_occluder_walls();
+    void find_static_object_epoch();
 
-    std::vector<MeshShapeFacts> meshes_;
+    std::vector<MeshShapeSummary> meshes_;
     std::vector<scene::Material> materials_;
     std::vector<scene::PunctualLight> punctual_;
     std::shared_ptr<const scene::Environment> environment_;
     std::uint64_t materials_stamp_ = 0, environment_stamp_ = 0, epoch_ = 0, layouts_ = 0;
-    std::vector<VisibilityWorldObject> things_;
+    std::vector<VisibilityObject> things_;
     std::vector<std::size_t> mirrors_, movers_;
     std::vector<OccluderWall> walls_;
     std::vector<scene::PointLight> lights_;

@@ -17,7 +17,7 @@ void hash_value_list(ContentHash& content_hash, const std::vector<Value>& values
 }
 
 /// Content hashes of images. Each image is hashed once, even if several materials use it.
-class ImageHashes {
+class ContentHashOfImages {
 public:
     std::uint64_t operator[](const std::shared_ptr<const scene::Image>& image) {
         const auto [entry, is_new] = known_.try_emplace(image.get(), 0);
@@ -33,7 +33,7 @@ private:
 };
 
 void hash_texture(ContentHash& content_hash, const std::optional<scene::Texture>& texture,
-                  ImageHashes& images) {
+                  ContentHashOfImages& images) {
     content_hash.add_value(texture.has_value());
     if (!texture) return;
     content_hash.add_value(images[texture->image])
@@ -56,7 +56,7 @@ std::uint64_t hash_mesh(const scene::Mesh& mesh) {
 
 std::uint64_t hash_materials(const std::vector<scene::Material>& materials) {
     ContentHash content_hash;
-    ImageHashes images;
+    ContentHashOfImages images;
     const auto add_member = [&](const auto& member) {
         using Member = std::remove_cvref_t<decltype(member)>;
         if constexpr (std::is_same_v<Member, std::optional<scene::Texture>>)

@@ -7,7 +7,7 @@
 #include <string_view>
 
 /// Totals of the memory and work that a scene file asks for, each checked against its limit in
-/// `LoadBudget`.
+/// `SceneLoadBudget`.
 namespace catoptric::scene {
 
 /// Running sum of one quantity while a scene is loaded, and the largest sum that is allowed.
@@ -21,14 +21,14 @@ public:
     /// Adds `amount`. Throws `bad_data`, with the parts of `place` first in the message, if the sum
     /// would exceed the budget.
     template <typename... Parts>
-    void add_amount(std::uint64_t amount, const Parts&... place) {
-        require_amount(amount, place...);
+    void add_amount_within_budget(std::uint64_t amount, const Parts&... place) {
+        check_amount_fits_budget(amount, place...);
         spent_ += amount;
     }
     /// Checks that another `amount` fits into the budget, without adding the amount. Throws as
-    /// `add_amount` does.
+    /// `add_amount_within_budget` does.
     template <typename... Parts>
-    void require_amount(std::uint64_t amount, const Parts&... place) const {
+    void check_amount_fits_budget(std::uint64_t amount, const Parts&... place) const {
         if (amount > budget_ - spent_)
             fail(Failure::bad_data, place..., ": wanted at most ", budget_, " ", quantity_name_,
                  ", the budget of a scene, found ", amount > ~spent_ ? ~0ull : spent_ + amount,
@@ -42,10 +42,10 @@ private:
 };
 
 /// The running sums of all quantities of one scene file that the budget limits.
-struct LoadBudgetUsage {
-    explicit LoadBudgetUsage(const LoadBudget& of) : budget(of) {}
+struct SceneLoadBudgetUsage {
+    explicit SceneLoadBudgetUsage(const SceneLoadBudget& of) : budget(of) {}
 
-    const LoadBudget budget;
+    const SceneLoadBudget budget;
     static constexpr std::string_view kMaxBytesHint = "; --max-bytes allows more",
                                       kMaxTrianglesHint = "; --max-triangles allows more";
     BudgetLimitedSum file_bytes{"bytes in its files", budget.file_bytes, kMaxBytesHint};

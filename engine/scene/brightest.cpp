@@ -115,9 +115,9 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
             continue;
         }
         std::string place = is_object
-                                ? "object " + quote_as_printable_text(scene.objects[index].name)
+                                ? "object " + quote_text_with_escapes(scene.objects[index].name)
                                 : "light " +
-                                      quote_as_printable_text(scene.punctual[index - objects].name);
+                                      quote_text_with_escapes(scene.punctual[index - objects].name);
         if (!thing.kept.empty())
             place += ", " + std::to_string(thing.points - thing.kept.size()) + " of its " +
                      std::to_string(thing.points) + " parts";

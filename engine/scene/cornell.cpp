@@ -103,9 +103,9 @@ const RegisteredBuiltInScene kClosedCornellScene{
     {"cornell-mirrors-closed",
      "Cornell box with four mirror balls, and a white front wall that camera rays ignore",
      make_closed_cornell_mirrors, 1}};
-const RegisteredBuiltInScene kRough{{"cornell-rough",
-                                     "Cornell box with four metal balls of roughness 0.05 to 0.5",
-                                     make_rough_cornell, 7}};
+const RegisteredBuiltInScene kRoughCornellScene{
+    {"cornell-rough", "Cornell box with four metal balls of roughness 0.05 to 0.5",
+     make_rough_cornell, 7}};
 
 } // namespace
 

@@ -19,7 +19,7 @@ struct SceneFileOptions {
     /// animation.
     std::string animation;
     SettingOrigin animation_by{.where = "--animation"};
-    LoadBudget budget;
+    SceneLoadBudget budget;
 };
 
 /// Loads as `load` does.

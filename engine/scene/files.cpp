@@ -54,7 +54,7 @@ std::string read_regular_file(const fs::path& path, const std::string& place,
     check(known && S_ISREG(facts.st_mode), Failure::missing_input, place, ": wanted a file, found ",
           known && S_ISDIR(facts.st_mode) ? "a folder" : "a device or a pipe");
     const auto size = static_cast<std::size_t>(facts.st_size);
-    budget.add_amount(size, place);
+    budget.add_amount_within_budget(size, place);
     std::string content(size, '\0');
     std::size_t count = 0;
     while (count < size) {
@@ -71,7 +71,7 @@ std::string read_regular_file(const fs::path& path, const std::string& place,
 } // namespace
 
 SceneFileOpener::SceneFileOpener(const fs::path& scene, const fs::path& root,
-                                 LoadBudgetUsage& account)
+                                 SceneLoadBudgetUsage& account)
     : scene_(scene), account_(account) {
     folder_ = resolve_symbolic_links(scene.has_parent_path() ? scene.parent_path() : fs::path("."));
     if (root.empty()) return;
@@ -85,7 +85,7 @@ void SceneFileOpener::add_file(const fs::path& real) {
     if (known_.insert(real.string()).second) found_.push_back(real);
 }
 
-std::string SceneFileOpener::read_scene() {
+std::string SceneFileOpener::read_main_scene_file() {
     const fs::path real = resolve_symbolic_links(scene_);
     std::string bytes = read_regular_file(real.empty() ? scene_ : real, scene_.string(),
                                           account_.file_bytes);
@@ -93,42 +93,44 @@ std::string SceneFileOpener::read_scene() {
     return bytes;
 }
 
-void SceneFileOpener::check_place(const fs::path& real, const std::string& name,
-                                  const std::string& place) const {
+void SceneFileOpener::check_scene_file_place(const fs::path& real, const std::string& name,
+                                             const std::string& place) const {
     check(is_inside_folder(real, folder_) || is_inside_folder(real, root_), Failure::bad_data,
           place, ": wanted a file below '", folder_.string(),
-          "' or a folder given with --root, found ", quote_as_printable_text(name), ", which is '",
+          "' or a folder given with --root, found ", quote_text_with_escapes(name), ", which is '",
           real.string(), "'");
 }
 
-fs::path SceneFileOpener::find_file(const std::string& name, const std::string& place) {
-    account_.files.add_amount(1, place);
-    check(!name.empty() && name.size() <= kMaxFileNameLength && name.find('\0') == name.npos,
+fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
+                                                  const std::string& place) {
+    account_.files.add_amount_within_budget(1, place);
+    check(!name.empty() && name.size() <= kMaxPlanFileNameLength && name.find('\0') == name.npos,
           Failure::bad_data, place, ": wanted the name of a file, found ",
-          quote_as_printable_text(name));
+          quote_text_with_escapes(name));
     const fs::path path = folder_ / name;
     fs::path real = resolve_symbolic_links(path);
     const int why = errno;
-    check_place(real.empty() ? path.lexically_normal() : real, name, place);
+    check_scene_file_place(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
         const fs::path parent = resolve_symbolic_links(path.parent_path());
-        if (!parent.empty()) check_place(parent / path.filename(), name, place);
+        if (!parent.empty()) check_scene_file_place(parent / path.filename(), name, place);
         errno = why;
         return {};
     }
     std::error_code error;
     const fs::file_status status = fs::status(real, error);
     check(fs::is_regular_file(status), Failure::bad_data, place, ": wanted a regular file, found ",
-          quote_as_printable_text(name), ", which is ",
+          quote_text_with_escapes(name), ", which is ",
           fs::is_directory(status) ? "a folder" : "a device or a pipe");
     add_file(real);
     return real;
 }
 
-fs::path SceneFileOpener::find_required(const std::string& name, const std::string& place) {
-    fs::path real = find_file(name, place);
+fs::path SceneFileOpener::find_required_scene_file(const std::string& name,
+                                                   const std::string& place) {
+    fs::path real = find_scene_file_by_name(name, place);
     const int error = errno; // from realpath(3), if the path was not found
-    check(!real.empty(), Failure::missing_input, place, ": ", quote_as_printable_text(name),
+    check(!real.empty(), Failure::missing_input, place, ": ", quote_text_with_escapes(name),
           error == ENOENT || error == ENOTDIR
               ? " is not there"
               : " cannot be reached: " + std::generic_category().message(error));
@@ -136,7 +138,7 @@ fs::path SceneFileOpener::find_required(const std::string& name, const std::stri
 }
 
 std::string SceneFileOpener::read_file_content(const fs::path& real, const std::string& place) {
-    return read_regular_file(real, place + ": " + quote_as_printable_text(real.filename().string()),
+    return read_regular_file(real, place + ": " + quote_text_with_escapes(real.filename().string()),
                              account_.file_bytes);
 }
 

@@ -16,26 +16,30 @@ class SceneFileOpener {
 public:
     /// Longest file name in bytes. Names are limited because each step of a path costs a system
     /// call.
-    static constexpr std::size_t kMaxFileNameLength = 1024;
+    static constexpr std::size_t kMaxPlanFileNameLength = 1024;
 
     /// Takes the path of the scene, and a second folder or an empty path. Throws `missing_input` if
     /// `root` is not a folder.
     SceneFileOpener(const std::filesystem::path& scene, const std::filesystem::path& root,
-                    LoadBudgetUsage& account);
+                    SceneLoadBudgetUsage& account);
 
     /// Returns the bytes of the scene file, which may lie anywhere. Throws `missing_input`, or `io`
     /// if reading fails.
-    std::string read_scene();
+    std::string read_main_scene_file();
 
     /// Returns the real path of a file that the scene names, or an empty path if it does not exist.
     /// Throws `bad_data` beginning with `place` for a file outside the allowed folders, a file that
     /// is not regular, or a name longer than 1024 bytes.
-    std::filesystem::path find_file(const std::string& name, const std::string& place);
+    std::filesystem::path find_scene_file_by_name(const std::string& name,
+                                                  const std::string& place);
 
-    /// Does the same as `find_file`, but throws `missing_input` if the file does not exist.
-    std::filesystem::path find_required(const std::string& name, const std::string& place);
+    /// Does the same as `find_scene_file_by_name`, but throws `missing_input` if the file does not
+    /// exist.
+    std::filesystem::path find_required_scene_file(const std::string& name,
+                                                   const std::string& place);
 
-    /// Returns the bytes of a file that `find_file` has found. Throws `missing_input` or `io`.
+    /// Returns the bytes of a file that `find_scene_file_by_name` has found. Throws `missing_input`
+    /// or `io`.
     std::string read_file_content(const std::filesystem::path& real, const std::string& place);
 
     /// Returns the real paths of the scene and of all files found, each once, in order of the
@@ -44,11 +48,11 @@ public:
 
 private:
     void add_file(const std::filesystem::path& real);
-    void check_place(const std::filesystem::path& real, const std::string& name,
-                     const std::string& place) const;
+    void check_scene_file_place(const std::filesystem::path& real, const std::string& name,
+                                const std::string& place) const;
 
     std::filesystem::path scene_, folder_, root_;
-    LoadBudgetUsage& account_;
+    SceneLoadBudgetUsage& account_;
     std::vector<std::filesystem::path> found_;
     std::unordered_set<std::string> known_; ///< the paths in `found_`, for lookup
 };

@@ -58,7 +58,7 @@ std::vector<dvec3> compute_convex_hull_in_plane(std::vector<dvec3> points, const
     return corners;
 }
 
-constexpr std::size_t kMaxMirrorPlanes = 64, kMaxFlatTriangles = 65536;
+constexpr std::size_t kMaxMirrorPlanes = 64, kMaxFlatMirrorTriangles = 65536;
 constexpr double kCoplanarTolerance =
     1e-4; // radians between normals; share of the extent for distances
 
@@ -205,7 +205,7 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
         return found;
     }
     if (count > 0) found.bent = {{0, count}};
-    if (count > kMaxFlatTriangles) return found;
+    if (count > kMaxFlatMirrorTriangles) return found;
     const MeshTriangles triangles(mesh, world_from_object);
     Bounds<double> box;
     for (const dvec3& place : triangles.places) box.add(place);

@@ -19,7 +19,7 @@ constexpr double kMaxBallStretch = 1.25; ///< longest by shortest side of the bo
 } // namespace
 
 double compute_closed_volume(const Mesh& mesh) {
-    if (!is_closed_surface(mesh.positions, mesh.triangles)) return 0;
+    if (!is_closed_triangle_surface(mesh.positions, mesh.triangles)) return 0;
     double volume = 0; // sum of signed tetrahedra
     const dvec3 origin = mesh.positions.empty() ? dvec3(0) : dvec3(mesh.positions.front());
     for (const uvec3& t : mesh.triangles) {

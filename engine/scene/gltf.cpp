@@ -21,7 +21,7 @@ namespace {
 
 /// Returns whether the node's transform mirrors its mesh. The mirrored triangles are inside out,
 /// and glTF requires us to reverse their winding.
-bool transform_mirrors_mesh(const dmat4& world_from_node) {
+bool does_transform_flip_winding(const dmat4& world_from_node) {
     return glm::determinant(dmat3(world_from_node)) < 0;
 }
 
@@ -74,18 +74,18 @@ struct GltfBuilder {
     };
     std::map<SharedMeshKey, std::size_t> meshes;
 
-    std::string node_place(std::size_t node) const;
+    std::string describe_gltf_node_place(std::size_t node) const;
     Mesh repaired(const SharedMeshKey& key);
-    std::size_t mesh_for(const SharedMeshKey& key);
+    std::size_t mesh_index_for_key(const SharedMeshKey& key);
     std::string object_name(std::size_t node, std::size_t mesh, std::size_t part);
     void add_node(std::size_t node, const gltf::PlacedNode& placed);
     void add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part);
     void add_camera(std::size_t node, const gltf::PlacedNode& placed);
     void add_light(std::size_t node, const gltf::PlacedNode& placed);
-    void check_unshown();
+    void check_objects_outside_shown_scene();
 };
 
-std::string GltfBuilder::node_place(std::size_t node) const {
+std::string GltfBuilder::describe_gltf_node_place(std::size_t node) const {
     return context.document.file + ": " + context.document.describe_node(node);
 }
 
@@ -94,18 +94,18 @@ Mesh GltfBuilder::repaired(const SharedMeshKey& key) {
     if (key.skin >= 0) joints = compute_joint_transforms(key.skin, at_rest, context);
     Mesh mesh = build_part_mesh(key.mesh, parts[key.mesh][key.part], key.weights, context,
                                 key.skin >= 0 ? &joints : nullptr);
-    context.account.mesh_vertices.add_amount(count_corners_without_normal(mesh),
-                                             describe_mesh_place(context.document, key.mesh));
+    context.account.mesh_vertices.add_amount_within_budget(
+        count_corners_without_normal(mesh), describe_mesh_place(context.document, key.mesh));
     const std::size_t dropped = repair_mesh(mesh);
     context.notes.add_note("triangles without area, left out",
-                           "in " + quote_as_printable_text(mesh.name), dropped);
+                           "in " + quote_text_with_escapes(mesh.name), dropped);
     // This follows `repair_mesh`, because normals that it adds are those of the file's winding.
     if (key.inside_out)
         for (uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
     return mesh;
 }
 
-std::size_t GltfBuilder::mesh_for(const SharedMeshKey& key) {
+std::size_t GltfBuilder::mesh_index_for_key(const SharedMeshKey& key) {
     const auto [entry, is_new] = meshes.try_emplace(key, scene.meshes.size());
     if (is_new) scene.meshes.push_back(repaired(key));
     return entry->second;
@@ -119,16 +119,16 @@ std::string GltfBuilder::object_name(std::size_t node, std::size_t mesh, std::si
     const std::string& own = name.empty() ? model.meshes[mesh].name : name;
     const bool is_one = parts[mesh].size() == 1;
     const std::string& material = scene.materials[parts[mesh][part].material].name;
-    context.account.name_bytes.add_amount(own.size() + (is_one ? 0 : 1 + material.size()),
-                                          node_place(node));
+    context.account.name_bytes.add_amount_within_budget(
+        own.size() + (is_one ? 0 : 1 + material.size()), describe_gltf_node_place(node));
     return is_one ? own : own + "/" + material;
 }
 
 void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, std::size_t part) {
-    const std::string place = node_place(node);
+    const std::string place = describe_gltf_node_place(node);
     const gltf::GltfNodeExtras& marks = context.document.marks[node];
     const auto its_mesh = std::size_t(context.document.model.nodes[node].mesh);
-    context.account.objects.add_amount(1, place);
+    context.account.objects.add_amount_within_budget(1, place);
     Object object{.name = object_name(node, its_mesh, part),
                   .material = parts[its_mesh][part].material,
                   .seen_by_camera = marks.seen_by_camera};
@@ -136,11 +136,12 @@ void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, s
     if (skin < 0) // joints place a skinned mesh, not its node
         object.world_from_object = placed.world_from_node, object.motion = placed.motion;
     const std::vector<double>& weights = context.document.node_weights[node];
-    object.mesh = mesh_for({its_mesh, part, skin, transform_mirrors_mesh(object.world_from_object),
-                            weights.empty() ? context.document.weights[its_mesh] : weights});
+    object.mesh = mesh_index_for_key(
+        {its_mesh, part, skin, does_transform_flip_winding(object.world_from_object),
+         weights.empty() ? context.document.weights[its_mesh] : weights});
     const Mesh& mesh = scene.meshes[object.mesh];
-    context.account.shown_vertices.add_amount(mesh.positions.size(), place);
-    context.account.shown_triangles.add_amount(mesh.triangles.size(), place);
+    context.account.shown_vertices.add_amount_within_budget(mesh.positions.size(), place);
+    context.account.shown_triangles.add_amount_within_budget(mesh.triangles.size(), place);
     if (marks.sphere) {
         const RigAttachment* follows = find_followed_node(object.motion);
         if (!follows || preserves_spheres(*follows))
@@ -156,10 +157,10 @@ void GltfBuilder::add_object(std::size_t node, const gltf::PlacedNode& placed, s
 /// Adds the camera of a node. A glTF camera looks along -z with +y up.
 void GltfBuilder::add_camera(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
-    const std::string place = node_place(node);
+    const std::string place = describe_gltf_node_place(node);
     Camera camera = cameras[std::size_t(from.camera)];
     if (!from.name.empty()) camera.name = from.name;
-    context.account.name_bytes.add_amount(camera.name.size(), place);
+    context.account.name_bytes.add_amount_within_budget(camera.name.size(), place);
     const dmat4& world = placed.world_from_node;
     const dvec3 forward = -normalized_or_zero(dvec3(world[2]));
     const dvec3 up = normalized_or_zero(dvec3(world[1]));
@@ -183,11 +184,13 @@ void GltfBuilder::add_light(std::size_t node, const gltf::PlacedNode& placed) {
     const tinygltf::Node& from = context.document.model.nodes[node];
     PunctualLight light = context.document.lights.lights[*context.document.lights.of_node[node]];
     if (!from.name.empty()) light.name = from.name;
-    context.account.name_bytes.add_amount(light.name.size(), node_place(node));
+    context.account.name_bytes.add_amount_within_budget(light.name.size(),
+                                                        describe_gltf_node_place(node));
     light.world_from_light = placed.world_from_node;
     light.motion = placed.motion;
     for (int column = 0; column < 4; ++column)
-        check(is_finite(dvec3(light.world_from_light[column])), Failure::bad_data, node_place(node),
+        check(is_finite(dvec3(light.world_from_light[column])), Failure::bad_data,
+              describe_gltf_node_place(node),
               ": wanted a light at finite coordinates, found an overflow");
     scene.punctual.push_back(std::move(light));
 }
@@ -206,7 +209,7 @@ void GltfBuilder::add_node(std::size_t node, const gltf::PlacedNode& placed) {
 }
 
 /// Reads the meshes that no node shows, so that an invalid file fails whichever nodes are shown.
-void GltfBuilder::check_unshown() {
+void GltfBuilder::check_objects_outside_shown_scene() {
     std::vector<bool> is_shown(parts.size(), false);
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;
     for (std::size_t mesh = 0; mesh < is_shown.size(); ++mesh)
@@ -218,7 +221,7 @@ void GltfBuilder::check_unshown() {
 
 Scene load_gltf(const std::filesystem::path& path, const SceneFileOptions& options) {
     const std::string file = path.string();
-    LoadBudgetUsage account(options.budget);
+    SceneLoadBudgetUsage account(options.budget);
     SceneFileOpener files(path, options.root, account);
     LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
@@ -246,7 +249,7 @@ Scene load_gltf(const std::filesystem::path& path, const SceneFileOptions& optio
             notes.add_note("nodes outside the scene that is shown, left out",
                            document.describe_node(i));
     }
-    builder.check_unshown();
+    builder.check_objects_outside_shown_scene();
     finish_loaded_scene(builder.scene, file, notes, std::move(unsupported));
     builder.scene.files = files.list_found_files();
     return std::move(builder.scene);

@@ -78,7 +78,7 @@ AccessorElements GltfReadContext::floats(int index, int type, BudgetLimitedSum& 
     check(elements.component == TINYGLTF_COMPONENT_TYPE_FLOAT || is_whole, Failure::bad_data, place,
           ": wanted floats, found component type ", elements.component);
     if (!finite.insert(index).second) return elements;
-    total.add_amount(elements.count, place);
+    total.add_amount_within_budget(elements.count, place);
     for (std::size_t i = 0; i < elements.count && !is_whole; ++i)
         check(is_finite_element(elements, i), Failure::bad_data, place, ": element ", i,
               ": wanted finite numbers, found NaN or infinity");

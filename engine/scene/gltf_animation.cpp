@@ -49,7 +49,7 @@ Track<Value> read_track(const tinygltf::AnimationSampler& sampler, const std::st
     const std::size_t each = is_cubic ? 3 : 1;
     check(sampler.input >= 0, Failure::bad_data, place, ": input: wanted an index, found none");
     check(sampler.output >= 0, Failure::bad_data, place, ": output: wanted an index, found none");
-    LoadBudgetUsage& account = context.account;
+    SceneLoadBudgetUsage& account = context.account;
     constexpr bool kIsRotationTrack = std::is_same_v<Value, dvec4>;
     const AccessorElements input = context.floats(sampler.input, TINYGLTF_TYPE_SCALAR,
                                                   account.key_times, place + ": input");
@@ -60,7 +60,7 @@ Track<Value> read_track(const tinygltf::AnimationSampler& sampler, const std::st
                          : GltfReadContext::AllowedAccessorIntegers::nothing);
     check(output.count == each * input.count, Failure::bad_data, place, ": output: wanted ", each,
           " values for each of ", input.count, " keys, found ", output.count);
-    account.keys.add_amount(input.count, place);
+    account.keys.add_amount_within_budget(input.count, place);
     track.times = read_key_times(input, place);
     const auto value = [&](std::size_t index) { return read_track_value(output, index, Value()); };
     for (std::size_t i = 0; i < input.count; ++i) {
@@ -149,11 +149,11 @@ std::optional<std::size_t> choose_animation(const GltfReadContext& context) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i].name == name) return i;
         names.push_back(all[i].name);
-        list += ", " + quote_as_printable_text(all[i].name);
+        list += ", " + quote_text_with_escapes(all[i].name);
     }
     const SettingOrigin& by = context.options.animation_by;
     fail(by.failure, by.where, ": ", context.document.file, " has no animation ",
-         quote_as_printable_text(name), ": wanted one of none", list,
+         quote_text_with_escapes(name), ": wanted one of none", list,
          suggest_nearest_name(name, names));
 }
 

@@ -25,7 +25,7 @@ inline bool is_factor_extension(std::string_view name) {
 /// Checks the type of every known member, and adds the notes of the member table. Unknown members
 /// are ignored. Throws `bad_data` for a member of the wrong type, an index of no object, or lists
 /// over the budget. Defined in gltf_members.cpp.
-void check_known_members(const JsonObject& root, LoadBudgetUsage& account, LoaderNotes& notes);
+void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account, LoaderNotes& notes);
 /// Returns the members that are read, taken from a checked document. Members that tinygltf needs
 /// and the document lacks are added with placeholder values.
 Json keep_known_members(Json document);

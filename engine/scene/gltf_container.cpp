@@ -130,8 +130,8 @@ private:
         }
         const std::string uri = buffer.text("uri");
         if (is_data_uri(uri)) return store_file_bytes(decode_data_uri(uri, buffer.place()));
-        const fs::path real = files_.find_required(file_name_from_uri(uri, buffer.place()),
-                                                   buffer.place());
+        const fs::path real = files_.find_required_scene_file(
+            file_name_from_uri(uri, buffer.place()), buffer.place());
         const auto [entry, is_new] = read_.try_emplace(real, gltf_container_.files.size());
         if (is_new) {
             const std::string bytes = files_.read_file_content(real, buffer.place());
@@ -153,9 +153,9 @@ private:
 } // namespace
 
 GltfContainer read_gltf_container(const std::string& file, SceneFileOpener& files,
-                                  LoadBudgetUsage& account, LoaderNotes& notes) {
+                                  SceneLoadBudgetUsage& account, LoaderNotes& notes) {
     GltfContainer container;
-    const std::string bytes = files.read_scene();
+    const std::string bytes = files.read_main_scene_file();
     const GlbChunks chunks = read_glb_chunks(file, bytes, notes);
     container.document = parse_json(file, chunks.json, account);
     const JsonObject root(container.document, file);

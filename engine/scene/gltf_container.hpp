@@ -32,14 +32,14 @@ struct GltfContainer {
 /// Reads a .gltf or .glb and the files of its buffers. Throws `bad_data`, or `missing_input` for a
 /// missing buffer file.
 GltfContainer read_gltf_container(const std::string& file, SceneFileOpener& files,
-                                  LoadBudgetUsage& account, LoaderNotes& notes);
+                                  SceneLoadBudgetUsage& account, LoaderNotes& notes);
 
 /// Gives each accessor that is sparse, or has no view, a new view with its dense elements. Other
 /// views and files of the container stay as they are. The document must have been checked. Throws
 /// `bad_data` for a sparse index beyond the accessor, or for more bytes than the budget. Defined in
 /// gltf_sparse.cpp.
 void expand_sparse_accessors(GltfContainer& container, const std::string& file,
-                             LoadBudgetUsage& account);
+                             SceneLoadBudgetUsage& account);
 /// Returns the size in bytes of one element of a checked accessor.
 std::size_t accessor_element_bytes(const JsonObject& accessor);
 

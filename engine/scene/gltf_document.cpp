@@ -98,7 +98,7 @@ std::string GltfDocument::describe_node(std::size_t node) const {
 }
 
 GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
-                                LoadBudgetUsage& account, LoaderNotes& notes,
+                                SceneLoadBudgetUsage& account, LoaderNotes& notes,
                                 std::vector<UnsupportedFeature>& unsupported) {
     GltfContainer container = read_gltf_container(file, files, account, notes);
     GltfDocument document{.file = file};

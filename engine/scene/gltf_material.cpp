@@ -68,11 +68,11 @@ private:
     }
     void report_unsupported_feature(std::string_view id) {
         add_unsupported_material(source_.unsupported, std::string(id),
-                                 material_json_.describe_place(), index_);
+                                 material_json_.describe_json_place(), index_);
     }
     void base_colour(const JsonObject& item, std::string_view factor, std::string_view texture);
     void factors(std::string_view extension, const JsonObject& item);
-    void read_metallic_roughness(const JsonObject& pbr);
+    void read_metallic_roughness_factors(const JsonObject& pbr);
     void read_specular_glossiness(const JsonObject& glossiness);
     void dielectric();
     void emission();
@@ -109,7 +109,7 @@ void MaterialReader::factors(std::string_view extension, const JsonObject& item)
             material_.*factor.member = read_fraction_member(item, factor.key, factor.gltf_default);
 }
 
-void MaterialReader::read_metallic_roughness(const JsonObject& pbr) {
+void MaterialReader::read_metallic_roughness_factors(const JsonObject& pbr) {
     base_colour(pbr, "baseColorFactor", "baseColorTexture");
     factors(kCoreMaterialFactors, pbr);
     material_.roughness_texture = read_texture_member(pbr, "metallicRoughnessTexture", false);
@@ -217,7 +217,7 @@ void MaterialReader::other_properties() {
     }
     if (material_json_.has_member("occlusionTexture")) {
         source_.notes.add_note("materials with an occlusionTexture, drawn without it",
-                               material_json_.describe_place());
+                               material_json_.describe_json_place());
         report_unsupported_feature("occlusion-texture");
     }
     // `technique` comes from the draft KHR_technique_webgl, which kept shaders beside materials.
@@ -270,7 +270,7 @@ Material MaterialReader::read() {
     if (glossiness)
         read_specular_glossiness(*glossiness);
     else if (pbr)
-        read_metallic_roughness(*pbr);
+        read_metallic_roughness_factors(*pbr);
     if (!glossiness) dielectric();
     emission();
     alpha();

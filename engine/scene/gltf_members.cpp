@@ -41,8 +41,8 @@ struct GltfMemberRule {
     bool unread = false;         ///< only checked, not passed to tinygltf
     std::string_view note = {};  ///< the note to add if the member is present
     bool made_up = false;        ///< if absent, set to -1 (index) or 0, since tinygltf needs it
-    BudgetLimitedSum LoadBudgetUsage::*total = nullptr; ///< counts the objects of the list
-    std::size_t bytes = 0;                              ///< memory for each object of the list
+    BudgetLimitedSum SceneLoadBudgetUsage::*total = nullptr; ///< counts the objects of the list
+    std::size_t bytes = 0;                                   ///< memory for each object of the list
 };
 
 constexpr GltfMemberRule make_vector_member_rule(GltfObjectKind in, std::string_view key,
@@ -55,9 +55,9 @@ constexpr GltfMemberRule make_object_member_rule(GltfObjectKind in, std::string_
     return {.in = in, .key = key, .kind = kind, .of = of};
 }
 template <typename Made = char>
-constexpr GltfMemberRule make_list_member_rule(GltfObjectKind in, std::string_view key,
-                                               GltfObjectKind is,
-                                               BudgetLimitedSum LoadBudgetUsage::*total = nullptr) {
+constexpr GltfMemberRule
+make_list_member_rule(GltfObjectKind in, std::string_view key, GltfObjectKind is,
+                      BudgetLimitedSum SceneLoadBudgetUsage::*total = nullptr) {
     return {in, key, GltfMemberKind::list, is, {}, 0, false, {}, false, total, sizeof(Made)};
 }
 constexpr GltfMemberRule make_replaceable_member_rule(GltfMemberRule member) {
@@ -98,8 +98,8 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     {sparse_part, "byteOffset", whole},
     {sparse_part, "componentType", whole},
 
-    make_unread_member_rule(
-        make_list_member_rule<Material>(file, "materials", material, &LoadBudgetUsage::materials)),
+    make_unread_member_rule(make_list_member_rule<Material>(file, "materials", material,
+                                                            &SceneLoadBudgetUsage::materials)),
     {material, "name", text},
     {material, "normalTexture", object, texture_use},
     {material, "occlusionTexture", object, texture_use},
@@ -111,7 +111,8 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     make_object_member_rule(image, "bufferView", "bufferViews"),
     {image, "uri", text},
 
-    make_list_member_rule<tinygltf::Camera>(file, "cameras", camera, &LoadBudgetUsage::cameras),
+    make_list_member_rule<tinygltf::Camera>(file, "cameras", camera,
+                                            &SceneLoadBudgetUsage::cameras),
     {camera, "name", text},
     {camera, "type", text},
     make_replaceable_member_rule({camera, "perspective", object, perspective}),
@@ -123,10 +124,10 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     make_replaceable_member_rule({orthographic, "zfar", number}),
     make_replaceable_member_rule({orthographic, "znear", number}),
 
-    make_list_member_rule<tinygltf::Mesh>(file, "meshes", mesh, &LoadBudgetUsage::meshes),
+    make_list_member_rule<tinygltf::Mesh>(file, "meshes", mesh, &SceneLoadBudgetUsage::meshes),
     {mesh, "name", text},
     make_list_member_rule<tinygltf::Primitive>(mesh, "primitives", primitive,
-                                               &LoadBudgetUsage::primitives),
+                                               &SceneLoadBudgetUsage::primitives),
     make_object_member_rule(primitive, "material", "materials"),
     {primitive, "mode", whole},
     make_replaceable_member_rule({primitive, "attributes", object, attributes}),
@@ -142,7 +143,7 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     make_object_member_rule(morph, "POSITION", "accessors"),
     make_object_member_rule(morph, "NORMAL", "accessors"),
 
-    make_list_member_rule<tinygltf::Node>(file, "nodes", node, &LoadBudgetUsage::nodes),
+    make_list_member_rule<tinygltf::Node>(file, "nodes", node, &SceneLoadBudgetUsage::nodes),
     {node, "name", text},
     make_object_member_rule(node, "mesh", "meshes"),
     make_object_member_rule(node, "camera", "cameras"),
@@ -164,7 +165,7 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
     make_list_member_rule<tinygltf::Animation>(file, "animations", animation),
     {animation, "name", text},
     make_list_member_rule<tinygltf::AnimationChannel>(animation, "channels", channel,
-                                                      &LoadBudgetUsage::channels),
+                                                      &SceneLoadBudgetUsage::channels),
     {channel, "sampler", whole},
     {channel, "target", object, target},
     make_object_member_rule(target, "node", "nodes"),
@@ -177,7 +178,7 @@ constexpr GltfMemberRule kGltfMemberRules[] = {
 
 class GltfMemberChecker {
 public:
-    GltfMemberChecker(const JsonObject& root, LoadBudgetUsage& account, LoaderNotes& notes)
+    GltfMemberChecker(const JsonObject& root, SceneLoadBudgetUsage& account, LoaderNotes& notes)
         : gltf_root_(root), account_(account), notes_(notes) {}
 
     void check_object_members(const JsonObject& item, GltfObjectKind in) {
@@ -205,15 +206,16 @@ private:
     }
     void each(const JsonObject& item, const GltfMemberRule& member) {
         item.each(member.key, [&](const JsonObject& one) {
-            if (member.total != nullptr) (account_.*member.total).add_amount(1, one.place());
-            account_.json_memory.add_amount(member.bytes, one.place());
+            if (member.total != nullptr)
+                (account_.*member.total).add_amount_within_budget(1, one.place());
+            account_.json_memory.add_amount_within_budget(member.bytes, one.place());
             check_object_members(one, member.is);
             if (!member.note.empty()) notes_.add_note(member.note, one.entry());
         });
     }
 
     const JsonObject& gltf_root_;
-    LoadBudgetUsage& account_;
+    SceneLoadBudgetUsage& account_;
     LoaderNotes& notes_;
 };
 
@@ -258,7 +260,8 @@ Json convert_members_for_tinygltf(Json& from, GltfObjectKind in) {
 
 } // namespace
 
-void check_known_members(const JsonObject& root, LoadBudgetUsage& account, LoaderNotes& notes) {
+void check_known_members(const JsonObject& root, SceneLoadBudgetUsage& account,
+                         LoaderNotes& notes) {
     GltfMemberChecker(root, account, notes).check_object_members(root, GltfObjectKind::file);
 }
 

@@ -131,19 +131,19 @@ Mesh build_part_mesh(std::size_t index, const GltfMeshPart& part,
                      const std::vector<dmat4>* joints) {
     const tinygltf::Model& model = context.document.model;
     const std::string place = describe_mesh_place(context.document, index);
-    LoadBudgetUsage& account = context.account;
+    SceneLoadBudgetUsage& account = context.account;
     std::vector<GltfPrimitive> primitives;
     std::size_t vertices = 0, triangles = 0;
     for (const std::size_t i : part.primitives) { // count against the budget before allocating
         const GltfPrimitive& its = primitives.emplace_back(model, model.meshes[index].primitives[i],
                                                            weights);
         const std::size_t count = std::min(its.positions.count, 3 * its.triangle_count());
-        account.mesh_triangles.add_amount(its.triangle_count(), place);
-        account.mesh_vertices.add_amount(count, place);
+        account.mesh_triangles.add_amount_within_budget(its.triangle_count(), place);
+        account.mesh_vertices.add_amount_within_budget(count, place);
         vertices += count, triangles += its.triangle_count();
     }
     Mesh mesh{.name = model.meshes[index].name};
-    account.name_bytes.add_amount(mesh.name.size(), place);
+    account.name_bytes.add_amount_within_budget(mesh.name.size(), place);
     mesh.positions.reserve(vertices), mesh.normals.reserve(vertices);
     mesh.triangles.reserve(triangles);
     for (const GltfPrimitive& primitive : primitives)

@@ -53,7 +53,7 @@ struct GltfDocument {
 
 /// Reads a .gltf or .glb. Throws the same errors as `load_gltf`.
 GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
-                                LoadBudgetUsage& account, LoaderNotes& notes,
+                                SceneLoadBudgetUsage& account, LoaderNotes& notes,
                                 std::vector<UnsupportedFeature>& unsupported);
 
 // ---- gltf_accessor.cpp
@@ -96,7 +96,7 @@ struct GltfReadContext {
 
     const GltfDocument& document;
     const SceneFileOptions& options;
-    LoadBudgetUsage& account;
+    SceneLoadBudgetUsage& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
     std::set<int> finite; ///< accessors whose elements have been checked and counted

@@ -60,7 +60,7 @@ void check_attributes(const tinygltf::Primitive& primitive, std::size_t count,
             is_uv && !context.document.is_quantised
                 ? GltfReadContext::AllowedAccessorIntegers::normalised
                 : also;
-        LoadBudgetUsage& account = context.account;
+        SceneLoadBudgetUsage& account = context.account;
         BudgetLimitedSum& total = also == kSupportedVertexAttributes[0].also && !is_uv
                                       ? account.normals
                                       : account.attributes;

@@ -92,7 +92,7 @@ Value make_object_extras(const Object& object) {
 
 /// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
 void add_following_node(GltfWriter& writer, const RigAttachment* follows, tinygltf::Node node) {
-    const int parent = follows ? writer.node_of(*follows) : -1;
+    const int parent = follows ? writer.gltf_node_of_rig_attachment(*follows) : -1;
     const int index = gltf_accessor_type_of_list(writer.model.nodes);
     writer.model.nodes.push_back(std::move(node));
     if (parent < 0)
@@ -115,7 +115,7 @@ void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motio
     const std::optional<TranslationTrack> keys = motion_to_keys(motion);
     const int index = gltf_accessor_type_of_list(model.nodes);
     model.scenes[0].nodes.push_back(index);
-    if (keys) writer.add_motion(*keys, rest, index);
+    if (keys) writer.add_gltf_motion(*keys, rest, index);
     if (is_scale && rest != dvec3(0)) node.translation = matrix_to_numbers(rest);
     if (is_scale && scale != dvec3(1)) node.scale = matrix_to_numbers(scale);
     if (!is_scale && keys) {

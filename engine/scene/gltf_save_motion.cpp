@@ -60,7 +60,8 @@ std::optional<TranslationTrack> motion_to_keys(const Motion& motion) {
 }
 
 template <typename Value>
-void GltfWriter::add_track(const Track<Value>& track, int node, const std::string& path) {
+void GltfWriter::add_gltf_animation_track(const Track<Value>& track, int node,
+                                          const std::string& path) {
     using enum Interpolation;
     if (track.times.empty()) return;
     const bool is_cubic = track.interpolation == cubic;
@@ -83,10 +84,10 @@ void GltfWriter::add_track(const Track<Value>& track, int node, const std::strin
     motion.channels.push_back(std::move(channel));
 }
 
-void GltfWriter::add_motion(const TranslationTrack& keys, const dvec3& rest, int node) {
+void GltfWriter::add_gltf_motion(const TranslationTrack& keys, const dvec3& rest, int node) {
     TranslationTrack there = keys;
     for (dvec3& value : there.values) value += rest;
-    add_track(there, node, "translation");
+    add_gltf_animation_track(there, node, "translation");
 }
 
 int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
@@ -109,13 +110,13 @@ int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
     moving.scale = matrix_to_numbers(node.scale);
     moving.rotation = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
     const int index = add(std::move(moving));
-    if (node.translations) add_track(*node.translations, index, "translation");
-    if (node.rotations) add_track(*node.rotations, index, "rotation");
-    if (node.scales) add_track(*node.scales, index, "scale");
+    if (node.translations) add_gltf_animation_track(*node.translations, index, "translation");
+    if (node.rotations) add_gltf_animation_track(*node.rotations, index, "rotation");
+    if (node.scales) add_gltf_animation_track(*node.scales, index, "scale");
     return index;
 }
 
-int GltfWriter::node_of(const RigAttachment& follows) {
+int GltfWriter::gltf_node_of_rig_attachment(const RigAttachment& follows) {
     const auto [entry, is_new] = rigs.try_emplace(follows.rig.get());
     if (is_new) {
         std::vector<int> nodes;

@@ -69,7 +69,7 @@ ByteList make_dense_accessor_elements(const GltfContainer& container, const Json
 } // namespace
 
 void expand_sparse_accessors(GltfContainer& container, const std::string& file,
-                             LoadBudgetUsage& account) {
+                             SceneLoadBudgetUsage& account) {
     const std::size_t accessors = JsonObject(container.document, file).size("accessors");
     for (std::size_t i = 0; i < accessors; ++i) {
         ByteList dense;
@@ -78,7 +78,7 @@ void expand_sparse_accessors(GltfContainer& container, const std::string& file,
             const JsonObject accessor = root.at("accessors", i);
             if (accessor.has_member("bufferView") && !accessor.has_member("sparse")) continue;
             const std::uint64_t count = accessor.whole("count", 0);
-            account.made_bytes.add_amount(
+            account.made_bytes.add_amount_within_budget(
                 count > ~0ull / 64 ? ~0ull : count * accessor_element_bytes(accessor),
                 accessor.place());
             dense = make_dense_accessor_elements(container, root, accessor);

@@ -64,7 +64,7 @@ std::shared_ptr<const Image> TextureReader::report_missing_image(const JsonObjec
                                                                  const std::string& why,
                                                                  const JsonObject& use) {
     source_.notes.add_note("images that are not there or of a kind that is not read, drawn without",
-                           image.describe_place() + why);
+                           image.describe_json_place() + why);
     add_unsupported_feature(source_.unsupported, "missing-image", use.entry());
     return nullptr;
 }
@@ -72,17 +72,17 @@ std::shared_ptr<const Image> TextureReader::report_missing_image(const JsonObjec
 std::shared_ptr<const Image> TextureReader::from_file(const JsonObject& image,
                                                       const JsonObject& use) {
     const std::string name = file_name_from_uri(image.text("uri"), image.place());
-    const fs::path real = source_.files.find_file(name, image.place());
+    const fs::path real = source_.files.find_scene_file_by_name(name, image.place());
     if (real.empty())
-        return report_missing_image(image, ": " + quote_as_printable_text(name) + " is not there",
+        return report_missing_image(image, ": " + quote_text_with_escapes(name) + " is not there",
                                     use);
     const auto [entry, is_new] = files_.try_emplace(real.string());
     if (is_new)
         entry->second = decode_image(source_.files.read_file_content(real, image.place()), name,
-                                     image.place() + ": " + quote_as_printable_text(name),
+                                     image.place() + ": " + quote_text_with_escapes(name),
                                      source_.account);
     return entry->second ? entry->second
-                         : report_missing_image(image, ": " + quote_as_printable_text(name), use);
+                         : report_missing_image(image, ": " + quote_text_with_escapes(name), use);
 }
 
 std::shared_ptr<const Image> TextureReader::decoded(const JsonObject& image,
@@ -126,7 +126,7 @@ std::optional<Texture> TextureReader::find_or_read_texture(const JsonObject& use
         }
     if (set > 1) {
         source_.notes.add_note("textures of a third set of coordinates, drawn without",
-                               use.describe_place());
+                               use.describe_json_place());
         add_unsupported_feature(source_.unsupported, "material-extension", use.entry());
         return std::nullopt;
     }

@@ -19,7 +19,7 @@ struct MaterialReadContext {
     const JsonObject& root;
     const GltfContainer& container;
     SceneFileOpener& files;
-    LoadBudgetUsage& account;
+    SceneLoadBudgetUsage& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
 };

@@ -41,8 +41,8 @@ void note_unread_extensions_inside(const Json& value, const JsonObject& around,
         if (value.is_object() && key == "extensions" && inner.is_object())
             for (const auto& [name, content] : inner.items())
                 if (!is_read_extension(name))
-                    notes.add_note("extension " + quote_as_printable_text(name) + ", not read",
-                                   around.describe_place());
+                    notes.add_note("extension " + quote_text_with_escapes(name) + ", not read",
+                                   around.describe_json_place());
         note_unread_extensions_inside(inner, around, notes);
     }
 }
@@ -52,7 +52,7 @@ void note_unread_extensions(const JsonObject& root, LoaderNotes& notes) {
         if (key == "extensions") {
             for (const auto& [name, content] : value.items())
                 if (!is_read_extension(name))
-                    notes.add_note("extension " + quote_as_printable_text(name) + ", not read",
+                    notes.add_note("extension " + quote_text_with_escapes(name) + ", not read",
                                    "of the whole file");
         } else if (value.is_array()) {
             for (std::size_t i = 0; i < value.size(); ++i)
@@ -72,7 +72,7 @@ void check_alpha_mode(const JsonObject& material) {
 void check_image_source(const JsonObject& image, SceneFileOpener& files) {
     const std::string uri = image.text("uri");
     if (!uri.empty() && !is_data_uri(uri))
-        files.find_file(file_name_from_uri(uri, image.place()), image.place());
+        files.find_scene_file_by_name(file_name_from_uri(uri, image.place()), image.place());
 }
 
 void check_camera_type(const JsonObject& camera) {
@@ -86,7 +86,7 @@ void check_attributes(const JsonObject& attributes, const JsonObject& root) {
     const std::size_t count = root.size("accessors");
     for (const auto& [name, value] : attributes.json_value().items()) {
         attributes.require_condition(name.size() <= kMaxAttributeNameLength, "attribute ",
-                                     quote_as_printable_text(name), ": wanted a name of at most ",
+                                     quote_text_with_escapes(name), ": wanted a name of at most ",
                                      kMaxAttributeNameLength, " bytes, found ", name.size());
         const std::string type =
             root.at("accessors", attributes.needed_index(name, count)).text("type");
@@ -115,8 +115,8 @@ void check_animation_channels(const JsonObject& animation, LoaderNotes& notes) {
         const std::string path = target->text("path");
         if (target->has_member("node") && path != "translation" && path != "rotation" &&
             path != "scale")
-            notes.add_note("animation channels of " + quote_as_printable_text(path) + ", left out",
-                           channel.describe_place());
+            notes.add_note("animation channels of " + quote_text_with_escapes(path) + ", left out",
+                           channel.describe_json_place());
     });
 }
 

@@ -66,12 +66,12 @@ struct GltfWriter {
     // gltf_save_motion.cpp
 
     /// Animates the translation of `node`. `keys` are relative to `rest`, its translation at rest.
-    void add_motion(const TranslationTrack& keys, const dvec3& rest, int node);
+    void add_gltf_motion(const TranslationTrack& keys, const dvec3& rest, int node);
     template <typename Value>
-    void add_track(const Track<Value>& track, int node, const std::string& path);
+    void add_gltf_animation_track(const Track<Value>& track, int node, const std::string& path);
     /// Returns the glTF node of the rig node that `follows` names. The first call for a rig adds
     /// all of its nodes.
-    int node_of(const RigAttachment& follows);
+    int gltf_node_of_rig_attachment(const RigAttachment& follows);
     int add_rig_node(const NodeRig::RigNode& node, int parent);
     /// Moves the animation into the model, if it has channels.
     void finish_motion();

@@ -25,7 +25,7 @@ struct ChannelOrder {
     std::size_t alpha; ///< channel_count if the picture has no alpha
 };
 
-ChannelOrder choose_channel_order(const ImageShape& shape) {
+ChannelOrder choose_channel_order(const ImageSizeAndChannels& shape) {
     const auto find = [&](const char* name) {
         return static_cast<std::size_t>(std::ranges::find(shape.channels, name) -
                                         shape.channels.begin());
@@ -36,7 +36,7 @@ ChannelOrder choose_channel_order(const ImageShape& shape) {
             std::min(find("A"), count)};
 }
 
-std::vector<std::uint32_t> pack_texels(const ImageShape& shape,
+std::vector<std::uint32_t> pack_texels(const ImageSizeAndChannels& shape,
                                        const std::vector<std::uint8_t>& values) {
     const ChannelOrder layout = choose_channel_order(shape);
     std::vector<std::uint32_t> texels(std::size_t(shape.size.x) * shape.size.y);
@@ -52,23 +52,23 @@ std::vector<std::uint32_t> pack_texels(const ImageShape& shape,
 } // namespace
 
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, LoadBudgetUsage& account) {
+                                          const std::string& place, SceneLoadBudgetUsage& account) {
     std::string format = detect_image_format(bytes);
     if (format.empty() && is_targa_file(file)) format = "targa";
     if (format.empty()) return nullptr;
-    const auto texels = [](const ImageShape& shape) { // four values count as a texel
+    const auto texels = [](const ImageSizeAndChannels& shape) { // four values count as a texel
         return std::uint64_t(shape.size.x) * shape.size.y * ((shape.channel_count + 3) / 4);
     };
     const MemoryByteSource source(bytes);
-    ImageReader image_reader(source, format, place, [&](const ImageShape& shape) {
+    ImageReader image_reader(source, format, place, [&](const ImageSizeAndChannels& shape) {
         constexpr std::uint32_t kMaxTextureSide = 65535; // the renderer stores a side in 16 bits
         check(shape.size.x <= kMaxTextureSide && shape.size.y <= kMaxTextureSide, Failure::bad_data,
               place, ": wanted sides of at most ", kMaxTextureSide, " texels, found ", shape.size.x,
               "x", shape.size.y);
-        account.texels.require_amount(texels(shape), place);
+        account.texels.check_amount_fits_budget(texels(shape), place);
     });
-    const ImageShape& shape = image_reader.image_shape();
-    account.texels.add_amount(texels(shape), place);
+    const ImageSizeAndChannels& shape = image_reader.image_size_and_channels();
+    account.texels.add_amount_within_budget(texels(shape), place);
     return std::make_shared<const Image>(Image{
         .name = file, .size = shape.size, .texels = pack_texels(shape, image_reader.bytes())});
 }

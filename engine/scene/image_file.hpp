@@ -14,7 +14,7 @@ namespace catoptric::scene {
 /// name. Throws `bad_data`, beginning with `place`, for a picture that cannot be decoded. A side
 /// above 65535 texels, or more texels than the budget, is refused before decoding.
 std::shared_ptr<const Image> decode_image(std::string_view bytes, const std::string& file,
-                                          const std::string& place, LoadBudgetUsage& account);
+                                          const std::string& place, SceneLoadBudgetUsage& account);
 
 /// Returns the bytes of a PNG file of the image.
 std::string encode_image_png(const Image& image);

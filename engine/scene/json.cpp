@@ -7,17 +7,18 @@
 
 namespace catoptric::scene::gltf {
 
-Json parse_json(const std::string& file, std::string_view text, LoadBudgetUsage& account) {
-    account.json_bytes.add_amount(text.size(), file);
-    return catoptric::parse_json<Json>(
-        file, text, [&](std::uint64_t bytes) { account.json_memory.add_amount(bytes, file); });
+Json parse_json(const std::string& file, std::string_view text, SceneLoadBudgetUsage& account) {
+    account.json_bytes.add_amount_within_budget(text.size(), file);
+    return catoptric::parse_json<Json>(file, text, [&](std::uint64_t bytes) {
+        account.json_memory.add_amount_within_budget(bytes, file);
+    });
 }
 
 std::string describe_json_value(const Json& value) {
     if (value.is_array()) return "an array";
     if (value.is_object()) return "an object";
     if (!value.is_string()) return value.dump();
-    std::string text = quote_as_printable_text(value.get_ref<const std::string&>());
+    std::string text = quote_text_with_escapes(value.get_ref<const std::string&>());
     text[0] = '"';
     text[text.rfind('\'')] = '"';
     return text;
@@ -26,10 +27,10 @@ std::string describe_json_value(const Json& value) {
 std::string format_list_item_label(std::string_view list, std::size_t index,
                                    const std::string& name) {
     return std::string(list) + "[" + std::to_string(index) + "]" +
-           (name.empty() ? "" : " " + quote_as_printable_text(name));
+           (name.empty() ? "" : " " + quote_text_with_escapes(name));
 }
 
-std::string JsonObject::describe_place(std::string_view before, std::size_t steps) const {
+std::string JsonObject::describe_json_place(std::string_view before, std::size_t steps) const {
     std::string text;
     for (std::size_t i = 0; i < steps; ++i) {
         const auto& [key, index, json] = way_[i];
@@ -46,7 +47,7 @@ std::string JsonObject::describe_place(std::string_view before, std::size_t step
 std::string JsonObject::entry() const {
     std::size_t steps = steps_;
     while (steps > 0 && !way_[steps - 1].index) --steps;
-    return describe_place("", steps);
+    return describe_json_place("", steps);
 }
 
 JsonObject JsonObject::to(const JsonPathStep& step) const {
@@ -93,7 +94,7 @@ JsonObject JsonObject::at(std::string_view key, std::size_t index) const {
     return item;
 }
 
-std::uint64_t JsonObject::whole_of(const Json& value, std::string_view key) const {
+std::uint64_t JsonObject::read_json_whole_number(const Json& value, std::string_view key) const {
     constexpr double kMaxExactInteger =
         9007199254740992; // 2^53: doubles hold every integer up to it
     const double number = value.is_number_float() ? value.get<double>() : -1;
@@ -104,15 +105,16 @@ std::uint64_t JsonObject::whole_of(const Json& value, std::string_view key) cons
     return value.get<std::uint64_t>();
 }
 
-std::size_t JsonObject::index_of(const Json& value, std::string_view key, std::size_t count) const {
-    const std::uint64_t index = whole_of(value, key);
+std::size_t JsonObject::read_json_index(const Json& value, std::string_view key,
+                                        std::size_t count) const {
+    const std::uint64_t index = read_json_whole_number(value, key);
     require_condition(index < count, key, ": wanted an index below ", count, ", found ", index);
     return index;
 }
 
 std::optional<std::size_t> JsonObject::index(std::string_view key, std::size_t count) const {
     const Json* value = find(key);
-    return value == nullptr ? std::nullopt : std::optional(index_of(*value, key, count));
+    return value == nullptr ? std::nullopt : std::optional(read_json_index(*value, key, count));
 }
 
 std::size_t JsonObject::needed_index(std::string_view key, std::size_t count) const {
@@ -124,13 +126,13 @@ std::size_t JsonObject::needed_index(std::string_view key, std::size_t count) co
 std::vector<std::size_t> JsonObject::indices(std::string_view key, std::size_t count) const {
     std::vector<std::size_t> indices;
     if (const Json* values = list(key))
-        for (const Json& value : *values) indices.push_back(index_of(value, key, count));
+        for (const Json& value : *values) indices.push_back(read_json_index(value, key, count));
     return indices;
 }
 
 std::uint64_t JsonObject::whole(std::string_view key, std::uint64_t otherwise) const {
     const Json* value = find(key);
-    return value == nullptr ? otherwise : whole_of(*value, key);
+    return value == nullptr ? otherwise : read_json_whole_number(*value, key);
 }
 
 double JsonObject::number(std::string_view key, double otherwise) const {

@@ -19,7 +19,7 @@ using Json = nlohmann::json;
 
 /// Parses JSON. Throws `bad_data` naming `file` for invalid JSON, for values nested 64 deep or
 /// more, or for text over the budget.
-Json parse_json(const std::string& file, std::string_view text, LoadBudgetUsage& account);
+Json parse_json(const std::string& file, std::string_view text, SceneLoadBudgetUsage& account);
 
 /// Returns a short description of a value for messages: `"text"`, `3.5`, `an array`.
 std::string describe_json_value(const Json& value);
@@ -36,9 +36,9 @@ public:
     JsonObject(const Json& document, const std::string& file) : json_(&document), file_(&file) {}
 
     /// Returns the object's place for messages: "FILE: nodes[3] 'lamp': mesh".
-    std::string place() const { return *file_ + describe_place(": ", steps_); }
+    std::string place() const { return *file_ + describe_json_place(": ", steps_); }
     /// Returns the place without the file: "nodes[3] 'lamp': mesh".
-    std::string describe_place() const { return describe_place("", steps_); }
+    std::string describe_json_place() const { return describe_json_place("", steps_); }
     /// Returns the label up to its last list element: "nodes[3] 'lamp'".
     std::string entry() const;
     template <typename... Parts>
@@ -89,9 +89,9 @@ private:
     static constexpr std::size_t kMaxPathSteps = 8; // nested extensions need no more steps
 
     JsonObject to(const JsonPathStep& step) const;
-    std::string describe_place(std::string_view before, std::size_t steps) const;
-    std::uint64_t whole_of(const Json& value, std::string_view key) const;
-    std::size_t index_of(const Json& value, std::string_view key, std::size_t count) const;
+    std::string describe_json_place(std::string_view before, std::size_t steps) const;
+    std::uint64_t read_json_whole_number(const Json& value, std::string_view key) const;
+    std::size_t read_json_index(const Json& value, std::string_view key, std::size_t count) const;
     const Json* list(std::string_view key) const;
 
     const Json* json_;

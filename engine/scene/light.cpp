@@ -24,12 +24,12 @@ public:
     explicit ConnectedVertexSets(std::size_t count) : parent_(count) {
         std::iota(parent_.begin(), parent_.end(), std::size_t(0));
     }
-    std::size_t find_set_root(std::size_t vertex) {
+    std::size_t find_root_vertex_of_set(std::size_t vertex) {
         while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
         return vertex;
     }
     void join_vertex_sets(std::size_t a, std::size_t b) {
-        parent_[find_set_root(a)] = find_set_root(b);
+        parent_[find_root_vertex_of_set(a)] = find_root_vertex_of_set(b);
     }
 
 private:
@@ -42,7 +42,9 @@ struct LampComponentSums {
     dmat3 facets{0}; ///< outer products of the facets' unit normals, times their areas
     bool closed = true;
 
-    void add_position(const dvec3& position) { positions += position, position_count += 1; }
+    void add_position_to_component_sums(const dvec3& position) {
+        positions += position, position_count += 1;
+    }
     void add_vertex(const dvec3& normal, double its_area) {
         normals += normal, normal_count += 1, area += its_area;
     }
@@ -166,26 +168,26 @@ ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& worl
     std::vector<bool> counted(world.size(), false);
     for (std::size_t i = 0; i < world.size(); ++i) {
         if (!used[i]) continue;
-        const std::size_t root = islands.find_set_root(first[i]);
+        const std::size_t root = islands.find_root_vertex_of_set(first[i]);
         const std::size_t index = index_of_root.try_emplace(root, sums.size()).first->second;
         if (index == sums.size()) sums.emplace_back();
         const dvec3 normal = normalized_or_zero(normal_to_world * dvec3(mesh.normals[i]));
         sums[index].add_vertex(normal, area[i]);
         sums[index].facets += facets[i];
-        if (!counted[first[i]]) sums[index].add_position(world[i]);
+        if (!counted[first[i]]) sums[index].add_position_to_component_sums(world[i]);
         counted[first[i]] = true;
     }
     for_each_edge(list_triangle_edges(corners), [&](std::span<const TriangleEdge> edge) {
         if (edge.size() == 2) return;
         for (const std::size_t end : {edge[0].low, edge[0].high})
-            if (const auto index = index_of_root.find(islands.find_set_root(end));
+            if (const auto index = index_of_root.find(islands.find_root_vertex_of_set(end));
                 index != index_of_root.end())
                 sums[index->second].closed = false;
     });
     for (const uvec3& t : mesh.triangles)
         components.of_triangles.push_back(
             compute_triangle_area(world, t) > 0
-                ? std::optional(index_of_root.at(islands.find_set_root(first[t.x])))
+                ? std::optional(index_of_root.at(islands.find_root_vertex_of_set(first[t.x])))
                 : std::nullopt);
     return components;
 }

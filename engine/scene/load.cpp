@@ -32,7 +32,7 @@ Scene classify_scene_mirrors(Scene scene) {
 void check_no_animation_chosen(const std::string& scene, const SceneFileOptions& options) {
     check(options.animation.empty() || options.animation == "none", options.animation_by.failure,
           options.animation_by.where, ": ", scene, " has no animation ",
-          quote_as_printable_text(options.animation), ": wanted one of none");
+          quote_text_with_escapes(options.animation), ": wanted one of none");
 }
 
 [[noreturn]] void fail_unknown_scene(const std::string& word) {
@@ -42,19 +42,19 @@ void check_no_animation_chosen(const std::string& scene, const SceneFileOptions&
         names.push_back(scene.name);
         list += (list.empty() ? "" : ", ") + scene.name;
     }
-    fail(Failure::usage, "scene ", quote_as_printable_text(word), ": wanted a built-in scene (",
+    fail(Failure::usage, "scene ", quote_text_with_escapes(word), ": wanted a built-in scene (",
          list, ") or a .glb, .gltf or .obj file", suggest_nearest_name(word, names));
 }
 
 } // namespace
 
 RegisteredBuiltInScene::RegisteredBuiltInScene(BuiltInScene scene) {
-    get_registered_rows<BuiltInScene>().push_back(std::move(scene));
+    get_registered_table_entries<BuiltInScene>().push_back(std::move(scene));
 }
 
 const std::vector<BuiltInScene>& list_built_in_scenes() {
     static const std::vector<BuiltInScene> kSortedBuiltInScenes =
-        sort_registered_rows<BuiltInScene>();
+        list_registered_entries_in_order<BuiltInScene>();
     return kSortedBuiltInScenes;
 }
 

@@ -138,19 +138,19 @@ bool may_be_sphere(const Scene& scene, const Object& object) {
 }
 
 /// Sums over the edges at which triangles meet.
-struct EdgeBendingSums {
+struct MeshEdgeBendingSums {
     bool closed = true;
     double outwards = 0, inwards = 0; ///< bend angles times lengths of the edges
 
-    bool is_most_of_bending(double bends) const {
+    bool is_bending_share_dominant(double bends) const {
         return bends >= kMinBendingShare * (outwards + inwards);
     }
 };
 
 /// Returns how the edges bend. An edge bends inwards if the tip of a triangle lies above the plane
 /// of its neighbour.
-EdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
-    EdgeBendingSums edges;
+MeshEdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
+    MeshEdgeBendingSums edges;
     const auto add = [&](const TriangleEdge& here, const TriangleEdge& there) {
         const dvec3 normal = normalized_or_zero(
             soup.triangle_edge_cross_product(soup.triangles[here.triangle]));
@@ -188,7 +188,7 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
     const CentredObjectTriangles soup = make_centred_triangles(scene, object);
     MirrorShape shape;
     if (soup.triangles.empty()) return shape;
-    const EdgeBendingSums edges = measure_edge_bends(soup);
+    const MeshEdgeBendingSums edges = measure_edge_bends(soup);
     shape.is_closed = edges.closed;
     if (are_triangles_coplanar(soup)) {
         shape.kind = flat;
@@ -211,9 +211,9 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
         shape.kind = faces_away_from_point(soup, shape.fit->centre - soup.centre) ? convex
                                                                                   : concave;
     else
-        shape.kind = edges.is_most_of_bending(edges.outwards)  ? convex
-                     : edges.is_most_of_bending(edges.inwards) ? concave
-                                                               : other;
+        shape.kind = edges.is_bending_share_dominant(edges.outwards)  ? convex
+                     : edges.is_bending_share_dominant(edges.inwards) ? concave
+                                                                      : other;
     return shape;
 }
 

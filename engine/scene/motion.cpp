@@ -89,9 +89,9 @@ dmat4 rig_node_transform_to_parent(const NodeRig::RigNode& node, double time) {
 }
 
 /// Transforms of the nodes of rigs at one instant. Each rig is computed once.
-class RigNodeTransforms {
+class RigNodeTransformsAtTime {
 public:
-    explicit RigNodeTransforms(double seconds) : seconds_(seconds) {}
+    explicit RigNodeTransformsAtTime(double seconds) : seconds_(seconds) {}
     dmat4 world_from_node(const RigAttachment& follows) {
         std::vector<dmat4>& pose = poses_[follows.rig.get()];
         if (pose.empty()) pose = compute_node_transforms(*follows.rig, seconds_);
@@ -165,7 +165,7 @@ std::vector<dmat4> compute_node_transforms(const NodeRig& rig, double seconds) {
     return world;
 }
 
-double motion_period(const Motion& motion) {
+double period_of_motion(const Motion& motion) {
     if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion)) return harmonic->period;
     if (const auto* frames = std::get_if<Keyframes>(&motion)) return track_end_time(frames->keys);
     const RigAttachment* follows = find_followed_node(motion);
@@ -180,7 +180,7 @@ double compute_scene_period(const Scene& scene) {
         const auto* follows = std::get_if<RigAttachment>(&motion);
         if (follows && follows->rig.get() == last) return;
         if (follows) last = follows->rig.get();
-        longest = std::max(longest, motion_period(motion));
+        longest = std::max(longest, period_of_motion(motion));
     };
     for (const Object& object : scene.objects) add(object.motion);
     for (const PunctualLight& light : scene.punctual) add(light.motion);
@@ -190,8 +190,8 @@ double compute_scene_period(const Scene& scene) {
 
 Camera camera_at_time(const Camera& camera, double seconds) {
     return camera.follows.rig
-               ? move_camera_with_node(camera,
-                                       RigNodeTransforms(seconds).world_from_node(camera.follows))
+               ? move_camera_with_node(
+                     camera, RigNodeTransformsAtTime(seconds).world_from_node(camera.follows))
                : camera;
 }
 
@@ -203,7 +203,7 @@ void check_scene_time(double seconds) {
 void move_scene_to_time(Scene& still, const Scene& scene, double seconds) {
     check_scene_time(seconds);
     still.objects = scene.objects, still.punctual = scene.punctual, still.cameras = scene.cameras;
-    RigNodeTransforms poses(seconds);
+    RigNodeTransformsAtTime poses(seconds);
     const auto apply_motion = [&](dmat4& place, const Motion& motion) {
         if (const RigAttachment* follows = find_followed_node(motion))
             place = poses.world_from_node(*follows);

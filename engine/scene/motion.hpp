@@ -39,6 +39,6 @@ TranslationTrack motion_keys_in_world_space(const Keyframes& motion);
 std::vector<dmat4> compute_node_transforms(const NodeRig& rig, double seconds);
 
 /// Returns the period of a motion, or the time of its last key, in seconds; 0 if it stands still.
-double motion_period(const Motion& motion);
+double period_of_motion(const Motion& motion);
 
 } // namespace catoptric::scene

@@ -59,7 +59,7 @@ Mesh build_obj_mesh(const obj::RewrittenObjText& text, const std::vector<tinyobj
     };
     std::size_t count = 0;
     for (std::size_t i = 0; i < uses.size(); ++i) count += is_first(i);
-    vertices.add_amount(count, place);
+    vertices.add_amount_within_budget(count, place);
     Mesh mesh{.name = std::move(name)};
     const bool has_uv = std::ranges::any_of(
         corners, [](const tinyobj::index_t& corner) { return corner.texcoord_index >= 0; });
@@ -88,14 +88,15 @@ struct ObjBuilder {
         int material; ///< -1 if there is none
         std::vector<tinyobj::index_t> corners;
     };
-    static std::vector<ObjShapePart> parts_of(const tinyobj::mesh_t& mesh);
-    void add_shape(const tinyobj::shape_t& shape);
+    static std::vector<ObjShapePart> split_obj_shape_by_material(const tinyobj::mesh_t& mesh);
+    void add_obj_shape(const tinyobj::shape_t& shape);
     void add_object(const std::string& shape, ObjShapePart part, bool is_only);
     std::size_t material_index(int material);
 };
 
 /// Returns the parts of a shape, in the order of first use of their materials.
-std::vector<ObjBuilder::ObjShapePart> ObjBuilder::parts_of(const tinyobj::mesh_t& mesh) {
+std::vector<ObjBuilder::ObjShapePart>
+ObjBuilder::split_obj_shape_by_material(const tinyobj::mesh_t& mesh) {
     std::vector<ObjShapePart> parts;
     std::unordered_map<int, std::size_t> part_of;
     for (std::size_t i = 0; i < mesh.material_ids.size(); ++i) {
@@ -130,29 +131,29 @@ void apply_object_comments(const obj::ObjCatoptricComments& remarks, const std::
 }
 
 void ObjBuilder::add_object(const std::string& shape, ObjShapePart part, bool is_only) {
-    LoadBudgetUsage& account = context.account;
-    account.objects.add_amount(1, file, ": object ", quote_as_printable_text(shape));
+    SceneLoadBudgetUsage& account = context.account;
+    account.objects.add_amount_within_budget(1, file, ": object ", quote_text_with_escapes(shape));
     Object object{
         .name = shape, .mesh = scene.meshes.size(), .material = material_index(part.material)};
     const std::string& material = scene.materials[object.material].name;
-    account.name_bytes.add_amount(2 * (shape.size() + 1 + material.size()), file, ": object ",
-                                  quote_as_printable_text(shape));
+    account.name_bytes.add_amount_within_budget(2 * (shape.size() + 1 + material.size()), file,
+                                                ": object ", quote_text_with_escapes(shape));
     if (!is_only) object.name += "/" + material;
     apply_object_comments(text.remarks, shape, object);
 
     Mesh mesh = build_obj_mesh(text, part.corners, object.name, account.mesh_vertices, file);
     part.corners = {};
-    account.mesh_vertices.add_amount(count_corners_without_normal(mesh), file, ": object ",
-                                     quote_as_printable_text(shape));
+    account.mesh_vertices.add_amount_within_budget(count_corners_without_normal(mesh), file,
+                                                   ": object ", quote_text_with_escapes(shape));
     const std::size_t dropped = repair_mesh(mesh);
     context.notes.add_note("triangles without area, left out",
-                           "in " + quote_as_printable_text(object.name), dropped);
+                           "in " + quote_text_with_escapes(object.name), dropped);
     scene.meshes.push_back(std::move(mesh));
     scene.objects.push_back(std::move(object));
 }
 
-void ObjBuilder::add_shape(const tinyobj::shape_t& shape) {
-    std::vector<ObjShapePart> parts = parts_of(shape.mesh);
+void ObjBuilder::add_obj_shape(const tinyobj::shape_t& shape) {
+    std::vector<ObjShapePart> parts = split_obj_shape_by_material(shape.mesh);
     for (ObjShapePart& part : parts)
         add_object(text.names[std::stoul(shape.name)], std::move(part), parts.size() == 1);
 }
@@ -162,7 +163,7 @@ void check_object_names(const obj::RewrittenObjText& text) {
     for (const auto& [name, where] : text.remarks.named_at)
         if (!known.contains(name))
             fail(Failure::bad_data, where, ": wanted the name of an object with faces, found ",
-                 quote_as_printable_text(name), suggest_nearest_name(name, text.names));
+                 quote_text_with_escapes(name), suggest_nearest_name(name, text.names));
 }
 
 /// Returns a material library for tinyobjloader, in which each material is only named by its
@@ -195,7 +196,7 @@ struct ParsedObj {
 
 Scene load_obj(const std::filesystem::path& path, const SceneFileOptions& options) {
     const std::string file = path.string();
-    LoadBudgetUsage account(options.budget);
+    SceneLoadBudgetUsage account(options.budget);
     SceneFileOpener files(path, options.root, account);
     LoaderNotes notes;
     std::vector<UnsupportedFeature> unsupported;
@@ -209,7 +210,7 @@ Scene load_obj(const std::filesystem::path& path, const SceneFileOptions& option
                      .cameras = text.remarks.cameras,
                      .exposure = text.remarks.exposure,
                      .files = files.list_found_files()};
-    for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_shape(shape);
+    for (const tinyobj::shape_t& shape : parsed.shapes) builder.add_obj_shape(shape);
     finish_loaded_scene(builder.scene, file, notes, std::move(unsupported));
     return std::move(builder.scene);
 }

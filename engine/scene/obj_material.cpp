@@ -80,10 +80,10 @@ fs::path find_map_file(const std::string& name, const std::string& place, SceneF
     std::ranges::replace(slashed, '\\', '/');
     const bool is_absolute = slashed.starts_with('/') ||
                              (slashed.size() > 2 && slashed.substr(1, 2) == ":/");
-    fs::path real = is_absolute ? fs::path() : files.find_file(slashed, place);
+    fs::path real = is_absolute ? fs::path() : files.find_scene_file_by_name(slashed, place);
     const std::size_t last = slashed.rfind('/');
     if (real.empty() && last != slashed.npos && last + 1 < slashed.size())
-        real = files.find_file(slashed.substr(last + 1), place);
+        real = files.find_scene_file_by_name(slashed.substr(last + 1), place);
     return real;
 }
 
@@ -119,7 +119,7 @@ void add_radiance_to_mtl_material(const ObjLine& line, const dvec3& radiance, Mt
     draft.emission = vec3(radiance);
     check(is_valid_radiance(draft.emission), Failure::bad_data, line.describe_line_place(),
           ": 'Ke' wants radiance of at least 0 that fits a float, found ",
-          quote_as_printable_text(line.rest));
+          quote_text_with_escapes(line.rest));
 }
 
 /// Reads a statement into a member of the draft. Returns false if the draft has none for it.
@@ -153,7 +153,7 @@ bool add_statement_to_mtl_material(const ObjLine& line, MtlMaterial& draft) {
 void add_mtl_statement(MtlLibrary& library, const ObjLine& line, UnreadStatementCounts& unread,
                        ObjReadContext& context, bool& is_in_material) {
     if (line.keyword == "newmtl") {
-        context.account.materials.add_amount(1, line.describe_line_place());
+        context.account.materials.add_amount_within_budget(1, line.describe_line_place());
         library.drafts.push_back(
             {.name = std::string(line.rest), .place = line.describe_line_place()});
         is_in_material = true;
@@ -177,9 +177,9 @@ public:
             context_.notes.add_note(
                 "images that are not there or of a kind that is not read, drawn "
                 "without",
-                map.place + ": " + quote_as_printable_text(map.file));
+                map.place + ": " + quote_text_with_escapes(map.file));
             add_unsupported_feature(context_.unsupported, "missing-image",
-                                    map.place + ": " + quote_as_printable_text(map.file));
+                                    map.place + ": " + quote_text_with_escapes(map.file));
             return std::nullopt;
         }
         const Texture::Wrap wrap = map.is_clamped ? Texture::Wrap::clamp : Texture::Wrap::repeat;
@@ -200,7 +200,7 @@ private:
         if (is_new)
             entry->second = decode_image(
                 context_.files.read_file_content(map.real, map.place), map.file,
-                map.place + ": " + quote_as_printable_text(map.file), context_.account);
+                map.place + ": " + quote_text_with_escapes(map.file), context_.account);
         return entry->second;
     }
 
@@ -233,13 +233,13 @@ public:
         if (mtl_material_.normals)
             material_.normal_texture = maps_.read_map_texture(*mtl_material_.normals, false);
         set_one_or_two_sided();
-        set_transparency();
+        set_mtl_transparency();
         if (is_glass_)
-            set_glass();
+            set_mtl_glass();
         else if (mtl_material_.roughness || mtl_material_.metallic)
             set_physical_factors();
         else
-            set_reflection();
+            set_mtl_reflection();
         return material_;
     }
 
@@ -253,7 +253,7 @@ private:
         material_.two_sided = is_lamp ? mtl_material_.two_sided : !mtl_material_.fixed_normals;
     }
 
-    void set_transparency() {
+    void set_mtl_transparency() {
         const double alpha = std::clamp(mtl_material_.alpha.value_or(1), 0.0, 1.0);
         const bool is_glass = kind_ == 4 || kind_ == 6 || kind_ == 7 || kind_ == 9 ||
                               (alpha < 1 && mtl_material_.ior.value_or(1) > 1.01);
@@ -272,7 +272,7 @@ private:
     }
 
     /// Makes a smooth body of glass. Kd tints it, unless Kd is black.
-    void set_glass() {
+    void set_mtl_glass() {
         material_.transmission = 1, material_.roughness = 0, material_.solid = true;
         constexpr double kLargest = std::numeric_limits<float>::max();
         material_.ior = static_cast<float>(
@@ -295,7 +295,7 @@ private:
     /// sharp from Ns 100 on and without an Ns. A rough surface has the lobe of width alpha whose
     /// density of normals falls off near the normal as that of Blinn and Phong: alpha^2 = 2 / (Ns +
     /// 2) (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007).
-    void set_reflection() {
+    void set_mtl_reflection() {
         const bool reflects_scene = kind_ == 3 || kind_ == 5 || kind_ == 8;
         if (!reflects_scene && mtl_material_.kind.value_or(2) != 2) return;
         const vec3 f0 = clamp_colour_to_unit_range(mtl_material_.specular.value_or(dvec3(0)));
@@ -329,7 +329,7 @@ void read_material_library(const fs::path& real, const std::string& place, ObjRe
     for_each_obj_line(file, context.files.read_file_content(real, place), [&](const ObjLine& line) {
         add_mtl_statement(library, line, unread, context, is_in_material);
     });
-    unread.report_unread(file, context.notes);
+    unread.report_unread_obj_statements(file, context.notes);
 }
 
 std::vector<Material> make_library_materials(const MtlLibrary& library, ObjReadContext& context) {

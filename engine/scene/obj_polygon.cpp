@@ -61,7 +61,7 @@ public:
             std::erase_if(notches_, [&](std::size_t i) {
                 return i == corner || ((i == before || i == after) && !is_reflex_corner(i));
             });
-            comparisons_.add_amount(notches_.size(), *line_.file, ":", line_.number);
+            comparisons_.add_amount_within_budget(notches_.size(), *line_.file, ":", line_.number);
             corner = after;
         }
     }
@@ -72,7 +72,7 @@ private:
                                  polygon_points_[next_[i]]) < 0;
     }
     bool is_polygon_ear(std::size_t i) {
-        comparisons_.add_amount(notches_.size() + 1, *line_.file, ":", line_.number);
+        comparisons_.add_amount_within_budget(notches_.size() + 1, *line_.file, ":", line_.number);
         const dvec2 &a = polygon_points_[previous_[i]], &b = polygon_points_[i],
                     &c = polygon_points_[next_[i]];
         if (!(twice_signed_area(a, b, c) > 0)) return false;

@@ -11,13 +11,13 @@ namespace catoptric::scene::obj {
 
 namespace {
 
-using WordList = std::vector<std::string_view>;
+using CommentWordList = std::vector<std::string_view>;
 
 dvec3 parse_vector_at(const std::vector<double>& list, std::size_t first) {
     return {list[first], list[first + 1], list[first + 2]};
 }
 
-Camera parse_camera_comment(const ObjLine& line, const WordList& words) {
+Camera parse_camera_comment(const ObjLine& line, const CommentWordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 1, 10);
     const Camera camera{.name = std::string(words[0]),
                         .eye = parse_vector_at(n, 0),
@@ -26,18 +26,18 @@ Camera parse_camera_comment(const ObjLine& line, const WordList& words) {
                         .vertical_fov_degrees = n[9]};
     const dvec3 side = normalized_or_zero(glm::cross(camera.target - camera.eye, camera.up));
     check(side != dvec3(0), Failure::bad_data, line.describe_line_place(), ": camera ",
-          quote_as_printable_text(camera.name),
+          quote_text_with_escapes(camera.name),
           " wants an up that is not along its view, found none");
     check(n[9] > 0 && n[9] < 180, Failure::bad_data, line.describe_line_place(), ": camera ",
-          quote_as_printable_text(camera.name),
+          quote_text_with_escapes(camera.name),
           " wants a field of view between 0 and 180 degrees, found ", n[9]);
     return camera;
 }
 
-HarmonicMotion parse_harmonic_comment(const ObjLine& line, const WordList& words) {
+HarmonicMotion parse_harmonic_comment(const ObjLine& line, const CommentWordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 2, 4);
     check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": motion of ",
-          quote_as_printable_text(words[0]), " wants a period above 0, found ", n[3]);
+          quote_text_with_escapes(words[0]), " wants a period above 0, found ", n[3]);
     return {.amplitude = parse_vector_at(n, 0), .period = n[3]};
 }
 
@@ -45,15 +45,15 @@ HarmonicMotion parse_harmonic_comment(const ObjLine& line, const WordList& words
 /// because a line may be as long as the file. Throws `bad_data`.
 Keyframes parse_keyframes_comment(const ObjLine& line, std::string_view name, std::string_view rest,
                                   TranslationTrack::Interpolation interpolation,
-                                  LoadBudgetUsage& account) {
+                                  SceneLoadBudgetUsage& account) {
     const bool is_cubic = interpolation == TranslationTrack::Interpolation::cubic;
     const std::size_t stride = is_cubic ? 10 : 4;
     const double count = parse_word_number(line, remove_first_word(rest));
     const std::size_t found = count_words(rest);
     check(count >= 1 && count * double(stride) == double(found), Failure::bad_data,
-          line.describe_line_place(), ": motion of ", quote_as_printable_text(name), " wants ",
+          line.describe_line_place(), ": motion of ", quote_text_with_escapes(name), " wants ",
           stride, " numbers for each of ", count, " keys, found ", found);
-    account.keys.add_amount(found / stride, line.describe_line_place());
+    account.keys.add_amount_within_budget(found / stride, line.describe_line_place());
     auto keys = std::make_shared<TranslationTrack>(
         TranslationTrack{.interpolation = interpolation});
     const auto vector = [&] {
@@ -64,7 +64,7 @@ Keyframes parse_keyframes_comment(const ObjLine& line, std::string_view name, st
     for (std::size_t i = 0; i < found / stride; ++i) {
         const double time = parse_word_number(line, remove_first_word(rest));
         check(keys->times.empty() || time > keys->times.back(), Failure::bad_data,
-              line.describe_line_place(), ": motion of ", quote_as_printable_text(name),
+              line.describe_line_place(), ": motion of ", quote_text_with_escapes(name),
               " wants increasing times, found ", time);
         keys->times.push_back(time);
         if (is_cubic) keys->in_tangents.push_back(vector());
@@ -74,7 +74,7 @@ Keyframes parse_keyframes_comment(const ObjLine& line, std::string_view name, st
     return {.keys = std::move(keys)};
 }
 
-Motion parse_motion_comment(const ObjLine& line, LoadBudgetUsage& account) {
+Motion parse_motion_comment(const ObjLine& line, SceneLoadBudgetUsage& account) {
     using enum TranslationTrack::Interpolation;
     std::string_view rest = line.rest;
     const std::string_view name = remove_first_word(rest), kind = remove_first_word(rest);
@@ -83,23 +83,23 @@ Motion parse_motion_comment(const ObjLine& line, LoadBudgetUsage& account) {
     if (kind == "linear") return parse_keyframes_comment(line, name, rest, linear, account);
     if (kind == "cubic") return parse_keyframes_comment(line, name, rest, cubic, account);
     fail(Failure::bad_data, line.describe_line_place(),
-         ": motion wants harmonic, step, linear or cubic, found ", quote_as_printable_text(kind));
+         ": motion wants harmonic, step, linear or cubic, found ", quote_text_with_escapes(kind));
 }
 
-Sphere parse_sphere_comment(const ObjLine& line, const WordList& words) {
+Sphere parse_sphere_comment(const ObjLine& line, const CommentWordList& words) {
     const std::vector<double> n = parse_word_numbers(line, words, 1, 4);
     check(n[3] > 0, Failure::bad_data, line.describe_line_place(), ": sphere ",
-          quote_as_printable_text(words[0]), " wants a radius above 0, found ", n[3]);
+          quote_text_with_escapes(words[0]), " wants a radius above 0, found ", n[3]);
     return {parse_vector_at(n, 0), n[3]};
 }
 
 } // namespace
 
 void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
-                           LoadBudgetUsage& account) {
-    const WordList list = split_words(line);
+                           SceneLoadBudgetUsage& account) {
+    const CommentWordList list = split_words(line);
     check(!list.empty(), Failure::bad_data, line.describe_line_place(), ": ",
-          quote_as_printable_text(line.keyword), " wants a name, found none");
+          quote_text_with_escapes(line.keyword), " wants a name, found none");
     if (line.keyword == "#exposure") {
         const double stops = parse_word_numbers(line, list, 0, 1)[0];
         check(std::abs(stops) <= kMaxExposureStops, Failure::bad_data, line.describe_line_place(),
@@ -110,12 +110,12 @@ void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
     }
     const std::string name(list[0]);
     if (line.keyword == "#camera") {
-        account.cameras.add_amount(1, line.describe_line_place());
+        account.cameras.add_amount_within_budget(1, line.describe_line_place());
         remarks.cameras.push_back(parse_camera_comment(line, list));
         return;
     }
     if (!remarks.named_at.contains(name)) {
-        account.remarks.add_amount(1, line.describe_line_place());
+        account.remarks.add_amount_within_budget(1, line.describe_line_place());
         remarks.named_at[name] = line.describe_line_place();
     }
     if (line.keyword == "#motion")
@@ -127,7 +127,7 @@ void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
     else
         fail(Failure::bad_data, line.describe_line_place(),
              ": '# catoptric' wants camera, motion, sphere, hidden or exposure, found ",
-             quote_as_printable_text(line.keyword.substr(1)));
+             quote_text_with_escapes(line.keyword.substr(1)));
 }
 
 } // namespace catoptric::scene::obj

@@ -23,10 +23,10 @@ public:
     ObjReader(const std::string& file, ObjReadContext& context) : file_(file), context_(context) {}
 
     /// Reads one line of the first pass: everything but faces, groups and uses of materials.
-    void read_definition_line(const ObjLine& line);
-    void name_materials();
+    void read_obj_vertex_line(const ObjLine& line);
+    void number_and_name_materials();
     /// Reads one line of the second pass: faces, groups and uses of materials.
-    void read_use_line(const ObjLine& line);
+    void read_obj_usemtl_line(const ObjLine& line);
     RewrittenObjText finish();
 
 private:
@@ -37,7 +37,7 @@ private:
     void face(const ObjLine& line);
     ObjCorner corner(const ObjLine& line, std::string_view word) const;
     void group(const ObjLine& line);
-    void use_material(const ObjLine& line);
+    void select_obj_material(const ObjLine& line);
 
     const std::string& file_;
     ObjReadContext& context_;
@@ -53,12 +53,12 @@ private:
 
 void ObjReader::library_file(const ObjLine& line, const std::string& name) {
     const std::string place = line.describe_line_place() + ": mtllib";
-    const fs::path real = context_.files.find_file(name, place);
+    const fs::path real = context_.files.find_scene_file_by_name(name, place);
     if (real.empty()) {
         context_.notes.add_note("material libraries that are not there",
-                                place + ": " + quote_as_printable_text(name));
+                                place + ": " + quote_text_with_escapes(name));
         add_unsupported_feature(context_.unsupported, "missing-material",
-                                line.describe_line_place() + ": " + quote_as_printable_text(name));
+                                line.describe_line_place() + ": " + quote_text_with_escapes(name));
     } else if (libraries_.insert(real.string()).second)
         read_material_library(real, place, context_, text_.library);
 }
@@ -69,30 +69,31 @@ void ObjReader::library(const ObjLine& line) {
     check(!names.empty(), Failure::bad_data, line.describe_line_place(),
           ": mtllib wants a file name, found none");
     const std::string all(line.rest);
-    const bool is_one =
-        names.size() > 1 && all.size() <= SceneFileOpener::kMaxFileNameLength &&
-        !context_.files.find_file(all, line.describe_line_place() + ": mtllib").empty();
+    const bool is_one = names.size() > 1 && all.size() <= SceneFileOpener::kMaxPlanFileNameLength &&
+                        !context_.files
+                             .find_scene_file_by_name(all, line.describe_line_place() + ": mtllib")
+                             .empty();
     if (is_one) return library_file(line, all);
     for (const std::string_view name : names) library_file(line, std::string(name));
 }
 
 /// Maps names to materials. If materials share a name, the first is used.
-void ObjReader::name_materials() {
+void ObjReader::number_and_name_materials() {
     for (std::size_t i = 0; i < text_.library.drafts.size(); ++i)
         material_of_.try_emplace(text_.library.drafts[i].name, i);
 }
 
-void ObjReader::use_material(const ObjLine& line) {
+void ObjReader::select_obj_material(const ObjLine& line) {
     const std::string name(line.rest);
     const auto found = material_of_.find(name);
     if (found == material_of_.end()) {
         // Without any material, the missing library has been noted already.
         const bool has_any = !text_.library.drafts.empty();
         context_.notes.add_note("uses of materials that no library has, drawn grey",
-                                line.describe_line_place() + ": " + quote_as_printable_text(name),
+                                line.describe_line_place() + ": " + quote_text_with_escapes(name),
                                 has_any ? 1 : 0);
         add_unsupported_feature(context_.unsupported, "missing-material",
-                                line.describe_line_place() + ": " + quote_as_printable_text(name));
+                                line.describe_line_place() + ": " + quote_text_with_escapes(name));
         if (material_) text_.statements += "usemtl none\n";
         material_.reset();
         return;
@@ -127,7 +128,7 @@ std::uint32_t parse_obj_index(const ObjLine& line, std::string_view digits, std:
     const auto result = std::from_chars(digits.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end || value == 0)
         fail(Failure::bad_data, line.describe_line_place(),
-             ": face wants an index other than 0, found ", quote_as_printable_text(digits));
+             ": face wants an index other than 0, found ", quote_text_with_escapes(digits));
     if (value < 0 && std::uint64_t(0) - std::uint64_t(value) > so_far)
         fail(Failure::bad_data, line.describe_line_place(), ": face wants one of ", so_far,
              " vertices so far, found ", value);
@@ -162,7 +163,8 @@ void ObjReader::face(const ObjLine& line) {
         return add_unsupported_feature(context_.unsupported, "points-lines",
                                        line.describe_line_place());
     }
-    context_.account.mesh_triangles.add_amount(count - 2, *line.file, ":", line.number);
+    context_.account.mesh_triangles.add_amount_within_budget(count - 2, *line.file, ":",
+                                                             line.number);
     polygon_.clear(), triangles_.clear();
     std::string_view rest = line.rest;
     for (std::size_t i = 0; i < count; ++i)
@@ -181,7 +183,7 @@ void ObjReader::face(const ObjLine& line) {
 
 /// Reads a position: x y z, optionally followed by w, r g b, or w r g b. w is ignored.
 void ObjReader::position(const ObjLine& line) {
-    context_.account.positions.add_amount(1, *line.file, ":", line.number);
+    context_.account.positions.add_amount_within_budget(1, *line.file, ":", line.number);
     text_.positions.push_back(parse_line_vector(line));
     const std::size_t count = count_words(line.rest);
     if (count < 6 && text_.colours.empty()) return;
@@ -193,20 +195,20 @@ void ObjReader::position(const ObjLine& line) {
 }
 
 void ObjReader::texture_coordinates(const ObjLine& line) {
-    context_.account.attributes.add_amount(1, *line.file, ":", line.number);
+    context_.account.attributes.add_amount_within_budget(1, *line.file, ":", line.number);
     std::string_view rest = line.rest;
     const double u = parse_word_number(line, remove_first_word(rest));
     const bool has_v = !rest.empty() && rest.front() != '#';
     text_.uv.emplace_back(u, has_v ? parse_word_number(line, remove_first_word(rest)) : 0);
 }
 
-void ObjReader::read_definition_line(const ObjLine& line) {
+void ObjReader::read_obj_vertex_line(const ObjLine& line) {
     if (line.keyword == "v") {
         position(line);
     } else if (line.keyword == "vt") {
         texture_coordinates(line);
     } else if (line.keyword == "vn") {
-        context_.account.normals.add_amount(1, *line.file, ":", line.number);
+        context_.account.normals.add_amount_within_budget(1, *line.file, ":", line.number);
         text_.normals.push_back(parse_line_vector(line));
     } else if (line.keyword == "mtllib") {
         library(line);
@@ -221,17 +223,17 @@ void ObjReader::read_definition_line(const ObjLine& line) {
     }
 }
 
-void ObjReader::read_use_line(const ObjLine& line) {
+void ObjReader::read_obj_usemtl_line(const ObjLine& line) {
     if (line.keyword == "v") ++positions_;
     if (line.keyword == "vn") ++normals_;
     if (line.keyword == "vt") ++uvs_;
     if (line.keyword == "f") face(line);
     if (line.keyword == "o" || line.keyword == "g") group(line);
-    if (line.keyword == "usemtl") use_material(line);
+    if (line.keyword == "usemtl") select_obj_material(line);
 }
 
 RewrittenObjText ObjReader::finish() {
-    unread_.report_unread(file_, context_.notes);
+    unread_.report_unread_obj_statements(file_, context_.notes);
     if (!has_faces_) text_.names.pop_back();
     return std::move(text_);
 }
@@ -240,13 +242,14 @@ RewrittenObjText ObjReader::finish() {
 
 RewrittenObjText read_obj_text(const std::string& file, ObjReadContext& context) {
     ObjReader obj_reader(file, context);
-    const std::string bytes = context.files.read_scene();
+    const std::string bytes = context.files.read_main_scene_file();
     check(!bytes.starts_with("\xff\xfe") && !bytes.starts_with("\xfe\xff"), Failure::bad_data, file,
           ": wanted text in UTF-8, found UTF-16");
     for_each_obj_line(file, bytes,
-                      [&](const ObjLine& line) { obj_reader.read_definition_line(line); });
-    obj_reader.name_materials();
-    for_each_obj_line(file, bytes, [&](const ObjLine& line) { obj_reader.read_use_line(line); });
+                      [&](const ObjLine& line) { obj_reader.read_obj_vertex_line(line); });
+    obj_reader.number_and_name_materials();
+    for_each_obj_line(file, bytes,
+                      [&](const ObjLine& line) { obj_reader.read_obj_usemtl_line(line); });
     return obj_reader.finish();
 }
 

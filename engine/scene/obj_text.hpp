@@ -60,7 +60,7 @@ class UnreadStatementCounts {
 public:
     void count_statement(const ObjLine& line);
     /// Adds a note for each keyword. Keywords after the first 40 share one note.
-    void report_unread(const std::string& file, LoaderNotes& notes) const;
+    void report_unread_obj_statements(const std::string& file, LoaderNotes& notes) const;
 
 private:
     struct ObjKeywordCount {
@@ -96,7 +96,7 @@ struct MtlLibrary {
 /// The inputs and lists that readers use besides the text.
 struct ObjReadContext {
     SceneFileOpener& files;
-    LoadBudgetUsage& account;
+    SceneLoadBudgetUsage& account;
     LoaderNotes& notes;
     std::vector<UnsupportedFeature>& unsupported;
 };
@@ -129,7 +129,7 @@ struct ObjCatoptricComments {
 
 /// Adds one comment line. Throws `bad_data` naming the line if it is invalid.
 void add_catoptric_comment(ObjCatoptricComments& remarks, const ObjLine& line,
-                           LoadBudgetUsage& account);
+                           SceneLoadBudgetUsage& account);
 
 /// A corner of a face, as indices from 0.
 struct ObjCorner {

@@ -136,17 +136,17 @@ void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& not
         for (const dvec3& position : scene.meshes[object.mesh].positions)
             check(is_coordinate_in_range(
                       transform_point_to_world(object.world_from_object, position)),
-                  Failure::bad_data, file, ": object ", quote_as_printable_text(object.name),
+                  Failure::bad_data, file, ": object ", quote_text_with_escapes(object.name),
                   ": wanted finite world coordinates up to 1e150, found an overflow");
     std::erase_if(scene.objects, [&](const Object& object) {
         if (has_surface_area(scene, object)) return false;
         notes.add_note("objects that have no triangle with an area, left out",
-                       quote_as_printable_text(object.name));
+                       quote_text_with_escapes(object.name));
         return true;
     });
     for (const std::string& name : remove_distant_objects(scene))
         notes.add_note("objects farther away than floats reach, left out",
-                       quote_as_printable_text(name));
+                       quote_text_with_escapes(name));
     const auto lines = std::ranges::find(unsupported, "points-lines", &UnsupportedFeature::id);
     check(!scene.objects.empty(), Failure::bad_data, file,
           ": wanted at least one triangle with an area, found none",

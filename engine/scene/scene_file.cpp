@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Key of the file: its name, its reader and its writer. The table of keys defines the format.
-struct SceneFileKey {
+struct SceneFileJsonKey {
     const char* name;
     void (*read)(const gltf::JsonObject& file, const gltf::Json& value, SceneOverrides& overrides);
     gltf::Json (*written)(const SceneOverrides& overrides); ///< null: not set
@@ -76,7 +76,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileKey, 14> kSceneFileKeys{
+const std::array<SceneFileJsonKey, 14> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_text_list_member(file, value, "mirrors"))
@@ -116,7 +116,7 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
           const std::string text = read_text_member(file, value, "multiple_scattering");
           file.require_condition(text == "none" || text == "turquin",
                                  "multiple_scattering: wanted \"none\" or \"turquin\", found ",
-                                 quote_as_printable_text(text));
+                                 quote_text_with_escapes(text));
           overrides.multiple_scattering = text == "turquin";
       },
       [](const SceneOverrides& overrides) {
@@ -192,20 +192,20 @@ const std::array<SceneFileKey, 14> kSceneFileKeys{
       [](const SceneOverrides& overrides) { return overrides_to_json(overrides.animation); }}}};
 
 SceneOverrides read_overrides(const std::string& file, const std::string& text,
-                              LoadBudgetUsage& account) {
+                              SceneLoadBudgetUsage& account) {
     const Json document = gltf::parse_json(file, text, account);
     const JsonObject item(document, file);
     item.require_condition(document.is_object(), "wanted an object, found ",
                            gltf::describe_json_value(document));
     std::vector<std::string> names;
-    for (const SceneFileKey& key : kSceneFileKeys) names.emplace_back(key.name);
+    for (const SceneFileJsonKey& key : kSceneFileKeys) names.emplace_back(key.name);
     SceneOverrides overrides;
     for (const auto& [name, value] : document.items()) {
-        const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileKey::name);
+        const auto key = std::ranges::find(kSceneFileKeys, name, &SceneFileJsonKey::name);
         if (key == kSceneFileKeys.end()) {
             std::string list;
             for (const std::string& one : names) list += (list.empty() ? "" : ", ") + one;
-            item.require_condition(false, quote_as_printable_text(name), ": wanted one of ", list,
+            item.require_condition(false, quote_text_with_escapes(name), ": wanted one of ", list,
                                    suggest_nearest_name(name, names));
         }
         key->read(item, value, overrides);
@@ -227,16 +227,16 @@ fs::path scene_file_path(const fs::path& scene) {
 std::optional<SceneFile> read_scene_file(const fs::path& scene, const SceneFileOptions& options) {
     SceneFile found{.path = scene_file_path(scene)};
     const std::string place = found.path.string();
-    LoadBudgetUsage account(options.budget);
+    SceneLoadBudgetUsage account(options.budget);
     SceneFileOpener files(scene, options.root, account);
-    if (found.path.filename().string().size() > SceneFileOpener::kMaxFileNameLength)
+    if (found.path.filename().string().size() > SceneFileOpener::kMaxPlanFileNameLength)
         return std::nullopt;
-    const fs::path real = files.find_file(found.path.filename().string(), place);
+    const fs::path real = files.find_scene_file_by_name(found.path.filename().string(), place);
     if (real.empty()) return std::nullopt;
     found.overrides = read_overrides(place, files.read_file_content(real, place), account);
     if (std::optional<std::string>& picture = found.overrides.environment;
         picture && is_environment_file_name(*picture))
-        picture = files.find_required(*picture, place + ": environment").string();
+        picture = files.find_required_scene_file(*picture, place + ": environment").string();
     found.files = files.list_found_files();
     return found;
 }
@@ -248,13 +248,13 @@ std::string write_scene_file_text(const SceneOverrides& overrides, const fs::pat
         const fs::path folder = resolve_real_path(scene).parent_path();
         const fs::path name = resolve_real_path(*picture).lexically_relative(folder);
         check(!name.empty() && *name.begin() != "..", Failure::usage,
-              "--environment: ", quote_as_printable_text(*picture), ": wanted a picture below ",
-              quote_as_printable_text(folder.string()),
+              "--environment: ", quote_text_with_escapes(*picture), ": wanted a picture below ",
+              quote_text_with_escapes(folder.string()),
               ", where a file beside the scene may name it");
         picture = name.string();
     }
     nlohmann::ordered_json document = nlohmann::ordered_json::object();
-    for (const SceneFileKey& key : kSceneFileKeys)
+    for (const SceneFileJsonKey& key : kSceneFileKeys)
         if (const Json value = key.written(relative); !value.is_null()) document[key.name] = value;
     return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -54,13 +54,13 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
     std::string list;
     constexpr std::size_t kMaxListedNames = 10;
     for (std::size_t i = 0; i < std::min(known.size(), kMaxListedNames); ++i)
-        list += (i ? ", " : "") + quote_as_printable_text(known[i]);
+        list += (i ? ", " : "") + quote_text_with_escapes(known[i]);
     if (known.size() > kMaxListedNames)
         list += " and " + std::to_string(known.size() - kMaxListedNames) + " more";
-    fail(by.failure, by.where, " ", quote_as_printable_text(pattern),
-         ": matches no object or material of scene ", quote_as_printable_text(scene.name),
+    fail(by.failure, by.where, " ", quote_text_with_escapes(pattern),
+         ": matches no object or material of scene ", quote_text_with_escapes(scene.name),
          "; it has: ", list,
-         nearest.empty() ? "" : " (did you mean " + quote_as_printable_text(nearest) + "?)");
+         nearest.empty() ? "" : " (did you mean " + quote_text_with_escapes(nearest) + "?)");
 }
 
 /// Gives these objects a changed copy of their material. Objects that share a material share its
@@ -94,7 +94,7 @@ std::vector<std::size_t> find_emitters_by_pattern(const Scene& scene, const Sett
     std::erase_if(objects, [&](std::size_t i) {
         return !is_visibly_emissive(scene.materials[scene.objects[i].material]);
     });
-    check(!objects.empty(), by.failure, by.where, " ", quote_as_printable_text(pattern),
+    check(!objects.empty(), by.failure, by.where, " ", quote_text_with_escapes(pattern),
           ": wanted something that emits light, found objects that do not");
     return objects;
 }
@@ -155,7 +155,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
             std::string_view(text).substr(at + kRoughnessOptionPrefix.size()));
         check(number && *number >= 0 && *number <= 1, Failure::usage, option,
               ": wanted a number from 0 to 1 after ',roughness=', found ",
-              quote_as_printable_text(whole));
+              quote_text_with_escapes(whole));
         wish.roughness = static_cast<float>(*number);
         text.resize(at);
     }
@@ -181,7 +181,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
                 Failure::usage, option,
                 ": wanted PATTERN or PATTERN=REFLECTANCE[,roughness=NUMBER], REFLECTANCE a number or "
                 "r,g,b, all from 0 to 1, found ",
-                quote_as_printable_text(text));
+                quote_text_with_escapes(text));
             wish.pattern = text.substr(0, at);
             for (int i = 0; i < 3; ++i)
                 wish.reflectance[i] = static_cast<float>(
@@ -189,7 +189,7 @@ MirrorOverride read_mirror_override(const std::string& option, const std::string
         }
     }
     check(!wish.pattern.empty(), Failure::usage, option, ": wanted a name or a pattern, found ",
-          quote_as_printable_text(text));
+          quote_text_with_escapes(text));
     return wish;
 }
 
@@ -234,7 +234,7 @@ void apply_edit(Scene& scene, const SceneOverrides& overrides) {
         scene.has_multiple_scattering);
     for (const MirrorOverride& wish : overrides.mirrors)
         check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
-              quote_as_printable_text(wish.pattern), ": wanted a roughness of at most ",
+              quote_text_with_escapes(wish.pattern), ": wanted a roughness of at most ",
               format_shortest_number(scene.mirror_max_roughness),
               ", above which no surface is a mirror, found ",
               format_shortest_number(wish.roughness), "; raise --mirror-max-roughness");

@@ -14,15 +14,15 @@ namespace catoptric::scene {
 
 namespace {
 
-using VertexIndex = std::uint32_t;
-using EdgeMidpoints = std::map<std::pair<VertexIndex, VertexIndex>, VertexIndex>;
+using ShapeVertexIndex = std::uint32_t;
+using EdgeMidpoints = std::map<std::pair<ShapeVertexIndex, ShapeVertexIndex>, ShapeVertexIndex>;
 
 /// Returns the vertex on the sphere over the middle of the edge. The first call for an edge
 /// creates the vertex.
-VertexIndex find_or_add_sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, VertexIndex a,
-                                        VertexIndex b) {
-    const auto [entry, is_new] = known.try_emplace(std::minmax(a, b),
-                                                   static_cast<VertexIndex>(mesh.positions.size()));
+ShapeVertexIndex find_or_add_sphere_midpoint(Mesh& mesh, EdgeMidpoints& known, ShapeVertexIndex a,
+                                             ShapeVertexIndex b) {
+    const auto [entry, is_new] = known.try_emplace(
+        std::minmax(a, b), static_cast<ShapeVertexIndex>(mesh.positions.size()));
     if (is_new) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
     return entry->second;
 }
@@ -32,9 +32,9 @@ void subdivide_sphere_triangles(Mesh& mesh) {
     std::vector<uvec3> finer;
     finer.reserve(4 * mesh.triangles.size());
     for (const uvec3& t : mesh.triangles) {
-        const VertexIndex xy = find_or_add_sphere_midpoint(mesh, known, t.x, t.y);
-        const VertexIndex yz = find_or_add_sphere_midpoint(mesh, known, t.y, t.z);
-        const VertexIndex zx = find_or_add_sphere_midpoint(mesh, known, t.z, t.x);
+        const ShapeVertexIndex xy = find_or_add_sphere_midpoint(mesh, known, t.x, t.y);
+        const ShapeVertexIndex yz = find_or_add_sphere_midpoint(mesh, known, t.y, t.z);
+        const ShapeVertexIndex zx = find_or_add_sphere_midpoint(mesh, known, t.z, t.x);
         finer.insert(finer.end(), {{t.x, xy, zx}, {xy, t.y, yz}, {zx, yz, t.z}, {xy, yz, zx}});
     }
     mesh.triangles = std::move(finer);
@@ -55,7 +55,7 @@ Mesh box(std::string name, dvec3 lo, dvec3 hi) {
     for (int face = 0; face < 6; ++face) {
         const Mesh side = make_box_wall(face, hi,
                                         lo); // faces outwards because low and high are exchanged
-        const auto first = static_cast<VertexIndex>(box_mesh.positions.size());
+        const auto first = static_cast<ShapeVertexIndex>(box_mesh.positions.size());
         box_mesh.positions.insert(box_mesh.positions.end(), side.positions.begin(),
                                   side.positions.end());
         box_mesh.normals.insert(box_mesh.normals.end(), side.normals.begin(), side.normals.end());
@@ -89,11 +89,11 @@ Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around) {
         }
         far += glm::length(along(i));
     }
-    const auto row = static_cast<VertexIndex>(around + 1);
-    for (VertexIndex i = 0; i + 1 < profile.size(); ++i) {
+    const auto row = static_cast<ShapeVertexIndex>(around + 1);
+    for (ShapeVertexIndex i = 0; i + 1 < profile.size(); ++i) {
         if (along(i) == dvec2(0)) continue;
-        for (VertexIndex k = 0; k + 1 < row; ++k) {
-            const VertexIndex a = i * row + k, b = a + 1, c = b + row, d = a + row;
+        for (ShapeVertexIndex k = 0; k + 1 < row; ++k) {
+            const ShapeVertexIndex a = i * row + k, b = a + 1, c = b + row, d = a + row;
             if (profile[i].x > 0) mesh.triangles.emplace_back(a, b, c);
             if (profile[i + 1].x > 0) mesh.triangles.emplace_back(a, c, d);
         }

@@ -12,9 +12,9 @@ namespace catoptric::scene {
 namespace {
 
 /// Grid of cubes that holds vertices, to find the first vertex at a place.
-class VertexGrid {
+class VertexPositionGrid {
 public:
-    explicit VertexGrid(std::span<const dvec3> positions) : positions_(positions) {
+    explicit VertexPositionGrid(std::span<const dvec3> positions) : positions_(positions) {
         for (const dvec3& p : positions)
             scale_ = std::max({scale_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         if (scale_ == 0) scale_ = 1;
@@ -73,7 +73,7 @@ private:
 } // namespace
 
 std::vector<std::size_t> find_first_vertex_of_each_place(std::span<const dvec3> positions) {
-    VertexGrid places(positions);
+    VertexPositionGrid places(positions);
     std::vector<std::size_t> first(positions.size());
     for (std::size_t i = 0; i < first.size(); ++i)
         first[i] = places.find_first_vertex_at_same_place(i);
@@ -97,7 +97,8 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
     return sides;
 }
 
-bool is_closed_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles) {
+bool is_closed_triangle_surface(std::span<const dvec3> positions,
+                                std::span<const uvec3> triangles) {
     const std::vector<std::size_t> first = find_first_vertex_of_each_place(positions);
     std::vector<TriangleCorners> corners;
     for (const uvec3& t : triangles) corners.push_back({first[t.x], first[t.y], first[t.z]});

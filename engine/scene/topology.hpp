@@ -35,7 +35,7 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
 
 /// Returns whether every edge of the mesh belongs to two triangles, where vertices at the same
 /// place are one. False without triangles. O(n log n).
-bool is_closed_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles);
+bool is_closed_triangle_surface(std::span<const dvec3> positions, std::span<const uvec3> triangles);
 
 /// Calls `visit(std::span<const Side>)` for each edge with the sides that meet there. A surface is
 /// closed if every edge has two sides.

@@ -113,22 +113,22 @@ struct Access {
 
     static Engine make_engine(const EngineOptions& options, const EngineHooks& hooks);
     static CompiledPipelines compiled_pipelines(const Engine& engine);
-    static PipelineCacheState cache_use(const Engine& engine);
+    static PipelineCacheState pipeline_cache_state_of_engine(const Engine& engine);
     static EngineImpl& engine_impl_of(const Engine& engine) { return *engine.impl_; }
 
     /// Returns whether a technique's picture depends on the frame before.
-    static bool depends_on_last_frame(const Frame& frame, std::size_t part = 0);
+    static bool does_frame_part_need_previous_frame(const Frame& frame, std::size_t part = 0);
     /// Returns what was rendered, and what was left out.
     static const require::RequiredWorkModel& rendered_model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
     static render::CapturedCubes read_captures(const Frame& frame, std::size_t part = 0);
     /// Returns the work of the frame's passes, in order of execution. Empty without `counts_work`.
-    static std::vector<PassWork> pass_work(const Frame& frame);
+    static std::vector<PassWorkCounts> pass_work(const Frame& frame);
     /// Returns the linear pictures and all data that the next frame can read of this one, as bytes.
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.
-    static std::vector<std::byte> next_frame_state(const Frame& frame);
+    static std::vector<std::byte> read_next_frame_state(const Frame& frame);
 
     /// Submits a frame as Session::frame does. `finish` adds passes that belong to no
     /// technique before the frame is submitted.
@@ -154,7 +154,7 @@ struct Access {
     /// Renders a frame that clears the cubes of every mirror, 256 texels an edge, and draws
     /// nothing. The time of this frame is the least that any capture costs. The history of the
     /// session stays.
-    static FrameTimes clear_cubes(Session& session);
+    static FrameTimes measure_cube_clear_time(Session& session);
     static SessionCounters session_counters(const Session& session);
     /// Returns the setup times of the scene as it is resident now.
     static SetupTimes setup_times(const Session& session);

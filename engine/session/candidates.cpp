@@ -14,7 +14,7 @@ namespace catoptric::app {
 
 namespace {
 
-struct SuggestedMirror {
+struct SuggestedMirrorObject {
     float roughness = 1;
     double area = 0; ///< surface area of its bounds: cheap, and enough to tell a wall from a screw
     std::string name;
@@ -35,7 +35,7 @@ std::string quote_for_shell(const std::string& text) {
 
 std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::size_t most) {
     constexpr std::size_t kMaxExaminedObjects = 20'000; // objects that are examined
-    std::vector<SuggestedMirror> candidates;
+    std::vector<SuggestedMirrorObject> candidates;
     std::map<std::pair<std::size_t, std::size_t>, float> smoothest; // by mesh and material
     for (std::size_t i = 0; i < std::min(scene.objects.size(), kMaxExaminedObjects); ++i) {
         const scene::Object& object = scene.objects[i];
@@ -49,12 +49,13 @@ std::vector<std::string> suggest_mirror_options(const scene::Scene& scene, std::
         candidates.push_back(
             {entry->second, compute_surface_area(scene::bounds(scene, object)), name});
     }
-    std::ranges::stable_sort(candidates, [](const SuggestedMirror& a, const SuggestedMirror& b) {
-        return a.roughness != b.roughness ? a.roughness < b.roughness : a.area > b.area;
-    });
+    std::ranges::stable_sort(
+        candidates, [](const SuggestedMirrorObject& a, const SuggestedMirrorObject& b) {
+            return a.roughness != b.roughness ? a.roughness < b.roughness : a.area > b.area;
+        });
     std::vector<std::string> options;
     std::set<std::string> known;
-    for (const SuggestedMirror& candidate : candidates)
+    for (const SuggestedMirrorObject& candidate : candidates)
         if (options.size() < most && known.insert(candidate.name).second)
             options.push_back("--mirror " +
                               quote_for_shell(candidate.name.empty()

@@ -52,7 +52,7 @@ OrderedJson describe_mirror_as_json(const RequiredWorkReport& required, const st
                                     std::size_t i) {
     const require::MirrorRequirements& needs = required.model.mirrors[i];
     OrderedJson sees = OrderedJson::array(), faces = OrderedJson::array();
-    if (needs.is_captured) faces = split_text(require::list_face_names(needs.faces), " ");
+    if (needs.is_captured) faces = split_text(require::list_cube_face_names(needs.faces), " ");
     for (const std::uint32_t other : needs.sees) sees.push_back(other + 1);
     return {{"mirror", i + 1},
             {"name", name},
@@ -84,7 +84,7 @@ std::string format_culling_as_text(const Request& request,
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
-        text += "  mirror " + std::to_string(i + 1) + " " + quote_as_printable_text(names[i]) +
+        text += "  mirror " + std::to_string(i + 1) + " " + quote_text_with_escapes(names[i]) +
                 ": " + suggestion.reasons[i] + "\n";
     return text + require::format_plan_candidates(suggestion.candidates);
 }

@@ -33,7 +33,7 @@ gpu::DeviceOptions to_device_options(const EngineOptions& options, const EngineH
     if (hooks.given) wanted.given = *hooks.given;
     if (hooks.make_surface)
         wanted.make_surface = [make = hooks.make_surface](auto instance) {
-            return gpu::surface_from_handle_number(make(instance));
+            return gpu::vulkan_surface_from_integer_handle(make(instance));
         };
     return wanted;
 }
@@ -57,7 +57,7 @@ Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
     : device(to_device_options(options, hooks)),
       pipelines(device, hooks.shader_variants, options.cache),
       info(to_public_device_info(device.device_properties())) {
-    device.set_variant_choices(choose_shader_variants(options, info));
+    device.set_active_shader_variant_choices(choose_shader_variants(options, info));
 }
 
 Engine::Engine(const EngineOptions& options) : impl_(std::make_unique<Impl>(options)) {}
@@ -77,9 +77,9 @@ Engine Access::make_engine(const EngineOptions& options, const EngineHooks& hook
 }
 CompiledPipelines Access::compiled_pipelines(const Engine& engine) {
     const gpu::PipelineStore& pipelines = engine.impl_->pipelines;
-    return {pipelines.count_made_pipelines(), pipelines.total_compile_ms()};
+    return {pipelines.count_compiled_pipelines(), pipelines.total_compile_ms()};
 }
-PipelineCacheState Access::cache_use(const Engine& engine) {
+PipelineCacheState Access::pipeline_cache_state_of_engine(const Engine& engine) {
     const gpu::PipelineCache& cache = engine.impl_->pipelines.pipeline_cache();
     if (!cache.is_stored_in_file()) return PipelineCacheState::none;
     return cache.loaded_cache_bytes() > 0 ? PipelineCacheState::used : PipelineCacheState::made;

@@ -32,14 +32,14 @@ const FrameTimes& Frame::times() const {
 
 std::size_t Frame::size() const { return impl_->frame.parts.size(); }
 
-bool Access::depends_on_last_frame(const Frame& frame, std::size_t part) {
+bool Access::does_frame_part_need_previous_frame(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
     return app::depends_on_previous_frame(self.frame, self.current_graph_plan(),
-                                          self.technique_part(part));
+                                          self.technique_part_at_index(part));
 }
 
 const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
-    return impl_->technique_part(part).slices;
+    return impl_->technique_part_at_index(part).slices;
 }
 
 std::uint32_t Frame::waiting() const {
@@ -54,8 +54,8 @@ const require::RequiredWorkModel& Access::rendered_model(const Frame& frame) {
 }
 
 measure::Picture Frame::hdr(std::size_t part) const {
-    return read_hdr_picture(impl_->graph_runner(), impl_->ticket, impl_->technique_part(part),
-                            impl_->spec.size);
+    return read_hdr_picture(impl_->graph_runner(), impl_->ticket,
+                            impl_->technique_part_at_index(part), impl_->spec.size);
 }
 
 TechniqueResult Frame::read(std::size_t part) const {
@@ -78,31 +78,31 @@ std::vector<TechniqueResult> Frame::read_all() const {
 render::CapturedCubes Access::read_captures(const Frame& frame, std::size_t part) {
     const Frame::Impl& self = *frame.impl_;
     const std::shared_ptr<const render::MirrorCaptures>& captures =
-        self.technique_part(part).outputs.captures;
+        self.technique_part_at_index(part).outputs.captures;
     check(
         self.hooks.with_captures && captures && captures->arrays.size() == 1 &&
             captures->arrays.front().distance,
-        Failure::internal, "'", self.technique_part(part).plan.label,
+        Failure::internal, "'", self.technique_part_at_index(part).plan.label,
         "': wanted captures with distances in one array that the frame was asked for, found none");
     self.check_is_last_frame();
     graph::GraphRunner& runner = self.graph_runner();
     const render::CubeCaptureArray& cubes = captures->arrays.front();
-    return {cubes.face, runner.read_resource(self.ticket, cubes.colour),
-            runner.read_resource(self.ticket, *cubes.distance),
+    return {cubes.face, runner.read_back_resource(self.ticket, cubes.colour),
+            runner.read_back_resource(self.ticket, *cubes.distance),
             self.session->resident->scene_units()};
 }
 
-std::vector<PassWork> Access::pass_work(const Frame& frame) {
-    return frame.impl_->graph_runner().counted_work(frame.impl_->ticket);
+std::vector<PassWorkCounts> Access::pass_work(const Frame& frame) {
+    return frame.impl_->graph_runner().work_counts_of_frame(frame.impl_->ticket);
 }
 
-std::vector<std::byte> Access::next_frame_state(const Frame& frame) {
+std::vector<std::byte> Access::read_next_frame_state(const Frame& frame) {
     const Frame::Impl& self = *frame.impl_;
     self.check_is_last_frame();
     graph::GraphRunner& runner = self.graph_runner();
     std::vector<std::byte> bytes = runner.read_history();
     const auto add = [&](graph::ImageHandle image) {
-        const std::vector<std::byte> texels = runner.read_resource(self.ticket, image);
+        const std::vector<std::byte> texels = runner.read_back_resource(self.ticket, image);
         bytes.insert(bytes.end(), texels.begin(), texels.end());
     };
     for (const TechniqueGraphPart& part : self.frame.parts) {

@@ -59,7 +59,7 @@ std::vector<std::uint32_t> decode_mirror_hits(const std::vector<std::byte>& texe
     hits.reserve(texels.size() / sizeof(vec4));
     for (const vec4& texel : read_typed_values<vec4>(texels)) {
         const std::uint32_t met = bvh::float_to_bits(texel.w) & ~f32::kBvhNormalFloatBit;
-        hits.push_back((met & shared::kMaxMirrors) | met >> shared::kHitMirrorBits << 16);
+        hits.push_back((met & shared::kMaxMirrors) | met >> shared::kBitsPerMirrorHit << 16);
     }
     return hits;
 }
@@ -116,7 +116,7 @@ std::size_t count_saturated_texels(const std::vector<std::byte>& bytes) {
     std::size_t count = 0;
     for (std::size_t i = 0; i + 3 < halves.size(); i += 4)
         count += std::any_of(&halves[i], &halves[i] + 3, [](std::uint16_t half) {
-            return (half & 0x7fff) >= kLargestHalfBits;
+            return (half & 0x7fff) >= kLargestFiniteHalfFloatBits;
         });
     return count;
 }
@@ -148,22 +148,24 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
         const std::string prefix = plans.size() > 1 ? plan.file_name() + "/" : "";
         const render::FrameInputs inputs{scene,     spec.size,     prefix,
                                          spec.seed, hooks.ablated, spec.with_lookup};
-        const reflect::MirrorAssignment assignment = reflect::replace_unfit_techniques(
-            reflect::assign_techniques_to_mirrors(plan, mirrors), scene.list_flat_mirror_faces(),
-            scene.flat_mirror_tolerance());
+        const reflect::TechniqueOfEachMirror assignment =
+            reflect::replace_techniques_unfit_for_mirror(
+                reflect::assign_techniques_to_mirrors(plan, mirrors),
+                scene.list_flat_mirror_faces(), scene.flat_mirror_tolerance());
         reflect::TechniqueOutputs outputs = reflect::add_frame_passes(frame.graph, inputs,
                                                                       assignment, kept);
         const graph::ImageHandle display = render::add_compose_pass(frame.graph, inputs,
                                                                     outputs.hdr, spec.exposure);
-        frame.graph.mark_output(outputs.hdr);
-        frame.graph.mark_output(display);
+        frame.graph.mark_as_graph_output(outputs.hdr);
+        frame.graph.mark_as_graph_output(display);
         for (const graph::BufferHandle counters : outputs.counters)
-            frame.graph.mark_output(counters);
-        if (outputs.lookup) frame.graph.mark_output(*outputs.lookup);
+            frame.graph.mark_as_graph_output(counters);
+        if (outputs.lookup) frame.graph.mark_as_graph_output(*outputs.lookup);
         if (outputs.captures && (spec.with_lookup || hooks.with_captures)) {
             for (const render::CubeCaptureArray& cubes : outputs.captures->arrays) {
-                frame.graph.mark_output(cubes.colour);
-                if (hooks.with_captures && cubes.distance) frame.graph.mark_output(*cubes.distance);
+                frame.graph.mark_as_graph_output(cubes.colour);
+                if (hooks.with_captures && cubes.distance)
+                    frame.graph.mark_as_graph_output(*cubes.distance);
             }
         }
         const std::optional<CaptureBudget> slices = make_capture_budget(outputs, kept);
@@ -186,7 +188,7 @@ bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& 
 
 measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::SubmittedFrameTicket ticket,
                                   const TechniqueGraphPart& declared, uvec2 size) {
-    return texels_to_picture(runner.read_resource(ticket, declared.outputs.hdr), size,
+    return texels_to_picture(runner.read_back_resource(ticket, declared.outputs.hdr), size,
                              TexelFormat::rgba32f);
 }
 
@@ -227,7 +229,7 @@ std::vector<std::string> describe_unmet_requests(const TechniqueGraphPart& decla
         std::string names;
         for (std::size_t k = 0; k < std::min(kMaxNamedMirrors, lacking.size()); ++k)
             names += (k ? ", " : "") + std::to_string(lacking[k] + 1) + " " +
-                     quote_as_printable_text(mirrors[lacking[k]]);
+                     quote_text_with_escapes(mirrors[lacking[k]]);
         if (lacking.size() > kMaxNamedMirrors)
             names += " and " + std::to_string(lacking.size() - kMaxNamedMirrors) + " more";
         said.push_back((lacking.size() > 1 ? "mirrors " : "mirror ") + names + ": " + lack);
@@ -253,21 +255,22 @@ TechniqueResult read_technique_result(graph::GraphRunner& runner,
     std::ranges::move(describe_unmet_requests(declared, mirrors), std::back_inserter(part.notes));
     for (const reflect::TechniqueChoice& choice : declared.assignment.choices)
         if (choice.shared.chooses_face)
-            part.auto_face = AutoFace{scene.common_face_edge(), scene.needed_face_edges()};
+            part.auto_face = AutoFace{scene.common_capture_face_edge(), scene.needed_face_edges()};
     for (const graph::BufferHandle counters : outputs.counters)
-        add_ray_counters(runner.read_resource(ticket, counters), part);
-    const std::vector<std::byte> texels = runner.read_resource(ticket, outputs.hdr);
+        add_ray_counters(runner.read_back_resource(ticket, counters), part);
+    const std::vector<std::byte> texels = runner.read_back_resource(ticket, outputs.hdr);
     part.hdr = texels_to_picture(texels, spec.size, TexelFormat::rgba32f);
     if (outputs.has_hits) part.hits = decode_mirror_hits(texels);
-    part.display = texels_to_picture(runner.read_resource(ticket, declared.display), spec.size,
+    part.display = texels_to_picture(runner.read_back_resource(ticket, declared.display), spec.size,
                                      TexelFormat::rgba8_unorm);
     if (spec.with_lookup && outputs.captures)
         for (const render::CubeCaptureArray& cubes : outputs.captures->arrays)
             if (frame.graph.list_images()[cubes.colour.id].format == TexelFormat::rgba16f)
                 part.saturated = part.saturated.value_or(0) +
-                                 count_saturated_texels(runner.read_resource(ticket, cubes.colour));
+                                 count_saturated_texels(
+                                     runner.read_back_resource(ticket, cubes.colour));
     if (outputs.lookup)
-        part.lookup = read_typed_values<vec4>(runner.read_resource(ticket, *outputs.lookup));
+        part.lookup = read_typed_values<vec4>(runner.read_back_resource(ticket, *outputs.lookup));
     return part;
 }
 

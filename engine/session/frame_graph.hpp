@@ -15,7 +15,7 @@ namespace catoptric::app {
 /// The part of a frame's graph that belongs to one technique.
 struct TechniqueGraphPart {
     reflect::TechniquePlan plan;
-    reflect::MirrorAssignment assignment;
+    reflect::TechniqueOfEachMirror assignment;
     std::string prefix;
     reflect::TechniqueOutputs outputs;
     graph::ImageHandle display;

@@ -14,7 +14,7 @@ namespace catoptric::app {
 constexpr std::size_t kMaxDetailedFrames = 1000;
 
 /// What the first frame of a FrameLoop knows of the frames before it.
-enum class FrameHistory {
+enum class FrameHistoryState {
     none, ///< nothing: the loop begins with a cut
     /// The captures of the session's last frame, which must have had the same techniques, instant
     /// and size. For settled pictures of one instant by several cameras.
@@ -28,7 +28,7 @@ public:
     /// Throws `usage` for less than one frame or a negative warm-up. The session shows the
     /// request's scene; session and request must outlive this object.
     FrameLoop(Session& session, const Request& request, const FrameHooks& hooks = {},
-              FrameHistory history = FrameHistory::none);
+              FrameHistoryState history = FrameHistoryState::none);
 
     /// Renders the next frame. Returns false after the last.
     bool render_next();
@@ -56,11 +56,11 @@ private:
     std::optional<FrameSequence> aside_;
     std::vector<FrameTimes> times_;
     std::vector<std::byte>
-        state_; ///< Access::next_frame_state of the frame before, with `until_settled`
+        state_; ///< Access::read_next_frame_state of the frame before, with `until_settled`
 };
 
 /// Renders all frames of a request, as app::run does, with this history.
 RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
-                           FrameHistory history);
+                           FrameHistoryState history);
 
 } // namespace catoptric::app

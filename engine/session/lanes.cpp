@@ -22,14 +22,14 @@ int measure_shader_lanes(gpu::GpuDevice& device) {
     graph.add_pass("lanes")
         .writes(lanes, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputeState{"lanes.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"lanes.comp", {}});
             commands.bind_resource("Lanes", lanes);
             commands.dispatch(1, 1);
         });
-    graph.mark_output(lanes);
+    graph.mark_as_graph_output(lanes);
     runner.run_and_wait(graph, graph::PassTiming::isolated);
     std::uint32_t count = 0;
-    std::memcpy(&count, runner.read_resource(lanes).data(), sizeof count);
+    std::memcpy(&count, runner.read_back_resource(lanes).data(), sizeof count);
     return static_cast<int>(count);
 }
 
@@ -40,7 +40,7 @@ int count_shader_lanes(const Engine& engine) {
 }
 
 std::string make_vector_width_warning(const Engine& engine) {
-    const std::optional<long> asked = gpu::read_requested_vector_bits();
+    const std::optional<long> asked = gpu::read_llvmpipe_vector_width_request();
     if (!asked || engine.device().type != "cpu") return "";
     const int bits = kVectorBitsPerLane * count_shader_lanes(engine);
     if (*asked == bits) return "";

@@ -51,7 +51,7 @@ bool is_auto_for_all_mirrors(const PlanJson& rules) {
            rules[0].value("technique", PlanJson()) == reflect::kAutoPlanName;
 }
 
-reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
+reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::string& place) {
     check(rule.is_object(), Failure::bad_data, place, ": wanted an object, found ",
           format_json_value(rule));
     for (const auto& [key, value] : rule.items())
@@ -68,10 +68,11 @@ reflect::PlanRule read_plan_rule(const PlanJson& rule, const std::string& place)
     for (const auto& [knob, value] : settings.items()) {
         check(value.is_string() || value.is_number(), Failure::bad_data, place, ".settings.", knob,
               ": wanted a number or text, found ", format_json_value(value));
-        choice.settings.set_knob(choice.technique->name, knob,
-                                 value.is_string() ? value.get<std::string>() : value.dump());
+        choice.settings.set_knob_from_text(choice.technique->name, knob,
+                                           value.is_string() ? value.get<std::string>()
+                                                             : value.dump());
     }
-    choice.update_from_settings();
+    choice.update_shared_knobs_from_settings();
     return {std::move(pattern), std::move(choice)};
 }
 

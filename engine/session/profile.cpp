@@ -21,7 +21,7 @@ constexpr std::uintmax_t kMaxProfileBytes = 1U << 20U;
 
 /// Returns the value as text for messages, without JSON's quotes.
 std::string format_for_message(const Json& value) {
-    return value.is_string() ? quote_as_printable_text(value.get<std::string>())
+    return value.is_string() ? quote_text_with_escapes(value.get<std::string>())
                              : report::describe_json_value(value);
 }
 
@@ -29,21 +29,21 @@ std::string format_for_message(const Json& value) {
 std::size_t find_variant_index(std::string_view name, Failure failure, const std::string& place) {
     std::string known;
     for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderBuildVariant& variant = gpu::list_shader_variants()[i];
         if (variant.name == name) return i;
         known += (known.empty() ? "" : ", ") + std::string(variant.name);
     }
-    fail(failure, place, ": wanted one of ", known, ", found ", quote_as_printable_text(name));
+    fail(failure, place, ": wanted one of ", known, ", found ", quote_text_with_escapes(name));
 }
 
 /// Returns the index of the choice, or throws `failure` with `place` in front.
-std::uint8_t find_choice_index(const gpu::ShaderVariant& variant, const Json& choice,
+std::uint8_t find_choice_index(const gpu::ShaderBuildVariant& variant, const Json& choice,
                                Failure failure, const std::string& place) {
     for (std::size_t k = 0; k < variant.choices.size(); ++k)
         if (choice == variant.choices[k]) return static_cast<std::uint8_t>(k);
     fail(failure, place, ".", variant.name, ": wanted ",
-         quote_as_printable_text(variant.choices[0]), " or ",
-         quote_as_printable_text(variant.choices[1]), ", found ", format_for_message(choice));
+         quote_text_with_escapes(variant.choices[0]), " or ",
+         quote_text_with_escapes(variant.choices[1]), ", found ", format_for_message(choice));
 }
 
 Json make_device_json(const DeviceInfo& device) {
@@ -61,17 +61,17 @@ std::string read_small_file(const fs::path& file) {
     return read_file(file);
 }
 
-gpu::VariantChoices read_profile_if_usable(const fs::path& file, const DeviceInfo& device) {
+gpu::ShaderVariantChoices read_profile_if_usable(const fs::path& file, const DeviceInfo& device) {
     return parse_device_profile(read_small_file(file), file.string(), device);
 }
 
 /// Returns the choices of the folder's profile, or the defaults if there is no usable profile.
-gpu::VariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& device) {
+gpu::ShaderVariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& device) {
     const fs::path file = folder / make_profile_file_name(device);
     std::error_code error;
     if (!fs::exists(fs::symlink_status(file, error))) return choose_default_variants(device);
     try {
-        const gpu::VariantChoices choices = read_profile_if_usable(file, device);
+        const gpu::ShaderVariantChoices choices = read_profile_if_usable(file, device);
         device.profile = file.filename().string();
         return choices;
     } catch (const Error& refused) {
@@ -83,8 +83,8 @@ gpu::VariantChoices find_profile_choices(const fs::path& folder, DeviceInfo& dev
 
 } // namespace
 
-gpu::VariantChoices choose_default_variants(const DeviceInfo& device) {
-    gpu::VariantChoices choices{};
+gpu::ShaderVariantChoices choose_default_variants(const DeviceInfo& device) {
+    gpu::ShaderVariantChoices choices{};
     // Only a software driver gives each of its threads a contiguous run of work groups.
     const std::size_t groups = find_variant_index("groups", Failure::internal, "variants");
     choices[groups] = device.type == "cpu" ? 0 : 1;
@@ -110,7 +110,7 @@ std::string make_profile_text(const DeviceInfo& device,
     for (const measure::ShaderVariantTrial& one : tried) {
         document["variants"][one.variant] = one.is_faster_than_default() ? one.choice
                                                                          : one.standard;
-        const measure::CostRatio ratio = one.time_ratio_to_default();
+        const measure::BenchmarkCostRatio ratio = one.time_ratio_to_default();
         document["measured"].push_back({{"variant", one.variant},
                                         {"choice", one.choice},
                                         {"against", one.standard},
@@ -122,8 +122,8 @@ std::string make_profile_text(const DeviceInfo& device,
     return report::serialise_json(document);
 }
 
-gpu::VariantChoices parse_device_profile(const std::string& text, const std::string& file,
-                                         const DeviceInfo& device) {
+gpu::ShaderVariantChoices parse_device_profile(const std::string& text, const std::string& file,
+                                               const DeviceInfo& device) {
     const Json document = parse_json<Json>(file, text);
     const auto member = [](const Json& object, const char* name) {
         return object.is_object() ? object.value(name, Json()) : Json();
@@ -140,7 +140,7 @@ gpu::VariantChoices parse_device_profile(const std::string& text, const std::str
     const Json list = member(document, "variants");
     check(list.is_object(), Failure::bad_data, file, ": variants: wanted an object, found ",
           format_for_message(list));
-    gpu::VariantChoices choices = choose_default_variants(device);
+    gpu::ShaderVariantChoices choices = choose_default_variants(device);
     const std::string place = file + ": variants";
     for (const auto& [name, choice] : list.items()) {
         const std::size_t i = find_variant_index(name, Failure::bad_data, place);
@@ -150,17 +150,18 @@ gpu::VariantChoices parse_device_profile(const std::string& text, const std::str
     return choices;
 }
 
-VariantNames name_variant_choices(const gpu::VariantChoices& choices) {
+VariantNames name_variant_choices(const gpu::ShaderVariantChoices& choices) {
     VariantNames variants;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderBuildVariant& variant = gpu::list_shader_variants()[i];
         variants.emplace_back(variant.name, variant.choices[choices[i]]);
     }
     return variants;
 }
 
-gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const DeviceInfo& device) {
-    gpu::VariantChoices choices = choose_default_variants(device);
+gpu::ShaderVariantChoices parse_variant_choices(const VariantNames& variants,
+                                                const DeviceInfo& device) {
+    gpu::ShaderVariantChoices choices = choose_default_variants(device);
     for (const auto& [name, choice] : variants) {
         const std::size_t i = find_variant_index(name, Failure::usage, "variants");
         choices[i] = find_choice_index(gpu::list_shader_variants()[i], choice, Failure::usage,
@@ -169,8 +170,8 @@ gpu::VariantChoices parse_variant_choices(const VariantNames& variants, const De
     return choices;
 }
 
-gpu::VariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device) {
-    gpu::VariantChoices choices = choose_default_variants(device);
+gpu::ShaderVariantChoices choose_shader_variants(const EngineOptions& options, DeviceInfo& device) {
+    gpu::ShaderVariantChoices choices = choose_default_variants(device);
     if (!options.variants.empty()) {
         choices = parse_variant_choices(options.variants, device);
     } else if (!options.profile.empty()) {

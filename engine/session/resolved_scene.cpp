@@ -94,7 +94,7 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     } else if (wanted.is_file && !environment && scene::list_lights(scene).empty()) {
         environment = load_environment_by_name("studio");
         scene::add_unsupported_feature(scene.unsupported, "added-studio",
-                                       "scene " + quote_as_printable_text(scene.name));
+                                       "scene " + quote_text_with_escapes(scene.name));
         wanted.said.push_back("no light: lit by the environment studio (see --environment)");
     }
     if (environment) {
@@ -143,7 +143,7 @@ void warn_of_scene_with_many_mirrors(scene::Scene& scene) {
     const auto mebibytes = [&](std::size_t bytes) {
         return std::to_string(count * bytes / kBytesPerMebibyte);
     };
-    scene.warnings.push_back("scene " + quote_as_printable_text(scene.name) + " has " + number +
+    scene.warnings.push_back("scene " + quote_text_with_escapes(scene.name) + " has " + number +
                              " mirrors: " + number + " captures of six faces a frame, " +
                              mebibytes(kColourBytes) + " to " + mebibytes(kCaptureBytes) +
                              " MiB at face=256; a smaller face=, --plan and --model required "
@@ -249,7 +249,7 @@ scene::Camera choose_or_add_camera(ResolvedScene& wanted, double aspect) {
     const scene::Camera camera = inside.value_or(outside);
     if (wanted.is_file)
         scene::add_unsupported_feature(scene.unsupported, "added-camera",
-                                       "scene " + quote_as_printable_text(scene.name));
+                                       "scene " + quote_text_with_escapes(scene.name));
     wanted.said.push_back(std::string("no camera") + (inside ? ", a closed room" : "") +
                           ": using --camera " + scene::format_camera(camera) +
                           (inside ? " (inside)" : ""));

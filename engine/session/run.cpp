@@ -13,12 +13,12 @@
 namespace catoptric::app {
 
 FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks& hooks,
-                     FrameHistory history)
+                     FrameHistoryState history)
     : loop_session_(session), request_(request), hooks_(hooks) {
     check(request.frames > 0 && request.warmup >= 0, Failure::usage,
           "frames must be at least 1 and warm-up at least 0, not ", request.frames, " and ",
           request.warmup);
-    if (history == FrameHistory::none) session.forget();
+    if (history == FrameHistoryState::none) session.forget();
 }
 
 bool FrameLoop::render_next() {
@@ -39,7 +39,7 @@ bool FrameLoop::render_next() {
             times_[times_.size() - kMaxDetailedFrames - 1].passes = std::vector<PassTime>();
     }
     if (request_.until_settled) {
-        std::vector<std::byte> state = Access::next_frame_state(*frame_);
+        std::vector<std::byte> state = Access::read_next_frame_state(*frame_);
         settled_ = state.empty() || (state == state_ && frame_->waiting() == 0);
         state_ = std::move(state);
     }
@@ -59,7 +59,7 @@ int FrameLoop::max_frame_count() const {
 RunResult FrameLoop::result() const { return {frame_->read_all(), times_, settled_}; }
 
 RunResult run_with_history(Session& session, const Request& request, const Watcher& watcher,
-                           FrameHistory history) {
+                           FrameHistoryState history) {
     FrameLoop frames(session, request, {}, history);
     throw_if_stopped(watcher);
     while (frames.render_next())
@@ -68,7 +68,7 @@ RunResult run_with_history(Session& session, const Request& request, const Watch
 }
 
 RunResult run(Session& session, const Request& request, const Watcher& watcher) {
-    return run_with_history(session, request, watcher, FrameHistory::none);
+    return run_with_history(session, request, watcher, FrameHistoryState::none);
 }
 
 RunResult run(Engine& engine, const Request& request) {

@@ -70,7 +70,7 @@ bool WindowScreen::fit_to_window(uvec2 window) {
     if (window.x == 0 || window.y == 0) return false;
     self.swapchain.wait_idle();
     self.images.clear();
-    if (!self.swapchain.create_images(window)) return false;
+    if (!self.swapchain.create_swapchain_images(window)) return false;
     self.window = window;
     const uvec2 size = self.swapchain.size_in_pixels();
     for (const auto image : self.swapchain.swapchain_images())
@@ -155,7 +155,7 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
         (showing.first == WindowPictures::kCanvasTextureIndex ? 1u : 0u) |
             (showing.second == WindowPictures::kCanvasTextureIndex ? 2u : 0u),
         showing.divider, showing.gain};
-    const ImageHandle target = frame.graph.import_external(
+    const ImageHandle target = frame.graph.import_external_resource(
         {"window", swapchain.texel_format(), size.x, size.y}, &images.at(image), std::nullopt,
         graph::ResourceUse::present);
     graph::PassBuilder pass = frame.graph.add_pass("window");
@@ -164,15 +164,15 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
     pass.writes(target, graph::ResourceUse::colour, graph::ClearValue{0, 0, 0, 1})
         .record([&slot, this, first, second, screening, size,
                  draws = overlay.draws](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::RasterState{"screen.vert", "screen.frag", {}});
+            commands.bind_pipeline(gpu::RasterPipelineState{"screen.vert", "screen.frag", {}});
             commands.bind_resource("first", first);
             commands.bind_resource("second", second);
             commands.bind_resource("Canvas", slot.canvas);
             commands.push_constants(screening);
-            commands.bind_geometry(slot.vertices, slot.indices);
+            commands.bind_vertex_and_index_buffers(slot.vertices, slot.indices);
             commands.draw(0, 3);
             if (draws.empty()) return;
-            commands.bind_pipeline(gpu::RasterState{
+            commands.bind_pipeline(gpu::RasterPipelineState{
                 .vertex = "overlay.vert", .fragment = "overlay.frag", .blended = true});
             commands.bind_resource("Corners", slot.vertices);
             commands.bind_resource("Font", font);

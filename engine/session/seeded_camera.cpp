@@ -16,7 +16,7 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kMaxCameraDraws = 1000;
+constexpr int kMaxRandomCameraAttempts = 1000;
 constexpr uvec2 kCameraRayGridSize{32, 32};   // rays through the picture
 constexpr std::size_t kMinTargetRays = 11;    // of the grid's 1024 rays
 constexpr double kMaxCameraUpComponent = .99; // component of the view's direction along the up axis
@@ -111,8 +111,8 @@ std::size_t count_rays_hitting_targets(const render::FrameGeometry& geometry,
 }
 
 /// A scene at an instant, prepared for rays.
-struct RayTraceableScene {
-    explicit RayTraceableScene(const scene::Scene& scene, double seconds)
+struct CameraPlacementScene {
+    explicit CameraPlacementScene(const scene::Scene& scene, double seconds)
         : now(scene::scene_at_time(scene, seconds)), space(render::make_scene_units(scene)),
           geometry(render::make_frame_geometry(now, space)),
           hierarchy(build_bvh_without_object(geometry, geometry.ranges.size())),
@@ -126,16 +126,16 @@ struct RayTraceableScene {
     }
 
     scene::Scene now;
-    render::SceneUnits space;
+    render::SceneUnitTransform space;
     render::FrameGeometry geometry;
     bvh::Bvh hierarchy;
     std::vector<std::size_t> aims;
 };
 
-scene::Camera draw_camera_for_seed(const RayTraceableScene& stage, std::uint64_t seed) {
+scene::Camera draw_camera_for_seed(const CameraPlacementScene& stage, std::uint64_t seed) {
     const Bounds<double> everything = scene::bounds(stage.now);
     std::mt19937_64 random(seed);
-    for (int i = 0; i < kMaxCameraDraws && !stage.aims.empty(); ++i) {
+    for (int i = 0; i < kMaxRandomCameraAttempts && !stage.aims.empty(); ++i) {
         const scene::Object& aim = stage.now.objects[stage.aims[random() % stage.aims.size()]];
         scene::Camera camera = draw_random_camera(random, scene::bounds(stage.now, aim),
                                                   everything);
@@ -145,14 +145,14 @@ scene::Camera draw_camera_for_seed(const RayTraceableScene& stage, std::uint64_t
         if (stage.does_camera_see_target(camera)) return camera;
     }
     fail(Failure::usage, "seeded camera: wanted one that sees a mirror of '", stage.now.name,
-         "', found none in ", kMaxCameraDraws, " draws from seed ", seed);
+         "', found none in ", kMaxRandomCameraAttempts, " draws from seed ", seed);
 }
 
 } // namespace
 
 std::vector<scene::Camera> make_seeded_cameras(const scene::Scene& scene, double seconds,
                                                std::span<const std::uint64_t> seeds) {
-    const RayTraceableScene stage(scene, seconds);
+    const CameraPlacementScene stage(scene, seconds);
     std::vector<scene::Camera> cameras;
     for (const std::uint64_t seed : seeds) cameras.push_back(draw_camera_for_seed(stage, seed));
     return cameras;

@@ -54,7 +54,7 @@ std::string rendered_work_name(RenderedWork modelling) {
 }
 
 struct FrameSequence::Impl {
-    graph::RetainedImages leavings;
+    graph::SuspendedPersistentImages leavings;
     std::vector<reflect::TechniquePlan> remembered;
     RenderedWork remembered_model = RenderedWork::everything;
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
@@ -73,19 +73,19 @@ FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
 FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
 FrameSequence::~FrameSequence() = default;
 
-void Session::Impl::wait_for_readers(std::size_t of) {
+void Session::Impl::wait_until_buffer_slot_is_free(std::size_t of) {
     if (last && read_by[of] + read_by.size() > last->frame && read_by[of] > 0)
         runner.wait_for_frame(graph::SubmittedFrameTicket{read_by[of]});
 }
 
-double Session::Impl::update_scene(const DeviceSceneKey& wanted) {
+double Session::Impl::update_device_scene(const DeviceSceneKey& wanted) {
     if (scene_key == wanted && resident->has_needed_face_edges()) return 0;
     // Writes to another copy than the one that frames in flight read.
     const std::size_t next = (copy + 1) % read_by.size();
-    wait_for_readers(next);
+    wait_until_buffer_slot_is_free(next);
     copy = next;
     const SteadyClock::time_point start = SteadyClock::now();
-    if (scene_key && scene_key->size != wanted.size) resident->discard_face_needs();
+    if (scene_key && scene_key->size != wanted.size) resident->discard_needed_face_edges();
     scene_key.reset(); // stays unset if the update throws half-way
     models.clear();
     if (scene::is_animated(scene)) {
@@ -101,7 +101,8 @@ double Session::Impl::update_scene(const DeviceSceneKey& wanted) {
     return compute_milliseconds_since(start);
 }
 
-const std::vector<reflect::TechniquePlan>& Session::Impl::find_plans(const FrameSpec& spec) {
+const std::vector<reflect::TechniquePlan>&
+Session::Impl::parse_and_cache_technique_plans(const FrameSpec& spec) {
     if (plans.empty() || texts != spec.techniques) {
         plans = parse_technique_plans(spec.techniques);
         for (reflect::TechniquePlan& plan : plans)
@@ -113,18 +114,18 @@ const std::vector<reflect::TechniquePlan>& Session::Impl::find_plans(const Frame
 }
 
 const std::shared_ptr<const require::RequiredWorkModel>&
-Session::Impl::find_model(RenderedWork modelling, bool is_ablated) {
+Session::Impl::find_required_work_model(RenderedWork modelling, bool is_ablated) {
     std::shared_ptr<const require::RequiredWorkModel>& model = models[{modelling, is_ablated}];
     if (model) return model;
     require::RequiredWorkModelInput question{scene_at_current_instant(), scene_key->camera,
                                              scene_key->size};
-    reflect::add_demands_of_plan(question, plans);
+    reflect::add_capture_needs_of_plan(question, plans);
     question.whole_cubes = question.whole_cubes ||
                            is_ablated; // ablated lookups read places that a search never would
     if (modelling == RenderedWork::required && !requirements) requirements.emplace(scene);
     require::RequiredWorkModel made = modelling == RenderedWork::everything
                                           ? require::make_everything_model(question)
-                                          : requirements->model_for(question);
+                                          : requirements->make_work_model_for_request(question);
     hash_ambient_light(made, scene_key->ambient);
     model = std::make_shared<const require::RequiredWorkModel>(std::move(made));
     return model;
@@ -139,9 +140,9 @@ const scene::Scene& Session::scene() const { return impl_->scene; }
 SessionCounters Access::session_counters(const Session& session) {
     const Session::Impl& self = *session.impl_;
     SessionCounters counts = self.counts;
-    counts.plans = self.runner.planned_shape_count();
+    counts.plans = self.runner.compiled_graph_plan_count();
     counts.memory_bytes = self.runner.allocated_device_bytes();
-    counts.uploads = self.resident->device_write_count();
+    counts.uploads = self.resident->device_buffer_write_count();
     counts.hierarchies_built = self.resident->built_bvh_count();
     counts.hierarchies_refitted = self.resident->refitted_bvh_count();
     return counts;
@@ -163,11 +164,11 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
                            const std::function<graph::ExternalSemaphores(FrameGraph&)>& finish) {
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
-    const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
+    const std::vector<reflect::TechniquePlan>& plans = self.parse_and_cache_technique_plans(spec);
     const bool follows = have_equal_plans(self.remembered, plans) &&
                          self.remembered_model == spec.model;
     if (!spec.keeps_history && !follows) {
-        self.runner.discard_contents();
+        self.runner.discard_persistent_image_contents();
         self.kept.clear();
         self.paces.clear(), self.timed.reset();
         self.remembered = plans, self.remembered_model = spec.model;
@@ -177,15 +178,15 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
         const Stopwatch watch(waited_ms);
         self.wait_for_needed_results(spec);
     }
-    const double update_ms = self.update_scene(make_scene_key(spec));
+    const double update_ms = self.update_device_scene(make_scene_key(spec));
     const SteadyClock::time_point start = SteadyClock::now();
-    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_model(
+    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_required_work_model(
         spec.model, hooks.ablated != 0);
     FrameGraph frame = declare_frame_graph(spec, hooks, plans, self.mirrors, *self.resident,
                                            self.runner.make_history(),
                                            self.find_capture_histories(spec, *model, follows));
     const double declare_ms = compute_milliseconds_since(start);
-    if (self.resident->has_new_views()) self.wait_for_readers(self.copy);
+    if (self.resident->has_new_views()) self.wait_until_buffer_slot_is_free(self.copy);
     const SteadyClock::time_point trees = SteadyClock::now();
     self.resident->prepare_frame();
     const double hierarchy_ms = compute_milliseconds_since(trees);
@@ -197,8 +198,9 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
         spec.keeps_history, outside, hooks.counts_work);
     self.last = ticket;
     self.read_by[self.copy] = ticket.frame;
-    if (!spec.keeps_history) self.store_captures(frame, ticket);
-    if (!spec.keeps_history && spec.budget_ms > 0) self.mark_for_timing(frame, ticket);
+    if (!spec.keeps_history) self.store_captures_of_frame(frame, ticket);
+    if (!spec.keeps_history && spec.budget_ms > 0)
+        self.mark_frame_for_capture_timing(frame, ticket);
     ++self.counts.frames;
     return Frame(std::make_shared<Frame::Impl>(Frame::Impl{session.impl_,
                                                            ticket,
@@ -221,8 +223,8 @@ void Session::change(const scene::Edit& edit) {
     if (render::make_scene_units(edited) != render::make_scene_units(self.scene)) {
         auto made = std::make_unique<render::GpuScene>(self.engine_impl.device, edited,
                                                        self.read_by.size());
-        self.runner.discard_contents(); // waits for frames in flight; captured distances were in
-                                        // other units
+        self.runner.discard_persistent_image_contents(); // waits for frames in flight; captured
+                                                         // distances were in other units
         self.kept.clear();
         self.resident = std::move(made);
         ++self.units;
@@ -236,10 +238,10 @@ void Session::change(const scene::Edit& edit) {
 }
 
 void Session::forget() {
-    impl_->runner.discard_contents();
+    impl_->runner.discard_persistent_image_contents();
     impl_->kept.clear();
     impl_->texts.clear(); // another plan may be suggested
-    impl_->resident->discard_face_needs();
+    impl_->resident->discard_needed_face_edges();
     impl_->scene_key.reset();
 }
 
@@ -252,7 +254,7 @@ FrameSequence Access::suspend_sequence(Session& session) {
         self.resident->needed_face_edges(), self.scene_key, self.units, self.edits,
         std::exchange(self.texts, {}), std::exchange(self.plans, {})});
     self.models.clear();
-    self.resident->discard_face_needs();
+    self.resident->discard_needed_face_edges();
     return FrameSequence(std::move(sequence));
 }
 
@@ -273,17 +275,18 @@ void Access::resume_sequence(Session& session, FrameSequence sequence) {
         self.plans = std::move(sequence.sequence_impl_->plans);
         self.models.clear();
     }
-    if (sequence.sequence_impl_->scene_key) self.update_scene(*sequence.sequence_impl_->scene_key);
+    if (sequence.sequence_impl_->scene_key)
+        self.update_device_scene(*sequence.sequence_impl_->scene_key);
 }
 
 std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
                                       GraphPlanFormat format) {
     Session::Impl& self = *session.impl_;
     check_frame_spec(spec);
-    const std::vector<reflect::TechniquePlan>& plans = self.find_plans(spec);
-    self.update_scene(make_scene_key(spec));
-    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_model(spec.model,
-                                                                                    false);
+    const std::vector<reflect::TechniquePlan>& plans = self.parse_and_cache_technique_plans(spec);
+    self.update_device_scene(make_scene_key(spec));
+    const std::shared_ptr<const require::RequiredWorkModel> model = self.find_required_work_model(
+        spec.model, false);
     std::vector<reflect::PreviousCaptureHistory> keeping(plans.size(),
                                                          {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident, {},
@@ -296,18 +299,18 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
             if (k > 0 && keeping[i].before) render::mark_captures_unchanged(*keeping[i].before);
         }
         frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident,
-                                    frame.graph.history_for_next_frame(), keeping);
+                                    frame.graph.graph_history_for_next_frame(), keeping);
     }
     const graph::GraphPlan& plan = self.runner.find_or_make_plan(frame.graph);
     switch (format) {
-    case GraphPlanFormat::dot: return graph::plan_to_dot(frame.graph, plan);
+    case GraphPlanFormat::dot: return graph::graph_plan_to_graphviz_dot(frame.graph, plan);
     case GraphPlanFormat::json: return graph::plan_to_json(frame.graph, plan);
     case GraphPlanFormat::text: break;
     }
-    return graph::plan_to_text(frame.graph, plan);
+    return graph::graph_plan_to_text(frame.graph, plan);
 }
 
-FrameTimes Access::clear_cubes(Session& session) {
+FrameTimes Access::measure_cube_clear_time(Session& session) {
     Session::Impl& self = *session.impl_;
     constexpr std::uint32_t kClearCostCubeEdge = 256;
     const std::uint32_t mirrors = self.resident->mirror_count(),
@@ -324,13 +327,13 @@ FrameTimes Access::clear_cubes(Session& session) {
                                                               kClearCostCubeEdge,
                                                               kClearCostCubeEdge, 6, true});
             graph.add_pass(name)
-                .writes(cubes.select_layers(6 * cube, 6), graph::ResourceUse::colour,
+                .writes(cubes.select_image_layers(6 * cube, 6), graph::ResourceUse::colour,
                         graph::ClearValue{0, 0, 0, 1})
                 .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
-                .set_layer_count(6)
+                .set_pass_layer_count(6)
                 .record([](graph::PassCommands&) {});
         }
-        graph.mark_output(cubes);
+        graph.mark_as_graph_output(cubes);
     }
     ++self.counts.frames;
     self.last = self.runner.submit_frame(graph, graph::PassTiming::isolated);

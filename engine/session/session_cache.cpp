@@ -49,13 +49,14 @@ Session::Impl::find_capture_histories(const FrameSpec& spec,
     return keeping;
 }
 
-void Session::Impl::store_captures(const FrameGraph& frame, graph::SubmittedFrameTicket ticket) {
+void Session::Impl::store_captures_of_frame(const FrameGraph& frame,
+                                            graph::SubmittedFrameTicket ticket) {
     kept.clear();
     for (const TechniqueGraphPart& part : frame.parts) {
         kept.push_back(part.outputs.kept);
         if (!kept.back()) continue;
         kept.back()->frame = ticket.frame;
-        comparisons.mark_used(kept.back()->differing, ticket.frame);
+        comparisons.mark_comparison_buffer_used(kept.back()->differing, ticket.frame);
     }
 }
 
@@ -92,7 +93,8 @@ std::uint32_t Session::Impl::most_captures(const FrameSpec& spec, std::size_t pa
                                : captured;
 }
 
-void Session::Impl::mark_for_timing(const FrameGraph& frame, graph::SubmittedFrameTicket ticket) {
+void Session::Impl::mark_frame_for_capture_timing(const FrameGraph& frame,
+                                                  graph::SubmittedFrameTicket ticket) {
     timed = {ticket, {}};
     for (const TechniqueGraphPart& part : frame.parts)
         timed->drawn.emplace_back(part.prefix, part.slices ? part.slices->drawn : 0);

@@ -43,16 +43,17 @@ struct Session::Impl {
     const scene::Scene& scene_at_current_instant() const { return moved ? *moved : scene; }
     /// Writes the scene data that `wanted` needs and the device lacks. Returns the milliseconds of
     /// work.
-    double update_scene(const DeviceSceneKey& wanted);
+    double update_device_scene(const DeviceSceneKey& wanted);
     /// Waits until no frame in flight reads copy `of` of the scene data.
-    void wait_for_readers(std::size_t of);
+    void wait_until_buffer_slot_is_free(std::size_t of);
     /// Returns the plans of the frame's techniques. Reads the texts again only if they change,
     /// after a cut, and after an edit. Until then, `auto` keeps the plan suggested for the first
     /// frame.
-    const std::vector<reflect::TechniquePlan>& find_plans(const FrameSpec& spec);
+    const std::vector<reflect::TechniquePlan>&
+    parse_and_cache_technique_plans(const FrameSpec& spec);
     /// Returns the model of the scene at its present instant.
-    const std::shared_ptr<const require::RequiredWorkModel>& find_model(RenderedWork modelling,
-                                                                        bool is_ablated);
+    const std::shared_ptr<const require::RequiredWorkModel>&
+    find_required_work_model(RenderedWork modelling, bool is_ablated);
     /// Returns the capture history from which the next frame of these techniques continues.
     std::vector<reflect::PreviousCaptureHistory>
     find_capture_histories(const FrameSpec& spec, const require::RequiredWorkModel& model,
@@ -66,14 +67,14 @@ struct Session::Impl {
     /// frame.
     void read_capture_times();
     /// Marks a submitted frame as the one that `read_capture_times` reads.
-    void mark_for_timing(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
+    void mark_frame_for_capture_timing(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
     /// Stores the captures of a submitted frame for the next one.
-    void store_captures(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
+    void store_captures_of_frame(const FrameGraph& frame, graph::SubmittedFrameTicket ticket);
 
     Access::EngineImpl& engine_impl;
     scene::Scene scene;
     std::unique_ptr<render::GpuScene> resident;
-    render::ComparisonBuffers comparisons;
+    render::CaptureComparisonBufferPool comparisons;
     graph::GraphRunner runner;
     std::vector<std::string> mirrors; ///< names of the mirrors
     std::optional<DeviceSceneKey> scene_key;
@@ -88,11 +89,11 @@ struct Session::Impl {
     std::vector<CaptureCostEstimate> paces; ///< costs of captures, by technique
     /// A frame under a budget whose times were not read yet. `drawn`: for each technique, the
     /// prefix of its passes' names and the number of mirrors it drew.
-    struct UnreadTimedFrame {
+    struct PendingTimedFrame {
         graph::SubmittedFrameTicket ticket;
         std::vector<std::pair<std::string, std::uint32_t>> drawn;
     };
-    std::optional<UnreadTimedFrame> timed;
+    std::optional<PendingTimedFrame> timed;
     std::optional<require::RequiredWorkModelBuilder> requirements; ///< computed at first use
     /// Models of `scene_key` and `plans`.
     std::map<std::pair<RenderedWork, bool>, std::shared_ptr<const require::RequiredWorkModel>>
@@ -117,7 +118,7 @@ struct Frame::Impl {
     mutable std::optional<FrameTimes> times; ///< set once the frame was waited for
 
     graph::GraphRunner& graph_runner() const { return session->runner; }
-    const TechniqueGraphPart& technique_part(std::size_t index) const {
+    const TechniqueGraphPart& technique_part_at_index(std::size_t index) const {
         return frame.parts.at(index);
     }
     const graph::GraphPlan& current_graph_plan() const {

@@ -11,13 +11,13 @@ std::vector<TechniqueInfo> techniques() {
     std::vector<TechniqueInfo> infos;
     for (const reflect::Technique* row : reflect::list_techniques()) {
         TechniqueInfo info{std::string(row->name), std::string(row->summary), {}};
-        const KnobSettings defaults(row->knobs);
+        const TechniqueKnobSettings defaults(row->knobs);
         for (const catoptric::TechniqueKnob& knob : row->knobs)
             info.knobs.push_back({std::string(knob.name),
                                   std::string(knob.help),
                                   knob.low,
                                   knob.high,
-                                  defaults.format_value(knob),
+                                  defaults.format_current_knob_value(knob),
                                   {knob.choices.begin(), knob.choices.end()},
                                   std::string(knob.special)});
         infos.push_back(std::move(info));
@@ -27,14 +27,14 @@ std::vector<TechniqueInfo> techniques() {
 
 std::vector<Setting> list_knob_settings(const reflect::TechniqueChoice& choice) {
     std::vector<Setting> settings;
-    const KnobSettings defaults(choice.technique->knobs);
+    const TechniqueKnobSettings defaults(choice.technique->knobs);
     for (const catoptric::TechniqueKnob& knob : choice.technique->knobs) {
         const bool is_number = knob.choices.empty() && !choice.settings.is_special(knob);
-        const std::string value = choice.settings.format_value(knob);
+        const std::string value = choice.settings.format_current_knob_value(knob);
         settings.push_back(
             {std::string(knob.name), value,
-             is_number ? std::optional(choice.settings.number_value(knob)) : std::nullopt,
-             value != defaults.format_value(knob)});
+             is_number ? std::optional(choice.settings.numeric_knob_value(knob)) : std::nullopt,
+             value != defaults.format_current_knob_value(knob)});
     }
     return settings;
 }

@@ -106,7 +106,7 @@ void add_search(Search search) {
                .order = row.search.order,
                .knobs = row.knobs,
                .compared = row.compared,
-               .scene_passes = reflect::count_feedback_passes,
+               .scene_passes = reflect::count_capture_passes_with_feedback,
                .capture = reflect::make_capture_options,
                .in_captures = "reflect/parallax.frag",
                .reads_whole_cubes = true, // the search may look anywhere

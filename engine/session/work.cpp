@@ -5,11 +5,11 @@
 
 namespace catoptric::app {
 
-std::vector<PassWork> count_frame_work(Session& session, const Request& request,
-                                       const Watcher& watcher) {
+std::vector<PassWorkCounts> count_frame_work(Session& session, const Request& request,
+                                             const Watcher& watcher) {
     session.forget();
     const int last = request.warmup + 1;
-    std::vector<PassWork> work;
+    std::vector<PassWorkCounts> work;
     for (int k = 1; k <= last; ++k) {
         FrameSpec spec = request;
         spec.time = request.instant(k);

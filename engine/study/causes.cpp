@@ -33,12 +33,12 @@ namespace catoptric::app {
 namespace {
 
 /// A cause that the technique's own shader can ablate, with or without the others.
-struct AblatableCause {
+struct AblatableErrorCause {
     const char* name;
     std::uint32_t mends; ///< sum of shared::kAblate...
 };
 
-constexpr AblatableCause kAblatableCauses[] = {
+constexpr AblatableErrorCause kAblatableCauses[] = {
     {"direction", shared::kAblateDistance | shared::kAblateDirection},
     {"hidden target", shared::kAblateHiddenPoints},
     {"texels", shared::kAblateTexelColour},
@@ -121,12 +121,12 @@ MirrorPixelValues keep_values_of_chosen_pixels(const std::vector<bool>& chosen, 
 }
 
 /// Histories that pictures of a row use; some may be equal.
-struct HistorySources {
+struct ErrorHistorySources {
     HistorySourceFrames row, row_settled;
     HistorySourceFrames stored, settled; ///< with distances stored as 32-bit floats
 };
 
-HistorySources choose_history_sources(const Request& base, const std::string& technique) {
+ErrorHistorySources choose_history_sources(const Request& base, const std::string& technique) {
     const std::string full = with_float_distances(technique);
     return {choose_history_source(base, technique, false),
             choose_history_source(base, technique, true), choose_history_source(base, full, false),
@@ -135,7 +135,7 @@ HistorySources choose_history_sources(const Request& base, const std::string& te
 
 /// Returns the coalitions whose picture is needed with each history.
 std::map<HistorySourceFrames, std::vector<std::uint32_t>>
-list_needed_ablations(const HistorySources& histories) {
+list_needed_ablations(const ErrorHistorySources& histories) {
     std::map<HistorySourceFrames, std::vector<std::uint32_t>> wanted;
     for (const HistorySourceFrames& history :
          {histories.row, histories.row_settled, histories.stored})
@@ -148,15 +148,15 @@ list_needed_ablations(const HistorySources& histories) {
 }
 
 /// Squared errors of the mirrors' pixels.
-struct AblationErrors {
+struct AblatedPixelErrors {
     measure::ShapleyValues shapley; ///< with the history `settled`
     /// Of coalitions that are read one by one.
     std::map<std::pair<HistorySourceFrames, std::uint32_t>, MirrorPixelValues> kept;
     measure::Mask off; ///< pixels that are off in the row's own picture
 };
 
-std::vector<measure::PixelErrorCause> compute_cause_shares(const HistorySources& histories,
-                                                           const AblationErrors& errors,
+std::vector<measure::PixelErrorCause> compute_cause_shares(const ErrorHistorySources& histories,
+                                                           const AblatedPixelErrors& errors,
                                                            const std::vector<bool>& disagree) {
     const auto of = [&](const HistorySourceFrames& history,
                         std::uint32_t coalition = 0) -> const MirrorPixelValues& {
@@ -172,7 +172,7 @@ std::vector<measure::PixelErrorCause> compute_cause_shares(const HistorySources&
     for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
         parts.push_back({kAblatableCauses[i].name,
                          subtract_pixel_values(MirrorPixelValues(row.size()),
-                                               errors.shapley.shapley_values_of(i)),
+                                               errors.shapley.shapley_values_of_player(i)),
                          subtract_pixel_values(row, of(histories.row, 1U << i))});
     parts.push_back({"silhouettes", keep_values_of_chosen_pixels(disagree, true, left),
                      keep_values_of_chosen_pixels(disagree, true, row)});
@@ -194,7 +194,7 @@ void check_mirrors_are_sharp(const CompareRequest& request, int, report::Compari
     for (const std::size_t i : scene::mirrors(scene))
         check(!scene::may_reflect_by_lobe(scene, scene.objects[i]), Failure::usage,
               "--causes: wanted mirrors that reflect sharply, found rough mirror ",
-              quote_as_printable_text(scene.objects[i].name),
+              quote_text_with_escapes(scene.objects[i].name),
               "; causes of error in rough reflections are not known");
 }
 
@@ -218,7 +218,7 @@ void measure_error_causes(const StudyInput& input) {
     }
 }
 
-const RegisteredStudy kCausesStudy{
+const RegisteredStudy kErrorCausesStudy{
     {.name = "causes",
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,
@@ -265,10 +265,10 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
 }
 
 report::Causes ErrorCauseFinder::find(const std::string& technique) const {
-    const HistorySources histories = choose_history_sources(base_, technique);
-    AblationErrors found{measure::ShapleyValues(kAblatableCauseCount, pixels_.size()),
-                         {},
-                         measure::Mask(hits_.size())};
+    const ErrorHistorySources histories = choose_history_sources(base_, technique);
+    AblatedPixelErrors found{measure::ShapleyValues(kAblatableCauseCount, pixels_.size()),
+                             {},
+                             measure::Mask(hits_.size())};
     for (const auto& [history, coalitions] : list_needed_ablations(histories)) {
         std::vector<std::uint32_t> ablated;
         std::ranges::transform(coalitions, std::back_inserter(ablated), combine_ablation_flags);
@@ -282,15 +282,15 @@ report::Causes ErrorCauseFinder::find(const std::string& technique) const {
                 if (history == histories.row && coalition == 0)
                     found.off[place] = measure::differs_visibly(shown, truth);
             }
-            if (history == histories.settled) found.shapley.add_coalition(coalition, errors);
+            if (history == histories.settled) found.shapley.add_coalition_value(coalition, errors);
             if (std::popcount(coalition) <= 1 || coalition == kAllErrorCausesMask)
                 found.kept[{history, coalition}] = std::move(errors);
         };
         render_ablated_pictures(study_session_, make_history_request(base_, history), ablated,
                                 judge, watcher_);
     }
-    return measure::sum_up_error_causes(hits_, found.off, found.kept.at({histories.row, 0}),
-                                        compute_cause_shares(histories, found, disagree_));
+    return measure::summarise_error_causes(hits_, found.off, found.kept.at({histories.row, 0}),
+                                           compute_cause_shares(histories, found, disagree_));
 }
 
 } // namespace catoptric::app

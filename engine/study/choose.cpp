@@ -20,14 +20,14 @@ namespace catoptric::app {
 
 namespace {
 
-double error_of(ErrorQuantity quantity, const measure::Difference& error) {
+double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error) {
     return quantity == ErrorQuantity::flip ? error.flip : error.rmse;
 }
 
 /// Returns the least number of views that can prove the share, and that `compare` draws.
 int count_proof_views(const ChooseRequest& request) {
     return static_cast<int>(
-        std::max(measure::count_views_needed(request.share, request.confidence, 0),
+        std::max(measure::count_views_needed_for_certificate(request.share, request.confidence, 0),
                  measure::kMinIntervalSamples));
 }
 
@@ -58,7 +58,7 @@ void check_choose_request(const ChooseRequest& request) {
           request.proof_views);
 }
 
-void tell_step(const ChooseRequest& request, const std::string& sentence) {
+void report_choose_step(const ChooseRequest& request, const std::string& sentence) {
     if (request.tell) request.tell(sentence);
 }
 
@@ -86,7 +86,7 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
                                           const std::vector<std::string>& texts) {
     std::vector<measure::PredictedTime> predicted;
     if (request.costs)
-        predicted = measure::find_predicted_front(*request.costs, comparison.rows).times;
+        predicted = measure::find_predicted_pareto_front(*request.costs, comparison.rows).times;
     std::vector<JudgedPlan> plans;
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const measure::Row& row = comparison.rows[i];
@@ -97,7 +97,7 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
         if (request.costs)
             plan.ms = predicted[i].ms, plan.ms_range = {predicted[i].low, predicted[i].high};
         for (const measure::Errors& errors : row.views)
-            plan.errors.push_back(error_of_view(request.quantity, errors.error));
+            plan.errors.push_back(mirror_error_of_view(request.quantity, errors.error));
         for (const double error : plan.errors)
             plan.largest_error = std::max(plan.largest_error, error);
         plans.push_back(std::move(plan));
@@ -126,20 +126,22 @@ std::vector<std::string> keep_promising_plans(const ChooseRequest& request,
     const std::vector<JudgedPlan> plans = list_judged_plans(request, comparison, texts);
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        const double error = error_of(request.quantity, comparison.rows[i].error);
-        bool beaten = !measure::is_ranking_candidate(comparison.rows[i]) || std::isnan(error);
+        const double error = error_value_of_difference(request.quantity, comparison.rows[i].error);
+        bool beaten = !measure::is_row_eligible_for_ranking(comparison.rows[i]) ||
+                      std::isnan(error);
         for (std::size_t k = 0; k < plans.size() && !beaten; ++k)
-            beaten = measure::is_ranking_candidate(comparison.rows[k]) &&
+            beaten = measure::is_row_eligible_for_ranking(comparison.rows[k]) &&
                      plans[i].ms > kMargin * plans[k].ms &&
-                     error > kMargin * error_of(request.quantity, comparison.rows[k].error);
+                     error > kMargin * error_value_of_difference(request.quantity,
+                                                                 comparison.rows[k].error);
         (beaten ? dropped : kept).push_back(texts[i]);
     }
     return kept;
 }
 
 /// Returns a text for a plan of one technique per mirror, or nothing if all mirrors have the same.
-std::string make_mix_text(const std::vector<std::string>& texts,
-                          const std::vector<std::size_t>& mix) {
+std::string make_plan_text_from_technique_mix(const std::vector<std::string>& texts,
+                                              const std::vector<std::size_t>& mix) {
     std::map<std::size_t, std::string> mirrors; // of each technique
     for (std::size_t mirror = 0; mirror < mix.size(); ++mirror) {
         std::string& list = mirrors[mix[mirror]];
@@ -154,22 +156,25 @@ std::string make_mix_text(const std::vector<std::string>& texts,
 
 /// Returns the cheapest mix of several techniques that keeps the limit of error in the training
 /// views, as a plan; empty if there is none. Candidates that are plans themselves take no part.
-std::string find_mixed_plan(const ChooseRequest& request, const measure::Comparison& training,
-                            const std::vector<JudgedPlan>& plans) {
+std::string find_fastest_mixed_plan(const ChooseRequest& request,
+                                    const measure::Comparison& training,
+                                    const std::vector<JudgedPlan>& plans) {
     if (!request.max_error) return "";
     const bool squares = request.quantity == ErrorQuantity::rmse; // squares add up over pixels
-    std::vector<measure::MixCandidate> candidates;
+    std::vector<measure::TechniqueCandidateForMix> candidates;
     std::vector<std::string> texts;
     std::vector<std::vector<double>> pixels;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (!read_technique_plan(plans[i].text).is_technique) continue;
-        measure::MixCandidate candidate{plans[i].ms, {}};
+        measure::TechniqueCandidateForMix candidate{plans[i].ms, {}};
         pixels.clear();
         for (const measure::Errors& view : training.rows[i].views) {
             std::vector<double>& sums = candidate.error_sums.emplace_back();
             std::vector<double>& counts = pixels.emplace_back();
             for (const measure::Difference& mirror : view.error_per_mirror) {
-                const double error = mirror.pixels > 0 ? error_of(request.quantity, mirror) : 0;
+                const double error = mirror.pixels > 0
+                                         ? error_value_of_difference(request.quantity, mirror)
+                                         : 0;
                 counts.push_back(static_cast<double>(mirror.pixels));
                 sums.push_back(counts.back() * (squares ? error * error : error));
             }
@@ -178,8 +183,9 @@ std::string find_mixed_plan(const ChooseRequest& request, const measure::Compari
         texts.push_back(plans[i].text);
     }
     const double limit = squares ? *request.max_error * *request.max_error : *request.max_error;
-    const std::vector<std::size_t> mix = measure::find_cheapest_mix(candidates, pixels, limit);
-    return make_mix_text(texts, mix);
+    const std::vector<std::size_t> mix = measure::find_fastest_technique_mix(candidates, pixels,
+                                                                             limit);
+    return make_plan_text_from_technique_mix(texts, mix);
 }
 
 /// Returns whether the second of two plans is faster when both are measured side by side.
@@ -194,7 +200,8 @@ bool is_second_plan_faster(Engine& engine, const ChooseRequest& request, const s
 
 /// Returns whether one plan takes less time than another. A measured interval must end before the
 /// other's. The ranges of predicted times have the same unknown costs, so the times decide.
-bool takes_less_time(const ChooseRequest& request, const JudgedPlan& a, const JudgedPlan& b) {
+bool does_plan_take_less_time(const ChooseRequest& request, const JudgedPlan& a,
+                              const JudgedPlan& b) {
     const bool known = !request.costs && a.ms_range.is_known() && b.ms_range.is_known();
     return known ? a.ms_range.high < b.ms_range.low : a.ms < b.ms;
 }
@@ -213,7 +220,7 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ChooseRequest& request,
     std::vector<const JudgedPlan*> unbeaten;
     for (const JudgedPlan* plan : kept) // those before it err less
         if (std::ranges::all_of(unbeaten, [&](const JudgedPlan* surer) {
-                return takes_less_time(request, *plan, *surer);
+                return does_plan_take_less_time(request, *plan, *surer);
             }))
             unbeaten.push_back(plan);
     return unbeaten;
@@ -230,9 +237,10 @@ std::vector<std::string> list_plans_to_prove(Engine& engine, const ChooseRequest
     if (!request.max_error) return {chain.front()}; // the limit of time asks for the least error
     if (chain.size() > kMaxProvedPlans)             // the surest and the cheapest stay
         chain.erase(chain.begin() + 1, chain.end() - (kMaxProvedPlans - 1));
-    const std::string mixed = find_mixed_plan(request, training, plans), cheapest = chain.back();
+    const std::string mixed = find_fastest_mixed_plan(request, training, plans),
+                      cheapest = chain.back();
     if (mixed.empty()) return chain;
-    tell_step(request, "measuring the mix " + mixed + " beside " + cheapest);
+    report_choose_step(request, "measuring the mix " + mixed + " beside " + cheapest);
     if (is_second_plan_faster(engine, request, cheapest, mixed)) chain.push_back(mixed);
     return chain;
 }
@@ -240,10 +248,11 @@ std::vector<std::string> list_plans_to_prove(Engine& engine, const ChooseRequest
 std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
                                    const std::vector<std::string>& texts) {
     const int views = request.proof_views > 0 ? request.proof_views : count_proof_views(request);
-    tell_step(request,
-              fmt::format("proving {} on {} fresh views",
-                          texts.size() == 1 ? texts.front() : fmt::format("{} plans", texts.size()),
-                          views));
+    report_choose_step(
+        request,
+        fmt::format("proving {} on {} fresh views",
+                    texts.size() == 1 ? texts.front() : fmt::format("{} plans", texts.size()),
+                    views));
     const measure::Comparison comparison = compare_plans(engine, request, texts, views,
                                                          request.proof_seed);
     std::vector<PlanProof> proofs;
@@ -255,8 +264,8 @@ std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
         if (request.max_error)
             proof.failures = static_cast<std::size_t>(std::ranges::count_if(
                 errors, [&](double error) { return !(error <= *request.max_error); }));
-        proof.share_bound = measure::kept_share_lower_bound(proof.failures, errors.size(),
-                                                            request.confidence);
+        proof.share_bound = measure::lower_bound_of_passing_view_share(
+            proof.failures, errors.size(), request.confidence);
         proof.error_bound = measure::upper_tolerance_limit(errors, request.share,
                                                            request.confidence);
         proof.keeps_error = request.max_error ? proof.share_bound >= request.share
@@ -314,9 +323,9 @@ const char* error_quantity_name(ErrorQuantity quantity) {
     return quantity == ErrorQuantity::flip ? "flip" : "rmse";
 }
 
-double error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
+double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
     if (mirrors.nonfinite > 0) return INFINITY;
-    return mirrors.pixels == 0 ? 0 : error_of(quantity, mirrors);
+    return mirrors.pixels == 0 ? 0 : error_value_of_difference(quantity, mirrors);
 }
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan) {
@@ -329,14 +338,14 @@ PlanChoice choose_plan(Engine& engine, const ChooseRequest& request) {
     PlanChoice choice;
     std::vector<std::string> texts = request.base.techniques;
     if (texts.empty()) texts = list_default_techniques(request.base);
-    tell_step(request, fmt::format("measuring {} candidates in one view", texts.size()));
+    report_choose_step(request, fmt::format("measuring {} candidates in one view", texts.size()));
     texts = keep_promising_plans(request,
                                  compare_plans(engine, request, texts, 0, request.base.seed), texts,
                                  choice.dropped);
     check(!texts.empty(), Failure::usage,
           "candidates: wanted one that shows reflections, found none");
-    tell_step(request, fmt::format("judging {} candidates in {} training views", texts.size(),
-                                   request.training_views));
+    report_choose_step(request, fmt::format("judging {} candidates in {} training views",
+                                            texts.size(), request.training_views));
     const measure::Comparison training = compare_plans(engine, request, texts,
                                                        request.training_views, request.base.seed,
                                                        request.cameras_per_instant);

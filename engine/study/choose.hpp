@@ -22,7 +22,7 @@ const char* error_quantity_name(ErrorQuantity quantity);
 /// Returns the error that counts for a view, from its difference over the mirrors: 0 if the view
 /// shows no mirror, and infinite if any pixel of the mirrors is not finite, whatever the others
 /// say.
-double error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
+double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
 
 struct ChooseRequest {
     Request base;          ///< scene and settings; `techniques` are the candidates; empty: all
@@ -53,7 +53,7 @@ struct JudgedPlan {
     /// 95 % interval of a measured time; of a predicted time, the times by the least and the
     /// largest cost of each kind of work.
     measure::Interval ms_range;
-    std::vector<double> errors; ///< error_of_view of each view
+    std::vector<double> errors; ///< mirror_error_of_view of each view
     double largest_error = 0;   ///< of `errors`
 };
 
@@ -61,7 +61,7 @@ struct JudgedPlan {
 struct PlanProof {
     JudgedPlan plan;
     std::size_t failures = 0; ///< views above the limit of error; 0 without a limit
-    double share_bound = 0;   ///< measure::kept_share_lower_bound of the failures
+    double share_bound = 0;   ///< measure::lower_bound_of_passing_view_share of the failures
     /// Limit that `share` of all views keeps, with `confidence` (measure::upper_tolerance_limit).
     double error_bound = 0;
     bool keeps_error = false; ///< the share is proved, or there is no limit of error
@@ -86,9 +86,9 @@ struct PlanChoice {
 
 /// Chooses a plan. Steps: all candidates in the comparison's own view, which drops those that are
 /// slower and farther from the reference than another by a wide margin; the others in the training
-/// views; a mix of techniques by mirror from these errors (measure::find_cheapest_mix); and the
-/// proof of the surest and the cheapest plans on fresh views. Throws `usage` for limits out of
-/// range, and what `compare` throws. Costs one comparison with drawn views for each step.
+/// views; a mix of techniques by mirror from these errors (measure::find_fastest_technique_mix);
+/// and the proof of the surest and the cheapest plans on fresh views. Throws `usage` for limits out
+/// of range, and what `compare` throws. Costs one comparison with drawn views for each step.
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& request);
 
 /// Proves one plan on fresh views: the last step of choose_plan.

@@ -38,7 +38,7 @@ namespace catoptric::app {
 namespace {
 
 /// Samples over a pixel's area by which its centre is judged, and the most time for them.
-constexpr const char* kAreaSamples = "16";
+constexpr const char* kPixelAreaSampleCountText = "16";
 constexpr double kMaxAreaMeasurementSeconds = 10;
 
 bool is_same_technique_choice(const TechniqueChoice& a, const TechniqueChoice& b) {
@@ -61,7 +61,7 @@ std::string format_current_utc_time() {
 }
 
 /// Returns the request with its reference chosen.
-CompareRequest with_chosen_reference(CompareRequest request) {
+CompareRequest replace_auto_reference(CompareRequest request) {
     request.reference = choose_reference(request.reference, request.base.scene);
     return request;
 }
@@ -71,7 +71,7 @@ CompareRequest with_chosen_reference(CompareRequest request) {
 class RowComparisonRunner {
 public:
     RowComparisonRunner(Engine& engine, const CompareRequest& request)
-        : comparison_engine_(engine), compare_request_(with_chosen_reference(request)),
+        : comparison_engine_(engine), compare_request_(replace_auto_reference(request)),
           compiled_before_(Access::compiled_pipelines(engine)),
           shared_session_(engine, compare_request_.base.scene),
           truths_(shared_session_, compare_request_.base, compare_request_.reference,
@@ -91,11 +91,11 @@ public:
         prepare_comparison();
         try {
             if (!compare_request_.reference_file.empty())
-                truths_.keep_in_file(compare_request_.reference_file);
+                truths_.keep_reference_in_file(compare_request_.reference_file);
             fill_reference_facts();
             measure_all_rounds();
             reduce_reference_noise();
-            measure_pixel_area();
+            measure_pixel_centre_sampling_error();
             truths_.write_file();
             add_picture_rows();
             for (const StudyChoice& choice : list_requested_studies())
@@ -113,7 +113,7 @@ public:
                               }});
             comparison_.complete = true;
         } catch (const Error& error) {
-            if (comparison_.rows.empty() && !is_stop_signal(error.failure)) throw;
+            if (comparison_.rows.empty() && !is_failure_by_stop_signal(error.failure)) throw;
             comparison_.stopped = error;
         } catch (const std::bad_alloc&) {
             if (comparison_.rows.empty()) throw;
@@ -183,13 +183,13 @@ private:
         const CompiledPipelines compiled = Access::compiled_pipelines(comparison_engine_);
         constexpr const char* kCacheStateNames[] = {"none", "made",
                                                     "used"}; // indexed by PipelineCacheState
-        comparison_.setup = {
-            compare_request_.base.load_ms,
-            setup.upload_ms,
-            setup.hierarchy_ms,
-            compiled.ms - compiled_before_.ms,
-            compiled.pipelines - compiled_before_.pipelines,
-            kCacheStateNames[static_cast<std::size_t>(Access::cache_use(comparison_engine_))]};
+        comparison_.setup = {compare_request_.base.load_ms,
+                             setup.upload_ms,
+                             setup.hierarchy_ms,
+                             compiled.ms - compiled_before_.ms,
+                             compiled.pipelines - compiled_before_.pipelines,
+                             kCacheStateNames[static_cast<std::size_t>(
+                                 Access::pipeline_cache_state_of_engine(comparison_engine_))]};
         comparison_.load_end = read_machine_load();
         comparison_.warnings = compare_request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)
@@ -197,18 +197,18 @@ private:
                                         warnings.end());
         comparison_.warnings.insert(comparison_.warnings.end(), study_warnings_.begin(),
                                     study_warnings_.end());
-        comparison_.pareto = measure::find_front_of_rows(comparison_.rows);
+        comparison_.pareto = measure::find_pareto_front_of_rows(comparison_.rows);
     }
 
     /// Measures the cost of clearing the cubes of all mirrors without drawing, for as many frames
     /// as a row has.
     void measure_cube_clear_cost(int round) {
         const int warmup = round == 0 ? compare_request_.base.warmup : 0;
-        const int frames = count_frames_of_round(compare_request_.base.frames, comparison_.rounds,
-                                                 round);
+        const int frames = choose_frame_count_of_round(compare_request_.base.frames,
+                                                       comparison_.rounds, round);
         std::vector<double>& samples = clear_ms_.emplace_back();
         for (int k = 0; k < warmup + frames; ++k) {
-            const FrameTimes times = Access::clear_cubes(shared_session_);
+            const FrameTimes times = Access::measure_cube_clear_time(shared_session_);
             if (k >= warmup) samples.push_back(times.passes_ms);
             throw_if_stopped(compare_request_.watcher);
         }
@@ -259,16 +259,17 @@ private:
     }
 
     /// Measures the FLIP over the mirrors between the default reference, whose pixels are their
-    /// centres, and the mean of kAreaSamples samples over each pixel's area. Does nothing for other
-    /// references, which may refuse samples, and if the samples would take longer than
-    /// kMaxAreaMeasurementSeconds.
-    void measure_pixel_area() {
+    /// centres, and the mean of kPixelAreaSampleCountText samples over each pixel's area. Does
+    /// nothing for other references, which may refuse samples, and if the samples would take longer
+    /// than kMaxAreaMeasurementSeconds.
+    void measure_pixel_centre_sampling_error() {
         if (!is_same_technique_choice(parse_technique(compare_request_.reference),
                                       parse_technique(kReference)) ||
-            comparison_.reference_gpu_ms.median * std::stoi(kAreaSamples) >
+            comparison_.reference_gpu_ms.median * std::stoi(kPixelAreaSampleCountText) >
                 1000 * kMaxAreaMeasurementSeconds)
             return;
-        const ComparedReference area = truths_.get_reference(kAreaSamples).compared_reference();
+        const ComparedReference area =
+            truths_.get_reference(kPixelAreaSampleCountText).compared_reference();
         const std::vector<float> map = compute_flip_map(truths_.get_reference("1").part.hdr, area,
                                                         compare_request_.base.exposure);
         comparison_.reference_area_flip = measure::flip_mean(
@@ -282,7 +283,7 @@ private:
     }
 
     /// The last frame of a row, kept to judge it again.
-    struct LastJudgedFrame {
+    struct FrameNumberOfJudgedPicture {
         TechniqueResult part;
         int number = 0; ///< from 1
     };
@@ -384,8 +385,8 @@ private:
                                                              compare_request_.watcher));
         }
         RowMeasurement& run = *runs_[lane];
-        run.measure_one_round(
-            count_frames_of_round(compare_request_.base.frames, comparison_.rounds, round));
+        run.measure_one_round_of_frames(
+            choose_frame_count_of_round(compare_request_.base.frames, comparison_.rounds, round));
         const std::vector<TechniqueResult> parts = first || last ? run.list_technique_results()
                                                                  : std::vector<TechniqueResult>();
         run.suspend_frames();
@@ -422,7 +423,7 @@ private:
     std::vector<std::vector<double>> clear_ms_; ///< by round
     std::vector<std::vector<std::string>> row_warnings_;
     std::vector<std::string> study_warnings_;
-    std::vector<LastJudgedFrame>
+    std::vector<FrameNumberOfJudgedPicture>
         judged_; ///< of each row; empty frames if the reference has no noise
     report::Comparison comparison_;
 };

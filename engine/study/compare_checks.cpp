@@ -37,7 +37,7 @@ void check_has_mirror(const scene::Scene& scene) {
     if (!scene::mirrors(scene).empty()) return;
     std::string lines;
     for (const std::string& option : suggest_mirror_options(scene)) lines += "\n  " + option;
-    fail(Failure::bad_data, "scene ", quote_as_printable_text(scene.name),
+    fail(Failure::bad_data, "scene ", quote_text_with_escapes(scene.name),
          ": wanted a mirror, whose reflections are what is compared, found none; make one with "
          "--mirror PATTERN[=REFLECTANCE]",
          lines.empty() ? "" : ", such as" + lines);

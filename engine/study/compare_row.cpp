@@ -82,12 +82,13 @@ bool draws_mirrors_black(const measure::Picture& picture, const measure::Picture
 }
 
 /// Sets the row's estimates against the halves of a reference with noise, over all masks.
-void estimate_row_noise(report::Row& row, const measure::ReferenceHalves& halves,
+void estimate_row_noise(report::Row& row, const measure::NoisyReferenceHalves& halves,
                         const std::vector<std::uint32_t>& hits, double exposure) {
     const measure::Picture found = measure::apply_exposure(row.hdr, exposure);
-    std::vector<measure::HalvesEstimate> estimates;
-    for (const measure::Mask& mask : measure::list_row_mask_names(hits))
-        estimates.push_back(measure::estimate_error_by_halves(found, halves, mask, row.flip_map));
+    std::vector<measure::NoiseFreeErrorEstimate> estimates;
+    for (const measure::Mask& mask : measure::list_row_masks_by_name(hits))
+        estimates.push_back(
+            measure::estimate_noise_free_error_by_halves(found, halves, mask, row.flip_map));
     measure::set_noise_of_row(row, estimates);
 }
 
@@ -121,12 +122,12 @@ measure::Errors compute_masked_errors(const measure::Picture& picture,
         return compute_masked_error(found, {wanted, truth.halves}, mask, flip_map, 0);
     };
     measure::Errors errors;
-    const std::vector<measure::Mask> masks = measure::list_row_mask_names(hits);
+    const std::vector<measure::Mask> masks = measure::list_row_masks_by_name(hits);
     for (std::size_t i = 0; i < masks.size(); ++i)
         errors.*measure::list_row_masks()[i].error = against(masks[i]);
     for (std::size_t i = 0; i < mirrors; ++i)
         errors.error_per_mirror.push_back(
-            against(measure::mask_one_mirror(hits, MirrorId::of_list_index(i))));
+            against(measure::mask_one_mirror(hits, MirrorId::mirror_id_from_list_index(i))));
     return errors;
 }
 

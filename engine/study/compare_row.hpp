@@ -22,7 +22,7 @@ void fill_row_times(report::Row& row, const std::vector<std::vector<FrameTimes>>
 struct ComparedReference {
     const measure::Picture& hdr; ///< linear; of a reference with noise, the mean of its halves
     /// Halves of a reference with noise, at the comparison's exposure; null: no noise.
-    const measure::ReferenceHalves* halves = nullptr;
+    const measure::NoisyReferenceHalves* halves = nullptr;
 };
 
 /// Returns FLIP of both pictures for each pixel, as displayed at `exposure` stops, not rounded to 8

@@ -19,35 +19,36 @@ namespace {
 
 using report::ReportTable;
 
-constexpr const char* kCostsMetric = "costs";
+constexpr const char* kPredictedCostsMetricName = "costs";
 
 /// Returns "NAME (literature)". The name stands for a device's costs in all outputs.
 std::string describe_device_costs(const measure::DeviceCosts& costs) {
     return costs.device + " (" + std::string(measure::cost_origin_name(costs.origin)) + ")";
 }
 
-bool list_contains_index(const std::vector<std::size_t>& list, std::size_t index) {
+bool does_list_contain_index(const std::vector<std::size_t>& list, std::size_t index) {
     return std::ranges::find(list, index) != list.end();
 }
 
 void set_row_costs(std::vector<report::Row>& rows, const std::vector<measure::DeviceCosts>& all) {
-    std::vector<std::vector<measure::MetricValueParts>> lists(rows.size());
+    std::vector<std::vector<measure::NamedMetricValueParts>> lists(rows.size());
     for (const measure::DeviceCosts& costs : all) {
-        const measure::PredictedFront front = measure::find_predicted_front(costs, rows);
+        const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(costs,
+                                                                                         rows);
         for (std::size_t i = 0; i < rows.size(); ++i)
             lists[i].push_back({"device",
                                 describe_device_costs(costs),
                                 {{"ms", front.times[i].ms},
                                  {"low_ms", front.times[i].low},
                                  {"high_ms", front.times[i].high},
-                                 {"on_front", list_contains_index(front.rows, i)},
+                                 {"on_front", does_list_contain_index(front.rows, i)},
                                  {"on_front_if_rays_are_cheap",
-                                  list_contains_index(front.rows_if_rays_are_cheap, i)},
+                                  does_list_contain_index(front.rows_if_rays_are_cheap, i)},
                                  {"on_front_if_rays_are_dear",
-                                  list_contains_index(front.rows_if_rays_are_dear, i)}}});
+                                  does_list_contain_index(front.rows_if_rays_are_dear, i)}}});
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        measure::set_study_metric(rows[i], kCostsMetric, std::move(lists[i]));
+        measure::set_row_metric_of_study(rows[i], kPredictedCostsMetricName, std::move(lists[i]));
 }
 
 void predict_row_times(const StudyInput& input) {
@@ -72,9 +73,10 @@ struct PredictedCostCells {
 
 std::vector<PredictedCostCells> list_cost_cells(const report::Row& row) {
     std::vector<PredictedCostCells> cells;
-    const measure::MetricValue value = measure::find_study_metric(row, kCostsMetric);
-    if (const auto* list = std::get_if<std::vector<measure::MetricValueParts>>(&value))
-        for (const measure::MetricValueParts& parts : *list)
+    const measure::MetricValue value = measure::find_row_metric_of_study(row,
+                                                                         kPredictedCostsMetricName);
+    if (const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value))
+        for (const measure::NamedMetricValueParts& parts : *list)
             cells.push_back(
                 {parts.name, std::get<double>(parts.values[0].second),
                  std::get<double>(parts.values[1].second), std::get<double>(parts.values[2].second),
@@ -166,12 +168,12 @@ const RegisteredStudy kCostsStudy{
                  comparison.studies.emplace_back("work");
          },
      .run = predict_row_times,
-     .metrics = {{.name = kCostsMetric,
+     .metrics = {{.name = kPredictedCostsMetricName,
                   .unit = "ms",
                   .help = "predicted time on each device of --costs, with the ends of its range",
                   .better = measure::BetterDirection::less,
                   .order = 790,
-                  .get = measure::Metric::IsStudyMetric{}}},
+                  .get = measure::Metric::IsMetricOfStudy{}}},
      .part = {.order = 700,
               .tables = make_cost_tables,
               .sentences = describe_predicted_fronts,

@@ -29,7 +29,7 @@ constexpr double kMaxPathSeconds = 10;
 constexpr double kFramesPerSecond = 60;
 
 /// Instants along the scene's motion, on each of which every speed has a frame.
-struct LagInstants {
+struct LagMeasurementInstants {
     double start = 0;   ///< seconds
     double step = 0;    ///< seconds from one instant to the next
     double fastest = 1; ///< fastest speed, as in LagRequest::speeds
@@ -37,14 +37,14 @@ struct LagInstants {
     int count = 1;      ///< number of instants
 
     double path_length_seconds() const { return step * count; }
-    double instant_seconds(int i) const { return start + step * i; }
+    double scene_seconds_of_lag_instant(int i) const { return start + step * i; }
     /// Returns the number of frames of a speed in a step.
     int count_frames_per_instant(double speed) const {
         return stride * static_cast<int>(fastest / speed);
     }
     /// Returns the instant of frame f (0 at the start) of a speed, in seconds. Every
     /// count_frames_per_instant()-th frame lies exactly on an instant of the path.
-    double seconds_of_frame(double speed, int f) const {
+    double scene_seconds_of_lag_frame(double speed, int f) const {
         return start + step * (static_cast<double>(f) / count_frames_per_instant(speed));
     }
 };
@@ -62,11 +62,12 @@ void check_lag_speeds(const std::vector<double>& speeds) {
 
 /// Returns a path with as many instants as the fastest speed has frames, or as are allowed. Returns
 /// one instant if nothing moves.
-LagInstants choose_lag_instants(const LagRequest& request) {
+LagMeasurementInstants choose_lag_instants(const LagRequest& request) {
     check_lag_speeds(request.speeds);
     check(request.most_instants > 0, Failure::usage, "lag: wanted at least one instant, found ",
           request.most_instants);
-    LagInstants path{.start = request.base.time, .fastest = std::ranges::max(request.speeds)};
+    LagMeasurementInstants path{.start = request.base.time,
+                                .fastest = std::ranges::max(request.speeds)};
     const double frame = path.fastest / kFramesPerSecond;
     const double frames = std::min(scene::compute_scene_period(request.base.scene),
                                    kMaxPathSeconds) /
@@ -120,12 +121,14 @@ public:
     }
 
     void measure_all_rows() {
-        for (int i = 0; i < path_.count; ++i) lag_.seconds.push_back(path_.instant_seconds(i));
+        for (int i = 0; i < path_.count; ++i)
+            lag_.seconds.push_back(path_.scene_seconds_of_lag_instant(i));
         lag_.path = path_.path_length_seconds();
         lag_.jump_from = path_.start + path_.path_length_seconds() / 2;
         lag_.frame_cap = kMaxLagFrames;
         begin_row_progress("reference " + lag_request_.reference, 0, path_.count * kMaxLagFrames);
-        for (int i = 0; i < path_.count; ++i) add_reference_instant(path_.instant_seconds(i));
+        for (int i = 0; i < path_.count; ++i)
+            add_reference_instant(path_.scene_seconds_of_lag_instant(i));
         for (std::size_t i = 0; i < lag_request_.base.techniques.size(); ++i) {
             measure_lag_of_technique(i);
             if (lag_request_.on_finished_row) lag_request_.on_finished_row();
@@ -160,14 +163,14 @@ private:
         return made;
     }
     /// Begins with cold history. Counts frames that earlier runs saved as done.
-    void begin_cold_frame_run(int frames_before) {
+    void begin_frame_run_without_history(int frames_before) {
         lag_session_.forget();
         frames_done_ = frames_before;
     }
 
     SettledPicture render_still_picture(const std::string& technique, double seconds) {
         const int before = frames_done_;
-        begin_cold_frame_run(before);
+        begin_frame_run_without_history(before);
         SettledPicture still;
         int unchanged = 0;
         for (int k = 1; k <= kMaxLagFrames && !still.rests; ++k) {
@@ -198,7 +201,7 @@ private:
     void measure_lag_of_technique(std::size_t index) {
         const std::string& text = lag_request_.base.techniques[index];
         const std::string label = parse_technique(text).label;
-        begin_row_progress("lag of " + label, index + 1, count_frames_of_row());
+        begin_row_progress("lag of " + label, index + 1, count_lag_frames_of_row());
         report::LagRow row;
         row.label = label;
         stills_.clear();
@@ -235,7 +238,7 @@ private:
     /// instant.
     report::SettlingAfterCut measure_settling_after_cut(const std::string& text, int before) {
         report::SettlingAfterCut settling;
-        begin_cold_frame_run(frames_done_);
+        begin_frame_run_without_history(frames_done_);
         for (int k = 0; k < before; ++k) render_frame(text, lag_.jump_from);
         for (int k = 0; k < kMaxLagFrames; ++k) {
             const measure::Difference error = compute_difference_without_flip(
@@ -245,19 +248,18 @@ private:
             settling.max.push_back(error.max);
         }
         settling.rmse_settled = measure::find_settled_frame(settling.rmse,
-                                                            measure::kSettledErrorLimit);
-        settling.max_settled = measure::find_settled_frame(settling.max,
-                                                           measure::kSettledErrorLimit);
+                                                            measure::kMaxSettledError);
+        settling.max_settled = measure::find_settled_frame(settling.max, measure::kMaxSettledError);
         return settling;
     }
 
     report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed) {
         report::LagAtSpeed lag{.speed = speed};
         const int between = path_.count_frames_per_instant(speed),
-                  count = count_frames_at_speed(speed) - kLagPathWarmupFrames;
-        begin_cold_frame_run(frames_done_);
+                  count = count_lag_frames_at_speed(speed) - kLagPathWarmupFrames;
+        begin_frame_run_without_history(frames_done_);
         for (int k = -kLagPathWarmupFrames; k < count; ++k) {
-            const Frame moving = render_frame(text, path_.seconds_of_frame(speed, k));
+            const Frame moving = render_frame(text, path_.scene_seconds_of_lag_frame(speed, k));
             if (k < 0 || k % between != 0) continue;
             const auto i = static_cast<std::size_t>(k / between);
             const measure::Picture picture = moving.hdr();
@@ -268,20 +270,20 @@ private:
         return lag;
     }
 
-    int count_frames_at_speed(double speed) const {
+    int count_lag_frames_at_speed(double speed) const {
         return kLagPathWarmupFrames + (path_.count - 1) * path_.count_frames_per_instant(speed) + 1;
     }
     /// Counts every still with the largest number of frames.
-    int count_frames_of_row() const {
+    int count_lag_frames_of_row() const {
         int frames = path_.count * kMaxLagFrames + 3 * kMaxLagFrames;
-        for (const double speed : lag_request_.speeds) frames += count_frames_at_speed(speed);
+        for (const double speed : lag_request_.speeds) frames += count_lag_frames_at_speed(speed);
         return frames;
     }
 
     Session& lag_session_;
     LagRequest lag_request_;
     report::LagResults& lag_;
-    LagInstants path_;
+    LagMeasurementInstants path_;
     int mirrors_ = 0;
     std::vector<ReferenceAtInstant> instants_;
     std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant

@@ -15,7 +15,7 @@ namespace catoptric::app {
 
 namespace {
 
-constexpr int kLookupStateUnknown = 1, kLookupMiss = 2; // Lookup::state
+constexpr int kLookupStateUnknown = 1, kLookupStateMiss = 2; // Lookup::state
 constexpr float kUnlimitedRayDistance = std::numeric_limits<float>::max();
 
 /// Returns the ray that a mirror reflects from the point where `ray` met it, as
@@ -41,7 +41,7 @@ f32::Ray reflect_ray_at_hit(const render::FrameGeometry& geometry, const f32::Ra
 TrueHitFinder::TrueHitFinder(const Request& request) {
     const scene::SceneAtTime at_time(request.scene, request.time);
     const scene::Scene& now = *at_time;
-    const render::SceneUnits space = render::make_scene_units(request.scene);
+    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     geometry_ = render::make_frame_geometry(now, space);
     mirror_objects_ = scene::mirrors(now);
     for (const scene::Object& object : now.objects)
@@ -52,11 +52,11 @@ TrueHitFinder::TrueHitFinder(const Request& request) {
             space.world_to_scene_point(scene::bounds(now, now.objects[object]).centre()));
         without_.push_back(build_bvh_without_object(geometry_, object));
     }
-    trace_request(request);
+    trace_true_hits_of_request(request);
 }
 
-void TrueHitFinder::trace_request(const Request& request) {
-    const render::SceneUnits space = render::make_scene_units(request.scene);
+void TrueHitFinder::trace_true_hits_of_request(const Request& request) {
+    const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const shared::View view = render::make_camera_view(
         scene::camera_at_time(request.camera, request.time), space, request.size, 0,
         render::compute_geometry_bounds(geometry_));
@@ -114,7 +114,7 @@ TrueHitFinder::judge_lookups(const std::vector<vec4>& lookup, bool left_out) con
         const vec3 direction = normalize(vec3(pixel));
         const int state = code & 3;
         const bool second = (code & 4) != 0;
-        const bool leaves = state == kLookupMiss ||
+        const bool leaves = state == kLookupStateMiss ||
                             (state == kLookupStateUnknown &&
                              second); // as kLeaves in shaders/lib/probe.glsl
         const int object = leaves ? kNoObjectIndex

@@ -40,7 +40,7 @@ private:
     };
     static constexpr int kNoObjectIndex = -1;
 
-    void trace_request(const Request& request);
+    void trace_true_hits_of_request(const Request& request);
     /// Returns the object that the capture of `mirror` shows in a direction, in its first or second
     /// layer.
     int find_captured_object(std::uint32_t mirror, const vec3& direction, bool second_layer,

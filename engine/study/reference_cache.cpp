@@ -77,8 +77,8 @@ bool ReferenceCache::has_reference_noise() const {
     return *noisy_;
 }
 
-void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& technique,
-                                int number) {
+void ReferenceCache::add_reference_frames(ReferencePicture& reference, const std::string& technique,
+                                          int number) {
     NoisyReference& noisy = *reference.noisy;
     const auto start = std::chrono::steady_clock::now();
     Request request = base_;
@@ -101,7 +101,8 @@ void ReferenceCache::add_frames(ReferencePicture& reference, const std::string& 
 
 void ReferenceCache::update_picture(ReferencePicture& reference) const {
     NoisyReference& noisy = *reference.noisy;
-    noisy.halves = measure::make_reference_halves(noisy.a.mean(), noisy.b.mean(), base_.exposure);
+    noisy.halves = measure::make_noisy_reference_halves(noisy.a.mean(), noisy.b.mean(),
+                                                        base_.exposure);
     // The mean of both halves, before exposure.
     measure::PictureMean both;
     both.add_picture(noisy.a.mean());
@@ -110,11 +111,11 @@ void ReferenceCache::update_picture(ReferencePicture& reference) const {
     reference.part.display = measure::to_display(reference.part.hdr, base_.exposure);
 }
 
-void ReferenceCache::read_frames(ReferencePicture& reference) const {
+void ReferenceCache::read_stored_reference_frames(ReferencePicture& reference) const {
     StoredReference stored = read_reference_file(make_reference_key(base_, reference_), file_);
     NoisyReference& noisy = *reference.noisy;
     for (const int seed : stored.seeds)
-        check(noisy.seeds.mark_seed_as_used(seed), Failure::usage, file_.string(),
+        check(noisy.seeds.reserve_lobe_seed(seed), Failure::usage, file_.string(),
               ": a frame has the seed ", seed,
               ", which a row has as well; choose another seed for the row");
     noisy.used = std::move(stored.seeds);
@@ -124,7 +125,7 @@ void ReferenceCache::read_frames(ReferencePicture& reference) const {
     update_picture(reference);
 }
 
-void ReferenceCache::keep_in_file(const std::filesystem::path& file) {
+void ReferenceCache::keep_reference_in_file(const std::filesystem::path& file) {
     check(has_reference_noise(), Failure::usage, "--reference ", file.string(),
           ": wanted a reference with noise, which draws rays from the lobes of rough surfaces; "
           "found one without");
@@ -151,9 +152,9 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
         made.noisy = std::make_shared<NoisyReference>(ReferenceSeeds(rows));
         const bool is_kept = !file_.empty() && samples == "1" && key.second == base_.total();
         if (is_kept && std::filesystem::exists(file_))
-            read_frames(made);
+            read_stored_reference_frames(made);
         else
-            add_frames(made, technique, key.second);
+            add_reference_frames(made, technique, key.second);
         made.part.hits.clear(); // the second mirror of a drawn ray is a draw as well
     } else {
         RunResult result = render_reference(technique, key.second);
@@ -183,7 +184,7 @@ bool ReferenceCache::grow_reference(const std::string& samples, double seconds, 
             "reference " + reference_ + ", " + std::to_string(reference.noisy->a.picture_count()) +
                 " frames a half",
             has_grown ? static_cast<std::size_t>(reference.noisy->seconds) : 0, whole);
-        add_frames(reference, set_reference_samples(reference_, samples), base_.total());
+        add_reference_frames(reference, set_reference_samples(reference_, samples), base_.total());
     }
     return has_grown;
 }
@@ -193,7 +194,7 @@ measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples
     check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
     const NoisyReference& noisy = *reference.noisy;
     const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
-    const measure::HalvesEstimate between = measure::estimate_error_by_halves(
+    const measure::NoiseFreeErrorEstimate between = measure::estimate_noise_free_error_by_halves(
         noisy.halves.a, noisy.halves, mirrors, noisy.halves.floor_map);
     return {.frames = noisy.a.picture_count(),
             .seconds = noisy.seconds,

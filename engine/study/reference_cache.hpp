@@ -43,8 +43,8 @@ struct NoisyReference {
     ReferenceSeeds seeds;
     std::vector<int> used; ///< seeds of all frames
     measure::PictureMean a, b;
-    measure::ReferenceHalves halves; ///< of these means, after exposure
-    double seconds = 0;              ///< time in which the frames were rendered
+    measure::NoisyReferenceHalves halves; ///< of these means, after exposure
+    double seconds = 0;                   ///< time in which the frames were rendered
 };
 
 /// Picture that a row is judged against: the reference at the row's own sample count.
@@ -98,7 +98,7 @@ public:
     /// Keeps the reference of a row's last frame at one sample a pixel in a file, and begins with
     /// the content of the file if it exists. Call it before the reference is needed. Throws `usage`
     /// for a reference without noise.
-    void keep_in_file(const std::filesystem::path& file);
+    void keep_reference_in_file(const std::filesystem::path& file);
     /// Writes the file, if the reference is kept in one.
     void write_file();
     /// Returns the noise of that reference over the mirrors. Only for references with noise.
@@ -110,10 +110,11 @@ private:
     int choose_frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
     RunResult render_reference(const std::string& technique, int number) const;
     /// Adds a frame of each half, and updates the picture.
-    void add_frames(ReferencePicture& reference, const std::string& technique, int number);
+    void add_reference_frames(ReferencePicture& reference, const std::string& technique,
+                              int number);
     /// Sets the picture to the mean of the halves.
     void update_picture(ReferencePicture& reference) const;
-    void read_frames(ReferencePicture& reference) const;
+    void read_stored_reference_frames(ReferencePicture& reference) const;
     ReferencePicture& find_reference_to_change(const std::string& samples, int number);
 
     Session& reference_session_;
@@ -124,7 +125,7 @@ private:
     /// First hits of the reference's camera rays, by frame number.
     std::map<int, std::vector<std::uint32_t>> hits_;
     mutable std::optional<bool> noisy_;
-    std::filesystem::path file_; ///< see keep_in_file; empty: none
+    std::filesystem::path file_; ///< see keep_reference_in_file; empty: none
 };
 
 } // namespace catoptric::app

@@ -16,7 +16,7 @@ namespace {
 using report::Json;
 
 constexpr const char* kReferenceSchema = "catoptric/reference/1";
-const std::array<std::string, 4> kLayers{"A", "B", "variance_A", "variance_B"};
+const std::array<std::string, 4> kReferenceFileLayerNames{"A", "B", "variance_A", "variance_B"};
 
 std::string format_point(const dvec3& point) {
     return fmt::format("{},{},{}", point.x, point.y, point.z);
@@ -66,17 +66,18 @@ void write_reference_file(const StoredReference& reference, const ReferenceKey& 
     for (const auto& [name, value] : key) json["key"][name] = value;
     json["seeds"] = reference.seeds;
     json["gpu_ms"] = reference.gpu_ms;
-    measure::write_picture_layers({{{kLayers[0], reference.a.mean()},
-                                    {kLayers[1], reference.b.mean()},
-                                    {kLayers[2], reference.a.variance()},
-                                    {kLayers[3], reference.b.variance()}},
+    measure::write_picture_layers({{{kReferenceFileLayerNames[0], reference.a.mean()},
+                                    {kReferenceFileLayerNames[1], reference.b.mean()},
+                                    {kReferenceFileLayerNames[2], reference.a.variance()},
+                                    {kReferenceFileLayerNames[3], reference.b.variance()}},
                                    json.dump()},
                                   path);
 }
 
 StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path) {
     const std::string file = path.string();
-    const measure::LayeredPictureFile stored = measure::read_picture_layers(path, kLayers);
+    const measure::LayeredPictureFile stored = measure::read_picture_layers(
+        path, kReferenceFileLayerNames);
     const Json json = parse_reference_description(stored.description, file);
     for (const auto& [name, value] : key) {
         const Json found = json["key"].contains(name) ? json["key"][name] : Json();

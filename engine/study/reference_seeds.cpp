@@ -22,7 +22,7 @@ double find_knob_number(const TechniqueChoice& choice, std::string_view knob) {
 std::set<int> list_row_seeds(const std::vector<std::string>& rows) {
     std::set<int> seeds{0};
     for (const std::string& row : rows)
-        for (const reflect::PlanRule& rule : read_technique_plan(row).rules)
+        for (const reflect::TechniquePlanRule& rule : read_technique_plan(row).rules)
             for (const TechniqueKnob& knob : rule.choice.settings.list_knobs())
                 if (knob.name == kSeedKnobName)
                     seeds.insert(rule.choice.settings.knob_value_as_integer(knob));

@@ -19,7 +19,7 @@ public:
     /// Returns the next seed, from 1.
     int next();
     /// Marks a seed as given. Returns false if a row has it, or if it was given before.
-    bool mark_seed_as_used(int seed) { return taken_.insert(seed).second; }
+    bool reserve_lobe_seed(int seed) { return taken_.insert(seed).second; }
 
 private:
     std::set<int> taken_;

@@ -44,7 +44,7 @@ TechniqueResult RowErrorJudge::render_lookups(const std::string& text, int numbe
     return part;
 }
 
-const TrueHitFinder& RowErrorJudge::find_oracle(int number) {
+const TrueHitFinder& RowErrorJudge::find_true_hit_finder(int number) {
     if (!oracle_ || (base_.animate && number != oracle_frame_))
         oracle_.emplace(make_still_request(number));
     oracle_frame_ = number;
@@ -66,7 +66,7 @@ std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row&
                                                                       : TechniqueResult();
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
-        const TrueHitFinder& oracle = find_oracle(number);
+        const TrueHitFinder& oracle = find_true_hit_finder(number);
         row.lookup = measure::summarise_lookup_errors(
             oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out")));
         row.light_edges = split_error_at_light_edges(row, truth, hits, looked.lookup, oracle,

@@ -28,7 +28,7 @@ public:
 private:
     Request make_still_request(int number) const;
     TechniqueResult render_lookups(const std::string& text, int number);
-    const TrueHitFinder& find_oracle(int number);
+    const TrueHitFinder& find_true_hit_finder(int number);
 
     Session& judge_session_;
     ReferenceCache& truths_;

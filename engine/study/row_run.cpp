@@ -19,7 +19,7 @@ double measure_elapsed_seconds() {
 
 } // namespace
 
-int count_frames_of_round(int frames, int rounds, int index) {
+int choose_frame_count_of_round(int frames, int rounds, int index) {
     return frames / rounds + (index < frames % rounds ? 1 : 0);
 }
 
@@ -28,7 +28,7 @@ int choose_round_count(int frames, int asked) { return std::min(frames, asked); 
 RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher)
     : row_request_(std::move(request)), watcher_(watcher), frames_(session, row_request_) {}
 
-void RowMeasurement::measure_one_round(int frames) {
+void RowMeasurement::measure_one_round_of_frames(int frames) {
     const auto render = [&](int count) {
         for (int k = 0; k < count && frames_.render_next(); ++k)
             report_frame_to_watcher(watcher_, frames_.rendered_frame_count(), row_request_.total());

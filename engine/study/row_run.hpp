@@ -14,7 +14,7 @@ namespace catoptric::app {
 
 /// Returns the number of frames in round `index` of `rounds`. Frames are spread evenly; the first
 /// rounds get one more if needed. `frames` must be at least `rounds`.
-int count_frames_of_round(int frames, int rounds, int index);
+int choose_frame_count_of_round(int frames, int rounds, int index);
 /// Returns the number of rounds: `asked`, but at most one per frame.
 int choose_round_count(int frames, int asked);
 
@@ -26,10 +26,10 @@ public:
     RowMeasurement(Session& session, Request request, const Watcher& watcher);
 
     /// Measures `frames` frames. The first call renders the warm-up before them.
-    void measure_one_round(int frames);
+    void measure_one_round_of_frames(int frames);
     /// Returns the results of the last frame. Call before `suspend`.
     std::vector<TechniqueResult> list_technique_results() const { return frames_.result().parts; }
-    /// Frees the session for other frames until the next `measure_one_round`.
+    /// Frees the session for other frames until the next `measure_one_round_of_frames`.
     void suspend_frames() { frames_.suspend_frame_loop(); }
 
     /// Returns the number of the last frame, from 1.

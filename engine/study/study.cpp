@@ -16,11 +16,11 @@ RegisteredStudy::RegisteredStudy(Study study) {
     }
     study.part.name = study.name;
     if (study.part.tables != nullptr) const report::RegisteredReportPart registers(study.part);
-    get_registered_rows<Study>().push_back(std::move(study));
+    get_registered_table_entries<Study>().push_back(std::move(study));
 }
 
 const std::vector<Study>& list_studies() {
-    static const std::vector<Study> kSortedStudies = sort_registered_rows<Study>();
+    static const std::vector<Study> kSortedStudies = list_registered_entries_in_order<Study>();
     return kSortedStudies;
 }
 

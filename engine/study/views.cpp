@@ -82,12 +82,12 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
 }
 
 /// The reference of a view, and what its rays meet.
-struct ViewTruth {
+struct ViewReferencePicture {
     Request at_view;
     ReferenceCache cache;
     std::vector<std::uint32_t> hits;
 
-    ViewTruth(Session& session, const ViewsRequest& request, const measure::View& view)
+    ViewReferencePicture(Session& session, const ViewsRequest& request, const measure::View& view)
         : at_view(make_view_request(request.base, view)),
           cache(session, at_view, request.reference, request.watcher),
           hits(cache.find_mirror_hits()) {}
@@ -106,8 +106,8 @@ struct ViewTruth {
 
 /// Returns the number after the last of at most `most` views that follow view `first` at its
 /// instant. Captures settle once for all of them, and each keeps its reference until then.
-std::size_t find_end_of_instant(const std::vector<measure::View>& views, std::size_t first,
-                                std::size_t most) {
+std::size_t find_end_of_views_at_same_instant(const std::vector<measure::View>& views,
+                                              std::size_t first, std::size_t most) {
     std::size_t end = first + 1;
     while (end < views.size() && end - first < most && views[end].time == views[first].time) ++end;
     return end;
@@ -216,33 +216,34 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
     for (std::size_t first = 0; first < count;) {
-        const std::size_t end = find_end_of_instant(
+        const std::size_t end = find_end_of_views_at_same_instant(
             comparison.views, first, static_cast<std::size_t>(request.cameras_per_instant));
-        std::vector<std::unique_ptr<ViewTruth>> truths;
+        std::vector<std::unique_ptr<ViewReferencePicture>> truths;
         for (std::size_t i = first; i < end; ++i) {
             report_picture(i, "reference");
-            truths.push_back(std::make_unique<ViewTruth>(session, request, comparison.views[i]));
+            truths.push_back(
+                std::make_unique<ViewReferencePicture>(session, request, comparison.views[i]));
             truths.back()->render(texts, request.reference_seconds / static_cast<double>(count),
                                   measure::choose_target_noise_floor(rows));
         }
         for (std::size_t k = 0; k < texts.size(); ++k)
             for (std::size_t i = first; i < end; ++i) {
                 report_picture(i, comparison.rows[k].label);
-                ViewTruth& truth = *truths[i - first];
+                ViewReferencePicture& truth = *truths[i - first];
                 Request one = truth.at_view;
                 one.techniques = {texts[k]};
                 // Both models draw the same picture. This one keeps what no camera changes.
                 one.model = RenderedWork::required;
-                const RunResult result = run_with_history(session, one, request.watcher,
-                                                          i == first ? FrameHistory::none
-                                                                     : FrameHistory::of_last_frame);
+                const RunResult result = run_with_history(
+                    session, one, request.watcher,
+                    i == first ? FrameHistoryState::none : FrameHistoryState::of_last_frame);
                 add_view_errors(
                     comparison.rows[k], result.parts.front(),
                     truth.cache.get_reference(find_sample_count(parse_technique(texts[k]))),
                     truth.hits, mirrors, request.base.exposure);
             }
         for (std::size_t i = first; i < end; ++i) {
-            ViewTruth& truth = *truths[i - first];
+            ViewReferencePicture& truth = *truths[i - first];
             for (std::size_t k = 0; k < request.pictures.size(); ++k)
                 add_errors_of_view_picture(request, k, i + 1, truth.cache.get_reference("1"),
                                            truth.hits, mirrors, comparison.rows[texts.size() + k],

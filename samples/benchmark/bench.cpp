@@ -20,7 +20,7 @@ using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 
 /// Sums over the iterations of one round.
-struct RoundMeasurementSums {
+struct BenchmarkRoundSums {
     double real_ms = 0, host_ms = 0;
     ProcessorUsage process, caller;
     std::map<std::string, double> counters;
@@ -100,8 +100,8 @@ private:
         const BenchmarkSubject& subject = benchmark_subjects_[index];
         report_progress(index,
                         ", round " + std::to_string(round + 1) + " of " + std::to_string(rounds_));
-        const int iterations = count_frames_of_round(options_.iterations, rounds_, round);
-        RoundMeasurementSums sums;
+        const int iterations = choose_frame_count_of_round(options_.iterations, rounds_, round);
+        BenchmarkRoundSums sums;
         const ProcessorUsage process = meter_.read(), caller = caller_meter_.read();
         {
             const Stopwatch watch(sums.real_ms);
@@ -113,8 +113,7 @@ private:
         report_frame_to_watcher(options_.watcher, iterations, iterations);
     }
 
-    void store_round_of_subject(std::size_t index, int iterations,
-                                const RoundMeasurementSums& sums) {
+    void store_round_of_subject(std::size_t index, int iterations, const BenchmarkRoundSums& sums) {
         BenchmarkRound round = divide_by_iterations(iterations, sums.real_ms, sums.process);
         for (const auto& [name, sum] : sums.counters) round.counters[name] = sum / iterations;
         list_[index].rounds.push_back(std::move(round));

@@ -47,10 +47,11 @@ public:
 
 private:
     void count_work_of_frames() {
-        const WorkCounts work = sum_work_of_passes(count_frame_work(*benchmark_session_, request_));
-        for (std::size_t i = 0; i < kWorkKindCount; ++i)
+        const WorkCountsByKind work = sum_work_counts_of_passes(
+            count_frame_work(*benchmark_session_, request_));
+        for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
             if (work.values[i])
-                work_[measure::kWorkCounterPrefix + std::string(kWorkKinds[i].name)] =
+                work_[measure::kWorkCounterPrefix + std::string(kCountedWorkKinds[i].name)] =
                     static_cast<double>(*work.values[i]);
     }
 

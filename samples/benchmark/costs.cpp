@@ -42,7 +42,8 @@ double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& ro
 
 /// Measures the rows of one size and model, and appends them to `samples`.
 void measure_cost_rows(Session& session, const Request& request, int threads,
-                       const BenchOptions& options, std::vector<measure::TimedRowSample>& samples) {
+                       const BenchOptions& options,
+                       std::vector<measure::TimedWorkSample>& samples) {
     const std::vector<Request> rows = split_request_by_technique(request);
     const int rounds = choose_round_count(options.iterations, options.rounds);
     std::vector<std::unique_ptr<RowMeasurement>> runs;
@@ -55,21 +56,23 @@ void measure_cost_rows(Session& session, const Request& request, int threads,
             report_row_to_watcher(options.watcher, make_cost_sample_name(rows[i]),
                                   static_cast<std::size_t>(round) * rows.size() + place,
                                   static_cast<std::size_t>(rounds) * rows.size());
-            runs[i]->measure_one_round(count_frames_of_round(options.iterations, rounds, round));
+            runs[i]->measure_one_round_of_frames(
+                choose_frame_count_of_round(options.iterations, rounds, round));
             runs[i]->suspend_frames();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        samples.push_back({make_cost_sample_name(rows[i]),
-                           sum_work_of_passes(count_frame_work(session, rows[i], options.watcher)),
-                           compute_median_device_time(runs[i]->list_rounds(), threads)});
+        samples.push_back(
+            {make_cost_sample_name(rows[i]),
+             sum_work_counts_of_passes(count_frame_work(session, rows[i], options.watcher)),
+             compute_median_device_time(runs[i]->list_rounds(), threads)});
 }
 
 } // namespace
 
-std::vector<measure::TimedRowSample> measure_cost_samples(Engine& engine, const Request& request,
-                                                          const BenchOptions& options) {
+std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const Request& request,
+                                                           const BenchOptions& options) {
     Session session(engine, request.scene);
-    std::vector<measure::TimedRowSample> samples;
+    std::vector<measure::TimedWorkSample> samples;
     for (const RenderedWork model : {RenderedWork::everything, RenderedWork::required})
         for (const std::uint32_t divisor : {1u, 2u}) {
             Request part = request;
@@ -81,21 +84,22 @@ std::vector<measure::TimedRowSample> measure_cost_samples(Engine& engine, const 
     return samples;
 }
 
-std::vector<measure::TimedRowSample> count_work_samples(Engine& engine, const Request& request,
-                                                        const Watcher& watcher) {
+std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const Request& request,
+                                                         const Watcher& watcher) {
     Session session(engine, request.scene);
-    std::vector<measure::TimedRowSample> samples;
+    std::vector<measure::TimedWorkSample> samples;
     for (const Request& row : split_request_by_technique(request))
         samples.push_back({make_cost_sample_name(row),
-                           sum_work_of_passes(count_frame_work(session, row, watcher)), 0});
+                           sum_work_counts_of_passes(count_frame_work(session, row, watcher)), 0});
     return samples;
 }
 
-std::vector<WorkKind> list_fitted_kinds() {
-    std::vector<WorkKind> kinds;
-    for (std::size_t i = 0; i < kWorkKindCount; ++i) {
-        const auto kind = static_cast<WorkKind>(i);
-        if (kind != WorkKind::node_lanes && kind != WorkKind::triangle_lanes) kinds.push_back(kind);
+std::vector<CountedWorkKind> list_fitted_kinds() {
+    std::vector<CountedWorkKind> kinds;
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i) {
+        const auto kind = static_cast<CountedWorkKind>(i);
+        if (kind != CountedWorkKind::node_lanes && kind != CountedWorkKind::triangle_lanes)
+            kinds.push_back(kind);
     }
     return kinds;
 }

@@ -15,15 +15,15 @@ namespace catoptric::app {
 /// work of one frame. On a processor, the time is processor time divided by the device's threads,
 /// which other programs hardly change. On other devices it is the device's time. Names of samples
 /// are "SCENE/WxH/MODEL/TECHNIQUE". `iterations` and `rounds` are those of each row.
-std::vector<measure::TimedRowSample> measure_cost_samples(Engine& engine, const Request& request,
-                                                          const BenchOptions& options);
+std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const Request& request,
+                                                           const BenchOptions& options);
 
 /// Counts the work of one frame of each technique of the request. The times of the samples are 0.
-std::vector<measure::TimedRowSample> count_work_samples(Engine& engine, const Request& request,
-                                                        const Watcher& watcher);
+std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const Request& request,
+                                                         const Watcher& watcher);
 
 /// Returns the kinds of work whose costs are fitted to times of this program: all but the numbers
 /// of lanes, of which the device's driver decides.
-std::vector<WorkKind> list_fitted_kinds();
+std::vector<CountedWorkKind> list_fitted_kinds();
 
 } // namespace catoptric::app

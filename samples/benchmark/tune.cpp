@@ -29,7 +29,7 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     const ProcessorUsageMeter meter(ProcessorUsageMeter::CountedThreadChoice::process);
     const auto session = std::make_shared<Session>(engine, request.scene);
     std::vector<BenchmarkSubject> subjects;
-    const auto add = [&](const std::string& name, const gpu::VariantChoices& choices) {
+    const auto add = [&](const std::string& name, const gpu::ShaderVariantChoices& choices) {
         BenchmarkSubject subject = make_frame_benchmark_subject(session, request,
                                                                 options.iterations);
         subject.work = [&engine, choices, work = std::move(subject.work)] {
@@ -40,10 +40,10 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
         subject.caller.clear();
         subjects.push_back(std::move(subject));
     };
-    const gpu::VariantChoices defaults = choose_default_variants(engine.device());
+    const gpu::ShaderVariantChoices defaults = choose_default_variants(engine.device());
     add("default", defaults);
     for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        gpu::VariantChoices choices = defaults;
+        gpu::ShaderVariantChoices choices = defaults;
         choices[i] = 1 - choices[i];
         add(std::string(gpu::list_shader_variants()[i].name), choices);
     }
@@ -51,7 +51,7 @@ TuningResult tune_shader_variants(Engine& engine, const Request& request,
     EmbeddingEngineAccess::choose_engine_shader_variants(engine, defaults);
     TuningResult tuned{.tried = {}, .noisy = run.noisy.value_or(false)};
     for (std::size_t i = 0; i < gpu::kShaderVariantCount; ++i) {
-        const gpu::ShaderVariant& variant = gpu::list_shader_variants()[i];
+        const gpu::ShaderBuildVariant& variant = gpu::list_shader_variants()[i];
         tuned.tried.push_back({.variant = std::string(variant.name),
                                .choice = std::string(variant.choices[1 - defaults[i]]),
                                .standard = std::string(variant.choices[defaults[i]]),

@@ -50,14 +50,14 @@ BaselineGate::BaselineGate(const BaselineOptions& options) : baseline_options_(o
     check_json_syntax(options.baseline, json_);
 }
 
-void BaselineGate::check_scene(const report::Comparison& comparison) const {
+void BaselineGate::check_baseline_scene(const report::Comparison& comparison) const {
     if (json_.empty()) return;
-    report::check_baseline_fits(comparison, json_, baseline_options_.baseline);
+    report::check_baseline_matches_comparison(comparison, json_, baseline_options_.baseline);
 }
 
-void BaselineGate::judge_scene(const report::Comparison& comparison) {
+void BaselineGate::judge_scene_against_baseline(const report::Comparison& comparison) {
     if (json_.empty()) return;
-    const std::vector<report::BaselineFinding> findings = report::judge_against_baseline(
+    const std::vector<report::BaselineFinding> findings = report::judge_comparison_against_baseline(
         comparison, json_, baseline_options_.baseline, baseline_options_.limits);
     text_ += comparison.scene.name + "\n" + report::format_baseline_findings(findings);
     summary_ += (summary_.empty() ? "" : "\n") +

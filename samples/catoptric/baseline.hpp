@@ -30,9 +30,9 @@ public:
     /// Reads the baseline, if there is one. `options` must outlive the gate.
     explicit BaselineGate(const BaselineOptions& options);
     /// Throws `bad_data` if the baseline does not fit a scene, finished or not.
-    void check_scene(const report::Comparison& comparison) const;
+    void check_baseline_scene(const report::Comparison& comparison) const;
     /// Judges a finished scene. Throws `bad_data` if the baseline does not fit it.
-    void judge_scene(const report::Comparison& comparison);
+    void judge_scene_against_baseline(const report::Comparison& comparison);
     /// Writes the files and returns the text for the terminal; empty without a baseline.
     std::string finish();
     /// Returns whether nothing is worse than in the baseline.

@@ -53,10 +53,10 @@ const std::vector<std::string> kDefaultBenchTechniques{"raytrace:depth=4",
                                                        "pyramid",
                                                        "layered",
                                                        "hybrid"};
-constexpr const char* kOneModelMessage =
+constexpr const char* kOnlyOneModelMessage =
     "--model both: wanted everything or required, of which a benchmark has one";
 constexpr const char* kFlatMirrorScene = "flat"; // `planar` needs a flat mirror
-constexpr const char* kFlatMirrorTechnique = "planar";
+constexpr const char* kFlatMirrorBenchTechnique = "planar";
 
 struct BenchArguments {
     CommonOptions common; ///< options for all scenes
@@ -88,7 +88,7 @@ std::vector<BenchSceneSelection> list_requested_scenes(const BenchArguments& opt
         list.back().common.scene = scene;
     }
     if (options.scenes.empty() && options.techniques.empty()) {
-        list.push_back({options.common, {kFlatMirrorTechnique}});
+        list.push_back({options.common, {kFlatMirrorBenchTechnique}});
         list.back().common.scene = kFlatMirrorScene;
     }
     return list;
@@ -140,7 +140,7 @@ void write_bench_result(const BenchArguments& options, const std::string& json,
 int run_measurement(const BenchArguments& options) {
     // Created before the driver's threads, to count them as well.
     const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
-    check(!options.common.both_models, Failure::usage, kOneModelMessage);
+    check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
     check_techniques_hold_no_scene(options.techniques);
     app::check_row_techniques(options.techniques);
     const std::vector<BenchSceneSelection> list = list_requested_scenes(options);
@@ -187,8 +187,8 @@ int find_exit_code_of_changes(const BenchArguments& options, const measure::Benc
     const measure::BenchmarkChanges changes = measure::compare_benchmark_runs(before, after);
     if (options.against.empty() &&
         std::ranges::any_of(changes.list, [](const measure::BenchmarkChange& change) {
-            return change.cost != measure::CostKind::cycles &&
-                   change.cost != measure::CostKind::instructions;
+            return change.cost != measure::BenchmarkCostKind::cycles &&
+                   change.cost != measure::BenchmarkCostKind::instructions;
         }))
         print_warning(
             "the files hold times, not cycles: what the machine did otherwise when the second was "
@@ -232,7 +232,7 @@ int run_shader_tuning(const BenchArguments& options) {
     check(options.techniques.empty() && options.scenes.size() <= 1, Failure::usage,
           "--tune: wanted at most one SCENE and no --techniques, since ", app::kTuningTechnique,
           " is what is measured");
-    check(!options.common.both_models, Failure::usage, kOneModelMessage);
+    check(!options.common.both_models, Failure::usage, kOnlyOneModelMessage);
     CommonOptions common = options.common;
     if (!options.scenes.empty()) common.scene = options.scenes.front();
     return run_device_tuning(common, std::min(options.rounds, choose_frame_count(options)),
@@ -268,7 +268,7 @@ int run_bench(const BenchArguments& options) {
 void add_bench_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<BenchArguments>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_verb(
+    CommandVerb& verb = program.add_command_verb(
         "bench", "measure times of frames and scenes; compare with another run or build");
     verb.examples(kBenchExamples);
     verb.arguments(

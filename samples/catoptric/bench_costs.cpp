@@ -46,9 +46,9 @@ std::vector<app::Request> make_cost_requests(const CostsArguments& arguments) {
 measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments, app::Engine& engine,
                                               const std::vector<app::Request>& requests,
                                               const app::Watcher& watcher) {
-    std::vector<measure::TimedRowSample> samples;
+    std::vector<measure::TimedWorkSample> samples;
     for (const app::Request& request : requests)
-        for (measure::TimedRowSample& sample : app::measure_cost_samples(
+        for (measure::TimedWorkSample& sample : app::measure_cost_samples(
                  engine, request,
                  {.iterations = request.frames, .rounds = arguments.rounds, .watcher = watcher}))
             samples.push_back(std::move(sample));
@@ -64,8 +64,8 @@ measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments, 
     request.techniques.clear();
     for (const report::OtherDeviceTimes::TimedRowElsewhere& row : times.rows)
         request.techniques.push_back(row.technique);
-    std::vector<measure::TimedRowSample> samples = app::count_work_samples(engine, request,
-                                                                           watcher);
+    std::vector<measure::TimedWorkSample> samples = app::count_work_samples(engine, request,
+                                                                            watcher);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i].ms = times.rows[i].ms;
     measure::DeviceCosts costs = measure::fit_unit_costs(times.device, std::move(samples),
                                                          times.kinds);
@@ -76,14 +76,14 @@ measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments, 
 std::string make_costs_text(const measure::DeviceCosts& costs) {
     std::string text = costs.device + "\n";
     for (const measure::WorkUnitCost& unit : costs.units) {
-        const WorkKindFacts& kind = kWorkKinds[static_cast<std::size_t>(unit.kind)];
+        const CountedWorkKindInfo& kind = kCountedWorkKinds[static_cast<std::size_t>(unit.kind)];
         text += fmt::format("  {:<17} {:>12.5g} ns  {}\n", kind.name, unit.ns, kind.help);
     }
-    const measure::CostFitQuality& fit = *costs.fit;
+    const measure::UnitCostFitQuality& fit = *costs.fit;
     text += fmt::format("{} rows, each predicted by costs that were fitted to the others: {:.0f} % "
                         "within 20 %, {:.0f} % within 50 %\n",
-                        fit.samples.size(), 100 * fit.fraction_within(1.2),
-                        100 * fit.fraction_within(1.5));
+                        fit.samples.size(), 100 * fit.share_of_predictions_within_factor(1.2),
+                        100 * fit.share_of_predictions_within_factor(1.5));
     return text;
 }
 

@@ -14,11 +14,11 @@ namespace catoptric::cli {
 namespace {
 
 using measure::BenchmarkChange;
+using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
 using measure::BenchmarkRun;
-using measure::CostKind;
 
-using TableCells = std::vector<std::vector<std::string>>;
+using BenchmarkTableCells = std::vector<std::vector<std::string>>;
 
 std::string format_benchmark_number(double value) { return fmt::format("{:.3f}", value); }
 
@@ -31,10 +31,11 @@ void add_median_cells(std::vector<std::string>& cells, const std::vector<double>
 
 std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, bool counted) {
     std::vector<std::string> cells{escape_control_characters(benchmark.name)};
-    add_median_cells(cells, list_round_costs(benchmark, CostKind::real_time));
-    add_median_cells(cells, list_round_costs(benchmark, CostKind::cpu_time));
+    add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::real_time));
+    add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cpu_time));
     if (!counted) return cells;
-    add_median_cells(cells, list_round_costs(benchmark, CostKind::cycles), 1e6);
+    add_median_cells(cells, list_benchmark_cost_per_round(benchmark, BenchmarkCostKind::cycles),
+                     1e6);
     std::vector<double> instructions;
     for (const measure::BenchmarkRound& round : benchmark.rounds)
         instructions.push_back(round.instructions.value_or(0));
@@ -42,20 +43,20 @@ std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, 
     return cells;
 }
 
-bool is_counted_cost(CostKind cost) {
-    return cost == CostKind::cycles || cost == CostKind::instructions;
+bool is_counted_cost(BenchmarkCostKind cost) {
+    return cost == BenchmarkCostKind::cycles || cost == BenchmarkCostKind::instructions;
 }
 
 /// Returns a cost as text, in millions of cycles or instructions, or in milliseconds.
-std::string format_cost(double cost, CostKind of) {
+std::string format_cost(double cost, BenchmarkCostKind of) {
     return format_benchmark_number(is_counted_cost(of) ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost that the list compares.
 std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     std::string text;
-    for (const CostKind cost :
-         {CostKind::cycles, CostKind::instructions, CostKind::cpu_time, CostKind::real_time})
+    for (const BenchmarkCostKind cost : {BenchmarkCostKind::cycles, BenchmarkCostKind::instructions,
+                                         BenchmarkCostKind::cpu_time, BenchmarkCostKind::real_time})
         if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
             text += (text.empty() ? "" : " or ") + cost_kind_name(cost) +
                     (is_counted_cost(cost) ? " in user mode, millions" : ", ms");
@@ -65,7 +66,7 @@ std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
 /// Returns a line for each count of work that differs, or a sentence if none differs.
 std::string format_count_changes(const measure::BenchmarkChanges& changes) {
     std::size_t compared = 0;
-    TableCells cells{{"counted work", "count", "before", "after", "ratio"}};
+    BenchmarkTableCells cells{{"counted work", "count", "before", "after", "ratio"}};
     for (const BenchmarkChange& change : changes.list) {
         compared += change.compared_counts;
         for (const measure::CountedWorkChange& count : change.counts)
@@ -94,7 +95,7 @@ std::string format_interval(const measure::Interval& interval, double unit) {
 
 std::string make_bench_table(const BenchmarkRun& run) {
     const bool counted = run.uncounted.empty();
-    TableCells cells{{"benchmark", "ms", "[95 %]", "cpu ms", "[95 %]"}};
+    BenchmarkTableCells cells{{"benchmark", "ms", "[95 %]", "cpu ms", "[95 %]"}};
     if (counted)
         for (const char* title : {"Mcycles", "[95 %]", "Minstr"}) cells.front().emplace_back(title);
     std::size_t rounds = 0;
@@ -116,7 +117,8 @@ std::string make_bench_table(const BenchmarkRun& run) {
 }
 
 std::string make_changes_table(const measure::BenchmarkChanges& changes) {
-    TableCells cells{{"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
+    BenchmarkTableCells cells{
+        {"benchmark", "before", "after", "ratio", "[95 %]", "ms ratio", "[95 %]", ""}};
     for (const BenchmarkChange& change : changes.list)
         cells.push_back(
             {escape_control_characters(change.name), format_cost(change.medians[0], change.cost),

@@ -47,7 +47,7 @@ std::string make_tuning_table(const app::DeviceInfo& device,
     std::vector<std::vector<std::string>> cells{
         {"variant", "choice", "default", "ratio", "[95 %]", ""}};
     for (const measure::ShaderVariantTrial& one : tried) {
-        const measure::CostRatio ratio = one.time_ratio_to_default();
+        const measure::BenchmarkCostRatio ratio = one.time_ratio_to_default();
         cells.push_back({one.variant, one.choice, one.standard, fmt::format("{:.3f}", ratio.median),
                          format_interval(ratio.ci95),
                          one.is_faster_than_default() ? "taken" : "not taken"});

@@ -56,7 +56,7 @@ void read_error_limit(const std::string& text, app::ChooseRequest& limits) {
     const std::size_t end = text.find('=');
     const std::string quantity = text.substr(0, end);
     check(end != std::string::npos && (quantity == "flip" || quantity == "rmse"), Failure::usage,
-          "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote_as_printable_text(text));
+          "--max-error: wanted flip=VALUE or rmse=VALUE, found ", quote_text_with_escapes(text));
     limits.quantity = quantity == "flip" ? app::ErrorQuantity::flip : app::ErrorQuantity::rmse;
     limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
 }
@@ -103,7 +103,7 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
           Failure::usage, file, ": its limit of time is for another device; wanted --costs of it");
 }
 
-std::string format_time(const app::JudgedPlan& plan) {
+std::string format_plan_time(const app::JudgedPlan& plan) {
     std::string text = fmt::format("{:.3g}", plan.ms);
     if (plan.ms_range.low < plan.ms_range.high)
         text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
@@ -128,7 +128,7 @@ std::string describe_proof(const app::ChooseRequest& request, const app::PlanPro
                                                     100 * request.share, quantity,
                                                     proof.error_bound);
     return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures)",
-                       proof.plan.text, format_time(proof.plan), device, statement,
+                       proof.plan.text, format_plan_time(proof.plan), device, statement,
                        100 * request.confidence, proof.plan.errors.size(), proof.failures);
 }
 
@@ -222,7 +222,8 @@ std::string make_candidate_table(const app::ChooseRequest& request, const app::P
          fmt::format("largest {} in {} views", app::error_quantity_name(request.quantity),
                      request.training_views)}};
     for (const app::JudgedPlan& plan : choice.candidates)
-        rows.push_back({plan.text, format_time(plan), fmt::format("{:.5f}", plan.largest_error)});
+        rows.push_back(
+            {plan.text, format_plan_time(plan), fmt::format("{:.5f}", plan.largest_error)});
     return align_columns(rows);
 }
 
@@ -242,8 +243,8 @@ app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPri
     return request;
 }
 
-int certify_plan(const ChooseOptions& options, const app::ChooseRequest& request,
-                 app::Engine& engine, ProgressPrinter& progress) {
+int certify_plan_and_print_result(const ChooseOptions& options, const app::ChooseRequest& request,
+                                  app::Engine& engine, ProgressPrinter& progress) {
     const Json rules = make_plan_rules_json("plan:" + options.certified);
     const app::PlanProof proof = app::prove_plan(engine, request, "plan:" + options.certified);
     progress.clear();
@@ -295,7 +296,8 @@ int run_choose(const ChooseOptions& options) {
     if (!options.output.empty()) check_output_place(options, request);
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);
-    if (!options.certified.empty()) return certify_plan(options, request, engine, progress);
+    if (!options.certified.empty())
+        return certify_plan_and_print_result(options, request, engine, progress);
     const app::PlanChoice choice = app::choose_plan(engine, request);
     progress.clear();
     const std::string device = timed_device_name(request, engine);
@@ -378,7 +380,7 @@ void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {
 void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<ChooseOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_verb(
+    CommandVerb& verb = program.add_command_verb(
         "choose", "choose the cheapest plan within a limit of error or time, with a certificate");
     verb.examples(kChooseExamples);
     verb.argument("SCENE", "built-in scene or .glb, .gltf or .obj file (cornell-mirrors)",

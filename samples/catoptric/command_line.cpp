@@ -172,12 +172,12 @@ void CommandVerb::option(const std::string& names, const std::string& type, cons
 }
 
 void CommandVerb::option(const std::string& names, const std::string& type, const std::string& help,
-                         const TakeValue& take) {
+                         const OptionValueCallback& take) {
     verb_parser_.add_option_function<std::string>(names, take, help)->type_name(type);
 }
 
 void CommandVerb::repeated(const std::string& names, const std::string& type,
-                           const std::string& help, const TakeValue& take) {
+                           const std::string& help, const OptionValueCallback& take) {
     const auto take_all = [take](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) take(text);
     };
@@ -205,7 +205,7 @@ CommandLine::CommandLine(const std::string& name, const std::string& summary,
 
 CommandLine::~CommandLine() = default;
 
-CommandVerb& CommandLine::add_verb(const std::string& name, const std::string& summary) {
+CommandVerb& CommandLine::add_command_verb(const std::string& name, const std::string& summary) {
     CLI::App* app = command_line_parser_->add_subcommand(name, summary);
     app->group("Verbs");
     app->set_help_flag("-h,--help", "print this help");
@@ -213,7 +213,7 @@ CommandVerb& CommandLine::add_verb(const std::string& name, const std::string& s
     return *verbs_.emplace_back(std::make_unique<CommandVerb>(*app));
 }
 
-CommandVerb& CommandLine::single_verb() {
+CommandVerb& CommandLine::only_command_verb() {
     command_line_parser_->require_subcommand(0);
     command_line_parser_->allow_extras();
     is_whole_ = true;
@@ -226,13 +226,13 @@ std::vector<std::string> CommandLine::without_help_verb(std::vector<std::string>
     check(words.size() <= 2, Failure::usage, "'help' wanted at most one verb, found '",
           words.size() > 2 ? words[2] : "", "'");
     words.erase(words.begin());
-    if (!words.empty()) check_verb(words.front());
+    if (!words.empty()) check_command_verb_is_known(words.front());
     words.emplace_back("--help");
     return words;
 }
 
 /// Throws `usage` unless the first word is a verb or asks for help or the version.
-void CommandLine::check_verb(const std::string& word) const {
+void CommandLine::check_command_verb_is_known(const std::string& word) const {
     std::vector<std::string> names;
     for (const CLI::App* verb : command_line_parser_->get_subcommands(nullptr))
         names.push_back(verb->get_name());
@@ -252,7 +252,7 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     words = without_help_verb(std::move(words));
     const std::string program = is_whole_ ? command_line_parser_->get_name()
                                           : command_line_parser_->get_name() + " " + words.front();
-    if (!is_whole_) check_verb(words.front());
+    if (!is_whole_) check_command_verb_is_known(words.front());
     std::ranges::reverse(words); // CLI11 takes a vector in reverse order
     try {
         command_line_parser_->parse(words);

@@ -17,7 +17,7 @@ namespace catoptric::cli {
 /// these must outlive the verb.
 class CommandVerb {
 public:
-    using TakeValue = std::function<void(const std::string&)>;
+    using OptionValueCallback = std::function<void(const std::string&)>;
 
     explicit CommandVerb(CLI::App& app) : verb_parser_(app) {}
 
@@ -43,10 +43,10 @@ public:
     /// Adds an option whose text is passed to `take` during parsing. `CommandLine::parse` passes
     /// exceptions of `take` on.
     void option(const std::string& names, const std::string& type, const std::string& help,
-                const TakeValue& take);
+                const OptionValueCallback& take);
     /// Adds an option that may be given several times. Each use calls `take`.
     void repeated(const std::string& names, const std::string& type, const std::string& help,
-                  const TakeValue& take);
+                  const OptionValueCallback& take);
     void option_without_value(const std::string& names, const std::string& help,
                               const std::function<void()>& take);
 
@@ -72,10 +72,10 @@ public:
     CommandLine& operator=(const CommandLine&) = delete;
 
     /// Adds a verb, which lives as long as this object.
-    CommandVerb& add_verb(const std::string& name, const std::string& summary);
+    CommandVerb& add_command_verb(const std::string& name, const std::string& summary);
     /// Returns a single verb in place of a list of verbs. It takes all words as options and
     /// arguments.
-    CommandVerb& single_verb();
+    CommandVerb& only_command_verb();
 
     /// Parses the words after the program's name and returns the function to call. The function
     /// runs a verb, or prints help ("help", "help VERB", "--help") or the version. Without words,
@@ -84,7 +84,7 @@ public:
     std::function<int()> parse(std::vector<std::string> words);
 
 private:
-    void check_verb(const std::string& word) const;
+    void check_command_verb_is_known(const std::string& word) const;
     std::vector<std::string> without_help_verb(std::vector<std::string> words) const;
 
     std::unique_ptr<CLI::App> command_line_parser_;

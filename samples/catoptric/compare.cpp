@@ -235,7 +235,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
     request.watcher = make_progress_watcher(progress);
     report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
-        if (so_far.rows.size() == 1) gate.check_scene(so_far); // before more time is spent
+        if (so_far.rows.size() == 1) gate.check_baseline_scene(so_far); // before more time is spent
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
@@ -275,10 +275,10 @@ int run_compare(const CompareOptions& options) {
         if (!comparison.stopped && i + 1 == requests.size())
             print_note_unless_quiet(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
-        gate.judge_scene(comparison);
+        gate.judge_scene_against_baseline(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||
-                                          measure::find_row_within_budget(comparison).row);
+                                          measure::find_best_rows_within_budget(comparison).row);
         requests[i].base.scene = scene::Scene(); // frees the memory of the scene
     }
     if (const std::string verdict = gate.finish(); !verdict.empty())
@@ -333,7 +333,7 @@ void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKi
 void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<CompareOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_verb(
+    CommandVerb& verb = program.add_command_verb(
         "compare", "compare techniques with the reference: time and error in one table");
     verb.examples(kCompareExamples);
     verb.arguments(
@@ -356,7 +356,7 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                       const std::size_t end = text.find('=');
                       check(end != std::string::npos && end > 0 && end + 1 < text.size(),
                             Failure::usage, "--row: wanted NAME=PICTURES, found ",
-                            quote_as_printable_text(text));
+                            quote_text_with_escapes(text));
                       options->pictures.emplace_back(text.substr(0, end), text.substr(end + 1));
                   });
     verb.heading(kMeasuringOptions);

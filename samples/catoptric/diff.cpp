@@ -55,7 +55,7 @@ PictureDiffFacts compare_files(const DiffOptions& options) {
         options.mask,
         {found.width, found.height},
         options.exposure,
-        std::string(found.is_of_bytes ? measure::kFlipOfBytes : measure::kFlipSourceFloats),
+        std::string(found.is_of_bytes ? measure::kFlipSourceBytes : measure::kFlipSourceFloats),
         found.difference,
         found.a_mean,
         found.b_mean,
@@ -88,9 +88,10 @@ std::string format_metric_value(const measure::MetricValue& value) {
 std::string format_diff_facts(const PictureDiffFacts& facts) {
     std::string text;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
-        text += fmt::format("{:<12}  {}{}{}\n", quantity.name,
-                            format_metric_value(measure::metric_value(quantity, facts.difference)),
-                            quantity.unit.empty() ? "" : " ", quantity.unit);
+        text += fmt::format(
+            "{:<12}  {}{}{}\n", quantity.name,
+            format_metric_value(measure::metric_value_of_difference(quantity, facts.difference)),
+            quantity.unit.empty() ? "" : " ", quantity.unit);
     return text + format_mean_of_picture("A", facts.a_mean, facts.a_clamped) +
            format_mean_of_picture("B", facts.b_mean, facts.b_clamped);
 }
@@ -106,7 +107,7 @@ int run_diff(const DiffOptions& options) {
 
 void add_diff_verb(CommandLine& program) {
     const auto options = std::make_shared<DiffOptions>();
-    CommandVerb& verb = program.add_verb("diff", "compare two pictures");
+    CommandVerb& verb = program.add_command_verb("diff", "compare two pictures");
     verb.examples(kDiffExamples);
     verb.argument("A", "picture, .exr, .hdr or .png", options->a,
                   CommandVerb::VerbArgumentNeed::required);

@@ -89,7 +89,8 @@ int run_graph(const GraphOptions& options) {
 
 void add_graph_verb(CommandLine& program) {
     const auto options = std::make_shared<GraphOptions>();
-    CommandVerb& verb = program.add_verb("graph", "print the passes of a technique's frame");
+    CommandVerb& verb = program.add_command_verb("graph",
+                                                 "print the passes of a technique's frame");
     verb.examples(kGraphExamples);
     add_technique_options(verb, options->drawn);
     verb.option(

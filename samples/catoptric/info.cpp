@@ -117,7 +117,7 @@ void write_scene_file(const InfoOptions& options, const app::ResolvedScene& want
     const scene::Scene& scene = request.scene;
     check(wanted.is_file, Failure::usage,
           "--write: wanted a scene's file, beside which to write, found the built-in ",
-          quote_as_printable_text(scene.name));
+          quote_text_with_escapes(scene.name));
     const std::filesystem::path path = scene::scene_file_path(options.common.scene);
     std::error_code error;
     check(options.replaces ||
@@ -160,7 +160,7 @@ int run_info(const InfoOptions& options) {
 void add_info_verb(CommandLine& program) {
     const auto options = std::make_shared<InfoOptions>();
     options->common.scene.clear();
-    CommandVerb& verb = program.add_verb(
+    CommandVerb& verb = program.add_command_verb(
         "info", "print the contents of a scene, or version, device and features");
     verb.examples(kInfoExamples);
     verb.argument(

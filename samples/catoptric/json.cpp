@@ -93,7 +93,7 @@ std::string make_diff_json(const PictureDiffFacts& facts) {
     document["flip_source"] = facts.flip_source;
     for (const measure::Metric& quantity : measure::list_difference_metrics())
         document[std::string(quantity.name)] = report::make_metric_value_json(
-            measure::metric_value(quantity, facts.difference));
+            measure::metric_value_of_difference(quantity, facts.difference));
     document["mean"] = {{"a", vector_to_json(facts.a_mean.rgb)},
                         {"b", vector_to_json(facts.b_mean.rgb)}};
     document["mean_clamped"] = {{"a", vector_to_json(facts.a_clamped.rgb)},

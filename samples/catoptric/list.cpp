@@ -24,7 +24,7 @@ constexpr const char* kListExamples = R"(Examples:
   catoptric list techniques parallax      its knobs
   catoptric list devices --json)";
 
-const std::vector<std::string> kListedKinds{"techniques", "scenes", "devices", "metrics"};
+const std::vector<std::string> kListableKinds{"techniques", "scenes", "devices", "metrics"};
 
 std::string describe_knob(const app::KnobInfo& knob) {
     const std::string range = knob.choices.empty()
@@ -145,7 +145,7 @@ void add_list_verb(CommandLine& program) {
         std::string kind, name;
     };
     const auto options = std::make_shared<ListOptions>();
-    CommandVerb& verb = program.add_verb("list", "techniques, scenes, devices or metrics");
+    CommandVerb& verb = program.add_command_verb("list", "techniques, scenes, devices or metrics");
     verb.examples(kListExamples);
     verb.argument("WHAT", "techniques, scenes, devices or metrics", options->kind,
                   CommandVerb::VerbArgumentNeed::required);
@@ -153,7 +153,7 @@ void add_list_verb(CommandLine& program) {
                   CommandVerb::VerbArgumentNeed::optional);
     add_output_options(verb, options->manners);
     verb.set_verb_action([options] {
-        parse_choice_index("list", options->kind, kListedKinds);
+        parse_choice_index("list", options->kind, kListableKinds);
         print_result(make_list_output(options->kind, options->name, options->manners.json));
         return 0;
     });

@@ -29,7 +29,7 @@ inline constexpr const char* kNoProfileName = "none";
 struct CommonOptions {
     OutputOptions manners;
     std::string scene = "cornell-mirrors";
-    scene::LoadBudgetOverride budget; ///< limits for loading the scene
+    scene::SceneLoadBudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
     uvec2 size{512, 512};
     std::optional<int> frames; ///< default: 20

@@ -43,7 +43,7 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
         [&](const std::string& text) {
             check(text == "none" || text == "turquin", Failure::usage,
                   "--multiple-scattering: wanted none or turquin, found ",
-                  quote_as_printable_text(text));
+                  quote_text_with_escapes(text));
             overrides.multiple_scattering = text == "turquin";
         });
 }

@@ -65,7 +65,7 @@ int run_and_get_exit_code(const std::string& name, const std::function<int()>& w
 
 } // namespace
 
-int run_other_program_guarded(const std::string& name, const std::function<int()>& work) {
+int run_program_catching_errors(const std::string& name, const std::function<int()>& work) {
     prepare_standard_streams();
     const int code = run_and_get_exit_code(name, work);
     if (app::has_abandoned_device())
@@ -74,8 +74,8 @@ int run_other_program_guarded(const std::string& name, const std::function<int()
 }
 
 int run_program(int argc, char** argv) {
-    return run_other_program_guarded("catoptric",
-                                     [&] { return run_program_and_check_streams(argc, argv); });
+    return run_program_catching_errors("catoptric",
+                                       [&] { return run_program_and_check_streams(argc, argv); });
 }
 
 } // namespace catoptric::cli

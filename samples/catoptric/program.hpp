@@ -9,6 +9,6 @@ namespace catoptric::cli {
 /// abandoned. May be called once per process.
 int run_program(int argc, char** argv);
 /// Runs the work of another program in the same way. Errors go to stderr after the program's name.
-int run_other_program_guarded(const std::string& name, const std::function<int()>& work);
+int run_program_catching_errors(const std::string& name, const std::function<int()>& work);
 
 } // namespace catoptric::cli

@@ -63,19 +63,21 @@ void ProgressPrinter::row(const std::string& label, std::size_t index, std::size
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};
     if (is_active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label_);
-    if (in_tenths_) show_tenth();
+    if (in_tenths_) show_progress_each_tenth();
 }
 
-void ProgressPrinter::show_tenth() {
+void ProgressPrinter::show_progress_each_tenth() {
     const std::size_t tenths = 10 * index_ / count_;
     if (tenths <= tenths_) return;
     tenths_ = tenths;
-    fmt::print(stderr, "{} % done, about {} left, now {}\n", 10 * tenths,
-               time_left(static_cast<double>(index_) / static_cast<double>(count_)), label_);
+    fmt::print(
+        stderr, "{} % done, about {} left, now {}\n", 10 * tenths,
+        format_estimated_time_left(static_cast<double>(index_) / static_cast<double>(count_)),
+        label_);
     std::fflush(stderr);
 }
 
-std::string ProgressPrinter::time_left(double done) const {
+std::string ProgressPrinter::format_estimated_time_left(double done) const {
     const double elapsed = std::chrono::duration<double>(SteadyClock::now() - start_).count();
     return format_duration(elapsed * (1 - done) / done);
 }
@@ -90,7 +92,7 @@ void ProgressPrinter::frame(int number, int total) {
                         static_cast<double>(count_);
     const std::string place = count_ > 1 ? fmt::format("[{}/{}] ", index_ + 1, count_) : "";
     show(fmt::format("{}{}  frame {}/{}  about {} left", place, label_, number, total,
-                     time_left(done)));
+                     format_estimated_time_left(done)));
 }
 
 void ProgressPrinter::clear() {

@@ -37,9 +37,9 @@ public:
 private:
     void show(const std::string& text);
     /// Writes a line if another tenth is done since the last line.
-    void show_tenth();
+    void show_progress_each_tenth();
     /// Returns the estimated remaining time from the time so far: "0:35".
-    std::string time_left(double done) const;
+    std::string format_estimated_time_left(double done) const;
 
     bool is_active_ = false;
     bool rewrites_ = false;

@@ -216,7 +216,8 @@ int run_render(const RenderOptions& options) {
 
 void add_render_verb(CommandLine& program) {
     const auto options = std::make_shared<RenderOptions>();
-    CommandVerb& verb = program.add_verb("render", "render one picture by one technique or plan");
+    CommandVerb& verb = program.add_command_verb("render",
+                                                 "render one picture by one technique or plan");
     verb.examples(kRenderExamples);
     add_technique_options(verb, options->drawn);
     verb.option(

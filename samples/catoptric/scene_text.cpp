@@ -12,7 +12,7 @@ namespace catoptric::cli {
 
 namespace {
 
-using SceneCells = std::vector<std::vector<std::string>>;
+using SceneTableCells = std::vector<std::vector<std::string>>;
 
 std::string format_point(const dvec3& p) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", p.x, p.y, p.z);
@@ -34,7 +34,7 @@ std::string format_info_line(const std::string& name, const std::string& value) 
 }
 
 /// Returns a table under its title; empty if it has no rows.
-std::string format_titled_table(const std::string& title, const SceneCells& cells) {
+std::string format_titled_table(const std::string& title, const SceneTableCells& cells) {
     return cells.size() < 2 ? "" : "\n" + title + "\n" + align_columns(cells, 0);
 }
 
@@ -56,9 +56,9 @@ std::string describe_surface_kind(const app::MaterialInfo& material) {
     return text.empty() ? "-" : text;
 }
 
-SceneCells list_material_cells(const app::SceneInfo& info) {
+SceneTableCells list_material_cells(const app::SceneInfo& info) {
     constexpr std::size_t kMaxListedMaterials = 50;
-    SceneCells cells{
+    SceneTableCells cells{
         {"material", "is", "objects", "colour", "metallic", "roughness", "F0", "more"}};
     for (const app::MaterialInfo& material : info.materials) {
         if (cells.size() > kMaxListedMaterials) {
@@ -84,8 +84,8 @@ std::string describe_mirror_shape(const scene::MirrorShape& shape) {
     return text;
 }
 
-SceneCells list_mirror_cells(const app::SceneInfo& info) {
-    SceneCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
+SceneTableCells list_mirror_cells(const app::SceneInfo& info) {
+    SceneTableCells cells{{"mirror", "name", "shape", "screen", "reflects", "captured from"}};
     for (const app::MirrorInfo& mirror : info.mirrors)
         cells.push_back({std::to_string(mirror.number), escape_control_characters(mirror.name),
                          describe_mirror_shape(mirror.shape),
@@ -95,8 +95,8 @@ SceneCells list_mirror_cells(const app::SceneInfo& info) {
     return cells;
 }
 
-SceneCells list_light_cells(const report::SceneFacts& facts) {
-    SceneCells cells{{"light", "name", "at", "towards", "emits", "area"}};
+SceneTableCells list_light_cells(const report::SceneFacts& facts) {
+    SceneTableCells cells{{"light", "name", "at", "towards", "emits", "area"}};
     for (const report::LightFacts& light : facts.lights)
         cells.push_back({light.kind,
                          light.name.empty() ? "-" : escape_control_characters(light.name),
@@ -114,7 +114,7 @@ std::string describe_lens(const measure::CameraFacts& camera) {
 }
 
 std::string describe_camera(const measure::CameraFacts& camera) {
-    return fmt::format("{}: from {} to {}, {}", quote_as_printable_text(camera.name),
+    return fmt::format("{}: from {} to {}, {}", quote_text_with_escapes(camera.name),
                        format_point(camera.eye), format_point(camera.target),
                        describe_lens(camera));
 }
@@ -134,14 +134,14 @@ std::string describe_exposure(const SceneInfoFacts& words) {
     // The exposure that `render` finds, for the camera that is given or added.
     const std::string how = words.auto_exposure
                                 ? " (auto, by camera " +
-                                      quote_as_printable_text(words.info.facts.camera.name) + ")"
+                                      quote_text_with_escapes(words.info.facts.camera.name) + ")"
                                 : "";
     return fmt::format("{:.4g} stops{}", *words.exposure, how);
 }
 
-SceneCells list_unsupported_cells(const report::SceneFacts& facts) {
+SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
     const report::ReportTable table = report::make_unsupported_table(facts);
-    SceneCells cells{{"gap", "count", "pixels", "first", "instead"}};
+    SceneTableCells cells{{"gap", "count", "pixels", "first", "instead"}};
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);
         cells.back()[3] = escape_control_characters(cells.back()[3]);

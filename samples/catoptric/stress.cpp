@@ -40,7 +40,7 @@ std::string make_stress_text(const report::StressResults& stress) {
     std::vector<std::vector<std::string>> cells{
         {"id", "verdict", "measured", "threshold", "seconds", "what"}};
     for (const report::StressRow& row : stress.rows) {
-        const report::StressCase* worst = row.worst_case();
+        const report::StressCase* worst = row.worst_stress_case();
         const auto figure = [](double value) { return fmt::format("{:.3g}", value); };
         cells.push_back({row.id, report::stress_verdict_name(row.verdict),
                          worst ? figure(worst->measured) : "-", worst ? figure(worst->limit) : "-",
@@ -86,10 +86,10 @@ int run_stress(const StressOptions& options) {
         throw_incomplete_run(*found.stopped, found.rows.size(), found.asked, "", options.folder);
     if (!options.folder.empty())
         print_note_unless_quiet(options.manners, "written: " + options.folder);
-    for (const std::string& part : found.list_parts_not_run())
+    for (const std::string& part : found.list_stress_parts_not_run())
         print_note_unless_quiet(options.manners, "not run: " + part);
     if (options.device.validate) engine.check_validation();
-    return found.has_failed_row() ? static_cast<int>(Failure::threshold) : 0;
+    return found.has_failed_stress_row() ? static_cast<int>(Failure::threshold) : 0;
 }
 
 } // namespace
@@ -97,8 +97,8 @@ int run_stress(const StressOptions& options) {
 void add_stress_verb(CommandLine& program, std::vector<std::string> command) {
     const auto options = std::make_shared<StressOptions>();
     options->command = std::move(command);
-    CommandVerb& verb = program.add_verb("stress",
-                                         "measure properties of extreme scenes against thresholds");
+    CommandVerb& verb = program.add_command_verb(
+        "stress", "measure properties of extreme scenes against thresholds");
     verb.examples(kStressExamples);
     verb.option("-o,--output", "DIR",
                 "folder for stress.json, stress.html, stress.md and pictures of failed properties",

@@ -83,7 +83,7 @@ std::string make_compare_table(const report::Comparison& comparison) {
     if (has_notes) rows.front().emplace_back("not as asked");
     const std::size_t notes_at = rows.front().size() - (has_notes ? 1 : 0);
     for (const report::Row& row : comparison.rows) {
-        const measure::TimeRankRange places = measure::find_time_places(comparison, row);
+        const measure::TimeRankRange places = measure::find_time_rank_range_of_row(comparison, row);
         rows.push_back({row.label, std::to_string(row.scene_passes),
                         format_milliseconds(row.gpu_ms.median), format_time_spread(row.gpu_ms),
                         places.first == 0 ? "-"

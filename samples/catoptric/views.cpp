@@ -153,7 +153,7 @@ int run_views(const ViewsOptions& options) {
 
 void add_views_verb(CommandLine& program) {
     const auto options = std::make_shared<ViewsOptions>();
-    CommandVerb& verb = program.add_verb(
+    CommandVerb& verb = program.add_command_verb(
         "views", "write the views of a comparison, to render them with another renderer");
     verb.examples(kViewsExamples);
     verb.argument("SCENE", "built-in scene or .glb, .gltf or .obj file (cornell-mirrors)",

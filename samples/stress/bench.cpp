@@ -39,11 +39,11 @@ bool StressTestBench::is_error_that_ends_run(const Error& error) const {
     const bool is_fault = error.failure == Failure::device_lost ||
                           error.failure == Failure::no_device ||
                           (error.failure == Failure::exhausted && !is_resource_refusal(error));
-    return is_fault || is_stop_signal(error.failure) || !bench_engine_.usable();
+    return is_fault || is_failure_by_stop_signal(error.failure) || !bench_engine_.usable();
 }
 
-app::Request StressTestBench::make_request(const scene::Scene& scene, const std::string& technique,
-                                           int frames) const {
+app::Request StressTestBench::make_stress_request(const scene::Scene& scene,
+                                                  const std::string& technique, int frames) const {
     app::Request request;
     request.scene = scene;
     request.techniques = {technique};
@@ -62,32 +62,32 @@ app::TechniqueResult StressTestBench::render_technique(const app::Request& reque
     return frames.current_frame().read();
 }
 
-void StressTestBench::compile_plan(const app::Request& request) {
+void StressTestBench::plan_stress_technique(const app::Request& request) {
     app::Session session(bench_engine_, request.scene);
     app::Access::format_frame_plan(session, request, app::GraphPlanFormat::text);
 }
 
-void StressTestBench::add_flip_case(const std::string& what, const app::TechniqueResult& found,
-                                    const app::TechniqueResult& wanted, double limit,
-                                    bool is_quality) {
+void StressTestBench::add_mean_flip_case(const std::string& what, const app::TechniqueResult& found,
+                                         const app::TechniqueResult& wanted, double limit,
+                                         bool is_quality) {
     const double flip = measure::flip_mean(measure::flip(found.display, wanted.display));
     row_.cases.push_back(
         {what, count_nonfinite_pixels(found.hdr) > 0 ? std::nan("") : flip, limit, is_quality});
-    if (row_.cases.back().is_within_limit()) return;
+    if (row_.cases.back().is_case_within_limit()) return;
     const std::string name = row_.id + "-" + make_picture_file_name(what);
     for (const auto& [part, which] : {std::pair(&found, "-found"), std::pair(&wanted, "-wanted")})
         row_.pictures.push_back({name + which, part->display.width, part->display.height,
                                  measure::encode_picture_png(part->display)});
 }
 
-void StressTestBench::add_nonfinite_case(const std::string& what,
-                                         const app::TechniqueResult& part) {
+void StressTestBench::add_nonfinite_pixel_case(const std::string& what,
+                                               const app::TechniqueResult& part) {
     add_measured_case(what + ": pixels that are no numbers",
                       static_cast<double>(count_nonfinite_pixels(part.hdr)), 0);
 }
 
-bool StressTestBench::add_success_or_refusal(const std::string& what,
-                                             const std::function<void()>& work) {
+bool StressTestBench::add_case_of_success_or_refusal(const std::string& what,
+                                                     const std::function<void()>& work) {
     try {
         work();
         add_measured_case(what + ": done", 0, 0);

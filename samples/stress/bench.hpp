@@ -19,8 +19,8 @@ public:
 
     /// Returns a request for the scene as its first camera sees it, for the picture after `frames`
     /// frames at rest. These are defaults: a property may change any field.
-    app::Request make_request(const scene::Scene& scene, const std::string& technique,
-                              int frames = 4) const;
+    app::Request make_stress_request(const scene::Scene& scene, const std::string& technique,
+                                     int frames = 4) const;
     app::TechniqueResult render_technique(const app::Request& request);
     /// Renders one frame of a property's own loop. Throws if the user stopped the run.
     app::Frame render_frame(app::Session& session, const app::FrameSpec& spec,
@@ -29,10 +29,10 @@ public:
         return app::Access::render_frame(session, spec, hooks);
     }
     /// Compiles the plan of the request's frame without rendering.
-    void compile_plan(const app::Request& request);
+    void plan_stress_technique(const app::Request& request);
     app::TechniqueResult render_technique(const scene::Scene& scene, const std::string& technique,
                                           int frames = 4) {
-        return render_technique(make_request(scene, technique, frames));
+        return render_technique(make_stress_request(scene, technique, frames));
     }
 
     /// Adds a measured value and its limit.
@@ -44,17 +44,18 @@ public:
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
     /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.
-    void add_flip_case(const std::string& what, const app::TechniqueResult& found,
-                       const app::TechniqueResult& wanted, double limit, bool is_quality = false);
+    void add_mean_flip_case(const std::string& what, const app::TechniqueResult& found,
+                            const app::TechniqueResult& wanted, double limit,
+                            bool is_quality = false);
     /// Adds the number of pixels that are NaN or infinite, with limit 0.
-    void add_nonfinite_case(const std::string& what, const app::TechniqueResult& part);
+    void add_nonfinite_pixel_case(const std::string& what, const app::TechniqueResult& part);
     /// Adds a part that the device does not allow. It is reported and has no measured value.
     void add_skipped_part(std::string what, const Error& error) {
         row_.not_run.push_back({std::move(what), error.what()});
     }
     /// Adds a case (limit 0) that `work` succeeds. If it ends in an error that says what the device
     /// allows, the part counts as not run. Returns whether `work` succeeded.
-    bool add_success_or_refusal(const std::string& what, const std::function<void()>& work);
+    bool add_case_of_success_or_refusal(const std::string& what, const std::function<void()>& work);
     /// Adds a case (limit 0) that `work` ends in an error of this kind whose text contains `limit`.
     void add_expected_error(const std::string& what, Failure failure, const std::string& limit,
                             const std::function<void()>& work);

@@ -28,7 +28,7 @@ struct FurnaceMeasurement {
 
 FurnaceMeasurement measure_picture_in_furnace(StressTestBench& bench, const scene::Scene& scene,
                                               const std::string& technique, int frames) {
-    app::Request request = bench.make_request(scene, technique, frames);
+    app::Request request = bench.make_stress_request(scene, technique, frames);
     request.ambient = 0;
     const app::TechniqueResult part = bench.render_technique(request);
     FurnaceMeasurement seen;
@@ -48,7 +48,7 @@ void judge_balls_in_contact(StressTestBench& bench) {
         {"two that overlap", {{{-.6, 0, 1}, 1}, {{.7, .2, 1}, 1}}},
         {"one in the other", {{{0, 0, 1}, 1}, {{0, 0, 1}, .5}}}};
     for (const auto& [what, balls] : contacts) {
-        const scene::Scene scene = make_furnace(balls);
+        const scene::Scene scene = make_white_furnace_scene(balls);
         bench.add_measured_case(
             std::string(what) + ", raytrace:depth=64: dark pixels",
             measure_picture_in_furnace(bench, scene, "raytrace:depth=64", 1).dark, .0001);
@@ -79,15 +79,15 @@ void judge_vanishing_ball(StressTestBench& bench) {
             // The vanishing mirror comes first, so that it changes the numbers of the others.
             with.objects.pop_back();
             with.objects.insert(with.objects.begin(), gone);
-            bench.add_flip_case(technique + ", " + what, bench.render_technique(with, technique),
-                                without, .0002);
+            bench.add_mean_flip_case(technique + ", " + what,
+                                     bench.render_technique(with, technique), without, .0002);
         }
     }
 }
 
 void judge_many_mirrors(StressTestBench& bench) {
     for (const int mirrors : {0, 1, 2, 16, 64, 1000}) {
-        scene::Scene scene = make_furnace({});
+        scene::Scene scene = make_white_furnace_scene({});
         const std::size_t mirror = add_material(scene, {.name = "mirror", .mirror = true});
         for (int i = 0; i < mirrors; ++i)
             add_stress_ball(
@@ -97,7 +97,7 @@ void judge_many_mirrors(StressTestBench& bench) {
         try {
             const app::TechniqueResult part = bench.render_technique(scene,
                                                                      "reuse:face=8,shadow=none", 2);
-            bench.add_nonfinite_case(what, part);
+            bench.add_nonfinite_pixel_case(what, part);
             bench.add_measured_case(what + ": passes off N + 1",
                                     std::abs(part.scene_passes - (mirrors + 1)), 0);
         } catch (const Error& error) {
@@ -123,7 +123,7 @@ void judge_face_sizes(StressTestBench& bench) {
         for (const std::string technique : {"reuse", "parallax", "pyramid", "layered"}) {
             const std::string text = technique + ":face=" + face;
             const app::TechniqueResult part = bench.render_technique(scene, text);
-            bench.add_nonfinite_case(text, part);
+            bench.add_nonfinite_pixel_case(text, part);
             // With a few texels, chance decides whether one of them sees the lamp.
             const double mean = mean_of(part);
             bench.add_measured_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
@@ -137,16 +137,16 @@ void judge_face_sizes(StressTestBench& bench) {
                                                               1);
     for (const char* face : {"4096", "16384"})
         for (const std::string technique : {"naive:bounces=1,face=", "parallax:face="}) {
-            const app::Request request = bench.make_request(scene, technique + face, 1);
-            if (!bench.add_success_or_refusal(technique + face + " planned",
-                                              [&] { bench.compile_plan(request); }))
+            const app::Request request = bench.make_stress_request(scene, technique + face, 1);
+            if (!bench.add_case_of_success_or_refusal(
+                    technique + face + " planned", [&] { bench.plan_stress_technique(request); }))
                 continue;
             if (std::stoi(face) > 4096) continue; // needs 10 GiB or more
             const app::TechniqueResult large = bench.render_technique(request);
             if (technique.starts_with("naive"))
-                bench.add_flip_case(technique + face, large, usual, .01);
+                bench.add_mean_flip_case(technique + face, large, usual, .01);
             else
-                bench.add_nonfinite_case(technique + face, large);
+                bench.add_nonfinite_pixel_case(technique + face, large);
         }
     bench.add_expected_error("face=32769", Failure::usage, "16384",
                              [] { app::parse_technique("parallax:face=32769"); });
@@ -156,8 +156,8 @@ void judge_face_sizes(StressTestBench& bench) {
 void judge_moving_ball(StressTestBench& bench) {
     constexpr int kWarmupFrames = 8, kPathFrames = 120;
     constexpr double kMotionPathSeconds = 4;
-    app::Request request = bench.make_request(scene::make_cornell_mirrors(), "parallax:face=128",
-                                              1);
+    app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(),
+                                                     "parallax:face=128", 1);
     app::Session session(bench.bench_engine(), request.scene);
     std::vector<double> steps;
     measure::Picture last;
@@ -176,7 +176,8 @@ void judge_moving_ball(StressTestBench& bench) {
 
 void judge_parallax_correction(StressTestBench& bench) {
     const auto contract = [&](const std::string& technique, int frames) {
-        app::Request request = bench.make_request(scene::make_cornell_mirrors(), technique, frames);
+        app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(), technique,
+                                                         frames);
         request.size = {512, 512}; // ball 4 is only about 30 pixels wide at half this size
         return bench.render_technique(request);
     };

@@ -17,8 +17,8 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMaxBounces = 6;        // largest number of bounces
-constexpr double kMaxStepRatio = 0.4; // a step is at most this share of the step before
+constexpr int kMaxBounces = 6;              // largest number of bounces
+constexpr double kMaxBounceStepRatio = 0.4; // a step is at most this share of the step before
 
 struct TracedBouncePictures {
     std::vector<measure::Picture> pictures; ///< entry k: picture with k bounces
@@ -60,14 +60,14 @@ void add_case_of_falling_differences(StressTestBench& bench, const std::string& 
     for (std::size_t k = 1; k < steps.size(); ++k) {
         bench.add_measured_case(
             fmt::format("{}, bounce {}: share of the step before", where, k + 1),
-            steps[k] / steps[k - 1], kMaxStepRatio);
+            steps[k] / steps[k - 1], kMaxBounceStepRatio);
         bench.add_measured_case(fmt::format("{}, bounce {}: no change", where, k + 1),
                                 steps[k] > 0 ? 0 : 1, 0);
     }
 }
 
 void judge_cornell_bounces(StressTestBench& bench) {
-    app::Request request = bench.make_request(scene::make_cornell_mirrors(), "naive", 1);
+    app::Request request = bench.make_stress_request(scene::make_cornell_mirrors(), "naive", 1);
     request.size = uvec2(512);
     add_case_of_falling_differences(
         bench, "the report's room",
@@ -80,9 +80,9 @@ void judge_cornell_bounces(StressTestBench& bench) {
 void judge_small_ball_bounces(StressTestBench& bench) {
     const std::vector<double> steps = compute_bounce_differences(
         bench, "a room",
-        render_bounces(bench, bench.make_request(make_stress_room(bench, 4), "naive", 1)));
+        render_bounces(bench, bench.make_stress_request(make_stress_room(bench, 4), "naive", 1)));
     bench.add_measured_case("a room, bounce 4: share of the first step", steps[3] / steps[0],
-                            std::pow(kMaxStepRatio, 3.0));
+                            std::pow(kMaxBounceStepRatio, 3.0));
 }
 
 /// Two flat mirrors that face each other in a box that emits 1, with an `angle` between them and
@@ -93,7 +93,7 @@ struct MirrorWedge {
     double reflectance, angle;
 
     scene::Scene make_wedge_scene(dvec3 eye) const {
-        scene::Scene scene = make_furnace({});
+        scene::Scene scene = make_white_furnace_scene({});
         const std::size_t mirror = add_material(
             scene, {.name = "mirror",
                     .mirror = true,
@@ -123,7 +123,7 @@ struct MirrorWedge {
 /// reflectance.
 void judge_mirror_wedge(StressTestBench& bench) {
     const MirrorWedge wedge{bench.draw_random_number(.2, .3), bench.draw_random_number(.05, .08)};
-    app::Request request = bench.make_request(
+    app::Request request = bench.make_stress_request(
         wedge.make_wedge_scene({bench.draw_random_number(-.1, .1),
                                 bench.draw_random_number(-.2, .2),
                                 bench.draw_random_number(-.9, -.7)}),

@@ -38,7 +38,7 @@ scene::Scene make_room_with_one_mirror(std::size_t mirror) {
 /// them.
 render::CapturedCubes render_and_read_captures(StressTestBench& bench, const scene::Scene& scene,
                                                std::uint32_t edge, TexelFormat format) {
-    app::Request request = bench.make_request(
+    app::Request request = bench.make_stress_request(
         scene,
         fmt::format("parallax:shadow=none,face={},distance={}", edge, texel_format_name(format)));
     request.size = {16, 16};
@@ -87,7 +87,7 @@ void judge_capture_near_wall(StressTestBench& bench) {
     constexpr std::uint32_t kCaptureFaceEdge = 65;
     constexpr double kNearWallDistance = .6;
     for (int face = 0; face < 6; ++face) {
-        scene::Scene scene = make_furnace({{{0, 0, 0}, .5}});
+        scene::Scene scene = make_white_furnace_scene({{{0, 0, 0}, .5}});
         dvec3 lo(-4, -3, -5), hi(4, 3, 5);
         (face % 2 ? lo : hi)[face / 2] = face % 2 ? -kNearWallDistance : kNearWallDistance;
         for (int wall = 0; wall < 6; ++wall)
@@ -168,7 +168,7 @@ void judge_seams_at_cube_edges(StressTestBench& bench) {
     constexpr int kCaptureFaceEdge = 64;
     constexpr uvec2 kCaptureTestPictureSize{128, 128};
     constexpr float kEmittingRoomColour = .7f; // no exact half-float number
-    scene::Scene scene = make_furnace({});
+    scene::Scene scene = make_white_furnace_scene({});
     scene.materials.front().emission = vec3(kEmittingRoomColour);
     add_stress_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1},
                     5);
@@ -180,7 +180,7 @@ void judge_seams_at_cube_edges(StressTestBench& bench) {
         wanted[along] = bench.draw_random_number(-1, 1);
         wanted[(along + 1) % 3] = edge & 1 ? 1 : -1;
         wanted[(along + 2) % 3] = edge & 2 ? 1 : -1;
-        app::Request request = bench.make_request(
+        app::Request request = bench.make_stress_request(
             scene, fmt::format("naive:bounces=1,shadow=none,face={}", kCaptureFaceEdge), 1);
         request.camera = make_camera_along(normalize(wanted));
         request.size = kCaptureTestPictureSize;

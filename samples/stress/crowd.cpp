@@ -55,7 +55,7 @@ void judge_mirrors_in_cells(StressTestBench& bench) {
     const scene::Scene scene = make_room_of_coloured_boxes();
     std::vector<std::uint32_t> hits;
     for (const std::string technique : {"raytrace:depth=1", "reuse:face=8", "parallax:face=8"}) {
-        app::Request request = bench.make_request(scene, technique, 1);
+        app::Request request = bench.make_stress_request(scene, technique, 1);
         request.size = kCrowdPictureSize;
         request.ambient = 1;
         const app::TechniqueResult part = bench.render_technique(request);
@@ -68,7 +68,7 @@ void judge_mirrors_in_cells(StressTestBench& bench) {
                 part.hdr.pixels[i] / choose_ball_colour(static_cast<int>(mirror) - 1) - vec3(1));
             own[mirror - 1] += std::max({off.x, off.y, off.z}) <= .002f;
         }
-        bench.add_nonfinite_case(technique, part);
+        bench.add_nonfinite_pixel_case(technique, part);
         bench.add_measured_case(
             fmt::format("{}: mirrors of {} in which no pixel shows what is around them", technique,
                         own.size()),

@@ -32,7 +32,8 @@ DoublePrecisionTracer::DoublePrecisionTracer(const scene::Scene& scene, double a
         };
         for (const uvec3& t : mesh.triangles)
             triangles_.push_back({corner(t.x), corner(t.y), corner(t.z), i});
-        if (scene.materials[object.material].emission != vec3(0)) add_lamp(object, mesh);
+        if (scene.materials[object.material].emission != vec3(0))
+            add_double_tracer_lamp(object, mesh);
     }
 }
 
@@ -42,7 +43,8 @@ dvec3 DoublePrecisionTracer::trace_pixel(const scene::Camera& camera, uvec2 size
 }
 
 /// Adds one flat lamp: mean of its corners, normal, and area.
-void DoublePrecisionTracer::add_lamp(const scene::Object& object, const scene::Mesh& mesh) {
+void DoublePrecisionTracer::add_double_tracer_lamp(const scene::Object& object,
+                                                   const scene::Mesh& mesh) {
     DoubleTracerLamp lamp{dvec3(0), dvec3(0), dvec3(0)};
     std::vector<dvec3> corners;
     for (const dvec3& p : mesh.positions)

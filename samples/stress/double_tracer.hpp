@@ -43,7 +43,7 @@ private:
         std::size_t object = 0;
     };
 
-    void add_lamp(const scene::Object& object, const scene::Mesh& mesh);
+    void add_double_tracer_lamp(const scene::Object& object, const scene::Mesh& mesh);
     const scene::Material& material_of_object(std::size_t object) const {
         return traced_scene_.materials[traced_scene_.objects[object].material];
     }

@@ -16,32 +16,34 @@ namespace {
 /// half.
 double count_saturated_capture_texels(StressTestBench& bench, const scene::Scene& scene,
                                       const std::string& technique) {
-    app::Request request = bench.make_request(scene, technique);
+    app::Request request = bench.make_stress_request(scene, technique);
     request.with_lookup = true;
     return double(bench.render_technique(request).saturated.value());
 }
 
 /// Frame numbers, from 1: the last frame with the lamp of 1e30, and frames 2 and 20 after its
 /// removal.
-constexpr int kFramesWithLamp = 4, kFrameSoonAfter = kFramesWithLamp + 2,
-              kFrameLongAfter = kFramesWithLamp + 20;
+constexpr int kFramesBeforeLampRemoval = 4,
+              kFrameSoonAfterLampRemoval = kFramesBeforeLampRemoval + 2,
+              kFrameLongAfterLampRemoval = kFramesBeforeLampRemoval + 20;
 
 void judge_lamp_removal(StressTestBench& bench, const scene::Scene& lit, const scene::Scene& dark,
                         std::size_t lamp, const std::string& technique, const std::string& what) {
-    const app::Request request = bench.make_request(lit, technique);
+    const app::Request request = bench.make_stress_request(lit, technique);
     const scene::Edit out = scene::set_material(lamp, dark.materials[lamp]);
     app::Session session(bench.bench_engine(), lit);
     app::TechniqueResult soon, late;
-    for (int k = 1; k <= kFrameLongAfter; ++k) {
-        if (k == kFramesWithLamp + 1) session.change(out);
+    for (int k = 1; k <= kFrameLongAfterLampRemoval; ++k) {
+        if (k == kFramesBeforeLampRemoval + 1) session.change(out);
         const app::Frame frame = bench.render_frame(session, request);
-        if (k == kFramesWithLamp) bench.add_nonfinite_case(what + ", with it", frame.read());
-        if (k == kFrameSoonAfter) soon = frame.read();
-        if (k == kFrameLongAfter) late = frame.read();
+        if (k == kFramesBeforeLampRemoval)
+            bench.add_nonfinite_pixel_case(what + ", with it", frame.read());
+        if (k == kFrameSoonAfterLampRemoval) soon = frame.read();
+        if (k == kFrameLongAfterLampRemoval) late = frame.read();
     }
     app::Session untouched(bench.bench_engine(), dark);
     measure::Picture wanted;
-    for (int k = 1; k <= kFrameLongAfter; ++k)
+    for (int k = 1; k <= kFrameLongAfterLampRemoval; ++k)
         wanted = bench.render_frame(untouched, request).hdr();
     bench.add_measured_case(what + ", frame 20 without it: pixels unlike a run that never had it",
                             double(count_different_pixels(late.hdr, wanted)), 0);

@@ -16,13 +16,13 @@ const std::vector<MirrorBall> kTwoMirrorBalls{{{-1.2, -.3, 1}, 1}, {{1.3, .4, 1.
 
 app::TechniqueResult render_without_ambient(StressTestBench& bench, const scene::Scene& scene,
                                             const std::string& technique, int frames) {
-    app::Request request = bench.make_request(scene, technique, frames);
+    app::Request request = bench.make_stress_request(scene, technique, frames);
     request.ambient = 0;
     return bench.render_technique(request);
 }
 
 void judge_white_furnace(StressTestBench& bench) {
-    const scene::Scene scene = make_furnace(kTwoMirrorBalls);
+    const scene::Scene scene = make_white_furnace_scene(kTwoMirrorBalls);
     for (const app::TechniqueInfo& technique : app::techniques())
         bench.add_measured_case(
             technique.name + ": brightest of 1",
@@ -84,7 +84,7 @@ void judge_corridor_depth(StressTestBench& bench, const scene::Scene& scene,
 
 /// Judges two mirrors that face each other in a box that emits 1. A path of k mirrors shows .8^k.
 void judge_mirror_corridor(StressTestBench& bench) {
-    scene::Scene scene = make_furnace({});
+    scene::Scene scene = make_white_furnace_scene({});
     const std::size_t mirror = add_material(
         scene, {.name = "mirror", .mirror = true, .reflectance = vec3(.8f)});
     add_stress_quad(scene, mirror, {-2, -2, -2}, {-2, -2, 4}, {-2, 2, 4}, {-2, 2, -2});

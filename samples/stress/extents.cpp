@@ -28,8 +28,8 @@ void judge_stray_triangle(StressTestBench& bench) {
                       .normals = std::vector<vec3>(3, vec3(0, 0, 1)),
                       .triangles = {{0, 1, 2}}},
                      0);
-            bench.add_flip_case(fmt::format("{}, a triangle {} away", technique, distance),
-                                bench.render_technique(with, technique), plain, kMaxEqualFlip);
+            bench.add_mean_flip_case(fmt::format("{}, a triangle {} away", technique, distance),
+                                     bench.render_technique(with, technique), plain, kMaxEqualFlip);
         }
     }
 }
@@ -47,9 +47,9 @@ void judge_distant_sky(StressTestBench& bench) {
     };
     const scene::Scene near = under(1e2), far = under(1e6);
     for (const char* technique : kComparedTechniques)
-        bench.add_flip_case(fmt::format("{}, sky 1e6 away", technique),
-                            bench.render_technique(far, technique),
-                            bench.render_technique(near, technique), kMaxEqualFlip);
+        bench.add_mean_flip_case(fmt::format("{}, sky 1e6 away", technique),
+                                 bench.render_technique(far, technique),
+                                 bench.render_technique(near, technique), kMaxEqualFlip);
 }
 
 /// Judges the room on a ground 1e6 wide against one 1e3 wide. Positions on such a large triangle
@@ -66,9 +66,9 @@ void judge_large_ground(StressTestBench& bench) {
     };
     const scene::Scene narrow = on(5e2), wide = on(5e5);
     for (const char* technique : kComparedTechniques)
-        bench.add_flip_case(fmt::format("{}, ground 1e6 wide", technique),
-                            bench.render_technique(wide, technique),
-                            bench.render_technique(narrow, technique), kMaxEqualFlip, true);
+        bench.add_mean_flip_case(fmt::format("{}, ground 1e6 wide", technique),
+                                 bench.render_technique(wide, technique),
+                                 bench.render_technique(narrow, technique), kMaxEqualFlip, true);
 }
 
 /// Judges a ball of 1e-3 off the centre of a room of 1e3, seen from close by.
@@ -80,7 +80,7 @@ void judge_tiny_ball(StressTestBench& bench) {
     add_stress_ball(scene, mirror, {centre, 1e-3});
     scene.cameras = {
         {.eye = centre + dvec3(1e-3, 2e-3, -6e-3), .target = centre, .vertical_fov_degrees = 30}};
-    const app::Request request = bench.make_request(scene, "raytrace:sphere=exact");
+    const app::Request request = bench.make_stress_request(scene, "raytrace:sphere=exact");
     const DoublePrecisionTracer tracer(scene, request.ambient);
     app::TechniqueResult wanted;
     wanted.hdr = measure::Picture(static_cast<int>(request.size.x),
@@ -90,11 +90,12 @@ void judge_tiny_ball(StressTestBench& bench) {
             wanted.hdr.at(static_cast<int>(x), static_cast<int>(y)) = vec3(
                 tracer.trace_pixel(request.camera, request.size, x, y, 8));
     wanted.display = measure::to_display(wanted.hdr, request.exposure);
-    bench.add_flip_case("a ball of 1e-3 in a room of 1e3, raytrace:sphere=exact against doubles",
-                        bench.render_technique(request), wanted, kMaxEqualFlip);
+    bench.add_mean_flip_case(
+        "a ball of 1e-3 in a room of 1e3, raytrace:sphere=exact against doubles",
+        bench.render_technique(request), wanted, kMaxEqualFlip);
     const scene::Scene shifted = transform_scene(scene, make_translation_matrix(-centre));
     for (const char* technique : kComparedTechniques)
-        bench.add_flip_case(
+        bench.add_mean_flip_case(
             fmt::format("{}, a ball of 1e-3 in a room of 1e3, against the same about 0", technique),
             bench.render_technique(scene, technique), bench.render_technique(shifted, technique),
             kMaxEqualFlip);

@@ -97,24 +97,24 @@ void judge_eye_placement(StressTestBench& bench) {
     wide.vertical_fov_degrees = 179.9;
     int rows = 0;
     const scene::Camera narrow = make_narrow_camera(
-        scene, bench.make_request(scene, "raytrace").ambient, rows);
+        scene, bench.make_stress_request(scene, "raytrace").ambient, rows);
     bench.add_measured_case("field of view .01: rows of 32 without an edge", 32 - rows, 16);
     for (const TestedEyePlacement& eye : {TestedEyePlacement{"1e-3 above the floor", low},
                                           {"field of view .01", narrow},
                                           {"field of view 179.9", wide}}) {
-        app::Request request = bench.make_request(scene, "raytrace:sphere=exact,depth=16");
+        app::Request request = bench.make_stress_request(scene, "raytrace:sphere=exact,depth=16");
         request.camera = eye.camera;
         const auto render = [&](const std::string& technique) {
             request.techniques = {technique};
             return bench.render_technique(request);
         };
         const app::TechniqueResult traced = render("raytrace:sphere=exact,depth=16");
-        bench.add_nonfinite_case(fmt::format("{}, raytrace", eye.what), traced);
+        bench.add_nonfinite_pixel_case(fmt::format("{}, raytrace", eye.what), traced);
         bench.add_measured_case(
             fmt::format("{}, raytrace: share of pixels more than .01 off a reference in doubles",
                         eye.what),
             share_of_pixels_unlike_double_tracer(traced, scene, request), .005);
-        bench.add_nonfinite_case(fmt::format("{}, pyramid", eye.what), render("pyramid"));
+        bench.add_nonfinite_pixel_case(fmt::format("{}, pyramid", eye.what), render("pyramid"));
         // A texel of the shadow map is wider than the narrow picture, so neither picture has
         // shadows.
         bench.add_measured_case(

@@ -37,7 +37,7 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         {"on the surface, looking at it", eye(1, -out), false}};
     for (const TestedEyePosition& place : places) {
         const auto render = [&](const std::string& technique) {
-            app::Request request = bench.make_request(scene, technique);
+            app::Request request = bench.make_stress_request(scene, technique);
             request.camera = place.camera;
             return bench.render_technique(request);
         };
@@ -46,11 +46,11 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
             bench.add_measured_case(fmt::format("{}, raytrace: brightest of 0", place.what),
                                     find_brightest_channel(traced.hdr), 0);
         for (const std::string technique : {"parallax", "pyramid", "hybrid"})
-            bench.add_flip_case(fmt::format("{}, {}", place.what, technique), render(technique),
-                                traced, .03);
+            bench.add_mean_flip_case(fmt::format("{}, {}", place.what, technique),
+                                     render(technique), traced, .03);
         const app::TechniqueResult plain = render("reuse");
         if (place.inside)
-            bench.add_flip_case(fmt::format("{}, reuse", place.what), plain, traced, .03);
+            bench.add_mean_flip_case(fmt::format("{}, reuse", place.what), plain, traced, .03);
         // From outside, an uncorrected look-up is wrong for any eye, and most where the ball fills
         // the picture.
         else
@@ -69,7 +69,7 @@ void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     scene::Camera camera{.eye = object.sphere->centre + dvec3(reach / 2, 0, 0)};
     camera.target = camera.eye + dvec3(0, 0, 1);
     for (const std::string technique : {"raytrace", "parallax"}) {
-        app::Request request = bench.make_request(scene, technique, kSettlingFrames);
+        app::Request request = bench.make_stress_request(scene, technique, kSettlingFrames);
         request.camera = camera;
         app::Session session(bench.bench_engine(), scene);
         int wrong = 0, inside = 0;

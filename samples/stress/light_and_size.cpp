@@ -40,8 +40,8 @@ void judge_lamp_position(StressTestBench& bench) {
          })}};
     for (const auto& [what, moved] : places)
         for (const std::string technique : {"raytrace", "parallax"})
-            bench.add_nonfinite_case(std::string(what) + ", " + technique,
-                                     bench.render_technique(moved, technique));
+            bench.add_nonfinite_pixel_case(std::string(what) + ", " + technique,
+                                           bench.render_technique(moved, technique));
     // The lamp is above the ceiling and turned upwards, so only the ambient term is left.
     scene::Scene away = move_lamp_corners(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
@@ -66,34 +66,34 @@ void judge_picture_sizes(StressTestBench& bench) {
     const scene::Scene scene = make_stress_room(bench, 1);
     for (const uvec2 size : {uvec2(1, 1), uvec2(1, 16384), uvec2(16384, 1)})
         for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-            app::Request request = bench.make_request(scene, technique, 2);
+            app::Request request = bench.make_stress_request(scene, technique, 2);
             request.size = size;
-            bench.add_nonfinite_case(fmt::format("{}x{}, {}", size.x, size.y, technique),
-                                     bench.render_technique(request));
+            bench.add_nonfinite_pixel_case(fmt::format("{}x{}, {}", size.x, size.y, technique),
+                                           bench.render_technique(request));
         }
     for (const uvec2 size : {uvec2(0, 0), uvec2(0, 7)})
-        bench.add_expected_error(fmt::format("{}x{}", size.x, size.y), Failure::usage,
-                                 "at least 1x1", [&] {
-                                     app::Request request = bench.make_request(scene, "raytrace");
-                                     request.size = size;
-                                     bench.render_technique(request);
-                                 });
+        bench.add_expected_error(
+            fmt::format("{}x{}", size.x, size.y), Failure::usage, "at least 1x1", [&] {
+                app::Request request = bench.make_stress_request(scene, "raytrace");
+                request.size = size;
+                bench.render_technique(request);
+            });
     for (const uvec2 size : {uvec2(65536, 65536), uvec2(~0u, 1)})
-        bench.add_expected_error(fmt::format("{}x{}", size.x, size.y), Failure::exhausted,
-                                 "allows max_", [&] {
-                                     app::Request request = bench.make_request(scene, "raytrace");
-                                     request.size = size;
-                                     bench.compile_plan(request);
-                                 });
+        bench.add_expected_error(
+            fmt::format("{}x{}", size.x, size.y), Failure::exhausted, "allows max_", [&] {
+                app::Request request = bench.make_stress_request(scene, "raytrace");
+                request.size = size;
+                bench.plan_stress_technique(request);
+            });
     for (const std::string technique : {"raytrace", "parallax:face=32"}) {
-        app::Request request = bench.make_request(scene, technique, 1);
+        app::Request request = bench.make_stress_request(scene, technique, 1);
         request.size = {16384, 16384};
-        bench.add_success_or_refusal("16384x16384, " + technique + ", planned",
-                                     [&] { bench.compile_plan(request); });
+        bench.add_case_of_success_or_refusal("16384x16384, " + technique + ", planned",
+                                             [&] { bench.plan_stress_technique(request); });
     }
-    app::Request large = bench.make_request(scene, "raytrace", 1);
+    app::Request large = bench.make_stress_request(scene, "raytrace", 1);
     large.size = {4096, 4096};
-    bench.add_nonfinite_case("4096x4096, raytrace", bench.render_technique(large));
+    bench.add_nonfinite_pixel_case("4096x4096, raytrace", bench.render_technique(large));
 }
 
 /// Returns the number of black pixels in the middle ninth of a picture.
@@ -138,7 +138,7 @@ void judge_triangle_counts(StressTestBench& bench) {
     for (const std::string technique : {"raytrace", "parallax"}) {
         const auto sum = [&](const scene::Scene& scene, const std::string& what) {
             const app::TechniqueResult part = bench.render_technique(scene, technique, 2);
-            bench.add_nonfinite_case(what + ", " + technique, part);
+            bench.add_nonfinite_pixel_case(what + ", " + technique, part);
             double bright = 0;
             for (const vec3& pixel : part.hdr.pixels) bright += pixel.x > .5f;
             return bright / double(part.hdr.pixels.size());
@@ -153,13 +153,13 @@ void judge_triangle_counts(StressTestBench& bench) {
     bench.add_measured_case(
         "1,048,576 triangles, raytrace: seconds from mesh to picture",
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
-    bench.add_nonfinite_case("1,048,576 triangles, raytrace", part);
+    bench.add_nonfinite_pixel_case("1,048,576 triangles, raytrace", part);
     scene::Scene ten = empty;
     add_mesh(ten, make_rippled_grid(2237),
              add_material(ten, {.name = "grey", .albedo = vec3(.5f)}));
-    bench.add_success_or_refusal("10,008,338 triangles, raytrace", [&] {
+    bench.add_case_of_success_or_refusal("10,008,338 triangles, raytrace", [&] {
         const app::TechniqueResult seen = bench.render_technique(ten, "raytrace", 1);
-        bench.add_nonfinite_case("10,008,338 triangles, raytrace", seen);
+        bench.add_nonfinite_pixel_case("10,008,338 triangles, raytrace", seen);
         bench.add_measured_case(
             "10,008,338 triangles, raytrace: pixels of the middle that show none",
             count_black_pixels(seen.hdr), 0);

@@ -17,7 +17,7 @@ namespace catoptric::stress {
 namespace {
 
 constexpr double kMostGrazingDegrees = 89.99;
-constexpr float kTestF0 = .3f; // of a surface whose reflectance depends on the angle
+constexpr float kTestReflectanceF0 = .3f; // of a surface whose reflectance depends on the angle
 
 /// Draws a direction between these angles, in degrees, to the normal. Computed in the type of
 /// `Vector`, because GCC 12 may drop a rounding from double to float and back.
@@ -59,10 +59,13 @@ double find_largest_reciprocity_error(StressTestBench& bench, const Reflect& ref
 
 void judge_lobe_reciprocity(StressTestBench& bench) {
     const auto in_doubles = [](double alpha, const dvec3& to_eye, const dvec3& to_light) {
-        return f64::evaluate_lobe(alpha, dvec3(kTestF0), dvec3(1), to_eye, to_light).x / to_light.z;
+        return f64::evaluate_lobe(alpha, dvec3(kTestReflectanceF0), dvec3(1), to_eye, to_light).x /
+               to_light.z;
     };
     const auto in_floats = [](float alpha, const f32::vec3& to_eye, const f32::vec3& to_light) {
-        return f32::evaluate_lobe(alpha, f32::vec3(kTestF0), f32::vec3(1), to_eye, to_light).x /
+        return f32::evaluate_lobe(alpha, f32::vec3(kTestReflectanceF0), f32::vec3(1), to_eye,
+                                  to_light)
+                   .x /
                to_light.z;
     };
     bench.add_measured_case(
@@ -87,7 +90,7 @@ struct GrazingLobeErrors {
 void judge_grazing_lobe(StressTestBench& bench, double roughness, double degrees) {
     constexpr int kRandomDrawCount = 4096;
     const float alpha = f32::roughness_to_alpha(float(roughness));
-    const f32::vec3 f0(kTestF0), f90(1);
+    const f32::vec3 f0(kTestReflectanceF0), f90(1);
     GrazingLobeErrors errors;
     for (int k = 0; k < kRandomDrawCount; ++k) {
         const auto to_eye = draw_random_direction<f32::vec3>(bench, degrees, degrees);

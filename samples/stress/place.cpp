@@ -21,9 +21,9 @@ void compare_scene_under_transforms(StressTestBench& bench,
     const auto with = [&](const std::string& technique, double limit) {
         const app::TechniqueResult plain = bench.render_technique(scene, technique);
         for (const auto& [what, root] : roots)
-            bench.add_flip_case(technique + ", " + what,
-                                bench.render_technique(transform_scene(scene, root), technique),
-                                plain, limit);
+            bench.add_mean_flip_case(
+                technique + ", " + what,
+                bench.render_technique(transform_scene(scene, root), technique), plain, limit);
     };
     with("raytrace", traced);
     for (const char* technique : kCaptureTechniques) with(technique, cubes);
@@ -65,9 +65,9 @@ void judge_mirrored_scene(StressTestBench& bench) {
         for (int y = 0; y < plain.display.height; ++y)
             for (int x = 0; x < plain.display.width / 2; ++x)
                 std::swap(plain.display.at(x, y), plain.display.at(plain.display.width - 1 - x, y));
-        bench.add_flip_case(technique + ", mirrored",
-                            bench.render_technique(transform_scene(scene, root), technique), plain,
-                            .001);
+        bench.add_mean_flip_case(technique + ", mirrored",
+                                 bench.render_technique(transform_scene(scene, root), technique),
+                                 plain, .001);
     }
 }
 
@@ -84,8 +84,8 @@ void judge_distant_walls(StressTestBench& bench) {
         const app::TechniqueResult plain = bench.render_technique(scene, "reuse"),
                                    corrected = bench.render_technique(scene, "parallax");
         const std::string what = fmt::format("{} wide", width);
-        bench.add_nonfinite_case(what, corrected);
-        bench.add_flip_case(what + ", parallax against reuse", corrected, plain, .0005);
+        bench.add_nonfinite_pixel_case(what, corrected);
+        bench.add_mean_flip_case(what + ", parallax against reuse", corrected, plain, .0005);
     }
 }
 

@@ -48,7 +48,7 @@ void judge_lobe_energy(StressTestBench& bench) {
 
 /// Returns the furnace without its glowing walls, below an environment of the same light.
 scene::Scene make_furnace_of_sky() {
-    scene::Scene scene = make_furnace({});
+    scene::Scene scene = make_white_furnace_scene({});
     scene.objects.clear();
     auto sky = std::make_shared<scene::Environment>();
     sky->name = "white", sky->size = {2, 1}, sky->texels = {vec3(1), vec3(1)};
@@ -76,12 +76,12 @@ double mean_of_picture(const measure::Picture& picture) {
 void judge_rough_energy(StressTestBench& bench) {
     judge_lobe_energy(bench);
     const auto render = [&](const scene::Scene& scene, const char* technique) {
-        app::Request request = bench.make_request(scene, technique, 3);
+        app::Request request = bench.make_stress_request(scene, technique, 3);
         request.size = {96, 96};
         request.ambient = 0;
         return bench.render_technique(request).hdr;
     };
-    const scene::Scene walls = add_rough_balls(make_furnace({})),
+    const scene::Scene walls = add_rough_balls(make_white_furnace_scene({})),
                        sky = add_rough_balls(make_furnace_of_sky());
     for (const char* technique :
          {"raytrace", "raytrace:rays=4,lamps=met", "raytrace:rays=4,lamps=met,first=raster",

@@ -17,15 +17,15 @@ report::StressVerdict judge_stress_row(const report::StressRow& row) {
     if (row.cases.empty()) return report::StressVerdict::unsupported;
     bool looks_worse = false;
     for (const report::StressCase& one : row.cases) {
-        if (one.is_within_limit()) continue;
+        if (one.is_case_within_limit()) continue;
         if (!one.is_quality) return report::StressVerdict::fail;
         looks_worse = true;
     }
     return looks_worse ? report::StressVerdict::quality_warning : report::StressVerdict::pass;
 }
 
-report::StressRow judge_property(app::Engine& engine, const StressRequest& request,
-                                 const StressProperty& property) {
+report::StressRow judge_stress_property(app::Engine& engine, const StressRequest& request,
+                                        const StressProperty& property) {
     report::StressRow row{std::string(property.id),
                           std::string(property.stimulus),
                           std::string(property.property),
@@ -79,12 +79,12 @@ report::StressResults run_stress_properties(app::Engine& engine, const StressReq
     try {
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             report_row_to_watcher(request.watcher, std::string(chosen[i]->id), i, chosen.size());
-            stress.rows.push_back(judge_property(engine, request, *chosen[i]));
+            stress.rows.push_back(judge_stress_property(engine, request, *chosen[i]));
             if (request.on_finished_row) request.on_finished_row(stress);
         }
         stress.complete = true;
     } catch (const Error& error) {
-        if (stress.rows.empty() && !is_stop_signal(error.failure)) throw;
+        if (stress.rows.empty() && !is_failure_by_stop_signal(error.failure)) throw;
         stress.stopped = error;
     } catch (const std::bad_alloc&) {
         if (stress.rows.empty()) throw;

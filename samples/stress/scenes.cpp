@@ -65,7 +65,7 @@ scene::Scene make_stress_room(StressTestBench& bench, int balls) {
     return scene;
 }
 
-scene::Scene make_furnace(const std::vector<MirrorBall>& balls) {
+scene::Scene make_white_furnace_scene(const std::vector<MirrorBall>& balls) {
     scene::Scene scene{.name = "furnace"};
     const std::size_t hot = add_material(scene, {.name = "hot", .emission = vec3(1)});
     for (int face = 0; face < 6; ++face)

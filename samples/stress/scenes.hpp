@@ -18,7 +18,7 @@ scene::Scene make_stress_room(StressTestBench& bench, int balls);
 
 /// Returns a closed box about 8 units wide with mirror balls. Each point of the box emits exactly 1
 /// and reflects nothing.
-scene::Scene make_furnace(const std::vector<MirrorBall>& balls);
+scene::Scene make_white_furnace_scene(const std::vector<MirrorBall>& balls);
 
 /// Returns a plane of 20 by 20 units at y = 0 with a small lamp 4 units above it. The camera sees
 /// it at a slant. No object casts a shadow.

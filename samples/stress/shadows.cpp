@@ -110,7 +110,7 @@ double find_farthest_wrong_pixel(const std::vector<ShadowSample>& spots,
 ShadowedPicture render_with_and_without_board(StressTestBench& bench, const scene::Scene& scene,
                                               const std::string& with, const std::string& without) {
     const auto render = [&](const std::string& technique) {
-        app::Request request = bench.make_request(scene, technique, 1);
+        app::Request request = bench.make_stress_request(scene, technique, 1);
         request.ambient = 0; // then only the lamp lights the plane
         return bench.render_technique(request).hdr;
     };
@@ -120,9 +120,11 @@ ShadowedPicture render_with_and_without_board(StressTestBench& bench, const scen
 /// Returns the largest edge of a shadow map for which this device has memory.
 int find_largest_shadow_map_edge(StressTestBench& bench, const scene::Scene& scene) {
     int edge = 16384;
-    while (edge > 1 && !bench.add_success_or_refusal(fmt::format("edge {} planned", edge), [&] {
-        bench.compile_plan(bench.make_request(scene, fmt::format("reuse:shadow_map={}", edge), 1));
-    }))
+    while (edge > 1 &&
+           !bench.add_case_of_success_or_refusal(fmt::format("edge {} planned", edge), [&] {
+               bench.plan_stress_technique(
+                   bench.make_stress_request(scene, fmt::format("reuse:shadow_map={}", edge), 1));
+           }))
         edge /= 2;
     return edge;
 }
@@ -206,12 +208,12 @@ scene::Scene make_plane_lit_by_lamps(bool first, bool second) {
     ShadowCastingBoard{.half_width = 1, .height = 1.5, .z = -1}.add_board_to_scene(scene);
     add_stress_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}),
                     {{1.9, .7, -2}, .7});
-    const auto add_lamp = [&](double x, const vec3& emission) {
+    const auto add_double_tracer_lamp = [&](double x, const vec3& emission) {
         add_stress_quad(scene, add_material(scene, {.name = "lamp", .emission = emission}),
                         {x - .2, 4, .3}, {x + .2, 4, .3}, {x + .2, 4, .7}, {x - .2, 4, .7});
     };
-    if (first) add_lamp(-2, {40, 10, 5});
-    if (second) add_lamp(2.5, {5, 10, 40});
+    if (first) add_double_tracer_lamp(-2, {40, 10, 5});
+    if (second) add_double_tracer_lamp(2.5, {5, 10, 40});
     scene.cameras.push_back({.eye = {0, 3, -9}, .target = {0, 0, -1}, .vertical_fov_degrees = 40});
     return scene;
 }
@@ -220,7 +222,7 @@ scene::Scene make_plane_lit_by_lamps(bool first, bool second) {
 /// plane, both shadows and their reflections in the ball.
 void judge_sum_of_lights(StressTestBench& bench) {
     const auto render = [&](const scene::Scene& scene, const std::string& technique) {
-        app::Request request = bench.make_request(scene, technique, 2);
+        app::Request request = bench.make_stress_request(scene, technique, 2);
         request.ambient = 0;
         return bench.render_technique(request);
     };

@@ -59,8 +59,8 @@ void judge_sharp_limit(StressTestBench& bench) {
         const auto render = [&, &technique = technique,
                              &frames = frames](scene::Material material) {
             material.name = "smooth";
-            app::Request request = bench.make_request(make_half_rough_room(room, material),
-                                                      technique, frames);
+            app::Request request = bench.make_stress_request(make_half_rough_room(room, material),
+                                                             technique, frames);
             request.size = {96, 96};
             return bench.render_technique(request);
         };
@@ -74,7 +74,7 @@ void judge_sharp_limit(StressTestBench& bench) {
                     wanted.hdr),
                 most_below);
         const float above = shared::kMaxSharpRoughness + 1e-4f;
-        bench.add_flip_case(
+        bench.add_mean_flip_case(
             fmt::format("{}, roughness {:.4f}, against a perfect mirror", technique, above),
             render({.albedo = vec3(1), .metallic = 1, .roughness = above}), wanted, most_above);
     }

@@ -8,8 +8,8 @@ namespace catoptric::stress {
 
 namespace {
 
-constexpr int kMovingCameraFrames = 6, kRestingFrames = 10; // numbers of frames
-constexpr double kBrightestRoomValue = 6;                   // brightest value of the room
+constexpr int kMovingCameraFrames = 6, kRestingCameraFrames = 10; // numbers of frames
+constexpr double kBrightestRoomValue = 6;                         // brightest value of the room
 
 /// Returns the room whose last ball moves `distance` away and back, twice a second.
 scene::Scene add_ball_motion(scene::Scene scene, double distance) {
@@ -27,7 +27,7 @@ CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
                                                     const scene::Scene& scene,
                                                     const std::string& technique, int moving,
                                                     int resting) {
-    app::Request request = bench.make_request(scene, technique, 1);
+    app::Request request = bench.make_stress_request(scene, technique, 1);
     app::Session session(bench.bench_engine(), scene);
     CameraMotionMeasurement seen;
     for (int k = 1 - moving; k <= resting; ++k) {
@@ -43,7 +43,7 @@ CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
 /// first frame at rest must be as if nothing had moved.
 void judge_speed_of_technique(StressTestBench& bench, const scene::Scene& scene, int balls,
                               const std::string& technique) {
-    const int resting = technique == "raytrace" || balls == 1 ? 1 : kRestingFrames;
+    const int resting = technique == "raytrace" || balls == 1 ? 1 : kRestingCameraFrames;
     const CameraMotionMeasurement wanted = measure_technique_in_motion(bench, scene, technique, 0,
                                                                        resting);
     for (const double distance : {1.0, 1e6}) {

@@ -66,7 +66,7 @@ std::string ViewLoop::command() const {
                                viewer_->make_frame_spec().size);
 }
 
-void ViewLoop::next_camera(std::size_t index) {
+void ViewLoop::select_next_camera(std::size_t index) {
     const std::vector<scene::Camera>& cameras = request_.scene.cameras;
     if (!cameras.empty()) state_.camera = cameras[index % cameras.size()];
 }
@@ -97,7 +97,7 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
                                                                    : app::RenderedWork::required;
         break;
     case KeyAction::camera:
-        next_camera(
+        select_next_camera(
             static_cast<std::size_t>(std::ranges::find(cameras, state_.camera) - cameras.begin()) +
             1);
         break;
@@ -105,8 +105,8 @@ void ViewLoop::perform_key_action(const KeyBinding& key) {
 }
 
 void ViewLoop::perform_panel_requests(const PanelButtonRequests& wants) try {
-    if (wants.cuts) viewer_->cut_history();
-    if (wants.camera) next_camera(*wants.camera);
+    if (wants.cuts) viewer_->discard_frame_history();
+    if (wants.camera) select_next_camera(*wants.camera);
     if (wants.copies) {
         window_.copy_to_clipboard(command());
         show_message("copied: " + command());

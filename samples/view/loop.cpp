@@ -28,7 +28,7 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
     : view_options_(options), driver_(driver),
       settings_(is_user_simulated() ? SavedViewerSettings()
                                     : load_viewer_settings(settings_file_path())),
-      request_(resolve_view_request(options).request), window_("Catoptric", first_window()),
+      request_(resolve_view_request(options).request), window_("Catoptric", initial_window_size()),
       controls_(window_) {
     state_.plan = parse_plan_text(options.technique);
     state_.other = parse_plan_text("raytrace");
@@ -40,7 +40,7 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop
 /// units.
-uvec2 ViewLoop::first_window() const {
+uvec2 ViewLoop::initial_window_size() const {
     const bool is_size_said = std::ranges::any_of(
         view_options_.words, [](const std::string& word) { return word.starts_with("--size"); });
     if (!is_size_said && settings_.window.x > 0) return settings_.window;
@@ -53,7 +53,7 @@ void ViewLoop::open(SceneChangeOrigin scene) {
     entries_of_.clear();
     const app::EngineOptions options = cli::make_engine_options(view_options_.common.device);
     viewer_ = std::make_unique<SceneViewer>(window_, options, request_);
-    controls_.give_font(viewer_->window_screen());
+    controls_.upload_overlay_font(viewer_->window_screen());
     if (scene == SceneChangeOrigin::same) return; // the state stays the same
     cli::print_device_and_warnings(viewer_->viewer_engine(), view_options_.common.manners);
     app::resolve_auto_exposure(viewer_->viewer_session(), request_);
@@ -130,8 +130,8 @@ void ViewLoop::show_frame(const UserInput& inputs) {
 /// Runs one frame, which may be refused. Returns false after the last frame.
 bool ViewLoop::run_one_frame() try {
     UserInput inputs = window_.poll_events(waits_);
-    inputs.on_controls = controls_.has_mouse();
-    if (controls_.has_keys()) inputs.acts.clear(), inputs.flies = {};
+    inputs.on_controls = controls_.does_panel_take_mouse();
+    if (controls_.does_panel_take_keyboard()) inputs.acts.clear(), inputs.flies = {};
     if (driver_.before) driver_.before(frame_ + 1, inputs, state_, window_);
     if (frame_ == 0) first_ = inputs.window;
     if (inputs.window != uvec2(0)) last_ = inputs.window, scale_ = inputs.scale;
@@ -139,7 +139,7 @@ bool ViewLoop::run_one_frame() try {
     for (const std::string& file : inputs.dropped) load(file);
     const uvec2 size = choose_picture_size(last_, state_.shows_panels);
     if (const auto clicked = hand_.apply_drag(inputs, state_, size, reach_))
-        state_.chosen = viewer_->mirror_at(*clicked);
+        state_.chosen = viewer_->mirror_number_at_pixel(*clicked);
     if (is_user_simulated() && state_.motion.plays)
         state_.motion.time = request_.instant(static_cast<int>(frame_) + 1);
     else
@@ -168,7 +168,7 @@ void ViewLoop::print_times() const {
                                      fmt::format("  {:<40} {:10.4f} ms", line.name, line.median));
 }
 
-int ViewLoop::finish_run() {
+int ViewLoop::finish_view_run() {
     print_times();
     if (!view_options_.screenshot.empty()) viewer_->write_picture(view_options_.screenshot);
     if (view_options_.common.device.validate) viewer_->viewer_engine().check_validation();
@@ -186,7 +186,7 @@ int ViewLoop::finish_run() {
 int ViewLoop::run() {
     while (run_one_frame()) {
     }
-    const int code = finish_run();
+    const int code = finish_view_run();
     const int signal = cli::stop_on_signals().load();
     return signal == 0 ? code : 128 + signal;
 }
@@ -197,7 +197,7 @@ int run_view_window(const ViewOptions& options, const SimulatedUser& driver) {
 
 int run_view_program(int argc, char** argv) {
     const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
-    return cli::run_other_program_guarded("catoptric-view", [&] {
+    return cli::run_program_catching_errors("catoptric-view", [&] {
         return parse_view_command(
             words, [](const ViewOptions& options) { return run_view_window(options); })();
     });

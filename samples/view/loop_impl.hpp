@@ -16,7 +16,7 @@ public:
 
 private:
     bool is_user_simulated() const { return view_options_.common.frames.has_value(); }
-    uvec2 first_window() const;
+    uvec2 initial_window_size() const;
     enum class SceneChangeOrigin { another, same };
     void open(SceneChangeOrigin scene);
     bool run_one_frame();
@@ -28,9 +28,9 @@ private:
     void recover_from_error(const Error& error);
     void show_message(const std::string& text);
     std::string command() const;
-    void next_camera(std::size_t index);
+    void select_next_camera(std::size_t index);
     void print_times() const;
-    int finish_run();
+    int finish_view_run();
 
     ViewOptions view_options_;
     const SimulatedUser& driver_;

@@ -39,7 +39,7 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
         "catoptric-view " + app::version() + " (" + app::commit() + ")", kViewExamples);
     const auto options = std::make_shared<ViewOptions>();
     options->words = words;
-    cli::CommandVerb& verb = program->single_verb();
+    cli::CommandVerb& verb = program->only_command_verb();
     add_technique_options(verb, options->drawn);
     verb.option("--screenshot", "OUT",
                 "file OUT.png or OUT.exr for the picture of the last of --frames, without controls",

@@ -87,7 +87,8 @@ EditedPlanState resolve_plan_by_mirror(const EditedPlanState& plan,
     return made;
 }
 
-void set_knob(TechniqueSettings& drawing, const app::KnobInfo& knob, const std::string& value) {
+void set_knob_from_text(TechniqueSettings& drawing, const app::KnobInfo& knob,
+                        const std::string& value) {
     if (value == knob.value)
         drawing.knobs.erase(knob.name);
     else
@@ -105,7 +106,7 @@ EditedPlanState set_knob_in_plan(EditedPlanState plan, const std::string& knob,
         const app::TechniqueInfo* technique = find_technique_info(drawing.technique);
         if (!technique) return;
         const auto known = std::ranges::find(technique->knobs, knob, &app::KnobInfo::name);
-        if (known != technique->knobs.end()) set_knob(drawing, *known, value);
+        if (known != technique->knobs.end()) set_knob_from_text(drawing, *known, value);
     };
     change(plan.rest);
     for (auto& [mirror, drawing] : plan.own) change(drawing);

@@ -25,7 +25,7 @@ double current_milliseconds() {
         .count();
 }
 
-bool show_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
+bool do_specs_show_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
     return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
            a.time == b.time && a.exposure == b.exposure && a.model == b.model;
 }
@@ -35,7 +35,7 @@ bool show_same_picture(const app::FrameSpec& a, const app::FrameSpec& b) {
 SceneViewer::SceneViewer(ViewWindow& window, const app::EngineOptions& options,
                          const app::Request& request) {
     app::EngineHooks hooks;
-    window.add_to(hooks);
+    window.add_window_hooks_to_engine(hooks);
     engine_.reset(new app::Engine(app::Access::make_engine(options, hooks)));
     screen_ = std::make_unique<app::WindowScreen>(*engine_);
     given_ = request.scene;
@@ -60,7 +60,7 @@ void SceneViewer::collect_finished_frames(std::size_t most) {
     }
 }
 
-void SceneViewer::cut_history() {
+void SceneViewer::discard_frame_history() {
     collect_finished_frames(0);
     session_->forget();
     was_moved_ = false;
@@ -98,7 +98,7 @@ void SceneViewer::update_from_state(const ViewState& state, uvec2 size) {
     next.model = state.model;
     next.budget_ms = state.model == app::RenderedWork::required ? budget_ms_ : 0;
     const bool is_changed = update_roughness(state.roughness);
-    const bool same = show_same_picture(next, spec_) && !is_changed;
+    const bool same = do_specs_show_same_picture(next, spec_) && !is_changed;
     const bool same_view = next.camera == spec_.camera && next.size == spec_.size &&
                            next.time == spec_.time && next.exposure == spec_.exposure &&
                            !is_changed;
@@ -117,12 +117,12 @@ void SceneViewer::update_from_state(const ViewState& state, uvec2 size) {
 /// Works while the view is at rest. When the view comes to rest, a new frame sequence begins, as
 /// in `catoptric render`. Automatic capture edges then fit this view, and the picture becomes the
 /// same bytes. The first frames are not shown, because mirrors do not show each other yet.
-void SceneViewer::measure_at_rest(const ViewState& state) {
+void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
     if (still_ >= kFramesUntilCameraRests && was_moved_ && !state.motion.plays) {
-        cut_history();
+        discard_frame_history();
         for (int k = 0; k < kUnshownFramesAfterCut; ++k) {
             last_ = session_->frame(spec_);
-            if (!app::Access::depends_on_last_frame(*last_)) break;
+            if (!app::Access::does_frame_part_need_previous_frame(*last_)) break;
         }
     }
     const bool compares = (state.mode == ViewMode::split || state.mode == ViewMode::difference) &&
@@ -167,7 +167,7 @@ std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const Vie
 void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay,
                                bool is_seen) {
     update_from_state(state, size);
-    measure_at_rest(state);
+    measure_errors_when_camera_rests(state);
     const ShownTechniquesAndPictures what = choose_shown_pictures(state);
     showing_ = {what.kind,
                 what.first,
@@ -198,7 +198,7 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
     ++frames_;
 }
 
-std::uint32_t SceneViewer::mirror_at(uvec2 pixel) {
+std::uint32_t SceneViewer::mirror_number_at_pixel(uvec2 pixel) {
     if (frames_ == 0) return 0;
     collect_finished_frames(0);
     const std::vector<std::uint32_t> hits = render_mirror_hits(*session_, spec_);

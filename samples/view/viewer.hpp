@@ -38,8 +38,8 @@ public:
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
     void render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay, bool is_seen);
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
-    std::uint32_t mirror_at(uvec2 pixel);
-    void cut_history();
+    std::uint32_t mirror_number_at_pixel(uvec2 pixel);
+    void discard_frame_history();
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
     void write_picture(const std::filesystem::path& file) const;
@@ -49,7 +49,7 @@ public:
 private:
     void update_from_state(const ViewState& state, uvec2 size);
     bool update_roughness(const MirrorRoughness& roughness);
-    void measure_at_rest(const ViewState& state);
+    void measure_errors_when_camera_rests(const ViewState& state);
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
     void collect_finished_frames(std::size_t most);
 

@@ -18,7 +18,7 @@ layout(set = 0, binding = 18) uniform sampler nearest_texels;
 // around a branch is rounded differently from arithmetic in shaders that do not read the table.
 // The binding number makes the table the last uniform buffer. Mesa 22.3's software driver crashes if a shader uses a
 // value from a constant index of the fourth uniform buffer. Indices into this table are computed.
-layout(set = 0, binding = 31, scalar) uniform Captures { CaptureTable captures; };
+layout(set = 0, binding = 31, scalar) uniform Captures { CaptureLookupTable captures; };
 
 #define COLOUR_CUBES(i) samplerCubeArray(colour_cubes[i], linear_texels)
 #define DISTANCE_CUBES(i) samplerCubeArray(distance_cubes[i], linear_texels)

@@ -46,14 +46,14 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         to_eye = to_viewer_in_tangent_space(normal, tangent, bitangent, to_viewer);
     }
     uint light = 0u;
-    if (count_work != 0u) add_to_work_count(kWorkLights, count);
+    if (count_work != 0u) add_to_work_count(kWorkLightEvaluations, count);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         vec3 direction;
         float distance, factor;
         bool is_lit = light < count && !(traces_paths != 0u && is_light_a_lamp(light)) &&
                       sample_light_of_any_kind(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
-            factor *= facet_light_share(direction, normal, facet);
+            factor *= one_sided_lamp_share(direction, normal, facet);
             is_lit = factor > 0.0;
         }
         if (is_lit) {

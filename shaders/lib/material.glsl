@@ -235,7 +235,7 @@ vec3 glass_tint = vec3(1); // colour of the light that passes the glass that was
 // The diffuse part is the light that the specular part does not reflect to the viewer: 1 minus the albedo of the lobe
 // (or the reflectance of a perfect mirror). So a white surface in a white furnace reflects all light.
 void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) {
-    count_work_once(kWorkMaterials);
+    count_work_once(kWorkMaterialReads);
     MaterialParameters detail = read_material_parameters(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstantReflectanceFlag) != 0u;
     specular_lobe.roughness = 0.0;

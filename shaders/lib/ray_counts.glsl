@@ -35,8 +35,8 @@ void count_rays() {
         add_to_work_count(kWorkCameraRays, camera_rays);
         add_to_work_count(kWorkMirrorRays, mirror_rays);
         add_to_work_count(kWorkShadowRays, shadow_rays);
-        add_to_work_count(kWorkNodes, nodes_visited);
-        add_to_work_count(kWorkTriangles, triangles_tested);
+        add_to_work_count(kWorkBvhNodes, nodes_visited);
+        add_to_work_count(kWorkTriangleTests, triangles_tested);
         add_to_work_count(kWorkNodeLanes, node_lanes);
         add_to_work_count(kWorkTriangleLanes, triangle_lanes);
     }

@@ -93,7 +93,7 @@ uint skipped_triangle_flags() { return exact_spheres != 0u ? kBvhStandsForSphere
 
 // Transforms a point from an instance's object space to scene units.
 void transform_point_to_scene(inout SurfacePoint p, uint record) {
-    ObjectPlacement place = read_instance_placement(record);
+    ObjectPlacement place = read_instance_ray_transform(record);
     p.inside = record;
     p.arm = rotate_to_scene_offset(place, p.position);
     p.arm_error = offset_rounding_error(place, p.position, p.error);
@@ -120,7 +120,7 @@ SurfacePoint point_on_triangle(TraceHit hit) {
     p.normal = normalize(w.x * normal_a + w.y * normal_b + w.z * normal_c);
     vec3 lit_a = a, lit_b = b, lit_c = c; // corners in scene units
     if (object_spaces != 0u && hit.inside != 0u) {
-        ObjectPlacement place = read_instance_placement(hit.inside);
+        ObjectPlacement place = read_instance_ray_transform(hit.inside);
         lit_a = rotate_to_scene_offset(place, a), lit_b = rotate_to_scene_offset(place, b), lit_c = rotate_to_scene_offset(place, c);
         normal_a = transform_normal_out_of_object_space(place, normal_a), normal_b = transform_normal_out_of_object_space(place, normal_b), normal_c = transform_normal_out_of_object_space(place, normal_c);
         p.facet = facet_normal(lit_a, lit_b, lit_c);
@@ -135,13 +135,13 @@ SurfacePoint point_on_triangle(TraceHit hit) {
 #ifdef DOUBLES
     dvec3 exact_a = dvec3(a), exact_b = dvec3(b), exact_c = dvec3(c);
     if (object_spaces != 0u && hit.inside != 0u) {
-        ObjectPlacement place = read_instance_placement(hit.inside);
+        ObjectPlacement place = read_instance_ray_transform(hit.inside);
         exact_a = transform_exact_position_to_scene(place, a), exact_b = transform_exact_position_to_scene(place, b), exact_c = transform_exact_position_to_scene(place, c);
     }
     dvec3 exact_w = refine_exact_triangle_hit(exact_a, exact_b, exact_c, w);
     exact_normal = exact_w.x * dvec3(NORMAL(corner)) + exact_w.y * dvec3(NORMAL(corner + 1u)) +
                    exact_w.z * dvec3(NORMAL(corner + 2u));
-    if (object_spaces != 0u && hit.inside != 0u) exact_normal = transform_exact_normal_to_scene(read_instance_placement(hit.inside), exact_normal);
+    if (object_spaces != 0u && hit.inside != 0u) exact_normal = transform_exact_normal_to_scene(read_instance_ray_transform(hit.inside), exact_normal);
     exact_normal = normalize(exact_normal);
     p.position = vec3(exact_point);
     p.normal = vec3(exact_normal);
@@ -173,7 +173,7 @@ SurfacePoint point_on_sphere(Ray ray, float t, uint object) {
 // Returns the point of a hit on the exact sphere of an instance. `low` is the rounding error of the ray's origin.
 SurfacePoint point_on_instance_sphere(Ray ray, vec3 low, TraceHit hit) {
     SurfacePoint p;
-    ObjectPlacement place = read_instance_placement(hit.inside);
+    ObjectPlacement place = read_instance_ray_transform(hit.inside);
     float radius = object_space_sphere_radius(hit.inside);
     p.position = sphere_hit_point(vec3(0), radius, transform_ray_to_object_space(place, ray, low), hit.t, p.error);
     p.normal = p.position / radius;
@@ -216,7 +216,7 @@ uint intersect_rasterised_triangle(Ray ray, out TraceHit hit) {
     Ray own = ray;
     uint shift = 0u;
     if (object_spaces != 0u && record != 0u) {
-        own = transform_ray_to_object_space(read_instance_placement(record), ray, trace_low);
+        own = transform_ray_to_object_space(read_instance_ray_transform(record), ray, trace_low);
         shift = triangle_number_offset(record);
     }
     vec3 a, b, c, weights;
@@ -271,7 +271,7 @@ Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
 // Returns the origin of a ray that leaves the point along `direction`. Sets trace_low if the point is on an instance.
 vec3 find_leaving_ray_origin(SurfacePoint p, vec3 direction) {
     if (object_spaces != 0u && p.inside != 0u)
-        return add_offset_to_object_centre(read_instance_placement(p.inside), ray_spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
+        return add_offset_to_object_centre(read_instance_ray_transform(p.inside), ray_spawn_origin(p.arm, p.arm_error, p.facet, direction), trace_low);
     return is_precision_rule_kept(kOriginErrorBoundRule) ? ray_spawn_origin(p.position, p.error, p.facet, direction)
         : plain_ray_spawn_origin(p.position, p.facet, direction);
 }
@@ -281,7 +281,7 @@ vec3 find_leaving_ray_origin(SurfacePoint p, vec3 direction) {
 // would hit neighbouring facets, and a smooth body's shadow terminator would show its facets.
 vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
     if (object_spaces != 0u && p.inside != 0u)
-        return add_offset_to_object_centre(read_instance_placement(p.inside), ray_spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
+        return add_offset_to_object_centre(read_instance_ray_transform(p.inside), ray_spawn_origin(p.arm + p.lift * normal, p.arm_error, p.facet, normal), trace_low);
     return ray_spawn_origin(p.position + p.lift * normal, p.error, p.facet, normal);
 }
 
@@ -385,8 +385,8 @@ Ray make_camera_ray(vec2 place, uvec2 size) {
 }
 
 // Returns the radiance along a ray that has met `first` mirrors before. `met` is the number of the first mirror that
-// the ray meets, and the number of the second << kHitMirrorBits. If the first surface reflects but is no mirror, the
-// first number is 0 and the second kHitSmoothSurface or kHitRoughSurface. A ray with `first` 0 is a camera ray and
+// the ray meets, and the number of the second << kBitsPerMirrorHit. If the first surface reflects but is no mirror, the
+// first number is 0 and the second kHitSmoothDielectric or kHitRoughNonMirror. A ray with `first` 0 is a camera ray and
 // passes through objects hidden from the camera. With first_raster, a camera ray starts at the triangle that `first_words` names.
 vec3 trace_radiance(Ray ray, uint first, out uint met) {
     vec3 weight = vec3(1);
@@ -429,16 +429,16 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         if (samples_lamps != 0u) surface.emission *= counted_share_of_met_emission(point, ray.origin, ray_density);
         bool is_see_through = has_blending != 0u && details != 0u && is_blended(surface.detail) && surface_alpha(surface.detail, point.at) < kOpaqueAlpha;
         if (has_blending != 0u && is_see_through) split_at_blended_surface(point, surface.detail, bounce, ray, weight);
-        bool is_recorded = bounce < first + 2u && met < kHitRoughSurface << kHitMirrorBits;
+        bool is_recorded = bounce < first + 2u && met < kHitRoughNonMirror << kBitsPerMirrorHit;
         // Of the branches of a path, the first to meet a mirror is recorded. Behind a blended surface the pixel counts as what
         // it would be without that surface.
-        if (has_glass != 0u || has_blending != 0u) is_recorded = is_recorded && (met >> (kHitMirrorBits * (bounce - first)) & kMaxMirrors) == 0u;
-        if (is_recorded) met |= surface.mirror << (kHitMirrorBits * (bounce - first));
+        if (has_glass != 0u || has_blending != 0u) is_recorded = is_recorded && (met >> (kBitsPerMirrorHit * (bounce - first)) & kMaxMirrors) == 0u;
+        if (is_recorded) met |= surface.mirror << (kBitsPerMirrorHit * (bounce - first));
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         if (details != 0u && bounce == 0u && surface.mirror == 0u && !is_see_through && met == 0u) {
-            if (reflects) met = kHitSmoothSurface << kHitMirrorBits;
-            else if (has_rough_lobe()) met = kHitRoughSurface << kHitMirrorBits;
+            if (reflects) met = kHitSmoothDielectric << kBitsPerMirrorHit;
+            else if (has_rough_lobe()) met = kHitRoughNonMirror << kBitsPerMirrorHit;
         }
         if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
         if (is_glass(surface.detail)) {

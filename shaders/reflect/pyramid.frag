@@ -204,7 +204,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     RayArc arc = make_pyramid_arc(offset, direction);
     // The ray's line passes through the centre, so that the ray's own direction is the only direction to look up.
     if (!(length(arc.bend) > kMinArcAngle && length(direction + arc.from) > kMinArcAngle))
-        return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kMiss : kHit, 0.0, 0.0);
+        return Lookup(direction, is_miss(captured_distance(mirror, direction)) ? kSearchMissState : kHit, 0.0, 0.0);
     int face = distance_edge(mirror);
     ArcOnCubeFace line = project_arc_on_face(cube_face(arc.from), arc);
     PyramidCellWalk walk = PyramidCellWalk(line, texel_of_arc_point(line, 0.0, face), max(top_pyramid_level(face) - kStartLevelBelowTop, 1), 0.0);
@@ -238,7 +238,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         advance_walk_to_next_cell(walk, arc, leave, face);
     } while (walk.s < 1.0 && visits < kMaxCellVisits);
     if (walk.s < 1.0) return Lookup(normalize(arc_direction_at(arc, walk.s)), kUnknown, 0.0, 0.0);
-    if (in_sight) return Lookup(direction, state == kHit ? kMiss : kUnknown, 0.0, 0.0);
+    if (in_sight) return Lookup(direction, state == kHit ? kSearchMissState : kUnknown, 0.0, 0.0);
     if (nothing_beside) return Lookup(direction, kUnknown, 0.0, kLeaves);
     return Lookup(normalize(arc_direction_at(arc, last_in_sight)), kUnknown, 0.0, 0.0);
 }

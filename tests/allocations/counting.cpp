@@ -18,8 +18,8 @@ bool is_allocation_refused() { return granted != kAllAllocationsAllowed && grant
 
 std::size_t test::allocations() { return taken; }
 
-test::AllocationRefusal::AllocationRefusal(std::size_t after) { granted = after; }
-test::AllocationRefusal::~AllocationRefusal() { granted = kAllAllocationsAllowed; }
+test::ScopedAllocationRefusal::ScopedAllocationRefusal(std::size_t after) { granted = after; }
+test::ScopedAllocationRefusal::~ScopedAllocationRefusal() { granted = kAllAllocationsAllowed; }
 
 // NOLINTBEGIN(cppcoreguidelines-no-malloc): this is what malloc is for
 void* operator new(std::size_t bytes) {

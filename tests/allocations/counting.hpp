@@ -9,12 +9,12 @@ namespace test {
 std::size_t allocations();
 
 /// Makes one allocation fail while this object exists: the one after `after` others, on any thread.
-class AllocationRefusal {
+class ScopedAllocationRefusal {
 public:
-    explicit AllocationRefusal(std::size_t after);
-    ~AllocationRefusal();
-    AllocationRefusal(const AllocationRefusal&) = delete;
-    AllocationRefusal& operator=(const AllocationRefusal&) = delete;
+    explicit ScopedAllocationRefusal(std::size_t after);
+    ~ScopedAllocationRefusal();
+    ScopedAllocationRefusal(const ScopedAllocationRefusal&) = delete;
+    ScopedAllocationRefusal& operator=(const ScopedAllocationRefusal&) = delete;
 };
 
 } // namespace test

@@ -16,7 +16,7 @@ TEST(Hierarchy, BuildThrowsIfAnAllocationFailsOnAnyThread) {
     std::size_t refused = 0;
     for (bool done = false; !done; refused += done ? 0 : 1) {
         ASSERT_LT(refused, 1000u);
-        const test::AllocationRefusal refusal(refused);
+        const test::ScopedAllocationRefusal refusal(refused);
         try {
             const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::kMaxLeafTriangles, 3);
             done = true;

@@ -15,13 +15,13 @@ namespace {
 using namespace catoptric;
 
 /// Number of heap allocations for declaring and for recording one frame.
-struct AllocationCounts {
+struct CountedAllocations {
     std::size_t declaring = 0, recording = 0;
-    friend auto operator<=>(const AllocationCounts&, const AllocationCounts&) = default;
+    friend auto operator<=>(const CountedAllocations&, const CountedAllocations&) = default;
 };
 
-class SteadyFrame : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrame,
+class SteadyFrameAllocationTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrameAllocationTest,
                          testing::Values("naive:face=16", "reuse:face=16", "parallax:face=16",
                                          "hybrid:face=16", "raytrace:depth=2"),
                          [](const auto& instance) {
@@ -29,27 +29,27 @@ INSTANTIATE_TEST_SUITE_P(Rows, SteadyFrame,
                              return text.substr(0, text.find(':'));
                          });
 
-TEST_P(SteadyFrame, EachFrameMakesTheSameNumberOfAllocations) {
+TEST_P(SteadyFrameAllocationTest, EachFrameMakesTheSameNumberOfAllocations) {
     gpu::GpuDevice device({}); // without the validation layer, whose allocations would count
     gpu::PipelineStore pipelines(device);
     const scene::Scene scene = scene::make_cornell_mirrors();
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(scene, scene.cameras.front(), {32, 32}, 0);
     graph::GraphRunner runner(device, pipelines, 2);
-    std::set<AllocationCounts> seen;
+    std::set<CountedAllocations> seen;
     std::size_t passes = 0;
     for (int frame = 1; frame <= 20; ++frame) {
         const std::size_t before = test::allocations();
         graph::Graph graph(runner.make_history());
         const render::FrameInputs inputs{gpu_scene, {32, 32}, ""};
-        graph.mark_output(test::add_technique(graph, inputs, GetParam()).hdr);
+        graph.mark_as_graph_output(test::add_technique(graph, inputs, GetParam()).hdr);
         const std::size_t declared = test::allocations();
         runner.submit_frame(graph, graph::PassTiming::isolated);
         const std::size_t recorded = test::allocations();
         passes = runner.find_or_make_plan(graph).passes.size();
         if (frame >= 5) seen.insert({declared - before, recorded - declared});
     }
-    EXPECT_EQ(runner.planned_shape_count(), 1u);
+    EXPECT_EQ(runner.compiled_graph_plan_count(), 1u);
     ASSERT_EQ(seen.size(), 1u);
     std::cout << "[ MEASURED ] " << GetParam() << ", " << passes
               << " passes: " << seen.begin()->declaring << " allocations declaring, "

@@ -23,14 +23,14 @@ namespace {
 using namespace catoptric;
 
 /// One side of a compared pair: an engine and a technique.
-struct ComparedSide {
+struct ComparedConfiguration {
     const char* name;
     app::Engine& engine;
     std::string technique;
 };
 
-app::BenchmarkSubject make_frame_subject_of_side(const ComparedSide& side, app::Request request,
-                                                 int rounds) {
+app::BenchmarkSubject make_frame_subject_of_side(const ComparedConfiguration& side,
+                                                 app::Request request, int rounds) {
     request.techniques = {side.technique};
     const auto session = std::make_shared<app::Session>(side.engine, request.scene);
     app::BenchmarkSubject subject = app::make_frame_benchmark_subject(session, request,
@@ -48,12 +48,13 @@ std::vector<double> list_gpu_ms_of_rounds(const measure::BenchmarkResult& benchm
 }
 
 /// GPU milliseconds of each side, and the ratio a / b of each pair of frames.
-struct PairedTimes {
+struct PairedFrameTimes {
     measure::SampleSummary a, b, ratio;
 };
 
-PairedTimes measure_paired_frames(const ComparedSide& a, const ComparedSide& b,
-                                  const app::Request& base, int rounds) {
+PairedFrameTimes measure_paired_frames(const ComparedConfiguration& a,
+                                       const ComparedConfiguration& b, const app::Request& base,
+                                       int rounds) {
     const app::ProcessorUsageMeter meter(app::ProcessorUsageMeter::CountedThreadChoice::process);
     const std::vector<measure::BenchmarkResult> found = app::measure_benchmarks_in_rounds(
         {make_frame_subject_of_side(a, base, rounds), make_frame_subject_of_side(b, base, rounds)},
@@ -66,9 +67,10 @@ PairedTimes measure_paired_frames(const ComparedSide& a, const ComparedSide& b,
             measure::summarise_samples(ratios)};
 }
 
-void compare_sides(const char* title, const ComparedSide& a, const ComparedSide& b,
-                   const app::Request& base, int rounds) {
-    const PairedTimes pairs = measure_paired_frames(a, b, base, rounds);
+void compare_two_configurations(const char* title, const ComparedConfiguration& a,
+                                const ComparedConfiguration& b, const app::Request& base,
+                                int rounds) {
+    const PairedFrameTimes pairs = measure_paired_frames(a, b, base, rounds);
     std::printf("%s\n  %-28s %8.2f ms\n  %-28s %8.2f ms\n  ratio %.3f [%.3f, %.3f] over %d pairs\n",
                 title, a.name, pairs.a.median, b.name, pairs.b.median, pairs.ratio.median,
                 pairs.ratio.p05, pairs.ratio.p95, rounds);
@@ -80,24 +82,26 @@ void compare_tree_shapes(const app::Request& base, int rounds) {
         naive_engine(app::Access::make_engine(
             {.device = device}, {.shader_variants = {{"raytrace.comp", "raytrace.comp#naive"}}})),
         faces_engine(app::Access::make_engine({.device = device}, {.layered = false}));
-    ComparedSide fast{"default", plain, "raytrace:depth=4"},
+    ComparedConfiguration fast{"default", plain, "raytrace:depth=4"},
         naive{"naive", naive_engine, "raytrace:depth=4"};
     std::printf("%s, %s\n", plain.device().name.c_str(), plain.device().driver.c_str());
-    compare_sides("raytrace:depth=4 512x512: texel buffers, shared stack, scattered groups against "
-                  "storage buffers, "
-                  "private stack, groups in order",
-                  fast, naive, base, rounds);
-    ComparedSide layered{"six faces in one pass", plain, "parallax"},
+    compare_two_configurations(
+        "raytrace:depth=4 512x512: texel buffers, shared stack, scattered groups against "
+        "storage buffers, "
+        "private stack, groups in order",
+        fast, naive, base, rounds);
+    ComparedConfiguration layered{"six faces in one pass", plain, "parallax"},
         faces{"six passes", faces_engine, "parallax"};
-    compare_sides("parallax 512x512: captures in layered passes against one pass a face", layered,
-                  faces, base, rounds);
+    compare_two_configurations(
+        "parallax 512x512: captures in layered passes against one pass a face", layered, faces,
+        base, rounds);
 }
 
 /// Measures the rules that run on the processor. They are always in use, so only their time is
 /// printed.
 void compare_processor_rules(const app::Request& base) {
     constexpr int kRepetitions = 25;
-    const render::SceneUnits space = render::make_scene_units(base.scene);
+    const render::SceneUnitTransform space = render::make_scene_units(base.scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(base.scene, space);
     render::NearestTriangleQuery nearest;
     nearest.set_geometry(geometry);
@@ -130,7 +134,7 @@ void compare_processor_rules(const app::Request& base) {
              subjects, meter,
              {.iterations = kRepetitions, .rounds = kRepetitions, .watcher = {}})) {
         const double ms = measure::compute_percentile(
-            list_round_costs(found, measure::CostKind::real_time), .5);
+            list_benchmark_cost_per_round(found, measure::BenchmarkCostKind::real_time), .5);
         const std::size_t bar = found.name.find('|');
         std::printf("| %s| %.3f |%s |\n", found.name.substr(0, bar).c_str(), ms,
                     found.name.substr(bar + 1).c_str());
@@ -140,12 +144,12 @@ void compare_processor_rules(const app::Request& base) {
 /// Compares the device's time of a frame with and without each rule that a row can leave out. Then
 /// measures the rules on the processor, which are never left out.
 void compare_culling_rules(const app::Request& base, int rounds) {
-    struct TimedRule {
+    struct TimedCullingRule {
         const char* name;
         const char* with;
         const char* without;
     };
-    constexpr TimedRule kTimedRules[] = {
+    constexpr TimedCullingRule kTimedRules[] = {
         {"watertight triangles", "raytrace", "raytrace:without=watertight"},
         {"boxes with slack", "raytrace", "raytrace:without=box_slack"},
         {"rays start off the surface by an error bound", "raytrace",
@@ -161,9 +165,10 @@ void compare_culling_rules(const app::Request& base, int rounds) {
                 engine.device().driver.c_str(), rounds);
     std::printf(
         "| Rule | With | ms | Without | ms | Ratio [p05 - p95] |\n|---|---|---:|---|---:|---:|\n");
-    for (const TimedRule& rule : kTimedRules) {
-        ComparedSide with{"with", engine, rule.with}, without{"without", engine, rule.without};
-        const PairedTimes pairs = measure_paired_frames(with, without, base, rounds);
+    for (const TimedCullingRule& rule : kTimedRules) {
+        ComparedConfiguration with{"with", engine, rule.with},
+            without{"without", engine, rule.without};
+        const PairedFrameTimes pairs = measure_paired_frames(with, without, base, rounds);
         std::printf("| %s | %s | %.1f | %s | %.1f | %.3f [%.3f - %.3f] |\n", rule.name, rule.with,
                     pairs.a.median, rule.without, pairs.b.median, pairs.ratio.median,
                     pairs.ratio.p05, pairs.ratio.p95);

@@ -39,7 +39,7 @@ void measure_graph_dump(benchmark::State& state) {
                                                       3);
     const graph::GraphPlan plan = graph::plan_graph(graph, kTestGraphLimits,
                                                     graph::make_default_requirement_queries());
-    for (auto _ : state) benchmark::DoNotOptimize(graph::plan_to_text(graph, plan));
+    for (auto _ : state) benchmark::DoNotOptimize(graph::graph_plan_to_text(graph, plan));
     report_time_per_pass(state, graph);
 }
 

@@ -20,14 +20,14 @@ using namespace catoptric;
 using test::DeviceHit;
 using test::DeviceRay;
 
-constexpr int kRaysAcrossPicture = 512;       // rays per row and per column of the picture
-constexpr std::size_t kSmallCallRays = 64;    // a small call, to measure the fixed cost of a call
-constexpr std::size_t kMaxDifferingRays = 40; // largest number of rays that may differ, at edges
+constexpr int kRaysAcrossPicture = 512;         // rays per row and per column of the picture
+constexpr std::size_t kSmallBatchRayCount = 64; // a small call, to measure the fixed cost of a call
+constexpr std::size_t kMaxDifferingRays = 40;   // largest number of rays that may differ, at edges
 constexpr int kNoDeviceExitCode = 69;
 
 /// Returns one ray through each pixel of the scene's first camera, in blocks of 8x8 pixels.
 std::vector<DeviceRay> make_camera_rays(const scene::Scene& scene,
-                                        const render::SceneUnits& space) {
+                                        const render::SceneUnitTransform& space) {
     const scene::Camera& camera = scene.cameras.front();
     const dvec3 forward = normalize(camera.target - camera.eye),
                 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
@@ -53,7 +53,7 @@ std::size_t count_differing_hits(const std::vector<DeviceHit>& a, const std::vec
 }
 
 double processor_ms_of_round(const measure::BenchmarkResult& found, std::size_t round) {
-    return list_round_costs(found, measure::CostKind::cpu_time)[round];
+    return list_benchmark_cost_per_round(found, measure::BenchmarkCostKind::cpu_time)[round];
 }
 
 /// Prints the processor time of the ray query as a multiple of that of the engine's walk.
@@ -65,7 +65,7 @@ void compare_with_ray_query(const char* name, std::span<const bvh::Triangle> tri
                                                    query.find_closest_hits(triangles, rays));
     check(other <= kMaxDifferingRays, Failure::internal, name, ": ", other, " of ", rays.size(),
           " rays meet something else, at most ", kMaxDifferingRays, " may");
-    const std::vector<DeviceRay> few(rays.begin(), rays.begin() + kSmallCallRays);
+    const std::vector<DeviceRay> few(rays.begin(), rays.begin() + kSmallBatchRayCount);
     const std::vector<app::BenchmarkSubject> subjects{
         app::make_benchmark_subject("ours", [&] { kernel.find_closest_hits(rays); }),
         app::make_benchmark_subject("ours, few", [&] { kernel.find_closest_hits(few); }),
@@ -100,7 +100,7 @@ int main(int argc, char** argv) try {
     }
     const test::DriverRayQuery query(*device);
     const scene::Scene scene = scene::make_cornell_mirrors();
-    const render::SceneUnits space = render::make_scene_units(scene);
+    const render::SceneUnitTransform space = render::make_scene_units(scene);
     const std::vector<bvh::Triangle> triangles = test::list_built_in_triangles();
     test::RandomNumbers numbers(7);
     std::printf("walk on %s, ray query on %s; %zu triangles\n",

@@ -6,10 +6,10 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-class BaselineGate : public Cli {
+class BaselineGate : public CommandLineTest {
 protected:
     void SetUp() override {
-        Cli::SetUp();
+        CommandLineTest::SetUp();
         ASSERT_EQ(compare_into("old", {}).exit_code, 0);
         report_ = json::parse(read_file_at_path(folder / "old/report.json"));
     }

@@ -21,9 +21,10 @@ std::string make_benchmark_file(const std::vector<double>& ms,
             {{"name", name}, {"real_time", value}, {"cpu_time", value}, {"time_unit", "ms"}});
     return json{{"benchmarks", list}}.dump();
 }
-const std::vector<double> kSix{10, 11, 12, 13, 14, 15}, kMore{12, 13, 14, 15, 16, 17};
+const std::vector<double> kSixBenchmarkTimes{10, 11, 12, 13, 14, 15},
+    kSixSlowerBenchmarkTimes{12, 13, 14, 15, 16, 17};
 
-TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
+TEST_F(CommandLineTest, BenchMeasuresFramesAndLoadingAndSetup) {
     const test::ProcessResult ended = run_cli({"bench", "flat", "--techniques", "raytrace:depth=1",
                                                "--size", "16x16", "--frames", "6", "--warmup", "1",
                                                "-o", "out.json", "--quiet"});
@@ -70,9 +71,9 @@ TEST_F(Cli, BenchMeasuresFramesAndLoadingAndSetup) {
                                     "work/nodes "));
 }
 
-TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
-    write_input_file("before.json", make_benchmark_file(kSix)),
-        write_input_file("after.json", make_benchmark_file(kMore));
+TEST_F(CommandLineTest, BenchCompareNamesSlowerBenchmarks) {
+    write_input_file("before.json", make_benchmark_file(kSixBenchmarkTimes)),
+        write_input_file("after.json", make_benchmark_file(kSixSlowerBenchmarkTimes));
     const test::ProcessResult slower = run_cli({"bench", "--compare", "before.json", "after.json"});
     EXPECT_EQ(slower.exit_code, 1);
     EXPECT_THAT(slower.out, HasSubstr("compared by processor time, ms"));
@@ -89,8 +90,8 @@ TEST_F(Cli, BenchCompareNamesSlowerBenchmarks) {
     EXPECT_EQ(read_output_file("out.json"), faster.out);
 }
 
-TEST_F(Cli, BenchRefusesInvalidOptionsAndFiles) {
-    write_input_file("good.json", make_benchmark_file(kSix)),
+TEST_F(CommandLineTest, BenchRefusesInvalidOptionsAndFiles) {
+    write_input_file("good.json", make_benchmark_file(kSixBenchmarkTimes)),
         write_input_file("bad.json", "{\"benchmarks\": 3}");
     expect_usage_refused({"bench", "--compare", "good.json"}, 2,
                          {"--compare: wanted OLD and NEW, found 1 file"});
@@ -124,7 +125,7 @@ TEST_F(Cli, BenchRefusesInvalidOptionsAndFiles) {
                          {"--compare and --against: wanted one of them, found both"});
 }
 
-class BenchTune : public Cli {
+class BenchTuneCliTest : public CommandLineTest {
 protected:
     /// Runs the program with the user's configuration folder inside the folder of the test.
     test::ProcessResult run_cli_with_home_folder(const Words& words) const {
@@ -141,7 +142,7 @@ protected:
     }
 };
 
-TEST_F(BenchTune, TuningWritesAProfileThatLaterRunsUse) {
+TEST_F(BenchTuneCliTest, TuningWritesAProfileThatLaterRunsUse) {
     const test::ProcessResult tuned = run_cli_with_home_folder({"bench", "flat", "--tune", "--size",
                                                                 "16x16", "--frames", "6",
                                                                 "--warmup", "0", "--quiet"});
@@ -169,7 +170,7 @@ TEST_F(BenchTune, TuningWritesAProfileThatLaterRunsUse) {
     EXPECT_EQ(none["variants"]["groups"], "scattered");
 }
 
-TEST_F(BenchTune, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
+TEST_F(BenchTuneCliTest, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
     const json device = read_device_json({"info", "--json"});
     json profile{{"schema", "catoptric/device-profile/1"},
                  {"variants", {{"hierarchy", "storage"}}}};
@@ -196,7 +197,7 @@ TEST_F(BenchTune, NamedProfileIsUsedUnlessItIsOfAnotherDevice) {
          "', found 'of last year'"});
 }
 
-TEST_F(BenchTune, InvalidOptionsAreRefused) {
+TEST_F(BenchTuneCliTest, InvalidOptionsAreRefused) {
     expect_usage_refused({"bench", "--tune", "--compare", "a", "b"}, 2,
                          {"--tune and --compare: wanted one of them, found both"});
     expect_usage_refused({"bench", "--tune", "--against", "a"}, 2,
@@ -218,7 +219,7 @@ TEST(BenchAgainst, EachRoundGetsTheOptionsOfTheCommandLine) {
                                      "--json", "--quiet", "--rounds", "1", "--frames", "4"));
 }
 
-class BenchInTurn : public Cli {
+class BenchAgainstProgramCliTest : public CommandLineTest {
 protected:
     /// Writes an executable script that appends its name and arguments to the file `log`, then runs
     /// the shell text `rest`. Returns the path of the script.
@@ -234,7 +235,7 @@ protected:
     }
 };
 
-TEST_F(BenchInTurn, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
+TEST_F(BenchAgainstProgramCliTest, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
     const std::array runs = cli::bench_programs_in_turn(
         {write_logging_program("old", make_measured_json(10)),
          write_logging_program("new", make_measured_json(12))},
@@ -248,7 +249,7 @@ TEST_F(BenchInTurn, ProgramsAlternateTheirOrderAndEachRoundIsKept) {
     EXPECT_EQ(runs[0].benchmarks[0].rounds.size(), 6U);
 }
 
-TEST_F(BenchInTurn, ErrorNamesTheProgramThatFailed) {
+TEST_F(BenchAgainstProgramCliTest, ErrorNamesTheProgramThatFailed) {
     const auto refused = [&](const std::string& rest, const std::string& message) {
         const std::string wrong = write_logging_program("wrong", rest);
         try {
@@ -265,7 +266,7 @@ TEST_F(BenchInTurn, ErrorNamesTheProgramThatFailed) {
                            "bench --json' writes it, found a list");
 }
 
-TEST_F(BenchInTurn, SignalEndsTheRunningProgram) {
+TEST_F(BenchAgainstProgramCliTest, SignalEndsTheRunningProgram) {
     const std::string slow = write_logging_program("slow", "exec sleep 600\n");
     const std::atomic<int> stop{15};
     app::Watcher watcher;

@@ -16,7 +16,7 @@ using namespace test::loading;
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-class Bomb : public Cli {
+class DecompressionBombCliTest : public CommandLineTest {
 protected:
     /// Renders the file and expects the exit code, each of `parts` in stderr, short messages and
     /// little memory. Exit code 0 means that the file loads and renders. Prints a row of the table.
@@ -63,7 +63,7 @@ protected:
     void SetUp() override { write_input_file("a.bin", encode_triangle_corners()); }
 };
 
-TEST_F(Bomb, ManyEmptyObjectsExceedTheMaterialBudget) {
+TEST_F(DecompressionBombCliTest, ManyEmptyObjectsExceedTheMaterialBudget) {
     std::string text = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
     for (int i = 0; i < 330'000; ++i) text += ",{}";
     write_input_file("empty.gltf", text + "]}");
@@ -73,7 +73,7 @@ TEST_F(Bomb, ManyEmptyObjectsExceedTheMaterialBudget) {
 }
 
 /// 600,000 accessors exceed the memory budget for a parsed JSON document.
-TEST_F(Bomb, ManyAccessorsExceedTheMemoryBudget) {
+TEST_F(DecompressionBombCliTest, ManyAccessorsExceedTheMemoryBudget) {
     Json scene = make_triangle_gltf("a.bin");
     std::string text = scene.dump(), more;
     for (int i = 0; i < 600'000; ++i)
@@ -84,7 +84,7 @@ TEST_F(Bomb, ManyAccessorsExceedTheMemoryBudget) {
                                {"bytes of memory for its JSON"});
 }
 
-TEST_F(Bomb, AccessorOfFourThousandMillionElementsIsRefused) {
+TEST_F(DecompressionBombCliTest, AccessorOfFourThousandMillionElementsIsRefused) {
     Json scene = make_triangle_gltf("a.bin");
     scene["accessors"][0]["count"] = 4'000'000'000;
     expect_exit_code_and_texts("accessor of 4e9 elements", "count.gltf", scene, 65,
@@ -95,7 +95,7 @@ TEST_F(Bomb, AccessorOfFourThousandMillionElementsIsRefused) {
         {"accessors[0]: wanted at most 134217728 bytes of sparse accessors"});
 }
 
-TEST_F(Bomb, NodeWithTwoParentsIsRefused) {
+TEST_F(DecompressionBombCliTest, NodeWithTwoParentsIsRefused) {
     Json scene = make_triangle_gltf("a.bin");
     scene["nodes"] = Json::array();
     for (int i = 0; i < 30; ++i) scene["nodes"].push_back({{"children", {i + 1, i + 1}}});
@@ -105,7 +105,7 @@ TEST_F(Bomb, NodeWithTwoParentsIsRefused) {
         {"nodes[1]: wanted one parent at most, found nodes[0] and nodes[0]"});
 }
 
-TEST_F(Bomb, ManyUsesOfOneMeshExceedTheVertexBudget) {
+TEST_F(DecompressionBombCliTest, ManyUsesOfOneMeshExceedTheVertexBudget) {
     Json nodes = write_gltf_of_many_triangles();
     for (int i = 0; i < 20'000; ++i) nodes["nodes"].push_back({{"mesh", 0}});
     expect_exit_code_and_texts(
@@ -120,7 +120,7 @@ TEST_F(Bomb, ManyUsesOfOneMeshExceedTheVertexBudget) {
         {"wanted at most 4000000 vertices in meshes, the budget of a scene, found "});
 }
 
-TEST_F(Bomb, MaterialLibraryNamedManyTimesIsReadOnce) {
+TEST_F(DecompressionBombCliTest, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string text = "mtllib m.mtl", materials;
     for (int i = 0; i < 80'000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
     for (int i = 0; i < 600; ++i) text += " m.mtl";
@@ -130,7 +130,7 @@ TEST_F(Bomb, MaterialLibraryNamedManyTimesIsReadOnce) {
                                0);
 }
 
-TEST_F(Bomb, ExpensiveObjFileIsRefused) {
+TEST_F(DecompressionBombCliTest, ExpensiveObjFileIsRefused) {
     std::string text, face = "f", materials;
     for (int i = 0; i < 20'000; ++i) {
         const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
@@ -154,7 +154,7 @@ TEST_F(Bomb, ExpensiveObjFileIsRefused) {
                                {"bytes of names"});
 }
 
-TEST_F(Bomb, LongUnknownNameIsLookedUpQuickly) {
+TEST_F(DecompressionBombCliTest, LongUnknownNameIsLookedUpQuickly) {
     std::string materials;
     for (int i = 0; i < 50'000; ++i) materials += "newmtl material" + std::to_string(i) + "\n";
     write_input_file("m.mtl", materials);
@@ -164,7 +164,7 @@ TEST_F(Bomb, LongUnknownNameIsLookedUpQuickly) {
                                {"drawn grey: 1", "mmm...' (20000 bytes)"});
 }
 
-TEST_F(Bomb, FileOutsideTheFolderOrOfAnotherNameIsRefused) {
+TEST_F(DecompressionBombCliTest, FileOutsideTheFolderOrOfAnotherNameIsRefused) {
     fs::create_directories(folder / "in");
     write_input_file("secret.bin", encode_triangle_corners()),
         write_input_file("a b.bin", encode_triangle_corners());
@@ -176,7 +176,7 @@ TEST_F(Bomb, FileOutsideTheFolderOrOfAnotherNameIsRefused) {
                                make_triangle_gltf("a+b.bin"), 66, {"'a+b.bin' is not there"});
 }
 
-TEST_F(Bomb, InvalidGltfValueIsRefused) {
+TEST_F(DecompressionBombCliTest, InvalidGltfValueIsRefused) {
     Json scene = make_triangle_gltf("a.bin");
     scene["nodes"][0]["rotation"] = {0, 0, 0, 0};
     expect_exit_code_and_texts("a quaternion of zeros", "rotation.gltf", scene, 65,

@@ -4,7 +4,7 @@
 
 namespace {
 
-TEST_F(Cli, SceneBudgetErrorNamesTheOptionThatRaisesIt) {
+TEST_F(CommandLineTest, SceneBudgetErrorNamesTheOptionThatRaisesIt) {
     write_input_file("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
     expect_usage_refused({"info", "two.obj", "--max-triangles", "1"}, 65,
                          {"two.obj",

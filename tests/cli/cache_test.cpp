@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Cache : public Cli {
+class Cache : public CommandLineTest {
 protected:
     /// Renders a.png with XDG_CACHE_HOME set to `cache_home`. Messages are in `err` of the result.
     test::ProcessResult render_with_cache_home(const std::string& cache_home) const {

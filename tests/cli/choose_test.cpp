@@ -9,7 +9,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-class Choose : public Cli {
+class Choose : public CommandLineTest {
 protected:
     /// Runs `choose` on a scene of flat mirrors with few views: 6 prove a share of .5.
     test::ProcessResult run_choose(const Words& more) const {
@@ -19,7 +19,7 @@ protected:
             words.emplace_back(word);
         return run_cli(words);
     }
-    test::ProcessResult choose_of_two(const Words& more) const {
+    test::ProcessResult choose_between_two_techniques(const Words& more) const {
         Words words{"-o", "plan.json"};
         words.insert(words.end(), more.begin(), more.end());
         for (const char* word : {"--techniques", "reuse:face=16", "raytrace:depth=4"})
@@ -41,7 +41,7 @@ protected:
 };
 
 TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
-    const test::ProcessResult ended = choose_of_two({"--max-error", "flip=0.5"});
+    const test::ProcessResult ended = choose_between_two_techniques({"--max-error", "flip=0.5"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("chosen: "));
     const json plan = read_plan(), &certificate = plan["certificate"];
@@ -70,7 +70,7 @@ TEST_F(Choose, PlanThatCannotKeepTheLimitIsNamedAndTheOldFileStays) {
     EXPECT_THAT(none.out,
                 HasSubstr("no plan: no candidate keeps flip <= 0 in the 6 training views; "
                           "the best that is reachable is reuse:face=16, at most "));
-    const test::ProcessResult slow = choose_of_two({"--max-ms", "0"});
+    const test::ProcessResult slow = choose_between_two_techniques({"--max-ms", "0"});
     EXPECT_EQ(slow.exit_code, 1);
     EXPECT_THAT(slow.out, HasSubstr("no plan: no candidate takes at most 0 ms; the best that is "
                                     "reachable is "));
@@ -78,7 +78,7 @@ TEST_F(Choose, PlanThatCannotKeepTheLimitIsNamedAndTheOldFileStays) {
 }
 
 TEST_F(Choose, LimitOfTimeAsksForTheLeastErrorAndProvesItsBound) {
-    const test::ProcessResult ended = choose_of_two({"--max-ms", "100000"});
+    const test::ProcessResult ended = choose_between_two_techniques({"--max-ms", "100000"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json plan = read_plan();
     EXPECT_EQ(plan["plan"][0]["technique"],
@@ -139,7 +139,7 @@ TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
 
 TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
     const auto refused = [&](const Words& more, const std::string& says) {
-        const test::ProcessResult ended = choose_of_two(more);
+        const test::ProcessResult ended = choose_between_two_techniques(more);
         EXPECT_EQ(ended.exit_code, 2) << ended.err;
         EXPECT_THAT(ended.err, HasSubstr(says));
         EXPECT_FALSE(std::filesystem::exists(folder / "plan.json"));

@@ -40,7 +40,7 @@ Json make_gltf_of_balls(std::size_t bytes, int count) {
     return scene;
 }
 
-TEST_F(Cli, CopiesOfAMeshShareItsMemory) {
+TEST_F(CommandLineTest, CopiesOfAMeshShareItsMemory) {
     const std::string bytes = make_ball_positions();
     write_input_file("ball.bin", bytes);
     std::uint64_t peaks[2];
@@ -84,7 +84,7 @@ Json make_gltf_of_many_nodes(bool apart) {
     return scene;
 }
 
-TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
+TEST_F(CommandLineTest, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
     write_input_file("corners.bin", encode_triangle_corners());
     for (const bool apart : {false, true}) {
         write_input_file("many.obj", make_obj_of_many_objects(apart));
@@ -109,7 +109,7 @@ TEST_F(Cli, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
 }
 
 /// Rays that search for mirrors test coincident triangles once, not each of them.
-TEST_F(Cli, MirrorsAmongCoincidentObjectsAreFoundQuickly) {
+TEST_F(CommandLineTest, MirrorsAmongCoincidentObjectsAreFoundQuickly) {
     for (const bool apart : {false, true}) {
         write_input_file("many.obj", make_obj_of_many_objects(apart));
         for (const std::string mirror : {"part1", "part99999"}) {

@@ -7,14 +7,14 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr const char* kCard = R"({
+constexpr const char* kDeviceCostsJson = R"({
   "schema": "catoptric/costs/1", "device": "card", "origin": "given",
   "costs": [{"work": "camera_rays", "ns": 100, "range": [50, 200]},
             {"work": "fragments", "ns": 1},
             {"work": "frames", "ns": 1000000}]
 })";
 
-class Costs : public Cli {
+class Costs : public CommandLineTest {
 protected:
     json run_comparison_with_costs(Words words) const {
         words.insert(words.begin(), "compare");
@@ -57,7 +57,7 @@ TEST_F(Costs, CountedWorkIsInAllFilesAndRepeats) {
 }
 
 TEST_F(Costs, TimeOnAnotherDeviceFollowsFromTheCounts) {
-    write_input_file("card.json", kCard);
+    write_input_file("card.json", kDeviceCostsJson);
     const json document = run_comparison_with_costs({"--costs", "card.json"});
     for (const json& row : document["rows"]) {
         const json& device = row["costs"][0];
@@ -79,7 +79,7 @@ TEST_F(Costs, TimeOnAnotherDeviceFollowsFromTheCounts) {
 TEST_F(Costs, FileOfCostsIsRefusedBeforeAnyWork) {
     write_input_file("bad.json",
                      R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given"})");
-    write_input_file("card.json", kCard);
+    write_input_file("card.json", kDeviceCostsJson);
     const Words compare{"compare", "-o", "out", "--costs"};
     const auto with = [&](Words more) {
         Words words = compare;

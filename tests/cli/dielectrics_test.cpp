@@ -10,9 +10,9 @@ using testing::HasSubstr;
 
 /// Writes a scene of a room with a mirror at the back wall. A polished floor covers about 39 % of
 /// the picture.
-class Dielectrics : public Cli {
+class SmoothDielectricsCliTest : public CommandLineTest {
 protected:
-    Dielectrics() {
+    SmoothDielectricsCliTest() {
         write_input_file("room.mtl",
                          "newmtl wall\nKd .7 .7 .7\nnewmtl red\nKd .7 .2 .2\n"
                          "newmtl floor\nKd .4 .3 .2\nKs .05 .05 .05\nNs 1000\nillum 5\n"
@@ -40,7 +40,7 @@ protected:
     }
 };
 
-TEST_F(Dielectrics, RowsShowTheErrorOfMissingDielectricReflections) {
+TEST_F(SmoothDielectricsCliTest, RowsShowTheErrorOfMissingDielectricReflections) {
     const json report = compare_on_polished_floor({});
     const json &planar = report["rows"][0], &traced = report["rows"][1];
     const double pixels = planar["error_dielectrics"]["pixels"];
@@ -62,7 +62,7 @@ TEST_F(Dielectrics, RowsShowTheErrorOfMissingDielectricReflections) {
     EXPECT_THAT(read_output_file("out/rows.csv"), HasSubstr("dielectrics_flip"));
 }
 
-TEST_F(Dielectrics, OptionMakesSmoothDielectricsMirrors) {
+TEST_F(SmoothDielectricsCliTest, OptionMakesSmoothDielectricsMirrors) {
     const json report = compare_on_polished_floor({"--dielectric-mirrors"});
     const json& planar = report["rows"][0];
     EXPECT_EQ(planar["error_dielectrics"]["pixels"], 0);
@@ -72,7 +72,7 @@ TEST_F(Dielectrics, OptionMakesSmoothDielectricsMirrors) {
     EXPECT_THAT(read_output_file("out/report.md"), testing::Not(HasSubstr("Not drawn: ")));
 }
 
-TEST_F(Dielectrics, GraphWhyNamesReflectionsThatNoRowDraws) {
+TEST_F(SmoothDielectricsCliTest, GraphWhyNamesReflectionsThatNoRowDraws) {
     const test::ProcessResult text = run_cli({"graph", "room.obj", "--why"});
     EXPECT_EQ(text.exit_code, 0) << text.err;
     EXPECT_THAT(text.out,

@@ -8,8 +8,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::vector<std::string> kVerbs{"compare", "render", "stress", "bench", "diff",
-                                      "graph",   "list",   "info",   "views", "choose"};
+const std::vector<std::string> kProgramVerbs{"compare", "render", "stress", "bench", "diff",
+                                             "graph",   "list",   "info",   "views", "choose"};
 
 std::vector<std::string> split_into_lines(const std::string& text) {
     std::vector<std::string> lines;
@@ -18,15 +18,15 @@ std::vector<std::string> split_into_lines(const std::string& text) {
     return lines;
 }
 
-TEST_F(Cli, HelpFitsEightyColumns) {
+TEST_F(CommandLineTest, HelpFitsEightyColumns) {
     std::vector<Words> asked{{"--help"}};
-    for (const std::string& verb : kVerbs) asked.push_back({verb, "--help"});
+    for (const std::string& verb : kProgramVerbs) asked.push_back({verb, "--help"});
     for (const Words& words : asked)
         for (const std::string& line : split_into_lines(run_cli(words).out))
             EXPECT_LE(line.size(), 80U) << words.front() << ": " << line;
 }
 
-TEST_F(Cli, HelpShowsCommonOptionsFirst) {
+TEST_F(CommandLineTest, HelpShowsCommonOptionsFirst) {
     for (const std::string verb : {"compare", "render"}) {
         const std::string help = run_cli({verb, "--help"}).out;
         const std::size_t common = help.find("Common options:"), scene = help.find("The scene:");
@@ -41,9 +41,9 @@ TEST_F(Cli, HelpShowsCommonOptionsFirst) {
     }
 }
 
-TEST_F(Cli, HelpVerbPrintsTheTextOfTheHelpOption) {
+TEST_F(CommandLineTest, HelpVerbPrintsTheTextOfTheHelpOption) {
     EXPECT_EQ(run_cli({"help"}).out, run_cli({"--help"}).out);
-    for (const std::string& verb : kVerbs) {
+    for (const std::string& verb : kProgramVerbs) {
         const test::ProcessResult ended = run_cli({"help", verb});
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(ended.out, run_cli({verb, "--help"}).out);
@@ -52,12 +52,12 @@ TEST_F(Cli, HelpVerbPrintsTheTextOfTheHelpOption) {
     expect_usage_refused({"help", "list", "render"}, 2, {"at most one verb", "'render'"});
 }
 
-TEST_F(Cli, ShortVersionFlagPrintsTheVersion) {
+TEST_F(CommandLineTest, ShortVersionFlagPrintsTheVersion) {
     EXPECT_EQ(run_cli({"-V"}).out, run_cli({"--version"}).out);
     EXPECT_THAT(run_cli({"-V"}).out, testing::StartsWith("catoptric "));
 }
 
-TEST_F(Cli, ListOfTechniquesHasOneLinePerTechnique) {
+TEST_F(CommandLineTest, ListOfTechniquesHasOneLinePerTechnique) {
     const std::string text = run_cli({"list", "techniques"}).out;
     EXPECT_THAT(text, HasSubstr("\nparallax "));
     EXPECT_THAT(text, HasSubstr("\nauto "));
@@ -65,7 +65,7 @@ TEST_F(Cli, ListOfTechniquesHasOneLinePerTechnique) {
     EXPECT_LE(split_into_lines(text).size(), 16U);
 }
 
-TEST_F(Cli, ListOfOneTechniqueShowsItsKnobs) {
+TEST_F(CommandLineTest, ListOfOneTechniqueShowsItsKnobs) {
     const std::string text = run_cli({"list", "techniques", "parallax"}).out;
     EXPECT_THAT(text, testing::StartsWith("parallax "));
     EXPECT_THAT(text, HasSubstr("shadow_map"));

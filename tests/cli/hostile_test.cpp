@@ -9,12 +9,12 @@ using testing::Not;
 
 constexpr const char* kName = "=1+1\x1b[2J|\"`<script>x\xff";
 
-class Hostile : public Cli {
+class HostileFileNamesCliTest : public CommandLineTest {
 protected:
     const std::string scene = std::string(kName) + "\ncatoptric: forged";
 
     void SetUp() override {
-        Cli::SetUp();
+        CommandLineTest::SetUp();
         const std::string name = kName;
         write_input_file(scene + ".obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no " + name +
                                              "\nusemtl " + name + "\nf 1 2 3\n" + name + " 1\n");
@@ -38,7 +38,7 @@ protected:
     }
 };
 
-TEST_F(Hostile, VerbsPrintNoTerminalControlCharacters) {
+TEST_F(HostileFileNamesCliTest, VerbsPrintNoTerminalControlCharacters) {
     const std::string file = scene + ".obj";
     EXPECT_THAT(run_and_expect_printable({"info", file}).out, HasSubstr("=1+1\\x1b[2J"));
     run_and_expect_printable({"graph", file, "--technique", "auto", "--why"});
@@ -61,7 +61,7 @@ TEST_F(Hostile, VerbsPrintNoTerminalControlCharacters) {
     run_and_expect_printable({"stress", "--only", scene}, 2);
 }
 
-TEST_F(Hostile, JsonWithHostileNamesIsValid) {
+TEST_F(HostileFileNamesCliTest, JsonWithHostileNamesIsValid) {
     const std::string file = scene + ".obj";
     for (const Words& words :
          {Words{"info", file, "--json"},
@@ -74,7 +74,7 @@ TEST_F(Hostile, JsonWithHostileNamesIsValid) {
     }
 }
 
-TEST_F(Hostile, ReportsEscapeHostileNames) {
+TEST_F(HostileFileNamesCliTest, ReportsEscapeHostileNames) {
     run_and_expect_printable(
         with_small_quick_frame({"compare", scene + ".obj", "-o", "out", "--techniques", "reuse"}));
     for (const char* name : {"report.json", "report.md", "report.html"})

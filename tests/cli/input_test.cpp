@@ -4,13 +4,13 @@
 
 namespace {
 
-TEST_F(Cli, MissingInputFileIsRefused) {
+TEST_F(CommandLineTest, MissingInputFileIsRefused) {
     for (const std::string name : {"none.glb", "none.gltf", "none.obj"})
         expect_usage_refused({"render", name, "--technique", "reuse", "-o", "x.png"}, 66, {name});
     expect_usage_refused({"diff", "none.exr", "none.png"}, 66, {"none.exr"});
 }
 
-TEST_F(Cli, InvalidSceneFileIsRefused) {
+TEST_F(CommandLineTest, InvalidSceneFileIsRefused) {
     write_input_file("garbage.glb", "this is no scene at all, whatever its name says");
     expect_usage_refused({"render", "garbage.glb", "--technique", "reuse", "-o", "x.png"}, 65,
                          {"garbage.glb"});
@@ -24,7 +24,7 @@ TEST_F(Cli, InvalidSceneFileIsRefused) {
 
 /// The first message says that the scene lacks a mirror and how to make a mirror. Messages of the
 /// loader may only follow after it.
-TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
+TEST_F(CommandLineTest, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
     write_input_file("plain.obj", "o a b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const test::ProcessResult ended = run_cli({"compare", "plain.obj", "-o", "out"});
     EXPECT_EQ(ended.exit_code, 65);
@@ -50,7 +50,7 @@ TEST_F(Cli, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
     }
 }
 
-TEST_F(Cli, TruncatedGlbIsRefused) {
+TEST_F(CommandLineTest, TruncatedGlbIsRefused) {
     // The header of this .glb file states a length of 4096 bytes, but the file ends within its
     // JSON.
     std::string bytes = "glTF";
@@ -61,20 +61,20 @@ TEST_F(Cli, TruncatedGlbIsRefused) {
                          {"cut.glb"});
 }
 
-TEST_F(Cli, ObjWithoutTrianglesIsRefused) {
+TEST_F(CommandLineTest, ObjWithoutTrianglesIsRefused) {
     write_input_file("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     expect_usage_refused({"render", "points.obj", "--technique", "reuse", "-o", "x.png"}, 65,
                          {"points.obj"});
 }
 
-TEST_F(Cli, DiffRefusesFilesThatAreNoPictures) {
+TEST_F(CommandLineTest, DiffRefusesFilesThatAreNoPictures) {
     write_input_file("a.png", "no PNG");
     write_input_file("a.exr", "no EXR");
     expect_usage_refused({"diff", "a.png", "a.png"}, 65, {"a.png"});
     expect_usage_refused({"diff", "a.exr", "a.exr"}, 65, {"a.exr"});
 }
 
-TEST_F(Cli, SceneWithoutACameraGetsOneWithAMessage) {
+TEST_F(CommandLineTest, SceneWithoutACameraGetsOneWithAMessage) {
     write_input_file("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const test::ProcessResult ended = run_cli(with_small_quick_frame(
         {"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
@@ -85,7 +85,7 @@ TEST_F(Cli, SceneWithoutACameraGetsOneWithAMessage) {
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));
 }
 
-TEST_F(Cli, ErrorForAMissingDriverSaysWhatToInstall) {
+TEST_F(CommandLineTest, ErrorForAMissingDriverSaysWhatToInstall) {
     const auto without = [&](const Words& words) {
         test::ProcessStartOptions process = make_process_start(words);
         for (const char* name : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(Cli, OutputFileInAMissingFolderIsRefused) {
+TEST_F(CommandLineTest, OutputFileInAMissingFolderIsRefused) {
     expect_usage_refused({"render", "--technique", "reuse", "-o", "none/x.png"}, 73,
                          {"none/x.png", "no folder none"});
     expect_usage_refused(
@@ -24,7 +24,7 @@ TEST_F(Cli, OutputFileInAMissingFolderIsRefused) {
 
 /// `-o DIR` creates the output folder and its parents, also for paths with `..` or a trailing
 /// slash.
-TEST_F(Cli, OutputFolderIsMadeWithItsParents) {
+TEST_F(CommandLineTest, OutputFolderIsMadeWithItsParents) {
     for (const std::string name : {"./a/../b/out/", "b/out/again"}) {
         const test::ProcessResult ended = run_cli(
             with_small_quick_frame({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
@@ -38,7 +38,7 @@ TEST_F(Cli, OutputFolderIsMadeWithItsParents) {
     EXPECT_TRUE(fs::exists(folder / "c/d/stress.json"));
 }
 
-TEST_F(Cli, ImpossibleOutputFolderIsRefusedBeforeAnyWork) {
+TEST_F(CommandLineTest, ImpossibleOutputFolderIsRefusedBeforeAnyWork) {
     write_input_file("file", "old");
     fs::create_symlink("nowhere", folder / "dangling");
     for (const Words& verb : {Words{"compare"}, Words{"stress"}}) {
@@ -55,7 +55,7 @@ TEST_F(Cli, ImpossibleOutputFolderIsRefusedBeforeAnyWork) {
     EXPECT_FALSE(fs::exists(folder / "nowhere"));
 }
 
-TEST_F(Cli, OutputPathOfTheWrongKindIsRefused) {
+TEST_F(CommandLineTest, OutputPathOfTheWrongKindIsRefused) {
     expect_usage_refused({"render", "--technique", "reuse", "-o", folder.string()}, 73,
                          {folder.string(), "found a folder"});
     fs::create_directory(folder / "x.png");
@@ -67,7 +67,7 @@ TEST_F(Cli, OutputPathOfTheWrongKindIsRefused) {
     EXPECT_EQ(read_output_file("file"), "old");
 }
 
-TEST_F(Cli, WritingToAFullDeviceExitsWith74) {
+TEST_F(CommandLineTest, WritingToAFullDeviceExitsWith74) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     fs::create_symlink("/dev/full", folder / "full.png");
     const test::ProcessResult ended = run_cli(
@@ -79,7 +79,7 @@ TEST_F(Cli, WritingToAFullDeviceExitsWith74) {
     expect_exit_code(test::run_process(process), 74, {"stdout"});
 }
 
-TEST_F(Cli, FullDiskLeavesTheOldFile) {
+TEST_F(CommandLineTest, FullDiskLeavesTheOldFile) {
     const fs::path disk = folder / "disk";
     fs::create_directory(disk);
     if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0)
@@ -96,7 +96,7 @@ TEST_F(Cli, FullDiskLeavesTheOldFile) {
     EXPECT_EQ(entries, 1) << "a temporary was left behind";
 }
 
-TEST_F(Cli, ClosedPipeOnStdoutExitsWith74) {
+TEST_F(CommandLineTest, ClosedPipeOnStdoutExitsWith74) {
     for (const Words& words : {Words{"list", "techniques"}, Words{"info", "--json"}}) {
         test::ProcessStartOptions process = make_process_start(words);
         process.no_reader = true;
@@ -106,7 +106,7 @@ TEST_F(Cli, ClosedPipeOnStdoutExitsWith74) {
     }
 }
 
-TEST_F(Cli, RenderWritesAPngToStdout) {
+TEST_F(CommandLineTest, RenderWritesAPngToStdout) {
     const test::ProcessResult ended = run_cli(
         with_small_quick_frame({"render", "--technique", "reuse", "-o", "-"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -137,7 +137,7 @@ std::vector<std::string> make_eight_row_command() {
     return words;
 }
 
-TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
+TEST_F(CommandLineTest, InterruptedCompareKeepsItsFinishedRows) {
     test::ProcessStartOptions process = make_process_start(make_eight_row_command());
     process.signal = SIGINT;
     process.signal_at = "[2/40] parallax:face=64, round 1 of 5";
@@ -151,7 +151,7 @@ TEST_F(Cli, InterruptedCompareKeepsItsFinishedRows) {
     EXPECT_TRUE(fs::exists(folder / "out/report.html"));
 }
 
-TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
+TEST_F(CommandLineTest, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
     test::ProcessStartOptions process = make_process_start(make_eight_row_command());
     process.signal = SIGINT;
     process.signal_at = "reuse:face=64, round 4 of 5";
@@ -166,7 +166,7 @@ TEST_F(Cli, CompareInterruptedInALaterRoundKeepsFinishedRounds) {
     }
 }
 
-TEST_F(Cli, CompareInterruptedBeforeTheFirstRowWritesNothing) {
+TEST_F(CommandLineTest, CompareInterruptedBeforeTheFirstRowWritesNothing) {
     test::ProcessStartOptions process = make_process_start(
         {"compare", "-o", "out", "--size", "32x32", "--frames", "1000", "--warmup", "1",
          "--progress", "always", "--techniques", "reuse"});
@@ -178,7 +178,7 @@ TEST_F(Cli, CompareInterruptedBeforeTheFirstRowWritesNothing) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out/report.json"));
 }
 
-TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
+TEST_F(CommandLineTest, CompareInterruptedDuringLagKeepsItsRows) {
     test::ProcessStartOptions process = make_process_start(
         {"compare", "-o", "out", "--lag", "--size", "32x32", "--frames", "1", "--warmup", "1",
          "--progress", "always", "--techniques", "raytrace", "reuse:face=16"});
@@ -194,7 +194,7 @@ TEST_F(Cli, CompareInterruptedDuringLagKeepsItsRows) {
     EXPECT_EQ(document["lag"]["without_history"], nlohmann::json::array({"raytrace"}));
 }
 
-TEST_F(Cli, InterruptedRenderKeepsTheOldPicture) {
+TEST_F(CommandLineTest, InterruptedRenderKeepsTheOldPicture) {
     write_input_file("x.png", "old");
     test::ProcessStartOptions process = make_process_start(
         {"render", "-o", "x.png", "--size", "32x32", "--frames", "100000", "--technique", "reuse",

@@ -71,7 +71,7 @@ std::string make_exr_bytes(std::uint32_t last_x, std::uint32_t last_y,
            std::string(600, '\0');
 }
 
-class PictureBudget : public Cli {
+class PictureMemoryBudgetCliTest : public CommandLineTest {
 protected:
     void expect_small_memory_use(const Words& words, const std::string& says) const {
         const test::ProcessResult ended = run_cli(words);
@@ -81,7 +81,7 @@ protected:
     }
 };
 
-TEST_F(PictureBudget, DiffRefusesPicturesByTheirHeaders) {
+TEST_F(PictureMemoryBudgetCliTest, DiffRefusesPicturesByTheirHeaders) {
     write_input_file("many.png", make_png_bytes(40000, 40000, 5'000'000));
     expect_small_memory_use(
         {"diff", "many.png", "many.png"},
@@ -102,7 +102,7 @@ TEST_F(PictureBudget, DiffRefusesPicturesByTheirHeaders) {
 
 /// Each attribute holds a number for which the OpenEXR library would allocate memory before it
 /// notices that the file ends.
-TEST_F(PictureBudget, ExrHeaderWithHugeNumbersIsRefused) {
+TEST_F(PictureMemoryBudgetCliTest, ExrHeaderWithHugeNumbersIsRefused) {
     const std::string huge = encode_little_endian(0x7fffffff);
     const std::pair<std::string, std::string> wrong[] = {
         {make_exr_attribute("chunkCount", "int", huge), "bytes behind its header"},
@@ -118,7 +118,7 @@ TEST_F(PictureBudget, ExrHeaderWithHugeNumbersIsRefused) {
     }
 }
 
-TEST_F(PictureBudget, TooLargeEnvironmentIsRefusedBeforeDecoding) {
+TEST_F(PictureMemoryBudgetCliTest, TooLargeEnvironmentIsRefusedBeforeDecoding) {
     write_input_file("sky.png", make_png_bytes(8192, 8192, 196'000));
     expect_small_memory_use(
         {"render", "cornell-mirrors", "--technique", "reuse", "-o", "x.png", "--environment",
@@ -126,7 +126,7 @@ TEST_F(PictureBudget, TooLargeEnvironmentIsRefusedBeforeDecoding) {
         "sky.png: wanted an environment of at most 33554432 texels, found 8192x8192");
 }
 
-TEST_F(PictureBudget, MaskOfAnotherSizeIsRefusedBeforeDecoding) {
+TEST_F(PictureMemoryBudgetCliTest, MaskOfAnotherSizeIsRefusedBeforeDecoding) {
     write_input_file("mask.png", make_png_bytes(8192, 8192, 196'000));
     const test::ProcessResult made = run_cli(with_small_quick_frame(
         {"render", "cornell-mirrors", "--technique", "reuse", "-o", "a.png"}));
@@ -135,7 +135,7 @@ TEST_F(PictureBudget, MaskOfAnotherSizeIsRefusedBeforeDecoding) {
                             "mask.png: wanted a mask of 32x32 as the pictures, found 8192x8192");
 }
 
-TEST_F(PictureBudget, TooLargeTextureIsRefusedBeforeDecoding) {
+TEST_F(PictureMemoryBudgetCliTest, TooLargeTextureIsRefusedBeforeDecoding) {
     write_input_file("wood.png", make_png_bytes(60000, 60000, 11'000'000));
     write_input_file("m.mtl", "newmtl m\nmap_Kd wood.png\n");
     write_input_file("x.obj",
@@ -143,7 +143,7 @@ TEST_F(PictureBudget, TooLargeTextureIsRefusedBeforeDecoding) {
     expect_small_memory_use({"info", "x.obj"}, "wanted at most 67108864 texels in pictures");
 }
 
-TEST_F(PictureBudget, BrokenPngGivesASingleErrorLine) {
+TEST_F(PictureMemoryBudgetCliTest, BrokenPngGivesASingleErrorLine) {
     write_input_file("broken.png", make_png_bytes(8, 8, 100));
     expect_small_memory_use({"diff", "broken.png", "broken.png"},
                             "broken.png: cannot be decoded: ");

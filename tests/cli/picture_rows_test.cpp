@@ -10,10 +10,10 @@ namespace {
 
 using nlohmann::json;
 
-class PictureRows : public Cli {
+class PictureRowsCliTest : public CommandLineTest {
 protected:
     void SetUp() override {
-        Cli::SetUp();
+        CommandLineTest::SetUp();
         for (const char* file : {"own.exr", "own.png"})
             ASSERT_EQ(run_cli(with_small_quick_frame(
                                   {"render", "--technique", "parallax:face=16", "-o", file}))
@@ -33,7 +33,7 @@ protected:
     }
 };
 
-TEST_F(PictureRows, OwnPictureHandedBackHasTheSameFigures) {
+TEST_F(PictureRowsCliTest, OwnPictureHandedBackHasTheSameFigures) {
     const test::ProcessResult ended = compare_picture_rows({"mine=own.exr", "8 bits=own.png"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json own = read_report_row(0), back = read_report_row(2), rounded = read_report_row(3);
@@ -61,7 +61,7 @@ TEST_F(PictureRows, OwnPictureHandedBackHasTheSameFigures) {
 }
 
 /// A PNG is read with the comparison's exposure taken off.
-TEST_F(PictureRows, PngHoldsWhatIsDisplayedAtTheExposure) {
+TEST_F(PictureRowsCliTest, PngHoldsWhatIsDisplayedAtTheExposure) {
     ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "parallax:face=16",
                                               "--exposure", "1", "-o", "bright.png"}))
                   .exit_code,
@@ -73,7 +73,7 @@ TEST_F(PictureRows, PngHoldsWhatIsDisplayedAtTheExposure) {
                 read_report_row(0)["error"]["rmse"].get<double>(), .005);
 }
 
-TEST_F(PictureRows, PictureUpsideDownOrOfOtherLightIsNamed) {
+TEST_F(PictureRowsCliTest, PictureUpsideDownOrOfOtherLightIsNamed) {
     namespace measure = catoptric::measure;
     const measure::Picture own = measure::read_picture(folder / "own.exr");
     measure::Picture turned(own.width, own.height), bright = own;
@@ -92,7 +92,7 @@ TEST_F(PictureRows, PictureUpsideDownOrOfOtherLightIsNamed) {
     EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("'o'")));
 }
 
-TEST_F(PictureRows, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
+TEST_F(PictureRowsCliTest, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
     namespace measure = catoptric::measure;
     measure::write_exr(measure::Picture(5, 4), folder / "small.exr");
     const auto refused = [&](const Words& rows, int code, const std::string& says) {
@@ -110,10 +110,10 @@ TEST_F(PictureRows, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
 
 /// Another renderer gets the views from `views`. Here it is this program itself, so the row of its
 /// pictures must have the errors of the row that draws them.
-class ViewPictures : public PictureRows {
+class ViewPictureRowsCliTest : public PictureRowsCliTest {
 protected:
     void SetUp() override {
-        Cli::SetUp();
+        CommandLineTest::SetUp();
         const test::ProcessResult ended = run_cli(
             {"views", "flat", "--count", "6", "--seed", "9", "--size", "48x32", "-o", "views"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -150,7 +150,7 @@ protected:
     json views_;
 };
 
-TEST_F(ViewPictures, OwnPicturesHandedBackHaveTheSameErrorsInEachView) {
+TEST_F(ViewPictureRowsCliTest, OwnPicturesHandedBackHaveTheSameErrorsInEachView) {
     const test::ProcessResult ended = compare_views();
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json own = read_report_row(0), back = read_report_row(1);
@@ -170,7 +170,7 @@ TEST_F(ViewPictures, OwnPicturesHandedBackHaveTheSameErrorsInEachView) {
     EXPECT_EQ(report["views"][2]["camera"]["eye"], views_[3]["camera"]["eye"]);
 }
 
-TEST_F(ViewPictures, PicturesOfOtherViewsAreRefused) {
+TEST_F(ViewPictureRowsCliTest, PicturesOfOtherViewsAreRefused) {
     Words words{"compare", "flat", "--size", "48x32", "--seed", "8", "--views", "6", "-o", "out"};
     for (const char* word : {"--row", "mine=views", "--techniques", "reuse:face=16"})
         words.emplace_back(word);
@@ -183,7 +183,7 @@ TEST_F(ViewPictures, PicturesOfOtherViewsAreRefused) {
     EXPECT_THAT(run_cli(words).err, testing::HasSubstr("found another view-007"));
 }
 
-TEST_F(ViewPictures, MissingDoubleAndTurnedPicturesAreNamed) {
+TEST_F(ViewPictureRowsCliTest, MissingDoubleAndTurnedPicturesAreNamed) {
     namespace measure = catoptric::measure;
     const measure::Picture own = measure::read_picture(folder / "views/view-004.exr");
     measure::Picture turned(own.width, own.height);
@@ -209,7 +209,7 @@ TEST_F(ViewPictures, MissingDoubleAndTurnedPicturesAreNamed) {
 
 /// The cameras of views.gltf, turned into eye and direction by the rules of glTF 2.0, are those of
 /// views.json.
-TEST_F(PictureRows, ViewsAsGltfAreThoseOfTheJson) {
+TEST_F(PictureRowsCliTest, ViewsAsGltfAreThoseOfTheJson) {
     ASSERT_EQ(
         run_cli({"views", "courtyard", "--count", "8", "--size", "64x48", "-o", "v"}).exit_code, 0);
     const json views = json::parse(read_file_at_path(folder / "v/views.json"))["views"],
@@ -240,7 +240,7 @@ TEST_F(PictureRows, ViewsAsGltfAreThoseOfTheJson) {
     }
 }
 
-TEST_F(PictureRows, ViewsAreRefusedWithoutAFolderOrWithTooFew) {
+TEST_F(PictureRowsCliTest, ViewsAreRefusedWithoutAFolderOrWithTooFew) {
     EXPECT_EQ(run_cli({"views", "room"}).exit_code, 2);
     const test::ProcessResult few = run_cli({"views", "room", "--count", "3", "-o", "v"});
     EXPECT_EQ(few.exit_code, 2);

@@ -6,7 +6,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Places : public Cli {
+class Places : public CommandLineTest {
 protected:
     static constexpr const char* kMirror =
         "mtllib room.mtl\nusemtl mirror\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -9,16 +9,16 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kMixed = "1=reuse:face=16 2=hybrid:face=16 *=raytrace:shadow=map";
+constexpr const char* kMixedPlanText = "1=reuse:face=16 2=hybrid:face=16 *=raytrace:shadow=map";
 
-TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
-    const test::ProcessResult ended = run_cli({"render", "--plan", kMixed, "--size", "16x16",
-                                               "--frames", "1", "--warmup", "0", "-o", "p.png",
-                                               "--json"});
+TEST_F(CommandLineTest, RenderJsonContainsThePlanThatWasDrawn) {
+    const test::ProcessResult ended = run_cli({"render", "--plan", kMixedPlanText, "--size",
+                                               "16x16", "--frames", "1", "--warmup", "0", "-o",
+                                               "p.png", "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json document = Json::parse(ended.out);
     EXPECT_EQ(document["technique"], "plan");
-    EXPECT_EQ(document["label"], kMixed);
+    EXPECT_EQ(document["label"], kMixedPlanText);
     EXPECT_EQ(document["scene_passes"], 4 + 2);
     const Json& plan = document["plan"];
     ASSERT_EQ(plan.size(), 4u);
@@ -43,7 +43,7 @@ TEST_F(Cli, RenderJsonContainsThePlanThatWasDrawn) {
 
 /// `auto` reports a technique and a reason for each mirror. The same techniques given as a plan
 /// draw the same picture.
-TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
+TEST_F(CommandLineTest, AutoReportsAPlanThatDrawsTheSamePicture) {
     const Words size{"--size", "48x48", "--frames", "1", "--warmup", "1", "--json"};
     const auto render = [&](Words words) {
         words.insert(words.end(), size.begin(), size.end());
@@ -70,7 +70,7 @@ TEST_F(Cli, AutoReportsAPlanThatDrawsTheSamePicture) {
 }
 
 /// If a technique cannot draw a mirror, its row of the table and stderr say so.
-TEST_F(Cli, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
+TEST_F(CommandLineTest, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
     const test::ProcessResult ended = run_cli(
         with_small_quick_frame({"compare", "-o", "out", "--techniques", "planar"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -86,13 +86,13 @@ TEST_F(Cli, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
     EXPECT_NE(read_output_file("out/report.md").find(said), std::string::npos);
 }
 
-TEST_F(Cli, CompareAcceptsPlansAsRows) {
+TEST_F(CommandLineTest, CompareAcceptsPlansAsRows) {
     std::ofstream(folder / "mixed.json") << R"([{"mirror": "ball1,2", "technique": "reuse:face=16"},
                {"mirror": "*", "technique": "raytrace:capture=none"}])";
     const std::string file = "plan:" + (folder / "mixed.json").string();
     const test::ProcessResult ended = run_cli(
         {"compare", "-o", "out", "--size", "16x16", "--frames", "1", "--warmup", "1", "--causes",
-         "--techniques", "reuse:face=16", file, kMixed, "--json"});
+         "--techniques", "reuse:face=16", file, kMixedPlanText, "--json"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const Json rows = Json::parse(ended.out)["rows"];
     ASSERT_EQ(rows.size(), 3u);
@@ -102,7 +102,7 @@ TEST_F(Cli, CompareAcceptsPlansAsRows) {
     EXPECT_EQ(rows[1]["plan"][1]["why"], "rule 'ball1,2'");
     EXPECT_EQ(rows[1]["plan"][2]["why"], "rule '*'; black in the captures of others, capture=none");
     EXPECT_EQ(rows[0]["plan"][0]["why"], "one technique was asked for");
-    EXPECT_EQ(rows[2]["label"], kMixed);
+    EXPECT_EQ(rows[2]["label"], kMixedPlanText);
     EXPECT_TRUE(rows[2]["causes"].is_null()) << "no one search can be blamed";
     EXPECT_EQ(rows[0]["causes"]["list"][2]["cause"], "direction");
     EXPECT_TRUE(exists(folder / "out/images/causes-reuse-face16.png"));
@@ -110,10 +110,10 @@ TEST_F(Cli, CompareAcceptsPlansAsRows) {
         EXPECT_TRUE(exists(folder / "out" / row["image"].get<std::string>())) << row["image"];
 }
 
-TEST_F(Cli, ModelRequiredDrawsTheSamePictureAsModelEverything) {
+TEST_F(CommandLineTest, ModelRequiredDrawsTheSamePictureAsModelEverything) {
     for (const char* model : {"everything", "required"}) {
-        const test::ProcessResult ended = run_cli({"render", "--plan", kMixed, "--size", "16x16",
-                                                   "--model", model, "-o",
+        const test::ProcessResult ended = run_cli({"render", "--plan", kMixedPlanText, "--size",
+                                                   "16x16", "--model", model, "-o",
                                                    std::string(model) + ".exr", "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         EXPECT_EQ(Json::parse(ended.out)["model"], model);
@@ -125,7 +125,7 @@ TEST_F(Cli, ModelRequiredDrawsTheSamePictureAsModelEverything) {
     EXPECT_THAT(plan, testing::StartsWith("2 passes"));
 }
 
-TEST_F(Cli, CompareWithModelBothHasARowForEachModel) {
+TEST_F(CommandLineTest, CompareWithModelBothHasARowForEachModel) {
     const test::ProcessResult ended = run_cli({"compare", "-o", "out", "--size", "16x16",
                                                "--frames", "6", "--model", "both", "--techniques",
                                                "parallax:face=16", "raytrace", "--json"});
@@ -145,7 +145,7 @@ TEST_F(Cli, CompareWithModelBothHasARowForEachModel) {
     EXPECT_TRUE(exists(folder / "out/images/parallax-face16-required.png"));
 }
 
-TEST_F(Cli, InvalidPlanIsRefused) {
+TEST_F(CommandLineTest, InvalidPlanIsRefused) {
     const auto refused = [&](const std::vector<std::string>& options, int exit_code,
                              const std::vector<std::string>& words) {
         std::vector<std::string> arguments{"render", "-o", "x.png", "--size", "16x16"};

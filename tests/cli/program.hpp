@@ -13,7 +13,7 @@
 
 /// Fixture for tests that run the program `catoptric` in a temporary folder, which is deleted after
 /// the test.
-class Cli : public test::InFolder {
+class CommandLineTest : public test::InFolder {
 protected:
     using Words = std::vector<std::string>;
 

@@ -36,7 +36,7 @@ void expect_near_numbers(const json& found, const std::vector<double>& wanted) {
         EXPECT_NEAR(found[i].get<double>(), wanted[i], 1e-6) << i;
 }
 
-TEST_F(Cli, RenderReportsThePicturesMeanAndThePassesTimes) {
+TEST_F(CommandLineTest, RenderReportsThePicturesMeanAndThePassesTimes) {
     const test::ProcessResult ended = run_cli({"render", "--technique", "parallax:face=32", "-o",
                                                "x.exr", "--size", "48x32", "--frames", "3",
                                                "--warmup", "1", "--trace", "t.json", "--json"});
@@ -66,7 +66,7 @@ TEST_F(Cli, RenderReportsThePicturesMeanAndThePassesTimes) {
     EXPECT_NEAR(end - first, 1000 * document["gpu_ms"]["samples"][2].get<double>(), 1e-6);
 }
 
-TEST_F(Cli, DiffFiguresMatchThePicturesUnderTheMask) {
+TEST_F(CommandLineTest, DiffFiguresMatchThePicturesUnderTheMask) {
     for (const std::string technique : {"reuse:face=32", "raytrace"})
         ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", technique, "-o",
                                                   technique.substr(0, 5) + ".exr"}))
@@ -113,7 +113,7 @@ TEST_F(Cli, DiffFiguresMatchThePicturesUnderTheMask) {
 }
 
 /// A mask without pixels leaves nothing to compare. `diff` must then fail every threshold.
-TEST_F(Cli, DiffWithAnEmptyMaskFailsEveryThreshold) {
+TEST_F(CommandLineTest, DiffWithAnEmptyMaskFailsEveryThreshold) {
     write_input_file("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     ASSERT_EQ(run_cli(with_small_quick_frame({"render", "scene.obj", "--technique", "raytrace",
                                               "--camera", "0,0,9:0,0,20:40", "--environment",

@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST_F(Cli, ListJsonIsValid) {
+TEST_F(CommandLineTest, ListJsonIsValid) {
     for (const std::string kind : {"techniques", "scenes", "devices", "metrics"}) {
         const test::ProcessResult ended = run_cli({"list", kind, "--json"});
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -21,7 +21,7 @@ TEST_F(Cli, ListJsonIsValid) {
 
 /// `list metrics` prints every row of the table of metrics. `diff` prints every metric that
 /// compares two pictures.
-TEST_F(Cli, ListMetricsShowsEveryMetric) {
+TEST_F(CommandLineTest, ListMetricsShowsEveryMetric) {
     std::vector<std::string> names, of_differences;
     for (const auto& quantity : catoptric::measure::list_metrics())
         names.emplace_back(quantity.name);
@@ -51,7 +51,7 @@ TEST_F(Cli, ListMetricsShowsEveryMetric) {
     }
 }
 
-TEST_F(Cli, ReportStatesTheNumberOfLanes) {
+TEST_F(CommandLineTest, ReportStatesTheNumberOfLanes) {
     ASSERT_EQ(
         run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "reuse:face=8"}))
             .exit_code,
@@ -64,7 +64,7 @@ TEST_F(Cli, ReportStatesTheNumberOfLanes) {
                 testing::HasSubstr(" " + report["lanes"].dump() + " lanes"));
 }
 
-TEST_F(Cli, InfoJsonIsValid) {
+TEST_F(CommandLineTest, InfoJsonIsValid) {
     const json document = json::parse(run_cli({"info", "--json"}).out);
     EXPECT_EQ(document["version"], "0.1.0");
     EXPECT_TRUE(document["device"]["usable"].get<bool>());
@@ -73,7 +73,7 @@ TEST_F(Cli, InfoJsonIsValid) {
                 testing::HasSubstr(document["device"]["name"].get<std::string>()));
 }
 
-TEST_F(Cli, SameRenderCommandWritesTheSameBytes) {
+TEST_F(CommandLineTest, SameRenderCommandWritesTheSameBytes) {
     for (const std::string ending : {".png", ".exr"})
         for (const std::string technique : {"raytrace:samples=3", "parallax:face=32"}) {
             ASSERT_EQ(run_cli(with_small_quick_frame(
@@ -92,7 +92,7 @@ TEST_F(Cli, SameRenderCommandWritesTheSameBytes) {
 
 /// The answer stands on the terminal, in each file and in JSON; the exit code says whether a row
 /// keeps the budget.
-TEST_F(Cli, CompareSaysWhichRowKeepsABudget) {
+TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
     const auto compare = [&](const Words& more) {
         Words words{"compare", "-o", "out", "--techniques", "reuse:face=8", "raytrace:depth=2"};
         words.insert(words.end(), more.begin(), more.end());
@@ -123,7 +123,7 @@ TEST_F(Cli, CompareSaysWhichRowKeepsABudget) {
                          {"--max-flip", "from 0 to 1"});
 }
 
-TEST_F(Cli, CameraOptionPlacesTheCamera) {
+TEST_F(CommandLineTest, CameraOptionPlacesTheCamera) {
     // The text `same` below describes the camera that the scene uses by default.
     ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.png"}))
                   .exit_code,
@@ -146,7 +146,7 @@ TEST_F(Cli, CameraOptionPlacesTheCamera) {
     EXPECT_EQ(read_output_file("a.png"), read_output_file("d.png"));
 }
 
-TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
+TEST_F(CommandLineTest, SeededCameraCanBeRepeatedFromItsPrintedText) {
     const auto render = [&](const std::string& picture, const Words& more) {
         Words words{"render", "--technique", "parallax:face=32", "-o", picture};
         words.insert(words.end(), more.begin(), more.end());
@@ -169,7 +169,7 @@ TEST_F(Cli, SeededCameraCanBeRepeatedFromItsPrintedText) {
     EXPECT_EQ(render("e.exr", {"--camera", "seeded", "--quiet"}), "");
 }
 
-TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
+TEST_F(CommandLineTest, RenderWritesJsonAndATraceOfItsPasses) {
     const test::ProcessResult ended = run_cli(
         with_small_quick_frame({"render", "--technique", "naive:bounces=1", "--model", "everything",
                                 "-o", "x.exr", "--trace", "t.json", "--json"}));
@@ -192,7 +192,7 @@ TEST_F(Cli, RenderWritesJsonAndATraceOfItsPasses) {
 
 /// `--profile FILE` writes the JSON that `--json` prints. The option also turns on the timing of
 /// frames.
-TEST_F(Cli, RenderProfileFileEqualsItsJson) {
+TEST_F(CommandLineTest, RenderProfileFileEqualsItsJson) {
     const test::ProcessResult ended = run_cli({"render", "flat", "--technique", "reuse:face=16",
                                                "--size", "16x16", "-o", "x.png", "--profile",
                                                "p.json", "--json"});
@@ -211,7 +211,7 @@ TEST_F(Cli, RenderProfileFileEqualsItsJson) {
 
 /// Without `--frames`, a still scene is rendered until frames stop changing. Its picture equals the
 /// picture after 20 frames.
-TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
+TEST_F(CommandLineTest, RenderOfAStillSceneStopsWhenFramesStopChanging) {
     const auto render = [&](const std::string& technique, Words more) {
         Words words{"render", "--technique", technique, "--size", "48x48", "--time", "1.3"};
         words.insert(words.end(), {"--camera", "300,300,545:300,90,200:75", "--json"});
@@ -236,7 +236,7 @@ TEST_F(Cli, RenderOfAStillSceneStopsWhenFramesStopChanging) {
     EXPECT_EQ(render("reuse:face=32", {"-o", "x.exr", "--animate"})["gpu_ms"]["n"], 20);
 }
 
-TEST_F(Cli, PixelsThatAreNotFiniteAreReported) {
+TEST_F(CommandLineTest, PixelsThatAreNotFiniteAreReported) {
     const Words too_bright{"--ambient", "1e300", "--quiet"};
     Words render = with_small_quick_frame({"render", "--technique", "raytrace", "-o", "x.exr"});
     render.insert(render.end(), too_bright.begin(), too_bright.end());
@@ -249,7 +249,7 @@ TEST_F(Cli, PixelsThatAreNotFiniteAreReported) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/report.json"));
 }
 
-TEST_F(Cli, QuietRenderPrintsNothing) {
+TEST_F(CommandLineTest, QuietRenderPrintsNothing) {
     const test::ProcessResult ended = run_cli(
         with_small_quick_frame({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
     EXPECT_EQ(ended.exit_code, 0);
@@ -257,7 +257,7 @@ TEST_F(Cli, QuietRenderPrintsNothing) {
     EXPECT_EQ(ended.out, "");
 }
 
-TEST_F(Cli, GraphPrintsTextDotAndJson) {
+TEST_F(CommandLineTest, GraphPrintsTextDotAndJson) {
     EXPECT_THAT(run_cli({"graph", "--technique", "reuse"}).out, testing::HasSubstr("capture"));
     EXPECT_THAT(run_cli({"graph", "--technique", "reuse", "--format", "dot"}).out,
                 testing::HasSubstr("digraph"));
@@ -266,7 +266,7 @@ TEST_F(Cli, GraphPrintsTextDotAndJson) {
     EXPECT_EQ(run_cli({"graph", "--technique", "reuse", "--json"}).out, document);
 }
 
-TEST_F(Cli, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
+TEST_F(CommandLineTest, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
     const std::string said = "captures: at most 1 of 4 mirrors a frame; none shows what is older "
                              "than 3 frames, and 4 more for each further mirror that it is seen by";
     const Words small{"--technique", "parallax:face=8,shadow_map=16", "--size", "16x16"};
@@ -283,7 +283,7 @@ TEST_F(Cli, CaptureBudgetReportsTheGreatestAgeOfCaptures) {
     EXPECT_EQ(moving["captures"]["round_frames"], 4);
 }
 
-TEST_F(Cli, GraphWhyListsTheCapturesThatAPictureRequires) {
+TEST_F(CommandLineTest, GraphWhyListsTheCapturesThatAPictureRequires) {
     const std::string text = run_cli({"graph", "flat", "--why"}).out;
     EXPECT_THAT(text, testing::HasSubstr("mirror 1 'mirror': in the camera's view; captured, faces "
                                          "+X -X +Y -Y -Z, no other mirror in it"));
@@ -299,7 +299,7 @@ TEST_F(Cli, GraphWhyListsTheCapturesThatAPictureRequires) {
     EXPECT_THAT(dot.err, testing::HasSubstr("--why: wanted --format text or json, found dot"));
 }
 
-TEST_F(Cli, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
+TEST_F(CommandLineTest, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
     const auto render = [&](const char* depth, const char* name) {
         ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "--exposure",
                                                   depth, "-o", name}))
@@ -319,7 +319,7 @@ TEST_F(Cli, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
     EXPECT_GT(diff("a.exr", "a.png", "0")["rmse"], 0.0);
 }
 
-TEST_F(Cli, DiffIsZeroForEqualPicturesOnly) {
+TEST_F(CommandLineTest, DiffIsZeroForEqualPicturesOnly) {
     ASSERT_EQ(
         run_cli(with_small_quick_frame({"render", "--technique", "naive:bounces=0", "-o", "a.exr"}))
             .exit_code,
@@ -353,7 +353,7 @@ TEST_F(Cli, DiffIsZeroForEqualPicturesOnly) {
     EXPECT_THAT(rmse.err, testing::Not(testing::HasSubstr("--max-flip")));
 }
 
-TEST_F(Cli, DiffOfAPngAndItsExrHasFlipZero) {
+TEST_F(CommandLineTest, DiffOfAPngAndItsExrHasFlipZero) {
     for (const std::string name : {"a.exr", "a.png"})
         ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", name}))
                       .exit_code,
@@ -366,7 +366,7 @@ TEST_F(Cli, DiffOfAPngAndItsExrHasFlipZero) {
     EXPECT_LT(masked["pixels"], 32 * 32 + 1);
 }
 
-TEST_F(Cli, DiffRefusesPicturesOfDifferentSizes) {
+TEST_F(CommandLineTest, DiffRefusesPicturesOfDifferentSizes) {
     ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.png"}))
                   .exit_code,
               0);
@@ -380,7 +380,7 @@ TEST_F(Cli, DiffRefusesPicturesOfDifferentSizes) {
                          {"--max-flip", "'nan'"});
 }
 
-TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
+TEST_F(CommandLineTest, CompareWritesReportFilesAndPrintsTheTable) {
     const Words words = with_small_quick_frame(
         {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
     const test::ProcessResult ended = run_cli(words);
@@ -396,7 +396,7 @@ TEST_F(Cli, CompareWritesReportFilesAndPrintsTheTable) {
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
 }
 
-TEST_F(Cli, CompareJsonEqualsTheReportFile) {
+TEST_F(CommandLineTest, CompareJsonEqualsTheReportFile) {
     const test::ProcessResult ended = run_cli(
         with_small_quick_frame({"compare", "-o", "out", "--json", "--together", "--techniques",
                                 "reuse:face=32", "raytrace:depth=1"}));
@@ -406,7 +406,7 @@ TEST_F(Cli, CompareJsonEqualsTheReportFile) {
 
 /// An OBJ scene of two facing mirrors and a lamp. Nothing moves, so lag is measured at one time
 /// with a few frames per speed.
-constexpr const char* kTwoMirrors = R"(mtllib two.mtl
+constexpr const char* kTwoMirrorObjText = R"(mtllib two.mtl
 v -1 0 -1
 v 1 0 -1
 v 0 2 -1
@@ -427,8 +427,8 @@ usemtl lamp
 f 7 8 9
 )";
 
-TEST_F(Cli, CompareReportsLagIfAsked) {
-    write_input_file("two.obj", kTwoMirrors);
+TEST_F(CommandLineTest, CompareReportsLagIfAsked) {
+    write_input_file("two.obj", kTwoMirrorObjText);
     write_input_file("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
     Words words = with_small_quick_frame({"compare", "two.obj", "-o", "out", "--lag", "--json",
                                           "--techniques", "reuse:face=16", "raytrace"});
@@ -448,7 +448,7 @@ TEST_F(Cli, CompareReportsLagIfAsked) {
     EXPECT_FALSE(json::parse(run_cli(words).out).contains("lag"));
 }
 
-TEST_F(Cli, CompareGivesNoValidationMessages) {
+TEST_F(CommandLineTest, CompareGivesNoValidationMessages) {
     const test::ProcessResult ended = run_cli(with_small_quick_frame(
         {"compare", "-o", "out", "--validate", "--techniques", "parallax:face=32", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;

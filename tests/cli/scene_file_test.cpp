@@ -14,7 +14,7 @@ bool is_printable_text(const std::string& text) {
         text, [](unsigned char c) { return c == '\n' || c == '\r' || (c >= 0x20 && c != 0x7f); });
 }
 
-class SceneFile : public Cli {
+class SceneFile : public CommandLineTest {
 protected:
     static Words make_scene_render_words(const std::string& scene, const Words& more = {}) {
         Words words = {"render", scene, "--technique", "raytrace", "-o", "x.png"};

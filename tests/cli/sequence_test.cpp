@@ -27,7 +27,7 @@ TEST(SequenceName, FrameNumberReplacesThePlaceholder) {
     EXPECT_FALSE(PictureFileSequence::parse_file_sequence("{a}.png"));
 }
 
-TEST_F(Cli, InvalidSequenceNameIsRefused) {
+TEST_F(CommandLineTest, InvalidSequenceNameIsRefused) {
     for (const std::string name : {"{n}{n}.png", "%d{n:2}.png", "{n:x}.png", "{n.png"})
         expect_usage_refused({"render", "--technique", "reuse", "--frames", "2", "-o", name}, 2,
                              {"-o", name});
@@ -35,7 +35,7 @@ TEST_F(Cli, InvalidSequenceNameIsRefused) {
                          {"--frames or --animate", "{n}.png"});
 }
 
-TEST_F(Cli, RenderOfASequenceWritesOnePicturePerFrame) {
+TEST_F(CommandLineTest, RenderOfASequenceWritesOnePicturePerFrame) {
     const test::ProcessResult ended = run_cli({"render", "--technique", "reuse:face=16",
                                                "--animate", "--frames", "3", "--warmup", "2",
                                                "--size", "32x32", "-o", "s_{n:3}.png"});
@@ -59,7 +59,7 @@ TEST_F(Cli, RenderOfASequenceWritesOnePicturePerFrame) {
     EXPECT_EQ(read_output_file("s_001.png"), read_output_file("first.png"));
 }
 
-TEST_F(Cli, SequenceThatWouldOverwriteASceneFileIsRefused) {
+TEST_F(CommandLineTest, SequenceThatWouldOverwriteASceneFileIsRefused) {
     write_input_file("2.png", "mine");
     write_input_file("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
     write_input_file("t.mtl", "newmtl m\nmap_Kd 2.png\n");
@@ -69,14 +69,14 @@ TEST_F(Cli, SequenceThatWouldOverwriteASceneFileIsRefused) {
     EXPECT_EQ(read_output_file("2.png"), "mine");
 }
 
-TEST_F(Cli, MoreRoundsThanFramesAreRefused) {
+TEST_F(CommandLineTest, MoreRoundsThanFramesAreRefused) {
     expect_usage_refused({"compare", "-o", "out", "--rounds", "30", "--frames", "20"}, 2,
                          {"--rounds", "at most 20", "found 30"});
     expect_usage_refused({"compare", "-o", "out", "--rounds", "21"}, 2, {"--rounds", "at most 20"});
     EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST_F(Cli, CompareReportsTenthsOfProgressIfStderrIsNoTerminal) {
+TEST_F(CommandLineTest, CompareReportsTenthsOfProgressIfStderrIsNoTerminal) {
     const Words words = with_small_quick_frame({"compare", "-o", "out", "--techniques",
                                                 "naive:bounces=0", "reuse:face=16",
                                                 "parallax:face=16"});
@@ -107,7 +107,7 @@ std::map<std::string, std::string> first_csv_row_by_column(const std::string& cs
     return cells;
 }
 
-TEST_F(Cli, CsvHasTheColumnsOfTheTableOrAllIfAsked) {
+TEST_F(CommandLineTest, CsvHasTheColumnsOfTheTableOrAllIfAsked) {
     const Words words = with_small_quick_frame(
         {"compare", "-o", "out", "--techniques", "reuse:face=16"});
     ASSERT_EQ(run_cli(words).exit_code, 0);
@@ -130,7 +130,7 @@ TEST_F(Cli, CsvHasTheColumnsOfTheTableOrAllIfAsked) {
                          {"--csv", "did you mean 'table'"});
 }
 
-TEST_F(Cli, ReportHasTheDateOfTheRun) {
+TEST_F(CommandLineTest, ReportHasTheDateOfTheRun) {
     ASSERT_EQ(
         run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "naive:bounces=0"}))
             .exit_code,

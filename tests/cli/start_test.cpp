@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-class Start : public Cli {
+class ProgramStartCliTest : public CommandLineTest {
 protected:
     static constexpr const char* kLibrary = "libOpenImageIO.so";
 
@@ -28,7 +28,7 @@ protected:
     }
 };
 
-TEST_F(Start, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
+TEST_F(ProgramStartCliTest, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
     const auto expect_none = [&](const Words& words) {
         const test::ProcessResult ended = run_with_library_trace(words);
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -46,7 +46,7 @@ TEST_F(Start, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
 }
 
 /// If memory ends while OpenImageIO is loaded, the error names memory and not a broken module.
-TEST_F(Start, NoMemoryForOpenImageIoExitsWith75) {
+TEST_F(ProgramStartCliTest, NoMemoryForOpenImageIoExitsWith75) {
 #ifdef __SANITIZE_ADDRESS__
     GTEST_SKIP() << "the sanitizer itself takes address space without end";
 #endif
@@ -58,7 +58,7 @@ TEST_F(Start, NoMemoryForOpenImageIoExitsWith75) {
 
 /// Fixture with the program in bin/, as it is installed. Tests put the image module into lib/ or
 /// leave it out.
-class Installed : public Start {
+class Installed : public ProgramStartCliTest {
 protected:
     void SetUp() override {
         write_exr_picture();

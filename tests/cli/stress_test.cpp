@@ -5,7 +5,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
+TEST_F(CommandLineTest, StressReportsMeasuredValuesAndThresholds) {
     const std::vector<std::string> ids{"N4", "N10", "C8"};
     Words words{"stress", "-o", "out", "--json", "--size", "64x64", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
@@ -26,7 +26,7 @@ TEST_F(Cli, StressReportsMeasuredValuesAndThresholds) {
 }
 
 /// Every row of rough surfaces passes for another seed than the default, too.
-TEST_F(Cli, StressMeasuresRoughSurfaces) {
+TEST_F(CommandLineTest, StressMeasuresRoughSurfaces) {
     const std::vector<std::string> ids{"S1", "S2", "S3", "S4", "S5"};
     Words words{"stress", "--json", "--seed", "2", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
@@ -40,7 +40,7 @@ TEST_F(Cli, StressMeasuresRoughSurfaces) {
     }
 }
 
-TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
+TEST_F(CommandLineTest, StressDrawsItsScenesFromTheSeed) {
     const auto measured = [&](const std::string& seed) {
         return json::parse(
             run_cli({"stress", "--json", "--size", "32x32", "--only", "C11", "--seed", seed})
@@ -50,7 +50,7 @@ TEST_F(Cli, StressDrawsItsScenesFromTheSeed) {
     EXPECT_NE(measured("3"), measured("4"));
 }
 
-TEST_F(Cli, StressReportsQualityWarningsWithoutFailing) {
+TEST_F(CommandLineTest, StressReportsQualityWarningsWithoutFailing) {
     const test::ProcessResult ended = run_cli({"stress", "--size", "32x32", "--only", "C5"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err << ended.out;
     EXPECT_THAT(ended.out, testing::HasSubstr("quality-warning"));

@@ -4,14 +4,14 @@
 
 namespace {
 
-TEST_F(Cli, CallWithoutArgumentsShowsHelp) {
+TEST_F(CommandLineTest, CallWithoutArgumentsShowsHelp) {
     const test::ProcessResult ended = run_cli({});
     EXPECT_EQ(ended.exit_code, 2);
     EXPECT_EQ(ended.out, "");
     EXPECT_THAT(ended.err, testing::HasSubstr("compare"));
 }
 
-TEST_F(Cli, HelpOfEveryVerbHasExamples) {
+TEST_F(CommandLineTest, HelpOfEveryVerbHasExamples) {
     EXPECT_EQ(run_cli({"--help"}).exit_code, 0);
     for (const std::string verb :
          {"compare", "stress", "render", "diff", "graph", "list", "info"}) {
@@ -24,7 +24,7 @@ TEST_F(Cli, HelpOfEveryVerbHasExamples) {
     }
 }
 
-TEST_F(Cli, HelpNamesEveryCommonOption) {
+TEST_F(CommandLineTest, HelpNamesEveryCommonOption) {
     const std::string help = run_cli({"render", "--help"}).out;
     for (const char* option : {"--size",
                                "--frames",
@@ -62,18 +62,18 @@ TEST_F(Cli, HelpNamesEveryCommonOption) {
         EXPECT_THAT(help, testing::HasSubstr(option));
 }
 
-TEST_F(Cli, VersionOptionPrintsNumberAndCommit) {
+TEST_F(CommandLineTest, VersionOptionPrintsNumberAndCommit) {
     const test::ProcessResult ended = run_cli({"--version"});
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_THAT(ended.out, testing::MatchesRegex("catoptric 0\\.1\\.0 \\([0-9a-z]+\\)\n"));
 }
 
-TEST_F(Cli, ErrorForAnUnknownVerbSuggestsASimilarName) {
+TEST_F(CommandLineTest, ErrorForAnUnknownVerbSuggestsASimilarName) {
     expect_usage_refused({"rendr"}, 2, {"'rendr'", "did you mean 'render'"});
     expect_usage_refused({"--versoin"}, 2, {"'--versoin'", "did you mean '--version'"});
 }
 
-TEST_F(Cli, ErrorForAnUnknownOptionSuggestsASimilarName) {
+TEST_F(CommandLineTest, ErrorForAnUnknownOptionSuggestsASimilarName) {
     expect_usage_refused({"render", "--sizee", "32x32"}, 2,
                          {"'render'", "'--sizee'", "did you mean '--size'"});
     expect_usage_refused({"compare", "-o", "x", "--tecniques", "reuse"}, 2,
@@ -82,11 +82,11 @@ TEST_F(Cli, ErrorForAnUnknownOptionSuggestsASimilarName) {
     expect_usage_refused({"list", "scenes", "devices"}, 2, {"'devices'"});
 }
 
-TEST_F(Cli, OptionWithoutItsValueIsRefused) {
+TEST_F(CommandLineTest, OptionWithoutItsValueIsRefused) {
     expect_usage_refused({"render", "--size"}, 2, {"--size", "render --help"});
 }
 
-TEST_F(Cli, ErrorForAnUnknownTechniqueSuggestsASimilarName) {
+TEST_F(CommandLineTest, ErrorForAnUnknownTechniqueSuggestsASimilarName) {
     expect_usage_refused({"render", "--technique", "paralax", "-o", "x.png"}, 2,
                          {"'paralax'", "did you mean 'parallax'"});
     expect_usage_refused({"compare", "-o", "x", "--techniques", "reuse", "naiv:bounces=1"}, 2,
@@ -99,7 +99,7 @@ TEST_F(Cli, ErrorForAnUnknownTechniqueSuggestsASimilarName) {
                          {"'raytracer'", "did you mean 'raytrace'"});
 }
 
-TEST_F(Cli, OptionsThatExcludeTheTruthAreNamed) {
+TEST_F(CommandLineTest, OptionsThatExcludeTheTruthAreNamed) {
     expect_usage_refused({"compare", "-o", "x", "--causes", "--truth", "paths"}, 2,
                          {"--causes: wanted the default reference, raytrace:depth=16",
                           "found 'raytrace:depth=16,rays=64,indirect=paths'"});
@@ -107,13 +107,13 @@ TEST_F(Cli, OptionsThatExcludeTheTruthAreNamed) {
                          {"--truth chooses the reference", "found raytrace"});
 }
 
-TEST_F(Cli, SceneAfterTheTechniquesIsRefused) {
+TEST_F(CommandLineTest, SceneAfterTheTechniquesIsRefused) {
     expect_usage_refused({"compare", "-o", "x", "--techniques", "reuse", "room.glb"}, 2,
                          {"'room.glb'", "SCENE comes before"});
 }
 
 /// Errors that the command line parser finds are worded like the program's own errors.
-TEST_F(Cli, ParserErrorsUseTheProgramsOwnWording) {
+TEST_F(CommandLineTest, ParserErrorsUseTheProgramsOwnWording) {
     const std::pair<Words, std::string> cases[] = {
         {{"render", "--size"}, "--size: wanted a value, WxH, found none"},
         {{"render", "-o"}, "--output: wanted a value, OUT, found none"},
@@ -130,12 +130,12 @@ TEST_F(Cli, ParserErrorsUseTheProgramsOwnWording) {
     }
 }
 
-TEST_F(Cli, ErrorForAnUnknownKnobSuggestsASimilarName) {
+TEST_F(CommandLineTest, ErrorForAnUnknownKnobSuggestsASimilarName) {
     expect_usage_refused({"render", "--technique", "naive:bounce=3", "-o", "x.png"}, 2,
                          {"naive", "'bounce'", "did you mean 'bounces'"});
 }
 
-TEST_F(Cli, ErrorForAKnobOutOfRangeNamesTheRange) {
+TEST_F(CommandLineTest, ErrorForAKnobOutOfRangeNamesTheRange) {
     expect_usage_refused({"render", "--technique", "naive:bounces=9", "-o", "x.png"}, 2,
                          {"'bounces'", "0 to 8", "9"});
     expect_usage_refused({"render", "--technique", "reuse:face=0", "-o", "x.png"}, 2,
@@ -144,19 +144,19 @@ TEST_F(Cli, ErrorForAKnobOutOfRangeNamesTheRange) {
                          {"'face'", "whole number", "'many'"});
 }
 
-TEST_F(Cli, ErrorForAnUnknownSceneSuggestsASimilarName) {
+TEST_F(CommandLineTest, ErrorForAnUnknownSceneSuggestsASimilarName) {
     expect_usage_refused({"render", "cornel-mirrors", "--technique", "reuse", "-o", "x.png"}, 2,
                          {"'cornel-mirrors'", "did you mean 'cornell-mirrors'"});
 }
 
-TEST_F(Cli, ErrorForAnUnknownCameraListsTheScenesCameras) {
+TEST_F(CommandLineTest, ErrorForAnUnknownCameraListsTheScenesCameras) {
     expect_usage_refused({"render", "--camera", "nowhere", "--technique", "reuse", "-o", "x.png"},
                          2, {"'nowhere'", "it has: 0 '"});
     expect_usage_refused({"render", "--camera", "7", "--technique", "reuse", "-o", "x.png"}, 2,
                          {"'7'", "it has: 0 '"});
 }
 
-TEST_F(Cli, InvalidCameraIsRefused) {
+TEST_F(CommandLineTest, InvalidCameraIsRefused) {
     const auto camera = [](const std::string& text) {
         return Words{"render", "--camera", text, "--technique", "reuse", "-o", "x.png"};
     };
@@ -170,15 +170,15 @@ TEST_F(Cli, InvalidCameraIsRefused) {
     expect_usage_refused(camera("0,0,0:0,0,1"), 2, {"--camera", "EX,EY,EZ:TX,TY,TZ:FOV"});
 }
 
-TEST_F(Cli, ErrorForAnUnknownDeviceNamesIt) {
+TEST_F(CommandLineTest, ErrorForAnUnknownDeviceNamesIt) {
     expect_usage_refused({"info", "--device", "no such device"}, 2, {"no such device"});
 }
 
-TEST_F(Cli, ErrorForAnUnknownListSuggestsASimilarName) {
+TEST_F(CommandLineTest, ErrorForAnUnknownListSuggestsASimilarName) {
     expect_usage_refused({"list", "scene"}, 2, {"'scene'", "did you mean 'scenes'"});
 }
 
-TEST_F(Cli, InvalidNumberOfAnOptionIsRefused) {
+TEST_F(CommandLineTest, InvalidNumberOfAnOptionIsRefused) {
     const auto refused = [&](const std::string& option, const std::string& found,
                              const std::string& wanted) {
         expect_usage_refused({"render", "--technique", "reuse", "-o", "x.png", option, found}, 2,
@@ -208,7 +208,7 @@ TEST_F(Cli, InvalidNumberOfAnOptionIsRefused) {
         refused("--seed", seed, "whole number");
 }
 
-TEST_F(Cli, MorePointsOnLampsThanADeviceHoldsAreRefused) {
+TEST_F(CommandLineTest, MorePointsOnLampsThanADeviceHoldsAreRefused) {
     const std::vector<std::string> render{"render", "gallery", "--technique",
                                           "reuse",  "-o",      "x.png"};
     const auto with = [&](const char* samples) {
@@ -222,7 +222,7 @@ TEST_F(Cli, MorePointsOnLampsThanADeviceHoldsAreRefused) {
     expect_usage_refused(with("129"), 2, {"--light-samples", "from 1 to 128", "129"});
 }
 
-TEST_F(Cli, UnknownChoiceOfAnOptionIsRefused) {
+TEST_F(CommandLineTest, UnknownChoiceOfAnOptionIsRefused) {
     expect_usage_refused({"render", "--timing", "isolate"}, 2,
                          {"--timing", "isolated, pipelined", "did you mean 'isolated'"});
     expect_usage_refused({"render", "--progress", "sometimes"}, 2,
@@ -233,7 +233,7 @@ TEST_F(Cli, UnknownChoiceOfAnOptionIsRefused) {
                          {"--format", "--json"});
 }
 
-TEST_F(Cli, SceneOverrideThatMatchesNothingIsRefused) {
+TEST_F(CommandLineTest, SceneOverrideThatMatchesNothingIsRefused) {
     const auto refused = [&](const Words& wish, const Words& parts) {
         Words words{"render", "--technique", "reuse", "-o", "x.png"};
         words.insert(words.end(), wish.begin(), wish.end());
@@ -253,7 +253,7 @@ TEST_F(Cli, SceneOverrideThatMatchesNothingIsRefused) {
     expect_usage_refused({"info", "--force"}, 2, {"--force: wanted --write"});
 }
 
-TEST_F(Cli, InvalidModelOptionIsRefused) {
+TEST_F(CommandLineTest, InvalidModelOptionIsRefused) {
     expect_usage_refused({"render", "--model", "evrything"}, 2,
                          {"--model", "did you mean 'everything'"});
     expect_usage_refused(
@@ -272,7 +272,7 @@ TEST_F(Cli, InvalidModelOptionIsRefused) {
     expect_usage_refused({"graph", "--why", "--budget-ms", "4"}, 2, {"'graph'", "--technique T"});
 }
 
-TEST_F(Cli, MissingRequiredArgumentIsRefused) {
+TEST_F(CommandLineTest, MissingRequiredArgumentIsRefused) {
     expect_usage_refused({"compare"}, 2, {"'compare'", "-o DIR"});
     expect_usage_refused({"render", "-o", "x.png"}, 2, {"'render'", "--technique T"});
     expect_usage_refused({"render", "--technique", "reuse"}, 2, {"'render'", "-o OUT"});
@@ -282,17 +282,17 @@ TEST_F(Cli, MissingRequiredArgumentIsRefused) {
     expect_usage_refused({"list"}, 2, {"wanted WHAT, techniques", "found nothing", "list --help"});
 }
 
-TEST_F(Cli, PictureNameWithoutAKnownEndingIsRefused) {
+TEST_F(CommandLineTest, PictureNameWithoutAKnownEndingIsRefused) {
     expect_usage_refused({"render", "--technique", "reuse", "-o", "x.jpg"}, 2,
                          {"'x.jpg'", ".exr or .png"});
 }
 
-TEST_F(Cli, TwoResultsForStdoutAreRefused) {
+TEST_F(CommandLineTest, TwoResultsForStdoutAreRefused) {
     expect_usage_refused({"render", "--technique", "reuse", "-o", "-", "--json"}, 2,
                          {"-o -", "--json"});
 }
 
-TEST_F(Cli, SameTechniqueTwiceIsRefused) {
+TEST_F(CommandLineTest, SameTechniqueTwiceIsRefused) {
     expect_usage_refused(with_small_quick_frame({"compare", "-o", "x", "--techniques", "reuse",
                                                  "reuse", "--together"}),
                          2, {"'reuse'", "twice"});

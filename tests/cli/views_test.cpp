@@ -12,7 +12,7 @@ using nlohmann::json;
 
 constexpr int kDrawnViewCount = 6;
 
-class DrawnViews : public Cli {
+class DrawnViews : public CommandLineTest {
 protected:
     /// Runs a small and quick comparison over drawn views. Returns its JSON document.
     json compare_over_drawn_views(const std::string& folder_name, const std::string& seed,

@@ -4,7 +4,7 @@
 
 namespace {
 
-class Width : public Cli {
+class VectorWidthCliTest : public CommandLineTest {
 protected:
     /// Runs `run_info_with_vector_width` with LP_NATIVE_VECTOR_WIDTH set to `width`, unless empty.
     /// The driver keeps compiled shaders in the folder `cache`.
@@ -28,7 +28,7 @@ protected:
     }
 };
 
-TEST_F(Width, VectorWidthIsCountedByADispatch) {
+TEST_F(VectorWidthCliTest, VectorWidthIsCountedByADispatch) {
     const test::ProcessResult wide = run_info_with_vector_width("256", "wide"),
                               narrow = run_info_with_vector_width("128", "narrow");
     EXPECT_EQ(read_lane_count(wide), 8);
@@ -38,7 +38,7 @@ TEST_F(Width, VectorWidthIsCountedByADispatch) {
 
 /// The driver's shader cache may hold code of another vector width than the user asks for. The
 /// program must report the width that runs.
-TEST_F(Width, VectorWidthOtherThanAskedForGivesAWarning) {
+TEST_F(VectorWidthCliTest, VectorWidthOtherThanAskedForGivesAWarning) {
     EXPECT_EQ(read_lane_count(run_info_with_vector_width("256", "shared")), 8);
     const test::ProcessResult stale = run_info_with_vector_width("128", "shared");
     EXPECT_EQ(read_lane_count(stale), 8);
@@ -47,7 +47,7 @@ TEST_F(Width, VectorWidthOtherThanAskedForGivesAWarning) {
 }
 
 /// A vector width for which the driver's code crashes is refused before the device is opened.
-TEST_F(Width, UnsupportedVectorWidthIsRefused) {
+TEST_F(VectorWidthCliTest, UnsupportedVectorWidthIsRefused) {
     for (const std::string width : {"512", "64", "1024", "0", "0x200", "-1"}) {
         test::ProcessStartOptions asked = make_process_start(
             {"render", "--technique", "hybrid:face=16", "--size", "16x16", "-o", "x.png"});

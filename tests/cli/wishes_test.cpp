@@ -11,7 +11,7 @@ using testing::Not;
 using testing::StartsWith;
 
 /// Writes a scene of a floor and a board above the floor, without light, camera or mirror.
-class SceneOverrides : public Cli {
+class SceneOverrides : public CommandLineTest {
 protected:
     SceneOverrides() {
         write_input_file("m.mtl", "newmtl wood\nKd .5 .4 .3\nnewmtl tin\nKd .8 .8 .8\n");

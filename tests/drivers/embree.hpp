@@ -1,6 +1,6 @@
 #pragma once
 
-#include "peers/embree_scene.hpp"
+#include "peers/embree_scene_handle.hpp"
 #include "support/kernel.hpp"
 
 #include <span>
@@ -10,9 +10,9 @@ namespace test {
 
 /// Traces rays with Embree on the CPU, in its robust mode. Embree is an independent ray tracer that
 /// computes in float, as the project's BVH traversal on the device does.
-class EmbreeWitness {
+class EmbreeRayWitness {
 public:
-    explicit EmbreeWitness(std::span<const bvh::Triangle> triangles)
+    explicit EmbreeRayWitness(std::span<const bvh::Triangle> triangles)
         : embree_scene_(device_, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_MEDIUM) {
         embree_scene_.add_geometry_and_release(peers::make_triangle_geometry(device_, triangles));
         EXPECT_NO_THROW(embree_scene_.build_tree());
@@ -33,7 +33,7 @@ public:
             query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            rtcIntersect1(embree_scene_.embree_scene(), &context, &query);
+            rtcIntersect1(embree_scene_.embree_scene_handle(), &context, &query);
             if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
             hits[i] = {query.ray.tfar,
                        {1 - query.hit.u - query.hit.v, query.hit.u, query.hit.v},

@@ -18,7 +18,7 @@ constexpr VkBufferUsageFlags kBuildInputUsage =
 } // namespace
 
 /// An acceleration structure of Vulkan and its memory.
-struct DriverRayQuery::Structure {
+struct DriverRayQuery::AccelerationStructure {
     RayQueryMemory memory;
     VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
     VkDeviceAddress address = 0;
@@ -72,9 +72,10 @@ DriverRayQuery::DriverRayQuery(const RayQueryDevice& device) : device_(device) {
     pipeline_ = {device_.handle(), handle};
 }
 
-DriverRayQuery::Structure DriverRayQuery::build(VkAccelerationStructureTypeKHR type,
-                                                const VkAccelerationStructureGeometryKHR& geometry,
-                                                std::uint32_t primitives) const {
+DriverRayQuery::AccelerationStructure
+DriverRayQuery::build(VkAccelerationStructureTypeKHR type,
+                      const VkAccelerationStructureGeometryKHR& geometry,
+                      std::uint32_t primitives) const {
     VkAccelerationStructureBuildGeometryInfoKHR info{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
     info.type = type;
@@ -89,9 +90,9 @@ DriverRayQuery::Structure DriverRayQuery::build(VkAccelerationStructureTypeKHR t
                                                    VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
                                                    &info, &primitives, &sizes);
 
-    Structure result;
-    result.memory = device_.make_memory(sizes.accelerationStructureSize,
-                                        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
+    AccelerationStructure result;
+    result.memory = device_.make_ray_query_memory(
+        sizes.accelerationStructureSize, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
     VkAccelerationStructureCreateInfoKHR create{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
     create.buffer = result.memory.buffer;
@@ -107,8 +108,8 @@ DriverRayQuery::Structure DriverRayQuery::build(VkAccelerationStructureTypeKHR t
     vkGetPhysicalDeviceProperties2(device_.physical_device(), &properties);
     const std::uint64_t alignment = std::max(1u,
                                              limits.minAccelerationStructureScratchOffsetAlignment);
-    const RayQueryMemory scratch = device_.make_memory(sizes.buildScratchSize + alignment,
-                                                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const RayQueryMemory scratch = device_.make_ray_query_memory(
+        sizes.buildScratchSize + alignment, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     info.dstAccelerationStructure = result.handle;
     info.scratchData.deviceAddress = (scratch.address + alignment - 1) / alignment * alignment;
     const VkAccelerationStructureBuildRangeInfoKHR range{primitives, 0, 0, 0};
@@ -125,8 +126,8 @@ DriverRayQuery::Structure DriverRayQuery::build(VkAccelerationStructureTypeKHR t
     return result;
 }
 
-DriverRayQuery::Structure DriverRayQuery::bottom(const RayQueryMemory& corners,
-                                                 std::uint32_t triangles) const {
+DriverRayQuery::AccelerationStructure DriverRayQuery::bottom(const RayQueryMemory& corners,
+                                                             std::uint32_t triangles) const {
     VkAccelerationStructureGeometryKHR geometry{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
@@ -142,13 +143,15 @@ DriverRayQuery::Structure DriverRayQuery::bottom(const RayQueryMemory& corners,
 }
 
 /// Builds a top-level structure with one instance of `bottom` that is not moved.
-DriverRayQuery::Structure DriverRayQuery::top(const Structure& bottom) const {
+DriverRayQuery::AccelerationStructure
+DriverRayQuery::top(const AccelerationStructure& bottom) const {
     VkAccelerationStructureInstanceKHR once{};
     for (int i = 0; i < 3; ++i) once.transform.matrix[i][i] = 1;
     once.mask = 0xff;
     once.flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
     once.accelerationStructureReference = bottom.address;
-    const RayQueryMemory instances = device_.make_memory(sizeof once, kBuildInputUsage, &once);
+    const RayQueryMemory instances = device_.make_ray_query_memory(sizeof once, kBuildInputUsage,
+                                                                   &once);
     VkAccelerationStructureGeometryKHR geometry{
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
@@ -158,7 +161,7 @@ DriverRayQuery::Structure DriverRayQuery::top(const Structure& bottom) const {
     return build(VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR, geometry, 1);
 }
 
-void DriverRayQuery::trace(const Structure& triangles, const RayQueryMemory& rays,
+void DriverRayQuery::trace(const AccelerationStructure& triangles, const RayQueryMemory& rays,
                            const RayQueryMemory& hits, std::uint32_t count) const {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, 1},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2}};
@@ -205,7 +208,7 @@ void DriverRayQuery::trace(const Structure& triangles, const RayQueryMemory& ray
     });
 }
 
-void DriverRayQuery::destroy(const Structure& structure) const {
+void DriverRayQuery::destroy(const AccelerationStructure& structure) const {
     device_.find_extension_function<PFN_vkDestroyAccelerationStructureKHR>(
         "vkDestroyAccelerationStructureKHR")(device_.handle(), structure.handle, nullptr);
 }
@@ -214,14 +217,15 @@ std::vector<DeviceHit> DriverRayQuery::find_closest_hits(std::span<const bvh::Tr
                                                          const std::vector<DeviceRay>& rays) const {
     std::vector<vec3> corners;
     for (const bvh::Triangle& t : triangles) corners.insert(corners.end(), {t.a, t.b, t.c});
-    const RayQueryMemory vertices = device_.make_memory(corners.size() * sizeof(vec3),
-                                                        kBuildInputUsage, corners.data());
-    const Structure lower = bottom(vertices, static_cast<std::uint32_t>(triangles.size()));
-    const Structure upper = top(lower);
-    const RayQueryMemory in = device_.make_memory(rays.size() * sizeof(DeviceRay),
-                                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, rays.data());
-    const RayQueryMemory out = device_.make_memory(rays.size() * sizeof(DeviceHit),
-                                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const RayQueryMemory vertices = device_.make_ray_query_memory(corners.size() * sizeof(vec3),
+                                                                  kBuildInputUsage, corners.data());
+    const AccelerationStructure lower = bottom(vertices,
+                                               static_cast<std::uint32_t>(triangles.size()));
+    const AccelerationStructure upper = top(lower);
+    const RayQueryMemory in = device_.make_ray_query_memory(
+        rays.size() * sizeof(DeviceRay), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, rays.data());
+    const RayQueryMemory out = device_.make_ray_query_memory(rays.size() * sizeof(DeviceHit),
+                                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     trace(upper, in, out, static_cast<std::uint32_t>(rays.size()));
     std::vector<DeviceHit> hits(rays.size());
     std::memcpy(hits.data(), out.mapped, hits.size() * sizeof(DeviceHit));

@@ -18,15 +18,15 @@ public:
                                              const std::vector<DeviceRay>& rays) const;
 
 private:
-    struct Structure;
-    Structure build(VkAccelerationStructureTypeKHR type,
-                    const VkAccelerationStructureGeometryKHR& geometry,
-                    std::uint32_t primitives) const;
-    Structure bottom(const RayQueryMemory& corners, std::uint32_t triangles) const;
-    Structure top(const Structure& bottom) const;
-    void trace(const Structure& triangles, const RayQueryMemory& rays, const RayQueryMemory& hits,
-               std::uint32_t count) const;
-    void destroy(const Structure& structure) const;
+    struct AccelerationStructure;
+    AccelerationStructure build(VkAccelerationStructureTypeKHR type,
+                                const VkAccelerationStructureGeometryKHR& geometry,
+                                std::uint32_t primitives) const;
+    AccelerationStructure bottom(const RayQueryMemory& corners, std::uint32_t triangles) const;
+    AccelerationStructure top(const AccelerationStructure& bottom) const;
+    void trace(const AccelerationStructure& triangles, const RayQueryMemory& rays,
+               const RayQueryMemory& hits, std::uint32_t count) const;
+    void destroy(const AccelerationStructure& structure) const;
 
     const RayQueryDevice& device_;
     gpu::UniqueDescriptorSetLayout set_layout_;

@@ -43,14 +43,14 @@ Function find_instance_function(VkInstance instance, const char* function) {
 std::unique_ptr<RayQueryDevice> RayQueryDevice::open(std::string& reason) {
     std::unique_ptr<RayQueryDevice> result(new RayQueryDevice);
     bool has_debug_utils = false;
-    result->instance_ = gpu::make_instance(true, {}, has_debug_utils);
-    if (has_debug_utils) result->make_messenger();
+    result->instance_ = gpu::make_vulkan_instance(true, {}, has_debug_utils);
+    if (has_debug_utils) result->make_ray_query_debug_messenger();
     for (VkPhysicalDevice device : gpu::list_physical_devices(result->instance_)) {
         const gpu::DeviceProperties info = gpu::describe_device(device);
         result->name_ = info.name + ", " + info.driver;
         if (info.missing.empty() && has_ray_query(device)) {
             result->physical_ = device;
-            result->make_device();
+            result->make_ray_query_device();
             return result;
         }
         reason += (reason.empty() ? "no VK_KHR_ray_query on " : "; ") + result->name_;
@@ -67,7 +67,7 @@ RayQueryDevice::~RayQueryDevice() {
     if (instance_) vkDestroyInstance(instance_, nullptr);
 }
 
-void RayQueryDevice::make_messenger() {
+void RayQueryDevice::make_ray_query_debug_messenger() {
     VkDebugUtilsMessengerCreateInfoEXT create{
         VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     create.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
@@ -81,7 +81,7 @@ void RayQueryDevice::make_messenger() {
         "create the validation messenger");
 }
 
-void RayQueryDevice::make_device() {
+void RayQueryDevice::make_ray_query_device() {
     const float priority = 1;
     VkDeviceQueueCreateInfo queues{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queues.queueFamilyIndex = static_cast<std::uint32_t>(gpu::find_queue_family(physical_));
@@ -106,10 +106,10 @@ void RayQueryDevice::make_device() {
     throw_unless_vk_success(vkCreateDevice(physical_, &create, nullptr, &device_),
                             "open device '" + name_ + "' with ray queries");
     vkGetDeviceQueue(device_, queues.queueFamilyIndex, 0, &queue_);
-    make_commands(queues.queueFamilyIndex);
+    make_ray_query_command_buffer(queues.queueFamilyIndex);
 }
 
-void RayQueryDevice::make_commands(std::uint32_t queue_family) {
+void RayQueryDevice::make_ray_query_command_buffer(std::uint32_t queue_family) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = queue_family;
@@ -125,8 +125,8 @@ void RayQueryDevice::make_commands(std::uint32_t queue_family) {
                             "allocate a command buffer");
 }
 
-RayQueryMemory RayQueryDevice::make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
-                                           const void* contents) const {
+RayQueryMemory RayQueryDevice::make_ray_query_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
+                                                     const void* contents) const {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = std::max<std::uint64_t>(bytes, 16);
     create.usage = usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;

@@ -41,8 +41,8 @@ public:
     Function find_extension_function(const char* function) const {
         return reinterpret_cast<Function>(vkGetDeviceProcAddr(device_, function));
     }
-    RayQueryMemory make_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
-                               const void* contents = nullptr) const;
+    RayQueryMemory make_ray_query_memory(std::uint64_t bytes, VkBufferUsageFlags usage,
+                                         const void* contents = nullptr) const;
 
     /// Calls `record` to fill a command buffer, submits the buffer and waits for the device.
     template <typename Record>
@@ -62,9 +62,9 @@ public:
 
 private:
     RayQueryDevice() = default;
-    void make_messenger();
-    void make_device();
-    void make_commands(std::uint32_t queue_family);
+    void make_ray_query_debug_messenger();
+    void make_ray_query_device();
+    void make_ray_query_command_buffer(std::uint32_t queue_family);
 
     std::string name_;
     std::vector<std::string> messages_;

@@ -9,7 +9,7 @@
 namespace {
 
 using namespace catoptric;
-class SamePicture : public Cli {
+class SecondDriverPictureTest : public CommandLineTest {
 protected:
     using Environment = std::map<std::string, std::string>;
 
@@ -34,10 +34,10 @@ protected:
     }
 };
 
-TEST_F(SamePicture, TwoDriverVersionsDrawTheSamePictures) {
+TEST_F(SecondDriverPictureTest, TwoDriverVersionsDrawTheSamePictures) {
     constexpr double kMaxFlipBetweenDrivers = 0.0005;
     const auto second = test::find_second_driver_environment();
-    if (!second) GTEST_SKIP() << test::kNoSecondDriver;
+    if (!second) GTEST_SKIP() << test::kNoSecondDriverMessage;
     const std::string driver_1 = json({"info", "--json"}, {})["device"]["driver"],
                       driver_2 = json({"info", "--json"}, *second)["device"]["driver"];
     ASSERT_NE(driver_1, driver_2);

@@ -10,7 +10,7 @@
 /// The second driver: Mesa 25, which `./dev drivers` unpacks beside the system's driver.
 namespace test {
 
-inline constexpr const char* kNoSecondDriver =
+inline constexpr const char* kNoSecondDriverMessage =
     "no second driver: ./dev drivers unpacks Mesa 25 under build/drivers";
 
 /// Returns the environment variables with which a process sees only the second driver. Returns

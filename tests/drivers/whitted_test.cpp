@@ -42,7 +42,7 @@ std::vector<float> sensitivity(const measure::Picture& single, const measure::Pi
 }
 
 std::size_t count_differing_pixels(const measure::Picture& a,
-                                   const std::vector<peers::PeerVector>& b,
+                                   const std::vector<peers::PeerVector3>& b,
                                    const std::vector<float>& sensitivity) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
@@ -64,9 +64,9 @@ void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
               kMaxSensitivePixels)
         << technique;
     const peers::EmbreeDevice device;
-    const peers::EmbreePeerScene peer(device, asked, depth, exact);
+    const peers::EmbreeWhittedTracer peer(device, asked, depth, exact);
     for (const int width : {1, 8, 16}) {
-        const peers::TracedPeerPicture theirs = peer.trace_picture(width, 2);
+        const peers::PeerTracedPicture theirs = peer.trace_picture(width, 2);
         EXPECT_EQ(count_differing_pixels(ours.hdr, theirs.pixels, sensitive), 0U)
             << technique << ", " << width;
         EXPECT_EQ(theirs.rays.primary, ours.rays->primary);

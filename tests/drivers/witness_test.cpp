@@ -37,11 +37,11 @@ struct RayWitness {
     std::size_t at_corners = 0; ///< unfounded answers to rays through a corner
     std::size_t at_edges = 0;   ///< unfounded answers to rays through an edge
     std::size_t elsewhere = 0;  ///< all other unfounded answers
-    std::size_t count_unfounded() const { return at_corners + at_edges + elsewhere; }
+    std::size_t count_unfounded_answers() const { return at_corners + at_edges + elsewhere; }
 };
 
 /// How the answers of two witnesses to one ray compare.
-enum WitnessVerdict { kSameTriangle, kSamePlace, kOtherSurface, kHitOrMiss };
+enum RayWitnessVerdict { kSameTriangle, kSamePlace, kOtherSurface, kHitOrMiss };
 constexpr std::array kVerdictNames{"same triangle", "another at the same distance",
                                    "another surface", "hit or miss"};
 
@@ -108,8 +108,8 @@ bool is_hit_wrong(const bvh::Triangle& t, const DeviceRay& ray, const DeviceHit&
     return std::isfinite(limit) && !(std::abs(double{hit.t} - exact) <= limit);
 }
 
-WitnessVerdict find_verdict(const WitnessRayBatch& batch, const DeviceRay& ray, const DeviceHit& a,
-                            const DeviceHit& b) {
+RayWitnessVerdict find_verdict(const WitnessRayBatch& batch, const DeviceRay& ray,
+                               const DeviceHit& a, const DeviceHit& b) {
     if (a.is_hit() != b.is_hit()) return kHitOrMiss;
     if (!a.is_hit() || a.triangle == b.triangle) return kSameTriangle;
     const double limit = ray_parameter_rounding_slack(batch.triangles[a.triangle], ray) +
@@ -118,8 +118,8 @@ WitnessVerdict find_verdict(const WitnessRayBatch& batch, const DeviceRay& ray, 
 }
 
 /// Returns whether some ray within `distance` of the ray gets the same answer in double precision.
-bool is_answer_founded(const WitnessRayBatch& batch, const bvh::Bvh& hierarchy,
-                       const DeviceRay& ray, const DeviceHit& answer, double distance) {
+bool is_answer_backed_by_geometry(const WitnessRayBatch& batch, const bvh::Bvh& hierarchy,
+                                  const DeviceRay& ray, const DeviceHit& answer, double distance) {
     constexpr int kTestedRingCount = 12, kAround = 16; // radii from distance / 2048, doubling
     const dvec3 side = glm::normalize(
         glm::cross(ray_direction(ray),
@@ -191,17 +191,17 @@ void judge_unfounded_answers(const WitnessRayBatch& batch, const bvh::Bvh& hiera
         };
         if (std::none_of(witnesses.begin(), witnesses.end(), differs)) continue;
         for (std::size_t k = 0; k < witnesses.size(); ++k) {
-            if (is_answer_founded(batch, hierarchy, batch.rays[i], witnesses[k].hits[i],
-                                  allowed_ray_distance(batch, witnesses, k, i)))
+            if (is_answer_backed_by_geometry(batch, hierarchy, batch.rays[i], witnesses[k].hits[i],
+                                             allowed_ray_distance(batch, witnesses, k, i)))
                 continue;
-            if (witnesses[k].count_unfounded() < kMaxListedAnswers)
+            if (witnesses[k].count_unfounded_answers() < kMaxListedAnswers)
                 print_unfounded_answer(batch, witnesses, k, i);
             count_unfounded_answer(batch, witnesses, witnesses[k], i);
         }
     }
 }
 
-void count_answers_alone(const WitnessRayBatch& batch, RayWitness& witness) {
+void count_answers_unlike_all_witnesses(const WitnessRayBatch& batch, RayWitness& witness) {
     ASSERT_EQ(witness.hits.size(), batch.rays.size());
     for (std::size_t i = 0; i < batch.rays.size(); ++i) {
         const DeviceHit& hit = witness.hits[i];
@@ -214,8 +214,8 @@ void count_answers_alone(const WitnessRayBatch& batch, RayWitness& witness) {
     }
 }
 
-void print_pair_of_witnesses(const WitnessRayBatch& batch, const RayWitness& a,
-                             const RayWitness& b) {
+void print_witness_pair_agreement(const WitnessRayBatch& batch, const RayWitness& a,
+                                  const RayWitness& b) {
     std::array<std::size_t, kVerdictNames.size()> counts{};
     for (std::size_t i = 0; i < batch.rays.size(); ++i)
         ++counts[find_verdict(batch, batch.rays[i], a.hits[i], b.hits[i])];
@@ -229,10 +229,10 @@ void compare_witnesses(const WitnessRayBatch& batch, const bvh::Bvh& hierarchy,
                        std::vector<RayWitness>& witnesses) {
     std::cout << "[ MEASURED ] " << batch.name << ": " << batch.rays.size() << " rays, "
               << batch.triangles.size() << " triangles\n";
-    for (RayWitness& witness : witnesses) count_answers_alone(batch, witness);
+    for (RayWitness& witness : witnesses) count_answers_unlike_all_witnesses(batch, witness);
     for (std::size_t a = 0; a < witnesses.size(); ++a)
         for (std::size_t b = a + 1; b < witnesses.size(); ++b)
-            print_pair_of_witnesses(batch, witnesses[a], witnesses[b]);
+            print_witness_pair_agreement(batch, witnesses[a], witnesses[b]);
     judge_unfounded_answers(batch, hierarchy, witnesses);
     for (const RayWitness& w : witnesses)
         std::cout << "  " << w.name << ": " << w.leaks << " leaks, " << w.off
@@ -295,17 +295,17 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
         DeviceRayTracer kernel(batch.triangles);
         std::vector<RayWitness> witnesses{
             {"walk", kernel.find_closest_hits(batch.rays)},
-            {"embree", test::EmbreeWitness(batch.triangles).find_closest_hits(batch.rays)}};
+            {"embree", test::EmbreeRayWitness(batch.triangles).find_closest_hits(batch.rays)}};
         if (ray_query)
             witnesses.push_back(
                 {"ray query", ray_query->find_closest_hits(batch.triangles, batch.rays)});
         compare_witnesses(batch, kernel.traversed_bvh(), witnesses);
         EXPECT_EQ(witnesses[0].leaks, 0u);
-        EXPECT_EQ(witnesses[0].count_unfounded(), 0u);
+        EXPECT_EQ(witnesses[0].count_unfounded_answers(), 0u);
         for (const RayWitness& witness : witnesses) {
             EXPECT_EQ(witness.off, 0u) << witness.name;
             EXPECT_EQ(witness.elsewhere, 0u) << witness.name;
-            EXPECT_LE(static_cast<double>(witness.count_unfounded()),
+            EXPECT_LE(static_cast<double>(witness.count_unfounded_answers()),
                       kMaxUnfoundedShareAtEdges * static_cast<double>(batch.rays.size()))
                 << witness.name;
         }
@@ -325,7 +325,7 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
 /// Runs the test of this suite again on the second driver, which has ray queries.
 TEST(Witnesses, RayTracersAgreeOnTheSecondDriver) {
     const auto environment = test::find_second_driver_environment();
-    if (!environment) GTEST_SKIP() << test::kNoSecondDriver;
+    if (!environment) GTEST_SKIP() << test::kNoSecondDriverMessage;
     const test::ProcessResult ended = test::run_process(
         {.command = {std::filesystem::read_symlink("/proc/self/exe").string(),
                      "--gtest_filter=Witnesses.RayTracersAgreeRayByRay"},

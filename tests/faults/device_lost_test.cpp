@@ -95,7 +95,7 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
          {std::pair{VK_ERROR_DEVICE_LOST, Failure::device_lost},
           std::pair{VK_ERROR_OUT_OF_DEVICE_MEMORY, Failure::exhausted}}) {
         const std::string said = test::run_in_forked_process([&] {
-            FaultLayerHere here(folder / "calls");
+            FaultLayerInThisProcess here(folder / "calls");
             catoptric::app::Request request;
             request.scene = catoptric::scene::load("cornell-mirrors");
             request.camera = request.scene.cameras.front();
@@ -167,9 +167,9 @@ TEST_F(DeviceLost, LossDuringAComparisonKeepsTheOldReport) {
     EXPECT_TRUE(std::filesystem::is_empty(folder / "out/images")) << "made before measuring";
 }
 
-class ReadBack : public DeviceLost {};
+class ReadBackDeviceLostTest : public DeviceLost {};
 
-TEST_F(ReadBack, FailedMemoryMappingExitsWith75) {
+TEST_F(ReadBackDeviceLostTest, FailedMemoryMappingExitsWith75) {
     const int last = count_calls("vkMapMemory");
     for (const int at : std::set{1, last / 2, last}) {
         const WatchedRun watched = watch(
@@ -185,7 +185,7 @@ TEST_F(ReadBack, FailedMemoryMappingExitsWith75) {
 
 /// A result that Vulkan does not define for a call is a defect of the driver. The program exits
 /// with 70 and keeps the old picture.
-TEST_F(ReadBack, UnknownVulkanResultExitsWith70) {
+TEST_F(ReadBackDeviceLostTest, UnknownVulkanResultExitsWith70) {
     const int last = count_calls("vkQueueWaitIdle");
     const WatchedRun watched = watch(words,
                                      VulkanCallFault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});

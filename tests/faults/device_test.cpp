@@ -8,7 +8,7 @@
 namespace {
 
 constexpr double kMaxSecondsWithoutDevice = 2; // most seconds that a program may take to end
-constexpr int kNoDeviceResult = VK_SUCCESS;
+constexpr int kNoForcedDeviceResult = VK_SUCCESS;
 
 class NoDevice : public Faults {
 protected:
@@ -38,8 +38,8 @@ TEST_F(NoDevice, DriverThatRefusesExitsWith69) {
           VulkanCallFault{"vkCreateInstance", 1, VK_ERROR_INITIALIZATION_FAILED},
           VulkanCallFault{"vkEnumeratePhysicalDevices", 1, VK_ERROR_INITIALIZATION_FAILED},
           VulkanCallFault{"vkEnumeratePhysicalDevices", 2, VK_ERROR_INITIALIZATION_FAILED},
-          VulkanCallFault{"vkEnumeratePhysicalDevices", 1, kNoDeviceResult},
-          VulkanCallFault{"vkEnumeratePhysicalDevices", 2, kNoDeviceResult}}) {
+          VulkanCallFault{"vkEnumeratePhysicalDevices", 1, kNoForcedDeviceResult},
+          VulkanCallFault{"vkEnumeratePhysicalDevices", 2, kNoForcedDeviceResult}}) {
         const WatchedRun watched = watch(words, fault);
         expect_exit_code(watched.ended, 69, {"apt-get install mesa-vulkan-drivers"});
         EXPECT_EQ(watched.leaks(), "");

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Disk : public Cli {
+class DiskErrorTest : public CommandLineTest {
 protected:
     /// The files of a comparison, in the order in which they are written.
     const Words files = {"images/reference.png",
@@ -42,8 +42,9 @@ protected:
 
     /// Runs a comparison for each output file, after `prepare(path)` made that file impossible to
     /// write. Expects the exit code and a message with the path and `why`.
-    void compare_without_each_file(const std::function<void(const fs::path& file)>& prepare,
-                                   int exit_code, const std::string& why) const {
+    void
+    compare_while_each_file_is_unwritable(const std::function<void(const fs::path& file)>& prepare,
+                                          int exit_code, const std::string& why) const {
         run_on_two_threads(files.size(), [&](std::size_t i) {
             const std::string out = "out-" + std::to_string(i);
             const fs::path file = folder / out / files[i];
@@ -77,20 +78,20 @@ struct FullFileSystem {
     std::string why;
 };
 
-TEST_F(Disk, FullDiskKeepsTheOldFilesOfAComparison) {
+TEST_F(DiskErrorTest, FullDiskKeepsTheOldFilesOfAComparison) {
     const FullFileSystem disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
     for (const std::string& name : files)
         write_input_file("disk/" + fs::path(name).filename().string(), "old");
     disk.fill_file_system();
-    compare_without_each_file(
+    compare_while_each_file_is_unwritable(
         [&](const fs::path& file) { fs::create_symlink(disk.mount_path / file.filename(), file); },
         74, "No space left on device");
     for (const std::string& name : files)
         EXPECT_EQ(read_file_at_path(disk.mount_path / fs::path(name).filename()), "old");
 }
 
-TEST_F(Disk, FullDiskKeepsTheOldPictureAndTrace) {
+TEST_F(DiskErrorTest, FullDiskKeepsTheOldPictureAndTrace) {
     const FullFileSystem disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
     for (const char* name : {"x.exr", "x.png", "t.json"})
@@ -109,7 +110,7 @@ TEST_F(Disk, FullDiskKeepsTheOldPictureAndTrace) {
 
 /// The limit of file size (`ulimit -f`) breaks off a write in the middle of a file. Unlike a
 /// mounted full disk, this test needs no privilege.
-TEST_F(Disk, FileSizeLimitEndsInAnErrorAndNotASignal) {
+TEST_F(DiskErrorTest, FileSizeLimitEndsInAnErrorAndNotASignal) {
     for (const std::string name : {"x.exr", "x.png"}) {
         write_input_file(name, "old");
         test::ProcessStartOptions process = make_process_start(make_picture_words(name));
@@ -129,10 +130,10 @@ TEST_F(Disk, FileSizeLimitEndsInAnErrorAndNotASignal) {
 }
 
 /// Not even root can make files in /proc. Permissions would not stop root in another folder.
-TEST_F(Disk, FolderThatTakesNoFilesExitsWith73) {
+TEST_F(DiskErrorTest, FolderThatTakesNoFilesExitsWith73) {
     if (!fs::is_directory("/proc/self"))
         GTEST_SKIP() << "no /proc, a folder in which not even root can make a file";
-    compare_without_each_file(
+    compare_while_each_file_is_unwritable(
         [](const fs::path& file) { fs::create_symlink("/proc" / file.filename(), file); }, 73,
         "cannot be created");
     for (const std::string name : {"/proc/x.exr", "/proc/x.png"})
@@ -143,7 +144,7 @@ TEST_F(Disk, FolderThatTakesNoFilesExitsWith73) {
     expect_exit_code(run_cli(make_compare_arguments("/proc/out")), 73, {"/proc/out"});
 }
 
-TEST_F(Disk, ReadOnlyFolderExitsWith73) {
+TEST_F(DiskErrorTest, ReadOnlyFolderExitsWith73) {
     const FullFileSystem disk(folder / "disk");
     if (!disk.mounted) GTEST_SKIP() << "cannot mount a small tmpfs: " << disk.why;
     write_input_file("disk/x.exr", "old");
@@ -157,9 +158,9 @@ TEST_F(Disk, ReadOnlyFolderExitsWith73) {
                      {"disk/out", "Read-only file system"});
 }
 
-TEST_F(Disk, FolderInPlaceOfAnOutputFileExitsWith73) {
-    compare_without_each_file([](const fs::path& file) { fs::create_directory(file); }, 73,
-                              "found a folder");
+TEST_F(DiskErrorTest, FolderInPlaceOfAnOutputFileExitsWith73) {
+    compare_while_each_file_is_unwritable([](const fs::path& file) { fs::create_directory(file); },
+                                          73, "found a folder");
 }
 
 } // namespace

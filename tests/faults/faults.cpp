@@ -108,13 +108,13 @@ WatchedRun Faults::watch(const Words& words, const std::optional<VulkanCallFault
     return watched;
 }
 
-FaultLayerHere::FaultLayerHere(fs::path report) : report_(std::move(report)) {
+FaultLayerInThisProcess::FaultLayerInThisProcess(fs::path report) : report_(std::move(report)) {
     for (const auto& [name, value] : make_fault_layer_environment(report_))
         ::setenv(name.c_str(), value.c_str(), 1);
 }
 
-WatchedRun FaultLayerHere::run(const std::optional<VulkanCallFault>& fault,
-                               const std::function<void(catoptric::app::Engine&)>& work) {
+WatchedRun FaultLayerInThisProcess::run(const std::optional<VulkanCallFault>& fault,
+                                        const std::function<void(catoptric::app::Engine&)>& work) {
     fs::remove(report_);
     if (fault)
         ::setenv("CATOPTRIC_FAULT", describe_fault(*fault).c_str(), 1);

@@ -39,7 +39,7 @@ struct WatchedRun {
 
 /// Fixture that runs the program with the fault layer over its driver. All runs of a test program
 /// share one shader cache.
-class Faults : public Cli {
+class Faults : public CommandLineTest {
 protected:
     /// Fails the test if the Vulkan loader does not load the layer.
     void SetUp() override;
@@ -53,9 +53,9 @@ protected:
 /// Puts the fault layer over the driver of this process, which must be a child process
 /// (test::run_in_forked_process). The layer counts calls of each Vulkan instance that is made
 /// afterwards. Keeps the driver loaded.
-class FaultLayerHere {
+class FaultLayerInThisProcess {
 public:
-    explicit FaultLayerHere(std::filesystem::path report);
+    explicit FaultLayerInThisProcess(std::filesystem::path report);
     /// Makes an engine and calls `work` with it. `ended` of the result has the exit code and
     /// message of the error that was thrown, or exit code 0.
     WatchedRun run(const std::optional<VulkanCallFault>& fault,

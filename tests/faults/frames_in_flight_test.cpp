@@ -6,7 +6,7 @@ namespace {
 
 using namespace catoptric;
 
-class LostInFlight : public Faults {};
+class DeviceLostInFlightTest : public Faults {};
 
 graph::Graph make_one_frame_graph() {
     graph::Graph graph;
@@ -14,7 +14,7 @@ graph::Graph make_one_frame_graph() {
     graph.add_pass("clear it")
         .writes(image, graph::ResourceUse::colour, graph::ClearValue{})
         .record([](graph::PassCommands&) {});
-    graph.mark_output(image);
+    graph.mark_as_graph_output(image);
     return graph;
 }
 
@@ -28,9 +28,9 @@ std::string error_text_of_action(const std::function<void()>& action) {
 }
 
 /// The test submits three frames, and the first wait fails.
-TEST_F(LostInFlight, WaitReportsTheLostDevice) {
+TEST_F(DeviceLostInFlightTest, WaitReportsTheLostDevice) {
     const std::string said = test::run_in_forked_process([&] {
-        FaultLayerHere here(folder / "calls");
+        FaultLayerInThisProcess here(folder / "calls");
         std::string wrong;
         const VulkanCallFault fault{"vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST};
         const WatchedRun watched = here.run(fault, [&](app::Engine&) {

@@ -24,7 +24,7 @@ std::string compile_plan_text(catoptric::app::Engine& engine,
 
 /// Vulkan calls that the engine makes and that may fail for lack of memory. Beside each call is a
 /// text that the error message must contain, because the message must say what needed memory.
-const std::map<std::string, std::string> kCalls = {
+const std::map<std::string, std::string> kFailingCallsAndErrorTexts = {
     {"vkCreateInstance", "an instance"},
     {"vkEnumeratePhysicalDevices", "enumerate devices"},
     {"vkCreateDevice", "open device '"},
@@ -57,7 +57,7 @@ const std::map<std::string, std::string> kCalls = {
     {"vkGetQueryPoolResults", "time stamps"},
 };
 /// After a failure of one of these calls the device may still be at work.
-const std::set<std::string> kWaits = {"vkWaitSemaphores", "vkQueueWaitIdle"};
+const std::set<std::string> kWaitingVulkanCalls = {"vkWaitSemaphores", "vkQueueWaitIdle"};
 
 /// Returns the contents of all files below a folder, by relative path.
 std::map<std::string, std::string> read_all_files_of_folder(const fs::path& folder) {
@@ -100,9 +100,9 @@ protected:
         if (!watched.ended.err.starts_with(speaker + "Vulkan: cannot ") ||
             watched.ended.err.find('\n') < watched.ended.err.size() - 1 ||
             watched.ended.err.find(name) == std::string::npos ||
-            watched.ended.err.find(kCalls.at(fault.call)) == std::string::npos)
+            watched.ended.err.find(kFailingCallsAndErrorTexts.at(fault.call)) == std::string::npos)
             wrong += "the message '" + watched.ended.err + "'; ";
-        wrong += kWaits.contains(fault.call) ? watched.unfit() : watched.leaks();
+        wrong += kWaitingVulkanCalls.contains(fault.call) ? watched.unfit() : watched.leaks();
         return wrong.empty() ? ""
                              : fault.call + " " + std::to_string(fault.at) + ": " + wrong + "\n";
     }
@@ -113,7 +113,7 @@ protected:
         std::vector<VulkanCallFault> faults;
         for (const auto& [call, count] : whole.counts) {
             if (call.starts_with("vkCmd")) continue; // recorded commands cannot fail
-            EXPECT_TRUE(kCalls.contains(call))
+            EXPECT_TRUE(kFailingCallsAndErrorTexts.contains(call))
                 << call << " is made " << count.calls << " times and not watched";
             for (const int k : choose(count.calls))
                 faults.push_back({call, k,
@@ -142,7 +142,7 @@ TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
     constexpr std::size_t kChildProcessCount = 2;
     run_on_two_threads(kChildProcessCount, [&](std::size_t child) {
         const std::string said = test::run_in_forked_process([&] {
-            FaultLayerHere here(folder / ("calls-" + std::to_string(child)));
+            FaultLayerInThisProcess here(folder / ("calls-" + std::to_string(child)));
             const WatchedRun whole = here.run(std::nullopt, render);
             std::string wrong = whole.ended.err + whole.leaks();
             const std::vector<VulkanCallFault> faults = list_faults_of_run(whole, most);
@@ -221,7 +221,7 @@ TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
 TEST_F(Memory, MemoryInUseIsWhatThePlanAnnounces) {
     const std::string said = test::run_in_forked_process([&] {
         constexpr std::uint64_t kCounterBytes = 256; // bytes; counters enlarge the buffer at 1x1
-        FaultLayerHere here(folder / "calls");
+        FaultLayerInThisProcess here(folder / "calls");
         std::map<bool, std::uint64_t> scenes; // bytes without and with a BVH for rays
         std::string wrong;
         for (const std::string technique :

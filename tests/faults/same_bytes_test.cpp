@@ -8,9 +8,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SameBytes : public Faults {};
+class SameReportBytesTest : public Faults {};
 
-TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
+TEST_F(SameReportBytesTest, PicturesDoNotDependOnThreadsOrValidation) {
     Words words = {"compare", "-o",       "out", "--size",  "64x64",       "--frames",
                    "1",       "--warmup", "1",   "--quiet", "--techniques"};
     const nlohmann::json list = nlohmann::json::parse(
@@ -25,11 +25,11 @@ TEST_F(SameBytes, PicturesDoNotDependOnThreadsOrValidation) {
         words.push_back(row);
     }
 
-    struct SameBytesWay {
+    struct ThreadAndPlaceVariant {
         const char* threads;
         bool validate;
     };
-    const std::vector<SameBytesWay> ways = {{"2", false}, {"1", false}, {"2", true}};
+    const std::vector<ThreadAndPlaceVariant> ways = {{"2", false}, {"1", false}, {"2", true}};
     std::vector<std::map<std::string, std::string>> pictures(ways.size());
     run_on_two_threads(ways.size(), [&](std::size_t i) {
         const fs::path place = folder / std::to_string(i);

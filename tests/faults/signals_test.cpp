@@ -8,11 +8,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Signals : public Cli {};
+class StopSignalTest : public CommandLineTest {};
 
 constexpr double kMaxSecondsAfterSignal = 2; // seconds from the signal to the end
 
-TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
+TEST_F(StopSignalTest, SignalEndsCompareSoonAndKeepsItsRows) {
     double longest = 0;
     const Words words{"compare", "-o",       "old", "--size",       "16x16",       "--frames",
                       "1",       "--warmup", "0",   "--techniques", "reuse:face=8"};
@@ -50,7 +50,7 @@ TEST_F(Signals, SignalEndsCompareSoonAndKeepsItsRows) {
 
 /// Fixture that sends a signal at a random time before the driver is open. With LD_DEBUG the
 /// dynamic linker prints when it starts the program and which libraries are opened later.
-class EarlySignals : public Cli {
+class EarlySignalTest : public CommandLineTest {
 protected:
     test::ProcessResult run_and_signal_before_driver(const Words& words, int signal,
                                                      const std::string& at, int milliseconds) {
@@ -77,7 +77,7 @@ protected:
 
 /// The function main opens the driver, and from then on the program answers each signal with a
 /// message.
-TEST_F(EarlySignals, SignalsAreAnsweredWhileTheDriverIsOpened) {
+TEST_F(EarlySignalTest, SignalsAreAnsweredWhileTheDriverIsOpened) {
     std::mt19937 random(1);
     for (std::size_t i = 0; i < 2 * programs.size(); ++i) {
         const int signal = kTestedSignals[i % kTestedSignals.size()];
@@ -91,7 +91,7 @@ TEST_F(EarlySignals, SignalsAreAnsweredWhileTheDriverIsOpened) {
 
 /// The program answers signals from its first static initialiser on, before main begins. An earlier
 /// signal ends the process without a message, because no code of the program has run yet.
-TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
+TEST_F(EarlySignalTest, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     std::mt19937 random(2);
     int answered = 0, wordless = 0;
     for (int i = 0; i < 30; ++i) {
@@ -109,7 +109,7 @@ TEST_F(EarlySignals, SignalsAreAnsweredFromTheFirstInitialiserOn) {
 }
 
 /// A frame is one submit, which cannot be stopped. Its picture is not written after the signal.
-TEST_F(Signals, SignalInTheLastFrameWritesNoPicture) {
+TEST_F(StopSignalTest, SignalInTheLastFrameWritesNoPicture) {
     test::ProcessStartOptions process = make_process_start(
         {"render", "--technique", "raytrace:samples=128", "--size", "256x256", "--frames", "1",
          "--warmup", "0", "--progress", "always", "-o", "x.png"});

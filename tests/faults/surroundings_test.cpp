@@ -6,7 +6,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Surroundings : public Cli {
+class RunEnvironmentFaultTest : public CommandLineTest {
 protected:
     static Words with_small_picture(Words words) {
         words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "0"});
@@ -14,7 +14,7 @@ protected:
     }
 };
 
-TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
+TEST_F(RunEnvironmentFaultTest, ClosedPipeAfterTheWorkExitsWith74) {
     for (const Words& words :
          {with_small_picture({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
           with_small_picture(
@@ -33,7 +33,7 @@ TEST_F(Surroundings, ClosedPipeAfterTheWorkExitsWith74) {
         << "the files are there, whoever reads the table";
 }
 
-TEST_F(Surroundings, UnwritableCacheFolderOnlyGivesAWarning) {
+TEST_F(RunEnvironmentFaultTest, UnwritableCacheFolderOnlyGivesAWarning) {
     write_input_file("file", "");
     for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
         test::ProcessStartOptions process = make_process_start(

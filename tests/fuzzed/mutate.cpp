@@ -12,7 +12,7 @@ namespace test::fuzzed {
 namespace {
 
 /// Numbers at the limits of common number formats.
-const std::array<const char*, 22> kExtremes{
+const std::array<const char*, 22> kExtremeNumberTexts{
     "0",     "-0",         "1",           "-1",         "2",          "255",
     "256",   "65535",      "65536",       "2147483647", "2147483648", "4294967295",
     "1e308", "-1e308",     "1e-308",      "1e38",       "-1e39",      "9007199254740993",
@@ -38,7 +38,7 @@ Json choose_other_json_value(Random& random, const std::vector<Json*>& all) {
     case 3: return std::string(random_number_below(random, 3) == 0 ? 5000 : 5, 'x');
     case 4: return random_number_below(random, 2) == 0;
     case 5: return *all[random_number_below(random, all.size())];
-    default: return Json::parse(choose_one_of(kExtremes, random));
+    default: return Json::parse(choose_one_of(kExtremeNumberTexts, random));
     }
 }
 
@@ -74,7 +74,7 @@ void change_json_once(Json& document, Random& random) {
             value[at] = std::move(other);
         }
     } else if (value.is_number() && what < 4) {
-        value = Json::parse(choose_one_of(kExtremes, random));
+        value = Json::parse(choose_one_of(kExtremeNumberTexts, random));
     } else {
         Json other = choose_other_json_value(random, all);
         value = std::move(other);
@@ -110,14 +110,14 @@ struct PngChunk {
 };
 
 constexpr std::size_t kPngSignatureBytes = 8,
-                      kChunkFrame = 12; // bytes of length, type and checksum
+                      kPngChunkOverheadBytes = 12; // bytes of length, type and checksum
 
 std::vector<PngChunk> split_png_chunks(const std::string& png) {
     std::vector<PngChunk> chunks;
-    for (std::size_t at = kPngSignatureBytes; at + kChunkFrame <= png.size();) {
+    for (std::size_t at = kPngSignatureBytes; at + kPngChunkOverheadBytes <= png.size();) {
         const std::uint32_t length = big_endian_number(png, at);
         chunks.push_back({png.substr(at + 4, 4), png.substr(at + 8, length)});
-        at += kChunkFrame + length;
+        at += kPngChunkOverheadBytes + length;
     }
     return chunks;
 }
@@ -204,7 +204,9 @@ std::string change_text_lines(const std::string& text, Random& random) {
             break;
         case 2: std::swap(line, lines[random_number_below(random, lines.size())]); break;
         case 3: line.replace(begin, end - begin, choose_one_of(words, random)); break;
-        default: line.replace(begin, end - begin, choose_one_of(kExtremes, random)); break;
+        default:
+            line.replace(begin, end - begin, choose_one_of(kExtremeNumberTexts, random));
+            break;
         }
     }
     std::string changed;

@@ -32,7 +32,7 @@ int count_files_per_reader() {
 /// differ or a benchmark is slower.
 const std::set<int> kExitCodes{0, 1, 2, 65, 66, 75};
 
-class Readers : public Cli {
+class Readers : public CommandLineTest {
 protected:
     using Change = std::function<std::string(Random&)>;
 

@@ -6,7 +6,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr int kFramesAfterChange = 12, kLit = 4;
+constexpr int kFramesAfterChange = 12, kFramesWithLight = 4;
 constexpr uvec2 kChangedScenePictureSize{64, 64};
 
 /// Renders `frames` frames of a test room and returns the last picture. The material of the first
@@ -29,10 +29,12 @@ measure::Picture render_changed_scene(int lit_frames, int frames) {
 }
 
 TEST(ChangedScene, PicturesEqualUnchangedScenesBeforeTheEditAndAfterSettling) {
-    EXPECT_TRUE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kLit),
-                                             render_changed_scene(kFramesAfterChange, kLit)));
-    EXPECT_TRUE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kFramesAfterChange),
-                                             render_changed_scene(0, kFramesAfterChange)));
+    EXPECT_TRUE(
+        test::have_equal_pixel_bytes(render_changed_scene(kFramesWithLight, kFramesWithLight),
+                                     render_changed_scene(kFramesAfterChange, kFramesWithLight)));
+    EXPECT_TRUE(
+        test::have_equal_pixel_bytes(render_changed_scene(kFramesWithLight, kFramesAfterChange),
+                                     render_changed_scene(0, kFramesAfterChange)));
     EXPECT_FALSE(
         test::have_equal_pixel_bytes(render_changed_scene(kFramesAfterChange, kFramesAfterChange),
                                      render_changed_scene(0, kFramesAfterChange)));
@@ -41,10 +43,11 @@ TEST(ChangedScene, PicturesEqualUnchangedScenesBeforeTheEditAndAfterSettling) {
 TEST(ChangedScene, EditKeepsTheHistory) {
     // The first frame without the lamp still shows its light in mirrors that are seen in mirrors,
     // because those come from the history. A session without history shows black in these pixels.
-    EXPECT_FALSE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kLit + 1),
-                                              render_changed_scene(0, 1)));
-    EXPECT_FALSE(test::have_equal_pixel_bytes(render_changed_scene(kLit, kLit + 1),
-                                              render_changed_scene(0, kLit + 1)));
+    EXPECT_FALSE(test::have_equal_pixel_bytes(
+        render_changed_scene(kFramesWithLight, kFramesWithLight + 1), render_changed_scene(0, 1)));
+    EXPECT_FALSE(
+        test::have_equal_pixel_bytes(render_changed_scene(kFramesWithLight, kFramesWithLight + 1),
+                                     render_changed_scene(0, kFramesWithLight + 1)));
 }
 
 } // namespace

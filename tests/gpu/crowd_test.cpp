@@ -9,19 +9,20 @@ namespace {
 
 using namespace catoptric;
 
-constexpr double kShellRadius = 1, kBall = .25, kAway = 3;
+constexpr double kShellRadius = 1, kCrowdBallRadius = .25, kBallDistanceFromShell = 3;
 
 /// Returns a scene with a mirror ball at the origin, a larger mirror ball (the shell) around it,
 /// and eight mirror balls outside. With `turned_out`, a transform turns the last ball inside out.
 scene::Scene make_crowd_of_balls(bool turned_out) {
     scene::Scene scene{.name = "crowd"};
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
-    test::add_ball(scene, "inner", mirror, dvec3(0), kBall, 4);
+    test::add_ball(scene, "inner", mirror, dvec3(0), kCrowdBallRadius, 4);
     test::add_ball(scene, "shell", mirror, dvec3(0), kShellRadius, 4);
     for (int corner = 0; corner < 8; ++corner)
         test::add_ball(scene, "ball", mirror,
-                       kAway * dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
-                       kBall, 4);
+                       kBallDistanceFromShell *
+                           dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
+                       kCrowdBallRadius, 4);
     if (turned_out) scene.objects.back().world_from_object[0] *= -1.;
     scene.cameras.push_back({.eye = {0, 0, 9}, .target = {0, 0, 0}});
     return scene;
@@ -58,16 +59,18 @@ TEST(Crowd, CapturesShowBallsFromOutsideAndTheShellFromInside) {
         EXPECT_NEAR(within.nearest, kShellRadius, .02);
         EXPECT_NEAR(within.farthest, kShellRadius, .02) << "the shell is closed";
         // The capture of the first outer ball shows the front of the shell.
-        const dvec3 first = kAway * dvec3(-1), last = kAway * dvec3(1);
+        const dvec3 first = kBallDistanceFromShell * dvec3(-1),
+                    last = kBallDistanceFromShell * dvec3(1);
         EXPECT_NEAR(
             find_captured_distance_range(captured, 2, glm::normalize(-first), .9995).nearest,
             length(first) - kShellRadius, .1);
         // The capture of the seventh outer ball, looking along an edge of the cube of outer balls,
         // shows the eighth ball.
-        const dvec3 seventh(-kAway, kAway, kAway);
+        const dvec3 seventh(-kBallDistanceFromShell, kBallDistanceFromShell,
+                            kBallDistanceFromShell);
         EXPECT_NEAR(find_captured_distance_range(captured, 8, glm::normalize(last - seventh), .9995)
                         .nearest,
-                    length(last - seventh) - kBall, .1)
+                    length(last - seventh) - kCrowdBallRadius, .1)
             << (turned_out ? "turned inside out" : "as made");
     }
 }

@@ -39,9 +39,9 @@ embed::Device list_handles_of_test_device() {
 
 /// An image that belongs to the caller, as the target of frames. `read` returns its content, given
 /// the layout in which the frame left it.
-class CallerImage {
+class CallerOwnedImage {
 public:
-    explicit CallerImage(uvec2 size)
+    explicit CallerOwnedImage(uvec2 size)
         : image_size_(size),
           image_(graph::make_physical_image(device_, {.name = "target",
                                                       .format = TexelFormat::rgba8_unorm,
@@ -50,7 +50,8 @@ public:
         VkMemoryRequirements wants;
         vkGetImageMemoryRequirements(device_.device_handle(), image_.image, &wants);
         memory_ = device_.allocate(
-            wants.size, static_cast<std::uint32_t>(device_.memory_type(wants.memoryTypeBits, 0)),
+            wants.size,
+            static_cast<std::uint32_t>(device_.find_memory_type_index(wants.memoryTypeBits, 0)),
             "target");
         gpu::throw_unless_vk_success(
             vkBindImageMemory(device_.device_handle(), image_.image, memory_, 0), "bind");
@@ -59,7 +60,7 @@ public:
     measure::Picture read_image_content(VkImageLayout left_in) {
         gpu::GpuBuffer buffer(device_, "seen", 4 * image_size_.x * image_size_.y,
                               gpu::BufferUsage::read_back);
-        device_.submit_now("look at a target", [&](VkCommandBuffer commands) {
+        device_.submit_one_time_commands("look at a target", [&](VkCommandBuffer commands) {
             VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
             barrier.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
             barrier.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
@@ -97,7 +98,7 @@ TEST(Embed, TargetImageHoldsTheFrameInTheRequestedLayout) {
     const app::FrameSpec spec{.techniques = {"reuse:face=16,shadow_map=16"},
                               .camera = session.scene().cameras.front(),
                               .size = {32, 16}};
-    CallerImage own(spec.size);
+    CallerOwnedImage own(spec.size);
     for (const VkImageLayout left_in :
          {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
           VK_IMAGE_LAYOUT_GENERAL}) {

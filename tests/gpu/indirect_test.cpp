@@ -7,7 +7,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr std::uint32_t kDispatchCount = 7;
+constexpr std::uint32_t kDispatchedWorkGroups = 7;
 
 /// Dispatches `groups` work groups in x, y and z indirectly. Returns what each of the first four
 /// work groups counted; 0: the group did not run. `declared`: the pass declares the buffer as
@@ -29,21 +29,23 @@ std::vector<std::uint32_t> dispatch_and_count_groups(std::uint32_t groups, bool 
                declared ? graph::ResourceUse::indirect : graph::ResourceUse::storage_read)
         .writes(counts, graph::ResourceUse::storage)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
             commands.bind_resource("Counts", counts);
-            commands.push_constants(kDispatchCount);
+            commands.push_constants(kDispatchedWorkGroups);
             commands.dispatch_indirect(arguments, 4);
         });
-    graph.mark_output(counts);
+    graph.mark_as_graph_output(counts);
     test::run_graph(runner, graph);
     return test::read_resource_values<std::uint32_t>(runner, counts);
 }
 
 TEST(Indirect, NumberOfWorkGroupsComesFromTheBuffer) {
     EXPECT_EQ(dispatch_and_count_groups(0), (std::vector<std::uint32_t>{0, 0, 0, 0}));
-    EXPECT_EQ(dispatch_and_count_groups(1), (std::vector<std::uint32_t>{kDispatchCount, 0, 0, 0}));
+    EXPECT_EQ(dispatch_and_count_groups(1),
+              (std::vector<std::uint32_t>{kDispatchedWorkGroups, 0, 0, 0}));
     EXPECT_EQ(dispatch_and_count_groups(3),
-              (std::vector<std::uint32_t>{kDispatchCount, kDispatchCount, kDispatchCount, 0}));
+              (std::vector<std::uint32_t>{kDispatchedWorkGroups, kDispatchedWorkGroups,
+                                          kDispatchedWorkGroups, 0}));
 }
 
 TEST(Indirect, BufferNotDeclaredAsIndirectIsRefused) {

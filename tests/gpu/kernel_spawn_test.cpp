@@ -23,7 +23,8 @@ struct SelfHitCounts {
 /// Traces 1000 rays from random points of the triangle into random directions, and counts their
 /// hits on the same triangle.
 void count_self_hits_of_leaving_rays(const bvh::Triangle& triangle, test::RandomNumbers& numbers,
-                                     SelfHitCounts& count, const gpu::ShaderConstants& rules = {}) {
+                                     SelfHitCounts& count,
+                                     const gpu::ShaderConstantValues& rules = {}) {
     constexpr std::size_t kSpawnedRayCount = 1000;
     DeviceRayTracer kernel(std::span(&triangle, 1));
     kernel.rules = rules;
@@ -153,7 +154,7 @@ TEST(KernelHit, N18_HitsLieWithin16UlpOfDoublePrecision) {
     for (const test::DeviceHit& hit : hits)
         starts.push_back({.weights = hit.barycentric, .place = 0, .direction = vec3(0, 0, 1)});
     const std::vector<LeavingRayOrigin> points = kernel.compute_ray_origins(starts);
-    struct WorstSpawnError {
+    struct WorstRayOriginError {
         double t = 0, weights = 0, point = 0, normal = 0;
     } worst;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -45,18 +45,19 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
         const graph::ImageHandle depth = graph.add_image(
             {"depth" + std::to_string(mirror), TexelFormat::d32f, face, face, 6, true});
         graph.add_pass("capture" + std::to_string(mirror))
-            .writes(colour.select_layers(6 * mirror, 6), graph::ResourceUse::colour,
+            .writes(colour.select_image_layers(6 * mirror, 6), graph::ResourceUse::colour,
                     graph::ClearValue{0, 0, 0, 1})
             .writes(depth, graph::ResourceUse::depth, graph::ClearValue{0, 0, 0, 0})
-            .set_layer_count(6)
+            .set_pass_layer_count(6)
             .record([&gpu_scene, mirror](graph::PassCommands& commands) {
                 gpu_scene.bind(commands);
                 for (const bool mirrors_now : {false, true}) {
-                    commands.bind_pipeline(gpu::RasterState{
+                    commands.bind_pipeline(gpu::RasterPipelineState{
                         "scene.vert", mirrors_now ? "mirror_black.frag" : "diffuse.frag", {}});
                     for (std::size_t i = 0; i < gpu_scene.list_draw_ranges().size(); ++i) {
                         const render::ObjectDrawRange& range = gpu_scene.list_draw_ranges()[i];
-                        if (range.mirror != mirrors_now || i == gpu_scene.object_of_mirror(mirror))
+                        if (range.mirror != mirrors_now ||
+                            i == gpu_scene.object_index_of_mirror(mirror))
                             continue;
                         commands.push_constants(
                             shared::DrawParameters{gpu_scene.capture_view_index(mirror), 0});
@@ -67,9 +68,9 @@ std::vector<std::byte> draw_every_object_into_captures(const scene::Scene& scene
                 }
             });
     }
-    graph.mark_output(colour);
+    graph.mark_as_graph_output(colour);
     test::run_graph(runner, graph);
-    return runner.read_resource(colour);
+    return runner.read_back_resource(colour);
 }
 
 TEST(Culling, CulledCapturesKeepTheirBytes) {

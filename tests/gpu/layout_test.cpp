@@ -24,71 +24,71 @@ struct SharedStructMember {
     }
 
 /// The members, in the order in which shaders/tests/layout.comp writes them.
-const std::vector<SharedStructMember> kMembers{MEMBER(Vertex, position),
-                                               MEMBER(Vertex, normal),
-                                               MEMBER(Surface, albedo),
-                                               MEMBER(Surface, emission),
-                                               MEMBER(Surface, reflectance),
-                                               MEMBER(Surface, mirror),
-                                               MEMBER(Surface, detail),
-                                               MEMBER(Surface, centre),
-                                               MEMBER(Surface, radius),
-                                               MEMBER(Light, position),
-                                               MEMBER(Light, normal),
-                                               MEMBER(Light, intensity),
-                                               MEMBER(Light, right),
-                                               MEMBER(Light, down),
-                                               MEMBER(Light, forward),
-                                               MEMBER(Light, near),
-                                               MEMBER(Light, reach),
-                                               MEMBER(Light, cos_outer),
-                                               MEMBER(Light, sharpness),
-                                               MEMBER(Light, kind),
-                                               MEMBER(Probe, centre),
-                                               MEMBER(Probe, sphere),
-                                               MEMBER(Probe, radius),
-                                               MEMBER(Probe, reflectance),
-                                               MEMBER(Probe, lowest),
-                                               MEMBER(Probe, highest),
-                                               MEMBER(Probe, kind),
-                                               MEMBER(View, eye),
-                                               MEMBER(View, right),
-                                               MEMBER(View, down),
-                                               MEMBER(View, forward),
-                                               MEMBER(View, near),
-                                               MEMBER(View, eye_low),
-                                               MEMBER(View, parallel),
-                                               MEMBER(View, clip),
-                                               MEMBER(Sky, size),
-                                               MEMBER(Sky, scale),
-                                               MEMBER(Sky, turn),
-                                               MEMBER(Sky, irradiance),
-                                               MEMBER(Sky, level_first),
-                                               MEMBER(Sky, level_width),
-                                               MEMBER(Frame, ambient),
-                                               MEMBER(Frame, light_count),
-                                               MEMBER(Frame, mirror_count),
-                                               MEMBER(Frame, object_count),
-                                               MEMBER(Frame, shadow_faces),
-                                               MEMBER(DrawParameters, first_view),
-                                               MEMBER(DrawParameters, ablated),
-                                               MEMBER(Placement, x),
-                                               MEMBER(Placement, y),
-                                               MEMBER(Placement, z),
-                                               MEMBER(Placement, centre),
-                                               MEMBER(Placement, centre_low),
-                                               MEMBER(TraceParameters, sample_offset),
-                                               MEMBER(TraceParameters, sample_index),
-                                               MEMBER(TraceParameters, sample_count),
-                                               MEMBER(TraceParameters, size),
-                                               MEMBER(TraceParameters, seed),
-                                               MEMBER(Counters, primary_rays),
-                                               MEMBER(Counters, mirror_rays),
-                                               MEMBER(Counters, shadow_rays),
-                                               MEMBER(Counters, longest_walk),
-                                               MEMBER(Counters, exhausted),
-                                               MEMBER(Counters, mirror_pixels),
-                                               MEMBER(Counters, listed)};
+const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, position),
+                                                           MEMBER(Vertex, normal),
+                                                           MEMBER(Surface, albedo),
+                                                           MEMBER(Surface, emission),
+                                                           MEMBER(Surface, reflectance),
+                                                           MEMBER(Surface, mirror),
+                                                           MEMBER(Surface, detail),
+                                                           MEMBER(Surface, centre),
+                                                           MEMBER(Surface, radius),
+                                                           MEMBER(Light, position),
+                                                           MEMBER(Light, normal),
+                                                           MEMBER(Light, intensity),
+                                                           MEMBER(Light, right),
+                                                           MEMBER(Light, down),
+                                                           MEMBER(Light, forward),
+                                                           MEMBER(Light, near),
+                                                           MEMBER(Light, reach),
+                                                           MEMBER(Light, cos_outer),
+                                                           MEMBER(Light, sharpness),
+                                                           MEMBER(Light, kind),
+                                                           MEMBER(Probe, centre),
+                                                           MEMBER(Probe, sphere),
+                                                           MEMBER(Probe, radius),
+                                                           MEMBER(Probe, reflectance),
+                                                           MEMBER(Probe, lowest),
+                                                           MEMBER(Probe, highest),
+                                                           MEMBER(Probe, kind),
+                                                           MEMBER(View, eye),
+                                                           MEMBER(View, right),
+                                                           MEMBER(View, down),
+                                                           MEMBER(View, forward),
+                                                           MEMBER(View, near),
+                                                           MEMBER(View, eye_low),
+                                                           MEMBER(View, parallel),
+                                                           MEMBER(View, clip),
+                                                           MEMBER(Sky, size),
+                                                           MEMBER(Sky, scale),
+                                                           MEMBER(Sky, turn),
+                                                           MEMBER(Sky, irradiance),
+                                                           MEMBER(Sky, level_first),
+                                                           MEMBER(Sky, level_width),
+                                                           MEMBER(Frame, ambient),
+                                                           MEMBER(Frame, light_count),
+                                                           MEMBER(Frame, mirror_count),
+                                                           MEMBER(Frame, object_count),
+                                                           MEMBER(Frame, shadow_faces),
+                                                           MEMBER(DrawParameters, first_view),
+                                                           MEMBER(DrawParameters, ablated),
+                                                           MEMBER(Placement, x),
+                                                           MEMBER(Placement, y),
+                                                           MEMBER(Placement, z),
+                                                           MEMBER(Placement, centre),
+                                                           MEMBER(Placement, centre_low),
+                                                           MEMBER(TraceParameters, sample_offset),
+                                                           MEMBER(TraceParameters, sample_index),
+                                                           MEMBER(TraceParameters, sample_count),
+                                                           MEMBER(TraceParameters, size),
+                                                           MEMBER(TraceParameters, seed),
+                                                           MEMBER(Counters, primary_rays),
+                                                           MEMBER(Counters, mirror_rays),
+                                                           MEMBER(Counters, shadow_rays),
+                                                           MEMBER(Counters, longest_walk),
+                                                           MEMBER(Counters, exhausted),
+                                                           MEMBER(Counters, mirror_pixels),
+                                                           MEMBER(Counters, listed)};
 
 /// Returns word `i` of every input buffer. Read as a float, the word is an ordinary number near 1.
 constexpr std::uint32_t layout_input_word(std::size_t i) {
@@ -104,7 +104,7 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
     input.write_contents(std::span<const std::uint32_t>(words));
     std::vector<std::uint32_t> expected;
     std::vector<std::string> names;
-    for (const SharedStructMember& member : kMembers)
+    for (const SharedStructMember& member : kSharedStructMembers)
         for (std::size_t i = 0; i < member.bytes / 4; ++i) {
             expected.push_back(layout_input_word((member.size_of_struct + member.offset) / 4 + i));
             names.push_back(member.name);
@@ -120,10 +120,10 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
                                      "Frames", "Draws", "Placements", "Traces", "AllCounters"})
                 commands.bind_resource(name, input);
             commands.bind_resource("Words", output);
-            commands.bind_pipeline(gpu::ComputeState{"tests/layout.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/layout.comp", {}});
             commands.dispatch(1, 1);
         });
-    graph.mark_output(output);
+    graph.mark_as_graph_output(output);
     test::run_graph(runner, graph);
     const std::vector<std::uint32_t> found = test::read_resource_values<std::uint32_t>(runner,
                                                                                        output);
@@ -133,7 +133,7 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
 
 TEST(Layout, TestedMembersFillTheirStructures) {
     std::map<std::string, std::size_t> sum, size;
-    for (const SharedStructMember& member : kMembers) {
+    for (const SharedStructMember& member : kSharedStructMembers) {
         const std::string structure = member.name.substr(0, member.name.find(':'));
         sum[structure] += member.bytes;
         size[structure] = member.size_of_struct;

@@ -41,11 +41,11 @@ std::vector<LobeAnswer> evaluate_lobes_on_device(const std::vector<vec4>& asked)
         .record([&](graph::PassCommands& commands) {
             commands.bind_resource("Asked", input);
             commands.bind_resource("Answers", out);
-            commands.bind_pipeline(gpu::ComputeState{"tests/lobe.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/lobe.comp", {}});
             commands.push_constants(static_cast<std::uint32_t>(asked.size()));
             commands.dispatch(static_cast<std::uint32_t>((asked.size() + 63) / 64), 1);
         });
-    graph.mark_output(out);
+    graph.mark_as_graph_output(out);
     test::run_graph(runner, graph);
     return test::read_resource_values<LobeAnswer>(runner, out);
 }

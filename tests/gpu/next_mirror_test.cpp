@@ -54,12 +54,12 @@ std::vector<NextMirrorAnswer> list_next_mirror_answers(const std::vector<shared:
             commands.bind_resource("mirror_nodes", tree);
             commands.bind_resource("Rays", input);
             commands.bind_resource("Answers", out);
-            commands.bind_pipeline(
-                gpu::ComputeState{"tests/next_mirror.comp", {{"mirror_tree", by_tree ? 1u : 0u}}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/next_mirror.comp",
+                                                             {{"mirror_tree", by_tree ? 1u : 0u}}});
             commands.push_constants(static_cast<std::uint32_t>(rays.size()));
             commands.dispatch(static_cast<std::uint32_t>((rays.size() + 63) / 64), 1);
         });
-    graph.mark_output(out);
+    graph.mark_as_graph_output(out);
     test::run_graph(runner, graph);
     return test::read_resource_values<NextMirrorAnswer>(runner, out);
 }

@@ -17,7 +17,7 @@ TEST(Previous, ImageIsBlackInTheFirstFrameAndThenTheLastFrame) {
         EXPECT_EQ(graph.has_history(image), frame > 1);
         add_step_pass(graph, "step", graph.previous_contents(image), image,
                       static_cast<float>(frame));
-        graph.mark_output(image);
+        graph.mark_as_graph_output(image);
         test::run_graph(runner, graph);
         expected = expected_step_texels(expected, static_cast<float>(frame));
         EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
@@ -32,7 +32,7 @@ TEST(Previous, HistoryBelongsToItsRunner) {
         graph::Graph graph(runner.make_history());
         const graph::ImageHandle image = add_step_image(graph, "kept");
         add_step_pass(graph, "step", graph.previous_contents(image), image, 5);
-        graph.mark_output(image);
+        graph.mark_as_graph_output(image);
         test::run_graph(runner, graph);
         EXPECT_EQ(test::read_resource_values<float>(runner, image),
                   expected_step_texels(std::vector<float>(kStepImageWidth * kHeight, 0.0f), 5));
@@ -47,12 +47,12 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
         if (frame == 2) { // one image more, declared first, so the number of every image changes
             const graph::ImageHandle other = add_step_image(graph, "other");
             add_start_pass(graph, other, 1);
-            graph.mark_output(other);
+            graph.mark_as_graph_output(other);
         }
         const graph::ImageHandle image = add_step_image(graph, "kept");
         EXPECT_EQ(graph.has_history(image), frame > 1);
         add_step_pass(graph, "step", graph.previous_contents(image), image, 2);
-        graph.mark_output(image);
+        graph.mark_as_graph_output(image);
         test::run_graph(runner, graph);
         expected = expected_step_texels(expected, 2);
         EXPECT_EQ(test::read_resource_values<float>(runner, image), expected) << "frame " << frame;
@@ -64,14 +64,14 @@ TEST(Previous, HistorySurvivesAFrameOfAnotherShape) {
 graph::ImageHandle add_chain_of_steps(graph::Graph& graph, int length, bool apart) {
     graph::ImageHandle last = add_step_image(graph, "image0");
     add_start_pass(graph, last, 7);
-    if (apart) graph.mark_output(last);
+    if (apart) graph.mark_as_graph_output(last);
     for (int i = 1; i <= length; ++i) {
         const graph::ImageHandle next = add_step_image(graph, "image" + std::to_string(i));
         add_step_pass(graph, "step" + std::to_string(i), last, next, static_cast<float>(i));
-        if (apart) graph.mark_output(next);
+        if (apart) graph.mark_as_graph_output(next);
         last = next;
     }
-    graph.mark_output(last);
+    graph.mark_as_graph_output(last);
     return last;
 }
 

@@ -170,7 +170,7 @@ TEST(Specialise, CodeUnreachableWithTheConstantsIsRemoved) {
 
 /// A graph of one dispatch into a buffer of 16 words.
 void make_and_run_dispatch(
-    const gpu::ComputeState& state,
+    const gpu::ComputePipelineState& state,
     const std::function<void(graph::PassCommands&, graph::BufferHandle)>& prepare) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
     graph::Graph graph;
@@ -182,7 +182,7 @@ void make_and_run_dispatch(
             prepare(commands, buffer);
             commands.dispatch(1, 1);
         });
-    graph.mark_output(buffer);
+    graph.mark_as_graph_output(buffer);
     test::run_graph(runner, graph);
 }
 
@@ -204,12 +204,12 @@ TEST(Binding, ImageBoundAsABufferIsRefused) {
     graph.add_pass("mixed")
         .writes(image, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) {
-            commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
             commands.push_constants(1u);
             commands.bind_resource("Counts", image);
             commands.dispatch(1, 1);
         });
-    graph.mark_output(image);
+    graph.mark_as_graph_output(image);
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
                        {"pass 'mixed'", "'Counts'", "is a buffer, bound is an image"});
 }
@@ -222,7 +222,7 @@ TEST(Binding, UndeclaredResourceIsRefused) {
     graph.add_pass("sly")
         .writes(declared, graph::ResourceUse::storage_write)
         .record([=](graph::PassCommands& commands) { commands.bind_resource("Counts", other); });
-    graph.mark_output(declared);
+    graph.mark_as_graph_output(declared);
     test::expect_error([&] { test::run_graph(runner, graph); }, Failure::internal,
                        {"pass 'sly'", "'other'", "does not declare it"});
 }
@@ -248,9 +248,9 @@ TEST(Binding, UnknownConstantIsRefused) {
         Failure::internal, {"tests/spin.comp", "has no constant 'speed'"});
 }
 
-using SpirV = test::InFolder;
+using SpirvReflectionTest = test::InFolder;
 
-TEST_F(SpirV, EveryEmbeddedShaderIsValid) {
+TEST_F(SpirvReflectionTest, EveryEmbeddedShaderIsValid) {
     const auto path = folder / "shader.spv";
     for (const gpu::EmbeddedShader& shader : gpu::embedded_shaders()) {
         std::ofstream(path, std::ios::binary)

@@ -23,10 +23,10 @@ std::vector<std::byte> render_resident_scene(const render::GpuScene& scene,
     graph::Graph graph;
     const reflect::TechniqueOutputs outputs = test::add_technique(
         graph, {scene, kResidentPictureSize, ""}, technique);
-    graph.mark_output(outputs.hdr);
+    graph.mark_as_graph_output(outputs.hdr);
     scene.prepare_frame();
     test::run_graph(runner, graph);
-    return runner.read_resource(outputs.hdr);
+    return runner.read_back_resource(outputs.hdr);
 }
 
 /// A test room on the device whose objects, materials and camera tests change.
@@ -36,9 +36,9 @@ struct EditableResidentScene {
           resident(resident_test_device(), current_scene, slots) {}
     /// Writes the changes to the device. Returns the number of buffer writes.
     std::size_t write_changes_to_device(std::size_t slot = 0) {
-        const std::size_t before = resident.device_write_count();
+        const std::size_t before = resident.device_buffer_write_count();
         resident.update(current_scene, camera, kResidentPictureSize, ambient, slot);
-        return resident.device_write_count() - before;
+        return resident.device_buffer_write_count() - before;
     }
     dvec4& object_translation(std::size_t object) {
         return current_scene.objects[object].world_from_object[3];
@@ -231,20 +231,20 @@ std::vector<std::uint32_t> read_buffer_words(const gpu::GpuBuffer& buffer, std::
 /// The buffer that a slot binds must keep its content until that slot writes again.
 TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kListSlotCount = 3, kListWordCount = 9000;
-    render::DeviceDataList list("list", gpu::BufferUsage::plain, kListSlotCount);
+    render::DoubleBufferedDeviceList list("list", gpu::BufferUsage::plain, kListSlotCount);
     std::vector<std::uint32_t> current_words(kListWordCount, 1);
-    list.set_list_contents(current_words);
+    list.set_device_list_contents(current_words);
     for (std::size_t slot = 0; slot < kListSlotCount; ++slot)
-        list.write_changed_pages(resident_test_device(), slot);
+        list.upload_changed_pages(resident_test_device(), slot);
     EXPECT_EQ(list.device_copy_count(), 1u) << "nothing has changed: one copy";
     std::vector<std::vector<std::uint32_t>> bound(kListSlotCount, current_words);
     test::RandomNumbers numbers(6);
     for (std::size_t frame = 0; frame < 40; ++frame) {
         if (numbers.random_integer_below(3) > 0)
             current_words[numbers.random_integer_below(kListWordCount)] = numbers.random_word();
-        list.set_list_contents(current_words);
+        list.set_device_list_contents(current_words);
         const std::size_t slot = frame % kListSlotCount;
-        list.write_changed_pages(resident_test_device(), slot);
+        list.upload_changed_pages(resident_test_device(), slot);
         bound[slot] = current_words;
         for (std::size_t other = 0; other < kListSlotCount; ++other)
             ASSERT_EQ(read_buffer_words(list.buffer_of_device_copy(other), kListWordCount),
@@ -255,18 +255,18 @@ TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
 }
 
 TEST(Resident, OnlyChangedPartsOfABufferAreWritten) {
-    render::DeviceDataList list("list", gpu::BufferUsage::plain, 1);
+    render::DoubleBufferedDeviceList list("list", gpu::BufferUsage::plain, 1);
     std::vector<std::uint32_t> current_words(100000, 1);
-    list.set_list_contents(current_words);
-    EXPECT_EQ(list.write_changed_pages(resident_test_device(), 0), 1u);
+    list.set_device_list_contents(current_words);
+    EXPECT_EQ(list.upload_changed_pages(resident_test_device(), 0), 1u);
     current_words[10] = current_words[20] = current_words[60000] = 2;
-    list.set_list_contents(current_words);
-    EXPECT_EQ(list.write_changed_pages(resident_test_device(), 0), 2u);
+    list.set_device_list_contents(current_words);
+    EXPECT_EQ(list.upload_changed_pages(resident_test_device(), 0), 2u);
     EXPECT_EQ(read_buffer_words(list.buffer_of_device_copy(0), current_words.size()),
               current_words);
     current_words.resize(200000, 3);
-    list.set_list_contents(current_words);
-    list.write_changed_pages(resident_test_device(), 0);
+    list.set_device_list_contents(current_words);
+    list.upload_changed_pages(resident_test_device(), 0);
     EXPECT_EQ(read_buffer_words(list.buffer_of_device_copy(0), current_words.size()),
               current_words);
 }

@@ -376,7 +376,7 @@ TEST(Session, EngineCompilesEachPipelineOnce) {
     const auto begin = std::chrono::steady_clock::now();
     app::Engine engine({.device = test::read_wanted_device_name()});
     EXPECT_EQ(app::Access::compiled_pipelines(engine).pipelines, 0u);
-    EXPECT_EQ(app::Access::cache_use(engine), app::PipelineCacheState::none);
+    EXPECT_EQ(app::Access::pipeline_cache_state_of_engine(engine), app::PipelineCacheState::none);
     const app::FrameSpec spec = make_frame_spec(scene, "raytrace:depth=1");
     app::Session(engine, scene).frame(spec).times();
     const app::CompiledPipelines once = app::Access::compiled_pipelines(engine);

@@ -12,14 +12,14 @@ namespace {
 
 using namespace catoptric;
 
-class Staging : public testing::TestWithParam<bool> {
+class StagedUploadTest : public testing::TestWithParam<bool> {
 protected:
     gpu::GpuDevice& staging_device() { return test::get_test_device(GetParam()).device; }
 };
-INSTANTIATE_TEST_SUITE_P(Buffers, Staging, testing::Values(false, true),
+INSTANTIATE_TEST_SUITE_P(Buffers, StagedUploadTest, testing::Values(false, true),
                          [](const auto& instance) { return instance.param ? "staged" : "mapped"; });
 
-TEST_P(Staging, BufferReturnsTheWrittenData) {
+TEST_P(StagedUploadTest, BufferReturnsTheWrittenData) {
     ASSERT_EQ(staging_device().needs_staged_uploads(), GetParam());
     std::vector<std::uint32_t> words(1000);
     std::iota(words.begin(), words.end(), 17u);
@@ -33,7 +33,7 @@ TEST_P(Staging, BufferReturnsTheWrittenData) {
     EXPECT_EQ(std::memcmp(read.data(), words.data(), read.size()), 0);
 }
 
-TEST_P(Staging, WriteBeyondTheEndIsRefused) {
+TEST_P(StagedUploadTest, WriteBeyondTheEndIsRefused) {
     gpu::GpuBuffer buffer(staging_device(), "short", 32, gpu::BufferUsage::plain);
     const std::vector<std::uint32_t> words(5);
     test::expect_error([&] { buffer.write_contents(16, std::as_bytes(std::span(words))); },
@@ -43,7 +43,7 @@ TEST_P(Staging, WriteBeyondTheEndIsRefused) {
 
 /// Tests the limit on texels, which is checked before memory is allocated. The limit counts texels,
 /// whether a texel is one word or four floats.
-TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
+TEST_P(StagedUploadTest, MoreTexelsThanTheDeviceAllowsAreRefused) {
     for (const auto& [use, bytes] : {std::pair{gpu::BufferUsage::words, 4u},
                                      {gpu::BufferUsage::quads, 16u},
                                      {gpu::BufferUsage::texels, 16u}}) {
@@ -56,7 +56,7 @@ TEST_P(Staging, MoreTexelsThanTheDeviceAllowsAreRefused) {
     }
 }
 
-TEST_P(Staging, EmptyBufferCanBeMadeAndWritten) {
+TEST_P(StagedUploadTest, EmptyBufferCanBeMadeAndWritten) {
     gpu::GpuBuffer buffer;
     gpu::upload_to_buffer(staging_device(), buffer, "empty", std::vector<float>{},
                           gpu::BufferUsage::plain);
@@ -64,7 +64,7 @@ TEST_P(Staging, EmptyBufferCanBeMadeAndWritten) {
     EXPECT_GE(buffer.size_in_bytes(), 16u);
 }
 
-TEST_P(Staging, UploadGrowsTheBuffer) {
+TEST_P(StagedUploadTest, UploadGrowsTheBuffer) {
     gpu::GpuBuffer buffer;
     gpu::upload_to_buffer(staging_device(), buffer, "list", std::vector<std::uint32_t>(10, 5u),
                           gpu::BufferUsage::plain);
@@ -75,7 +75,7 @@ TEST_P(Staging, UploadGrowsTheBuffer) {
 }
 
 /// The write of 40 MB is larger than the staging ring.
-TEST_P(Staging, LargeWritesArriveWhole) {
+TEST_P(StagedUploadTest, LargeWritesArriveWhole) {
     std::vector<std::uint32_t> words(10'000'003);
     std::iota(words.begin(), words.end(), 3u);
     gpu::GpuBuffer buffer(staging_device(), "large", 4 * words.size(), gpu::BufferUsage::plain);
@@ -83,7 +83,7 @@ TEST_P(Staging, LargeWritesArriveWhole) {
     EXPECT_EQ(std::memcmp(buffer.read_contents().data(), words.data(), 4 * words.size()), 0);
 }
 
-TEST_P(Staging, OverlappingWritesHappenInOrder) {
+TEST_P(StagedUploadTest, OverlappingWritesHappenInOrder) {
     std::vector<std::uint32_t> expected(1000, 0u);
     gpu::GpuBuffer buffer(staging_device(), "list", 4 * expected.size(), gpu::BufferUsage::plain);
     buffer.write_contents(std::span<const std::uint32_t>(expected));
@@ -100,7 +100,7 @@ TEST_P(Staging, OverlappingWritesHappenInOrder) {
 
 /// Tests that a buffer can be destroyed or replaced right after a write. Its pending copies on the
 /// device are finished first.
-TEST_P(Staging, BufferCanBeDestroyedRightAfterAWrite) {
+TEST_P(StagedUploadTest, BufferCanBeDestroyedRightAfterAWrite) {
     const std::vector<std::uint32_t> words(50'000, 7u);
     gpu::GpuBuffer kept(staging_device(), "kept", 4 * words.size(), gpu::BufferUsage::plain);
     for (int k = 0; k < 5; ++k) {
@@ -131,7 +131,7 @@ TEST(StagedScene, PictureEqualsThatOfMappedBuffers) {
         const render::FrameInputs inputs{gpu_scene, {48, 32}, ""};
         const render::ShadingLights lighting{render::add_shadow_passes(graph, inputs, 64)};
         const graph::ImageHandle hdr = render::add_camera_view(graph, inputs, lighting, {}).hdr;
-        graph.mark_output(hdr);
+        graph.mark_as_graph_output(hdr);
         test::run_graph(runner, graph);
         return test::read_resource_values<float>(runner, hdr);
     };

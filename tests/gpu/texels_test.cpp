@@ -75,11 +75,11 @@ TEST(Texels, EveryMemberOfAStructureIsRead) {
             commands.bind_resource("attribute_texels", attribute_list);
             commands.bind_resource("texture_words", texture_list);
             commands.bind_resource("Words", output);
-            commands.bind_pipeline(gpu::ComputeState{"tests/texels.comp", {}});
+            commands.bind_pipeline(gpu::ComputePipelineState{"tests/texels.comp", {}});
             commands.push_constants(kAskedStructCount);
             commands.dispatch(1, 1);
         });
-    graph.mark_output(output);
+    graph.mark_as_graph_output(output);
     test::run_graph(runner, graph);
     EXPECT_EQ(test::read_resource_values<std::uint32_t>(runner, output), expected);
 }

@@ -29,11 +29,11 @@ void expect_passes_in_order(const app::FrameTimes& frame) {
     EXPECT_GT(frame.record_ms, 0);
 }
 
-class Closing : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Frames, Closing, testing::Values("raytrace", "reuse"),
+class SessionClosingTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Frames, SessionClosingTest, testing::Values("raytrace", "reuse"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-TEST_P(Closing, IsolatedPassesAddUpToTheFrame) {
+TEST_P(SessionClosingTest, IsolatedPassesAddUpToTheFrame) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(), {GetParam()},
                                                    {384, 384});
     request.warmup = 2, request.frames = 7;
@@ -107,13 +107,13 @@ TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
             graph.add_pass((i % 2 ? "four/" : "one/") + std::to_string(i))
                 .writes(counts, graph::ResourceUse::storage)
                 .record([=](graph::PassCommands& commands) {
-                    commands.bind_pipeline(gpu::ComputeState{"tests/spin.comp", {}});
+                    commands.bind_pipeline(gpu::ComputePipelineState{"tests/spin.comp", {}});
                     commands.bind_resource("Counts", counts);
                     commands.push_constants(4000u);
                     commands.dispatch(groups, 1);
                 });
         }
-        graph.mark_output(counts);
+        graph.mark_as_graph_output(counts);
         const graph::GraphFrameTimes times = test::run_graph(runner, graph);
         if (frame < 2) continue;
         for (const graph::GraphPassTime& pass : times.passes) {

@@ -5,7 +5,7 @@
 
 namespace {
 
-class SmallLimits : public Cli {
+class SmallDeviceLimitsTest : public CommandLineTest {
 protected:
     test::ProcessResult run_on_small_device(const Words& words) const {
         test::ProcessStartOptions process = make_process_start(words);
@@ -31,19 +31,19 @@ protected:
 
 /// The three scenes fill every texel buffer: surfaces, mirrors and their tree, attributes,
 /// textures, the environment and the BVH.
-TEST_F(SmallLimits, RayTracerDrawsTheSamePicture) {
+TEST_F(SmallDeviceLimitsTest, RayTracerDrawsTheSamePicture) {
     for (const std::string scene : {"cornell-mirrors", "room", "courtyard"})
         expect_same_picture({"render", scene, "--technique", "raytrace"});
 }
 
-TEST_F(SmallLimits, HalfFloatDistancesGiveTheSamePicture) {
+TEST_F(SmallDeviceLimitsTest, HalfFloatDistancesGiveTheSamePicture) {
     expect_same_picture({"render", "gallery", "--technique", "naive:face=32"});
     expect_same_picture({"render", "cornell-mirrors", "--technique", "layered:face=32"});
 }
 
 /// The small device cannot filter 32-bit floats, so the shader filters distances. Its rounding
 /// differs from the driver's.
-TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
+TEST_F(SmallDeviceLimitsTest, FilteredDistancesGiveNearlyTheSamePicture) {
     for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
         Words words = with_small_quick_frame(
             {"render", "--technique", technique + ":face=64", "--validate"});
@@ -57,7 +57,7 @@ TEST_F(SmallLimits, FilteredDistancesGiveNearlyTheSamePicture) {
 }
 
 /// 30,000 triangles have 90,000 corners, more than a texel buffer of the small device can hold.
-TEST_F(SmallLimits, SceneOfManyTrianglesIsDrawn) {
+TEST_F(SmallDeviceLimitsTest, SceneOfManyTrianglesIsDrawn) {
     std::string text = "mtllib m.mtl\nusemtl white\n";
     for (int i = 0; i < 30000; ++i) {
         const double x = i % 200 / 100.0 - 1, y = i / 200 / 75.0 - 1;
@@ -71,7 +71,7 @@ TEST_F(SmallLimits, SceneOfManyTrianglesIsDrawn) {
 
 /// The small device blends all attachments of a pass alike, so surfaces of an alpha below .5 are
 /// cut out, in rasterised and in traced pictures.
-TEST_F(SmallLimits, BlendedSurfacesAreCutAtHalf) {
+TEST_F(SmallDeviceLimitsTest, BlendedSurfacesAreCutAtHalf) {
     const std::string wall = "mtllib m.mtl\nv -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\n"
                              "usemtl white\nf 1 2 3 4\n",
                       veil = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl veil\nf 5 6 7 8\n";
@@ -93,7 +93,7 @@ TEST_F(SmallLimits, BlendedSurfacesAreCutAtHalf) {
     }
 }
 
-TEST_F(SmallLimits, ColourOf32BitFloatsIsRefused) {
+TEST_F(SmallDeviceLimitsTest, ColourOf32BitFloatsIsRefused) {
     expect_exit_code(
         run_on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}), 69,
         {"colour=float filters images of 32-bit floats", "take colour=half"});

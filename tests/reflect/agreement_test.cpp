@@ -10,22 +10,25 @@ namespace {
 
 using namespace catoptric;
 
-struct AgreementSides {
+struct RasterTracerBothSidesTest {
     const char *name, *raster, *traced;
     double most; ///< largest rmse allowed
-    friend void PrintTo(const AgreementSides& sides, std::ostream* out) { *out << sides.name; }
+    friend void PrintTo(const RasterTracerBothSidesTest& sides, std::ostream* out) {
+        *out << sides.name;
+    }
 };
-class Agreement : public testing::TestWithParam<AgreementSides> {};
-INSTANTIATE_TEST_SUITE_P(Shadows, Agreement,
-                         testing::Values(AgreementSides{"map_and_ray", "naive:bounces=0",
-                                                        "raytrace:depth=16", .003},
-                                         AgreementSides{"none", "naive:bounces=0,shadow=none",
-                                                        "raytrace:depth=16,shadow=none", 5e-4},
-                                         AgreementSides{"map_on_both", "naive:bounces=0",
-                                                        "raytrace:depth=16,shadow=map", 5e-4}),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+class RasterTracerAgreementTest : public testing::TestWithParam<RasterTracerBothSidesTest> {};
+INSTANTIATE_TEST_SUITE_P(
+    Shadows, RasterTracerAgreementTest,
+    testing::Values(RasterTracerBothSidesTest{"map_and_ray", "naive:bounces=0", "raytrace:depth=16",
+                                              .003},
+                    RasterTracerBothSidesTest{"none", "naive:bounces=0,shadow=none",
+                                              "raytrace:depth=16,shadow=none", 5e-4},
+                    RasterTracerBothSidesTest{"map_on_both", "naive:bounces=0",
+                                              "raytrace:depth=16,shadow=map", 5e-4}),
+    [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Agreement, RasterisationEqualsRayTracingBesideMirrors) {
+TEST_P(RasterTracerAgreementTest, RasterisationEqualsRayTracingBesideMirrors) {
     const auto& [name, raster, traced, most] = GetParam();
     for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(2, 2)}) {
         const app::TechniqueResult truth = test::render_technique(scene, traced, {512, 512});
@@ -103,7 +106,7 @@ double share_of_pixels_off_outside_mirrors(const app::TechniqueResult& raster,
         const vec3 apart = abs(clamp(raster.hdr.pixels[i], 0.0f, 1.0f) -
                                clamp(traced.hdr.pixels[i], 0.0f, 1.0f));
         off += !(std::max({apart.x, apart.y, apart.z}) <=
-                 static_cast<float>(measure::kVisibleDifference));
+                 static_cast<float>(measure::kMaxInvisibleChannelDifference));
     }
     return static_cast<double>(off) / static_cast<double>(traced.hits.size());
 }

@@ -15,13 +15,13 @@ struct AnalyticCase {
         *out << test_case.name;
     }
 };
-class Analytic : public testing::TestWithParam<AnalyticCase> {};
-INSTANTIATE_TEST_SUITE_P(Rooms, Analytic,
+class AnalyticPictureTest : public testing::TestWithParam<AnalyticCase> {};
+INSTANTIATE_TEST_SUITE_P(Rooms, AnalyticPictureTest,
                          testing::Values(AnalyticCase{"one_ball", 1, 1},
                                          AnalyticCase{"three_balls_two_lamps", 3, 2}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Analytic, PictureEqualsTheDoublePrecisionTracer) {
+TEST_P(AnalyticPictureTest, PictureEqualsTheDoublePrecisionTracer) {
     constexpr uvec2 kAnalyticPictureSize{128, 128};
     constexpr int kMaxReflections = 8;
     const scene::Scene room = test::make_lit_room(GetParam().mirrors, GetParam().lights);

@@ -13,9 +13,9 @@ using Names = std::vector<std::string>;
 
 /// Renders frames of `parallax` in a test room with three mirror balls. Tests edit `model_`, which
 /// says what the next frame requires.
-class KeptFrames : public testing::Test {
+class CaptureCacheFramesTest : public testing::Test {
 protected:
-    KeptFrames() {
+    CaptureCacheFramesTest() {
         scene_.update(room_, room_.cameras.front(), kCachedPictureSize, .05);
         model_ = require::make_required_model({room_, room_.cameras.front(), kCachedPictureSize});
     }
@@ -23,11 +23,11 @@ protected:
     /// Renders a frame and returns the names of its passes, except `view` and `compose`.
     Names render_and_list_passes(const std::string& technique = "parallax:face=8") {
         graph::Graph graph(runner_.make_history());
-        const reflect::MirrorAssignment assignment = reflect::assign_techniques_to_mirrors(
+        const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
             reflect::parse_plan(technique), std::vector<std::string>(3, "ball"));
         outputs_ = reflect::add_frame_passes(graph, {*shown_, kCachedPictureSize, ""}, assignment,
                                              {model_, kept_, &comparisons_, most_});
-        graph.mark_output(outputs_.hdr);
+        graph.mark_as_graph_output(outputs_.hdr);
         runner_.run_and_wait(graph, graph::PassTiming::isolated);
         kept_ = outputs_.kept;
         if (learns_)
@@ -48,8 +48,8 @@ protected:
     std::vector<std::byte> read_capture_colours(std::uint32_t mirror, std::uint32_t face = 0,
                                                 std::uint32_t count = 6) {
         const auto& [array, cube] = outputs_.captures->places[mirror];
-        return runner_.read_resource(
-            outputs_.captures->arrays[array].colour.select_layers(6 * cube + face, count));
+        return runner_.read_back_resource(
+            outputs_.captures->arrays[array].colour.select_image_layers(6 * cube + face, count));
     }
 
     static constexpr uvec2 kCachedPictureSize{32, 24};
@@ -57,7 +57,7 @@ protected:
     scene::Scene room_ = test::make_lit_room(3, 2);
     render::GpuScene scene_{bench_.device, room_};
     render::GpuScene* shown_ = &scene_; ///< the scene that the frames show
-    render::ComparisonBuffers comparisons_{
+    render::CaptureComparisonBufferPool comparisons_{
         bench_.device, [this](std::uint64_t frame) { return runner_.has_ended({frame}); }};
     graph::GraphRunner runner_{bench_.device, bench_.pipelines};
     require::RequiredWorkModel model_;
@@ -67,7 +67,7 @@ protected:
     reflect::TechniqueOutputs outputs_;
 };
 
-TEST_F(KeptFrames, FacesWithAChangedContentHashAreDrawn) {
+TEST_F(CaptureCacheFramesTest, FacesWithAChangedContentHashAreDrawn) {
     // Without this loop, mirrors that see mirror 1 would be drawn as well.
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     render_until_kept();
@@ -87,11 +87,11 @@ TEST_F(KeptFrames, FacesWithAChangedContentHashAreDrawn) {
 // Tests that a frame draws only the part of a face in which something moved. The ambient light
 // changes too, but the model does not say so. Each texel therefore tells by its brightness whether
 // the frame has drawn the texel.
-TEST_F(KeptFrames, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
+TEST_F(CaptureCacheFramesTest, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
     const std::string technique = "parallax:face=32";
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     const auto tell = [&](std::uint64_t content_hash, const require::CubeFacePart& part) {
-        const auto pieces = std::make_shared<require::MovingFacePieces>();
+        const auto pieces = std::make_shared<require::MovingObjectFaceParts>();
         pieces->faces[5] = {{content_hash, part}};
         model_.mirrors[0].pieces = pieces;
         model_.mirrors[0].content_hashes[5] += 1;
@@ -137,7 +137,7 @@ TEST_F(KeptFrames, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
 
 // Tests the pyramid, a tree of bounds of the captured distances. It must be made again for all six
 // faces of a mirror when a frame draws one of them.
-TEST_F(KeptFrames, PyramidIsMadeAgainWhenAFaceIsDrawn) {
+TEST_F(CaptureCacheFramesTest, PyramidIsMadeAgainWhenAFaceIsDrawn) {
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     const std::string pyramid = "pyramid:face=8";
     EXPECT_EQ(render_and_list_passes(pyramid).back(), "pyramid");
@@ -156,7 +156,7 @@ TEST_F(KeptFrames, PyramidIsMadeAgainWhenAFaceIsDrawn) {
 
 // Tests the filtered levels of captures: a frame filters the levels of redrawn captures alone, and
 // nothing is filtered at rest.
-TEST_F(KeptFrames, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
+TEST_F(CaptureCacheFramesTest, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
     test::make_mirrors_rough(room_, .3f);
     render::GpuScene rough(bench_.device, room_);
     rough.update(room_, room_.cameras.front(), kCachedPictureSize, .05);
@@ -178,7 +178,7 @@ TEST_F(KeptFrames, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
     EXPECT_EQ(render_and_list_passes("parallax:face=8,rough=mips").back(), "rough/mips/boxes");
 }
 
-TEST_F(KeptFrames, FacesThatNobodyReadsAreCleared) {
+TEST_F(CaptureCacheFramesTest, FacesThatNobodyReadsAreCleared) {
     model_.mirrors[1].faces = 0b000110;
     const Names first = render_and_list_passes();
     EXPECT_EQ(first, (Names{"shadow/1", "shadow/2", "capture/1", "capture/2.2-3",
@@ -188,17 +188,17 @@ TEST_F(KeptFrames, FacesThatNobodyReadsAreCleared) {
         return byte == std::byte{0} || byte == std::byte{0x3c}; // half floats of black with alpha 1
     }));
     render_until_kept();
-    model_.mirrors[1].faces = require::kAllFaceBits;
+    model_.mirrors[1].faces = require::kAllCubeFaceBits;
     const Names names = render_and_list_passes();
     EXPECT_TRUE(std::ranges::find(names, "capture/2.4-6") != names.end()) << "now they are";
     render_until_kept();
     const std::vector<std::byte> late = read_capture_colours(1);
-    kept_ = nullptr, runner_.discard_contents();
+    kept_ = nullptr, runner_.discard_persistent_image_contents();
     render_until_kept();
     EXPECT_EQ(late, read_capture_colours(1));
 }
 
-TEST_F(KeptFrames, MirrorsThatAreCapturedLaterAreAdded) {
+TEST_F(CaptureCacheFramesTest, MirrorsThatAreCapturedLaterAreAdded) {
     model_.mirrors[1].is_captured = false;
     const Names first = render_and_list_passes();
     EXPECT_EQ(first, (Names{"shadow/1", "shadow/2", "capture.a.table", "capture/1", "capture/3"}));
@@ -219,13 +219,13 @@ TEST_F(KeptFrames, MirrorsThatAreCapturedLaterAreAdded) {
     render_until_kept();
     model_.mirrors[1].is_captured = true;
     render_until_kept();
-    kept_ = nullptr, runner_.discard_contents();
+    kept_ = nullptr, runner_.discard_persistent_image_contents();
     render_until_kept();
     for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
         EXPECT_EQ(late[mirror], read_capture_colours(mirror)) << mirror;
 }
 
-TEST_F(KeptFrames, MirrorsTakeTurnsUnderACaptureBudget) {
+TEST_F(CaptureCacheFramesTest, MirrorsTakeTurnsUnderACaptureBudget) {
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     const auto change = [&](std::initializer_list<std::size_t> mirrors) {
         for (const std::size_t mirror : mirrors) model_.mirrors[mirror].content_hashes[5] += 1;
@@ -255,7 +255,7 @@ TEST_F(KeptFrames, MirrorsTakeTurnsUnderACaptureBudget) {
 // Mirror 1 changes while the redraw of mirror 2, which shows mirror 1, is put off. Mirror 2 must
 // still be drawn, although mirror 1 no longer changes. A mirror that comes into view is drawn at
 // once, beyond the budget.
-TEST_F(KeptFrames, MirrorsThatWaitAreDrawnThoughTheirCauseHasEnded) {
+TEST_F(CaptureCacheFramesTest, MirrorsThatWaitAreDrawnThoughTheirCauseHasEnded) {
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     model_.mirrors[1].sees = {0}, model_.mirrors[2].sees = {0};
     render_until_kept();
@@ -278,7 +278,7 @@ TEST_F(KeptFrames, MirrorsThatWaitAreDrawnThoughTheirCauseHasEnded) {
     EXPECT_EQ(render_and_list_passes(), (Names{"capture.keep", "capture/1", "capture/2"}));
 }
 
-TEST_F(KeptFrames, BudgetIsRefusedBeforeChangesAreKnown) {
+TEST_F(CaptureCacheFramesTest, BudgetIsRefusedBeforeChangesAreKnown) {
     render_and_list_passes();
     learns_ = false;
     render_and_list_passes(); // this frame compares captures, and no one reads the result
@@ -287,7 +287,7 @@ TEST_F(KeptFrames, BudgetIsRefusedBeforeChangesAreKnown) {
                        {"captures 'capture' are put off before it is known what changed"});
 }
 
-TEST_F(KeptFrames, OnlyShadowMapsThatAreNeededAreDrawn) {
+TEST_F(CaptureCacheFramesTest, OnlyShadowMapsThatAreNeededAreDrawn) {
     model_.lights[1].has_map = false;
     render_until_kept();
     model_.lights[0].content_hash += 1;

@@ -101,11 +101,11 @@ std::vector<app::TechniqueInfo> list_capturing_techniques() {
     return list;
 }
 
-class EveryCause : public testing::TestWithParam<app::TechniqueInfo> {};
-INSTANTIATE_TEST_SUITE_P(Table, EveryCause, testing::ValuesIn(list_capturing_techniques()),
+class EveryErrorCauseTest : public testing::TestWithParam<app::TechniqueInfo> {};
+INSTANTIATE_TEST_SUITE_P(Table, EveryErrorCauseTest, testing::ValuesIn(list_capturing_techniques()),
                          [](const auto& instance) { return instance.param.name; });
 
-TEST_P(EveryCause, CausesAddUpToTheWholeErrorOfEachTechnique) {
+TEST_P(EveryErrorCauseTest, CausesAddUpToTheWholeErrorOfEachTechnique) {
     const ErrorCauseSplit found = split_error_by_causes(
         test::replace_balls_by_coarse_balls(scene::make_cornell_mirrors()),
         test::technique_with_knobs(GetParam(), {{"face", "32"}, {"shadow_map", "256"}}),
@@ -302,7 +302,7 @@ TEST(Causes, CauseThatCannotOccurHasNoShare) {
 TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     const ErrorCauseSplit found = split_error_by_causes(scene::make_cornell_mirrors(),
                                                         "parallax:face=64");
-    const auto number_of = [&](const std::string& name) {
+    const auto read_json_number_member = [&](const std::string& name) {
         return &found.find_cause(name) - found.causes.list.data() + 1;
     };
     const std::vector<std::uint8_t>& painted = found.causes.largest;
@@ -311,11 +311,11 @@ TEST(Causes, LargestCausesArePaintedOnlyWhereTheyCanOccur) {
     for (std::size_t i = 0; i < painted.size(); ++i) {
         if (painted[i] == 0) continue;
         EXPECT_TRUE(measure::first_mirror_of_hit_word(found.hits[i])) << "pixel " << i;
-        if (painted[i] == number_of("mirror in mirror")) {
+        if (painted[i] == read_json_number_member("mirror in mirror")) {
             EXPECT_TRUE(measure::second_mirror_of_hit_word(found.hits[i])) << "pixel " << i;
             ++mirrored;
         }
-        by_direction += painted[i] == number_of("direction");
+        by_direction += painted[i] == read_json_number_member("direction");
     }
     EXPECT_GT(mirrored, 20u);
     EXPECT_GT(by_direction, 50u);

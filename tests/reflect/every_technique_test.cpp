@@ -18,7 +18,7 @@ using namespace catoptric;
 
 constexpr uvec2 kEveryTechniquePictureSize{48, 48};
 
-class EveryTechnique : public testing::TestWithParam<app::TechniqueInfo> {
+class EveryTechniqueTest : public testing::TestWithParam<app::TechniqueInfo> {
 protected:
     /// Returns the technique with small captures and small shadow maps, if it has these knobs, and
     /// with `settings`.
@@ -32,7 +32,7 @@ protected:
         return test::technique_with_knobs(GetParam(), settings);
     }
 };
-INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::techniques()),
+INSTANTIATE_TEST_SUITE_P(Table, EveryTechniqueTest, testing::ValuesIn(app::techniques()),
                          [](const auto& instance) { return instance.param.name; });
 
 /// Relative error allowed in pictures of a furnace, a box that emits the same light everywhere. Its
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(app::technique
 /// rounding.
 constexpr float kFurnaceTolerance = 0x1p-10f;
 
-TEST_P(EveryTechnique, MirrorInAFurnaceShowsTheFurnace) {
+TEST_P(EveryTechniqueTest, MirrorInAFurnaceShowsTheFurnace) {
     const measure::Picture picture = test::render_technique(test::make_furnace_scene(1),
                                                             technique_with_small_captures(),
                                                             kEveryTechniquePictureSize, 3)
@@ -69,7 +69,7 @@ double dark_pixel_share(const scene::Scene& furnace, const std::string& techniqu
     return static_cast<double>(dark) / static_cast<double>(picture.pixels.size());
 }
 
-TEST_P(EveryTechnique, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
+TEST_P(EveryTechniqueTest, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
     const scene::Scene furnace = test::make_furnace_scene(2);
     const auto expect_falling_share = [&](const std::string& what,
                                           const std::function<double(int)>& share_at) {
@@ -93,7 +93,7 @@ TEST_P(EveryTechnique, MirrorsInAFurnaceGrowNoDarkerWithFramesOrBounces) {
             });
 }
 
-TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
+TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {1, 0}, {1, 1}, {2, 3}, {3, 1}})
         for (const app::KnobInfo& knob : GetParam().knobs) {
             // Test each choice of a knob, and a number between its limits, because the number of
@@ -113,7 +113,7 @@ TEST_P(EveryTechnique, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                 // another technique.
                 const std::size_t balls = static_cast<std::size_t>(mirrors);
                 const reflect::TechniqueChoice choice =
-                    reflect::replace_unfit_techniques(
+                    reflect::replace_techniques_unfit_for_mirror(
                         reflect::assign_techniques_to_mirrors(
                             reflect::parse_plan(text), std::vector<std::string>(balls, "ball")),
                         std::vector<scene::FlatFaces>(balls), 0)
@@ -147,7 +147,7 @@ std::vector<std::string> list_extreme_knob_values(const app::KnobInfo& knob) {
     return values;
 }
 
-TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
+TEST_P(EveryTechniqueTest, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
     const scene::Scene room = test::make_lit_room(2, 1);
     for (const app::KnobInfo& knob : GetParam().knobs)
         for (const std::string& value : list_extreme_knob_values(knob)) {
@@ -167,7 +167,7 @@ TEST_P(EveryTechnique, PixelsAreFiniteAndNotNegativeAtTheLimitsOfEachKnob) {
         }
 }
 
-TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
+TEST_P(EveryTechniqueTest, TwoRunsRenderTheSameBytes) {
     app::Request request = test::make_test_request(scene::make_cornell_mirrors(),
                                                    {technique_with_small_captures()},
                                                    kEveryTechniquePictureSize);
@@ -186,7 +186,7 @@ TEST_P(EveryTechnique, TwoRunsRenderTheSameBytes) {
 
 /// A technique without history must render its best picture in the first frame. With history,
 /// mirrors seen in mirrors start black.
-TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
+TEST_P(EveryTechniqueTest, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
     const std::string text = technique_with_small_captures({{"continue", "0"}});
     const app::TechniqueResult first = test::render_technique(test::make_lit_room(3, 1), text,
                                                               kEveryTechniquePictureSize),
@@ -196,7 +196,7 @@ TEST_P(EveryTechnique, SecondFrameDiffersExactlyIfTheTechniqueHasHistory) {
     EXPECT_EQ(test::have_equal_pixel_bytes(first.hdr, second.hdr), !first.remembers);
 }
 
-TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
+TEST_P(EveryTechniqueTest, EachPlannedPassHasOneTime) {
     app::Request request = test::make_test_request(
         test::make_lit_room(2, 2), {technique_with_small_captures()}, kEveryTechniquePictureSize);
     request.frames = 3;
@@ -217,7 +217,7 @@ TEST_P(EveryTechnique, EachPlannedPassHasOneTime) {
     }
 }
 
-TEST_P(EveryTechnique, ScenesWithoutMirrorsOrLightsAreRendered) {
+TEST_P(EveryTechniqueTest, ScenesWithoutMirrorsOrLightsAreRendered) {
     for (const auto& [mirrors, lights] : {std::pair{0, 1}, {2, 0}, {0, 0}}) {
         const app::TechniqueResult part = test::render_technique(
             test::make_lit_room(mirrors, lights), technique_with_small_captures(), {24, 24}, 2);

@@ -12,7 +12,8 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kExactSpheresPictureSize{64, 48};
-const std::string kExact = "raytrace:sphere=exact,depth=3", kMesh = "raytrace:depth=3";
+const std::string kExactSphereTechnique = "raytrace:sphere=exact,depth=3",
+                  kMesh = "raytrace:depth=3";
 
 measure::Picture render_exact_sphere_picture(const scene::Scene& scene,
                                              const std::string& technique) {
@@ -34,8 +35,9 @@ TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
             if (step == 3) session.change(scene::move(ball(2), place));
             scene = session.scene();
         }
-        const std::string first = step % 2 ? kExact : kMesh, second = step % 2 ? kMesh : kExact;
-        for (const std::string& technique : {first, second, kExact})
+        const std::string first = step % 2 ? kExactSphereTechnique : kMesh,
+                          second = step % 2 ? kMesh : kExactSphereTechnique;
+        for (const std::string& technique : {first, second, kExactSphereTechnique})
             EXPECT_TRUE(test::have_equal_pixel_bytes(
                 session.frame(test::make_test_request(scene, {technique}, kExactSpheresPictureSize))
                     .hdr(0),
@@ -76,7 +78,7 @@ TEST(ExactSpheres, SpheresEqualTheirMeshesExceptAtOutlines) {
     int off = 0;
     for (std::size_t i = 0; i < exact.pixels.size(); ++i)
         off += !(test::max_channel_difference(exact.pixels[i], mesh.pixels[i]) <=
-                 float(measure::kVisibleDifference));
+                 float(measure::kMaxInvisibleChannelDifference));
     EXPECT_LE(off, 120);
 }
 

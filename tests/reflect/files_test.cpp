@@ -19,11 +19,11 @@ std::filesystem::path path_of_shipped_file(const std::string& ending) {
     return test::source_folder() / "samples/scenes" / ("cornell-mirrors." + ending);
 }
 
-class Shipped : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Files, Shipped, testing::Values("glb", "obj"),
+class ShippedSceneFileTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Files, ShippedSceneFileTest, testing::Values("glb", "obj"),
                          [](const auto& instance) { return std::string(instance.param); });
 
-TEST_P(Shipped, FileRendersAsTheBuiltInScene) {
+TEST_P(ShippedSceneFileTest, FileRendersAsTheBuiltInScene) {
     const scene::Scene built_in = scene::make_cornell_mirrors();
     const scene::Scene loaded = scene::load(path_of_shipped_file(GetParam()));
     for (const char* technique : {"raytrace", "parallax"})
@@ -76,11 +76,11 @@ std::string put_roots_below_node_chain(const std::string& glb, int depth) {
     return bytes;
 }
 
-using Nested = test::InFolder;
+using NestedGltfNodesTest = test::InFolder;
 
 /// Stress case N4: below a thousand nested nodes the scene is about 7 times as large and far away.
 /// The picture must stay the same.
-TEST_F(Nested, SceneBelowAThousandNodesRendersTheSame) {
+TEST_F(NestedGltfNodesTest, SceneBelowAThousandNodesRendersTheSame) {
     std::ifstream file(path_of_shipped_file("glb"), std::ios::binary);
     const std::string glb((std::istreambuf_iterator<char>(file)), {});
     const std::filesystem::path path = folder / "nested.glb";

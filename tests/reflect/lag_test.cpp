@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using measure::Difference;
 
 constexpr uvec2 kLagPictureSize{64, 64};
-constexpr auto kFlipMetric = &Difference::flip, kRmse = &Difference::rmse;
+constexpr auto kFlipMetric = &Difference::flip, kRmseMember = &Difference::rmse;
 
 app::LagRequest make_lag_request(const scene::Scene& scene,
                                  const std::vector<std::string>& techniques,
@@ -46,15 +46,18 @@ void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t 
         EXPECT_EQ(row.restless_stills, 0) << row.label;
         ASSERT_EQ(row.speeds.size(), speeds) << row.label;
         for (const report::LagAtSpeed& at : row.speeds) {
-            for (const auto figure : {kFlipMetric, &Difference::off, &Difference::mae, kRmse}) {
-                const std::vector<double> errors = measure::list_metric_values(at.errors, figure);
+            for (const auto figure :
+                 {kFlipMetric, &Difference::off, &Difference::mae, kRmseMember}) {
+                const std::vector<double> errors = measure::list_error_metric_at_instants(at.errors,
+                                                                                          figure);
                 EXPECT_THAT(errors, testing::Each(0.0)) << row.label << " at " << at.speed;
                 EXPECT_EQ(errors.size(), lag.seconds.size());
-                EXPECT_EQ(measure::list_metric_values(at.reference_errors, figure),
-                          measure::list_metric_values(row.still_reference_errors, figure))
+                EXPECT_EQ(
+                    measure::list_error_metric_at_instants(at.reference_errors, figure),
+                    measure::list_error_metric_at_instants(row.still_reference_errors, figure))
                     << row.label << " at " << at.speed;
             }
-            EXPECT_EQ(measure::percentile_over_instants(at.errors, kFlipMetric, 1), 0);
+            EXPECT_EQ(measure::percentile_error_over_instants(at.errors, kFlipMetric, 1), 0);
         }
     }
 }
@@ -108,9 +111,9 @@ TEST(Lag, LagGrowsWithSpeed) {
     ASSERT_EQ(lag.rows.size(), 1u);
     const std::vector<report::LagAtSpeed>& speeds = lag.rows[0].speeds;
     ASSERT_EQ(speeds.size(), 3u);
-    for (const auto figure : {kRmse, kFlipMetric}) {
+    for (const auto figure : {kRmseMember, kFlipMetric}) {
         const auto mean = [&](std::size_t i) {
-            return measure::mean_over_instants(speeds[i].errors, figure);
+            return measure::mean_error_over_instants(speeds[i].errors, figure);
         };
         std::cout << "[ MEASURED ] lag of reuse, " << (figure == kFlipMetric ? "FLIP" : "rmse")
                   << " at 2x " << mean(0) << ", 4x " << mean(1) << ", 8x " << mean(2) << "\n";

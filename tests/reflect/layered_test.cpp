@@ -13,8 +13,8 @@ namespace {
 
 using namespace catoptric;
 
-constexpr dvec3 kLayeredBoxLowCorner{-4, -3, -5}, kLayeredHigh{4, 3, 5};
-constexpr dvec3 kCaptureCentre{.5, -.25, 1}, kOccluder{1.7, -.25, .1};
+constexpr dvec3 kLayeredBoxLowCorner{-4, -3, -5}, kLayeredBoxHighCorner{4, 3, 5};
+constexpr dvec3 kCaptureCentre{.5, -.25, 1}, kOccludingBallCentre{1.7, -.25, .1};
 constexpr double kOccludingBallRadius = .5; // radius of the occluding ball
 constexpr vec3 kWallColours[6]{{.5f, 0, 0},   {0, .5f, 0},   {0, 0, .5f},
                                {.5f, .5f, 0}, {0, .5f, .5f}, {.25f, 0, .5f}};
@@ -25,13 +25,14 @@ constexpr vec3 kBallColour{1, .5f, .25f}; // exact in binary16, as are the wall 
 scene::Scene make_hidden_wall_scene() {
     scene::Scene scene{.name = "hidden wall"};
     for (int face = 0; face < 6; ++face)
-        test::add_mesh(scene, test::make_box_wall(face, kLayeredBoxLowCorner, kLayeredHigh),
+        test::add_mesh(scene,
+                       test::make_box_wall(face, kLayeredBoxLowCorner, kLayeredBoxHighCorner),
                        test::add_material(scene, {.name = "wall", .emission = kWallColours[face]}));
     test::add_ball(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}),
                    kCaptureCentre, .75, 4);
     test::add_ball(scene, "occluder",
-                   test::add_material(scene, {.name = "ball", .emission = kBallColour}), kOccluder,
-                   kOccludingBallRadius, 4);
+                   test::add_material(scene, {.name = "ball", .emission = kBallColour}),
+                   kOccludingBallCentre, kOccludingBallRadius, 4);
     scene.cameras.push_back({.name = "inside",
                              .eye = {-2.5, 1, -3},
                              .target = kCaptureCentre,
@@ -45,7 +46,8 @@ double distance_to_box_wall(const dvec3& centre, const dvec3& direction, int& wa
     double nearest = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         const bool low = direction[axis] < 0;
-        const double t = ((low ? kLayeredBoxLowCorner : kLayeredHigh)[axis] - centre[axis]) /
+        const double t = ((low ? kLayeredBoxLowCorner : kLayeredBoxHighCorner)[axis] -
+                          centre[axis]) /
                          direction[axis];
         if (t < nearest) nearest = t, wall = 2 * axis + low;
     }
@@ -90,7 +92,7 @@ TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
             }
     // At the outline of the ball some facets already face away while their smooth normals do not.
     EXPECT_LE(wrong, hidden / 100);
-    const double sine = kOccludingBallRadius / length(kOccluder - centre),
+    const double sine = kOccludingBallRadius / length(kOccludingBallCentre - centre),
                  expected = 2 * f64::kPi * (1 - std::sqrt(1 - sine * sine));
     EXPECT_NEAR(solid_angle, expected, .02 * expected) << hidden << " texels of ball";
 }

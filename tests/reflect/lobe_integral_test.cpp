@@ -16,7 +16,9 @@ namespace {
 using namespace catoptric;
 
 constexpr int kIntegralPictureEdge = 16;
-constexpr double kWallZ = -4, kWallTop = 5; ///< the wall covers |x| <= kWallTop, 0 <= y <= kWallTop
+constexpr double kGlowingWallZ = -4,
+                 kGlowingWallHeight =
+                     5; ///< the wall covers |x| <= kGlowingWallHeight, 0 <= y <= kGlowingWallHeight
 
 enum class WallPresence { none, glowing, mirror };
 
@@ -48,9 +50,11 @@ scene::Scene make_integral_scene(const IntegralScene& wanted) {
             material.emission = vec3(kWallGlowColour), material.light = vec3(0);
         else
             material.mirror = true, material.reflectance = vec3(float(kWallReflectance));
-        test::add_quad(scene, "wall", test::add_material(scene, material), {-kWallTop, 0, kWallZ},
-                       {kWallTop, 0, kWallZ}, {kWallTop, kWallTop, kWallZ},
-                       {-kWallTop, kWallTop, kWallZ});
+        test::add_quad(scene, "wall", test::add_material(scene, material),
+                       {-kGlowingWallHeight, 0, kGlowingWallZ},
+                       {kGlowingWallHeight, 0, kGlowingWallZ},
+                       {kGlowingWallHeight, kGlowingWallHeight, kGlowingWallZ},
+                       {-kGlowingWallHeight, kGlowingWallHeight, kGlowingWallZ});
     }
     scene.environment = test::make_smooth_environment();
     scene.cameras.push_back(
@@ -63,8 +67,8 @@ dvec3 radiance_arriving_at_floor(const scene::Scene& scene, const IntegralScene&
                                  const dvec3& from, dvec3 along) {
     double weight = 1;
     if (wanted.wall != WallPresence::none && along.z < 0) {
-        const dvec3 met = from + (kWallZ - from.z) / along.z * along;
-        if (std::abs(met.x) <= kWallTop && met.y <= kWallTop) {
+        const dvec3 met = from + (kGlowingWallZ - from.z) / along.z * along;
+        if (std::abs(met.x) <= kGlowingWallHeight && met.y <= kGlowingWallHeight) {
             if (wanted.wall == WallPresence::glowing) return kWallGlowColour;
             along.z = -along.z, weight = kWallReflectance;
         }
@@ -80,7 +84,7 @@ std::optional<dvec3> integrate_floor_pixel(const scene::Scene& scene, const Inte
                 ray = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
                                                       kIntegralPictureEdge);
     const dvec3 met = eye - eye.y / ray.y * ray;
-    if (ray.y >= 0 || met.z < kWallZ + .1) return {};
+    if (ray.y >= 0 || met.z < kGlowingWallZ + .1) return {};
     const dvec3 o(-ray.x, ray.z, -ray.y); // in tangent space: x, -z, y
     const double alpha = wanted.roughness * wanted.roughness;
     dvec3 lobe(0), albedo(0);

@@ -77,7 +77,7 @@ TEST(Orthographic, MirrorsReflectParallelViewRays) {
             if (mirrors[i] == 0) continue;
             ++all;
             off += test::max_channel_difference(part.hdr.pixels[i], truth.hdr.pixels[i]) >
-                   float(measure::kVisibleDifference);
+                   float(measure::kMaxInvisibleChannelDifference);
         }
         ASSERT_GT(all, 500u);
         const double share = double(off) / double(all);

@@ -74,7 +74,7 @@ TEST(PathTracing, FurnaceShowsTheGeometricSeriesOfItsReflections) {
 /// the light that the sphere reflects: E (1 + a + a^2 ...) a / pi with the irradiance E and the
 /// albedo a.
 TEST(PathTracing, SphereAroundAPointLightReflectsEquallyEverywhere) {
-    constexpr double kAlbedo = .6, kIntensity = 3, kRadius = 2;
+    constexpr double kAlbedo = .6, kPunctualLightIntensity = 3, kRadius = 2;
     scene::Scene scene{.name = "sphere"};
     const std::size_t wall = test::add_material(scene,
                                                 {.name = "wall", .albedo = vec3(float(kAlbedo))});
@@ -83,9 +83,9 @@ TEST(PathTracing, SphereAroundAPointLightReflectsEquallyEverywhere) {
     for (vec3& normal : ball.normals) normal = -normal;
     for (uvec3& triangle : ball.triangles) std::swap(triangle.x, triangle.y);
     test::add_mesh(scene, ball, wall);
-    scene.punctual.push_back({.intensity = vec3(float(kIntensity))});
+    scene.punctual.push_back({.intensity = vec3(float(kPunctualLightIntensity))});
     scene.cameras.push_back({.eye = {.3, .2, -1}, .target = {0, 0, 1}, .vertical_fov_degrees = 60});
-    const double direct = kAlbedo / test::kPi * kIntensity / (kRadius * kRadius);
+    const double direct = kAlbedo / test::kPi * kPunctualLightIntensity / (kRadius * kRadius);
     const SeedMean found = mean_of_seeds(scene, "raytrace:indirect=paths,rays=64,depth=40");
     // The mesh lies up to half a percent inside the sphere.
     EXPECT_NEAR(found.mean, direct / (1 - kAlbedo), .01 * direct / (1 - kAlbedo) + 4 * found.error);

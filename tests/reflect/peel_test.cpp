@@ -12,31 +12,36 @@ using namespace catoptric;
 
 constexpr std::uint32_t kPeelFaceTexels = 48;
 // Emitted colours of walls and boards, exact in binary16.
-constexpr vec3 kWallColour{.5f, .25f, .75f}, kPeelBoard{.25f, 1, .125f};
+constexpr vec3 kWallColour{.5f, .25f, .75f}, kPeelBoardColour{.25f, 1, .125f};
 // Corners of the box of walls, relative to the capture's centre.
-constexpr dvec3 kPeelBoxLowCorner{-2, -3, -4}, kPeelHigh{3, 4, 2};
+constexpr dvec3 kPeelBoxLowCorner{-2, -3, -4}, kPeelBoxHighCorner{3, 4, 2};
 
-class Peel : public testing::TestWithParam<TexelFormat> {
+class DepthPeelingTest : public testing::TestWithParam<TexelFormat> {
 protected:
     bool is_unorm_format() const { return GetParam() == TexelFormat::r8_unorm; }
     bool is_no_surface(float distance) const {
         return is_unorm_format() ? distance >= 1 : std::isinf(distance);
     }
 };
-INSTANTIATE_TEST_SUITE_P(
-    Formats, Peel, testing::Values(TexelFormat::r32f, TexelFormat::r16f, TexelFormat::r8_unorm),
-    [](const auto& instance) { return std::string(texel_format_name(instance.param)); });
+INSTANTIATE_TEST_SUITE_P(Formats, DepthPeelingTest,
+                         testing::Values(TexelFormat::r32f, TexelFormat::r16f,
+                                         TexelFormat::r8_unorm),
+                         [](const auto& instance) {
+                             return std::string(texel_format_name(instance.param));
+                         });
 
 /// Returns a mirror ball at the origin in a box. With `gap` above 0, a board hides the middle of
 /// each wall from the ball. The boards are nearer to the ball by this share of the distance.
 scene::Scene make_double_wall_scene(double gap) {
     scene::Scene scene{.name = "double walls"};
     const std::size_t wall = test::add_material(scene, {.name = "wall", .emission = kWallColour}),
-                      board = test::add_material(scene, {.name = "board", .emission = kPeelBoard});
+                      board = test::add_material(scene,
+                                                 {.name = "board", .emission = kPeelBoardColour});
     for (int face = 0; face < 6; ++face) {
-        test::add_mesh(scene, test::make_box_wall(face, kPeelBoxLowCorner, kPeelHigh), wall);
+        test::add_mesh(scene, test::make_box_wall(face, kPeelBoxLowCorner, kPeelBoxHighCorner),
+                       wall);
         if (gap <= 0) continue;
-        scene::Mesh mesh = test::make_box_wall(face, kPeelBoxLowCorner, kPeelHigh);
+        scene::Mesh mesh = test::make_box_wall(face, kPeelBoxLowCorner, kPeelBoxHighCorner);
         const dvec3 middle = (mesh.positions[0] + mesh.positions[2]) / 2.;
         for (dvec3& position : mesh.positions)
             position = (1 - gap) * (middle + .6 * (position - middle));
@@ -48,7 +53,7 @@ scene::Scene make_double_wall_scene(double gap) {
     return scene;
 }
 
-TEST_P(Peel, SecondLayerBehindAWallIsEmpty) {
+TEST_P(DepthPeelingTest, SecondLayerBehindAWallIsEmpty) {
     const auto [first, second] = test::capture_both_depth_layers(make_double_wall_scene(0),
                                                                  kPeelFaceTexels, GetParam());
     std::size_t again = 0;
@@ -62,7 +67,7 @@ TEST_P(Peel, SecondLayerBehindAWallIsEmpty) {
 }
 
 // The smaller gap is the smallest that the stored distances can resolve.
-TEST_P(Peel, SecondLayerShowsTheWallBehindACloseBoard) {
+TEST_P(DepthPeelingTest, SecondLayerShowsTheWallBehindACloseBoard) {
     for (const double gap : {GetParam() == TexelFormat::r8_unorm ? .05 : .004, .1}) {
         const scene::Scene scene = make_double_wall_scene(gap);
         const auto [first, second] = test::capture_both_depth_layers(scene, kPeelFaceTexels,
@@ -84,10 +89,10 @@ TEST_P(Peel, SecondLayerShowsTheWallBehindACloseBoard) {
             double wall = INFINITY;
             for (int axis = 0; axis < 3; ++axis)
                 if (direction[axis] != 0)
-                    wall = std::min(wall,
-                                    ((direction[axis] < 0 ? kPeelBoxLowCorner : kPeelHigh)[axis] -
-                                     centre[axis]) /
-                                        direction[axis]);
+                    wall = std::min(wall, ((direction[axis] < 0 ? kPeelBoxLowCorner
+                                                                : kPeelBoxHighCorner)[axis] -
+                                           centre[axis]) /
+                                              direction[axis]);
             wall *= glm::length(direction);
             const double unit = is_unorm_format() ? 10 : 1 / second.space.scale;
             worst = std::max(worst, std::abs(two * unit / wall - 1));
@@ -100,9 +105,10 @@ TEST_P(Peel, SecondLayerShowsTheWallBehindACloseBoard) {
 
 // Surfaces that face away from the capture's centre, such as the far side of a ball, belong to no
 // layer.
-TEST_P(Peel, FarSideOfABallIsInNoLayer) {
+TEST_P(DepthPeelingTest, FarSideOfABallIsInNoLayer) {
     scene::Scene scene = make_double_wall_scene(0);
-    const std::size_t glow = test::add_material(scene, {.name = "glow", .emission = kPeelBoard});
+    const std::size_t glow = test::add_material(scene,
+                                                {.name = "glow", .emission = kPeelBoardColour});
     for (const dvec3& centre : {dvec3(1.2, .3, -.4), dvec3(-1.1, .2, .3), dvec3(.2, -1.5, -2)})
         test::add_ball(scene, "occluder", glow, centre, .45, 4);
     const auto [first, second] = test::capture_both_depth_layers(scene, kPeelFaceTexels,
@@ -110,7 +116,7 @@ TEST_P(Peel, FarSideOfABallIsInNoLayer) {
     std::size_t balls = 0, wrong = 0;
     stress::for_each_cube_texel(kPeelFaceTexels,
                                 [&](const dvec3&, int face, std::uint32_t x, std::uint32_t y) {
-                                    if (first.colour(0, face, x, y) != kPeelBoard) return;
+                                    if (first.colour(0, face, x, y) != kPeelBoardColour) return;
                                     ++balls;
                                     wrong += second.colour(0, face, x, y) != kWallColour;
                                 });

@@ -53,8 +53,10 @@ SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene, const app::Tec
         if (!uniform.lookup.empty()) {
             const vec4& lookup = uniform.lookup[i];
             const int looked_into = static_cast<int>(lookup.w) / 8;
-            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.list_index())) continue;
-            if (may_capture_show_ball(scene, mirror.list_index(), dvec3(lookup), face)) continue;
+            if (lookup.w == 0 || looked_into != static_cast<int>(mirror.zero_based_mirror_index()))
+                continue;
+            if (may_capture_show_ball(scene, mirror.zero_based_mirror_index(), dvec3(lookup), face))
+                continue;
         }
         ++result.compared;
         const vec3 &a = mixed.hdr.pixels[i], &b = uniform.hdr.pixels[i];
@@ -86,7 +88,7 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
         const app::TechniqueResult part = std::move(
             app::run(test::get_test_engine(), asked).parts.front());
         const SamePixelCounts found = compare_mirror_of_plan(
-            scene, mixed, part, truth, MirrorId::of_list_index(i), i == 0 ? 64 : 256);
+            scene, mixed, part, truth, MirrorId::mirror_id_from_list_index(i), i == 0 ? 64 : 256);
         std::cout << "[ MEASURED ] " << uniform[i] << ": of " << found.compared << " pixels "
                   << found.other << " differ, " << found.off << " by more than 1/255\n";
         EXPECT_GT(found.compared, 100u) << uniform[i];
@@ -140,7 +142,8 @@ TEST(Plan, MirrorsThatDoNotSeeEachOtherKeepTheirBytes) {
             std::size_t pixels = 0, other = 0;
             for (std::size_t p = 0; p < truth.hits.size(); ++p) {
                 // Compare only pixels in which both ray tracing and rasterisation show the mirror.
-                if (measure::first_mirror_of_hit_word(truth.hits[p]) != MirrorId::of_list_index(i))
+                if (measure::first_mirror_of_hit_word(truth.hits[p]) !=
+                    MirrorId::mirror_id_from_list_index(i))
                     continue;
                 if (uniform.lookup[p].w == 0) continue;
                 ++pixels;

@@ -81,7 +81,7 @@ double share_of_masked_pixels_off(const measure::Picture& a, const measure::Pict
     std::size_t off = 0;
     for (std::size_t i = 0; i < mask.size(); ++i)
         off += mask[i] && !(test::max_channel_difference(a.pixels[i], b.pixels[i]) <=
-                            float(measure::kVisibleDifference));
+                            float(measure::kMaxInvisibleChannelDifference));
     return double(off) / double(measure::count_mask_pixels(mask));
 }
 

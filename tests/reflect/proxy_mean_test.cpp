@@ -15,7 +15,7 @@ using namespace catoptric;
 
 constexpr uvec2 kProxyMeanPictureSize{48, 48};
 // The room is long, so that other kinds of mean differ clearly.
-constexpr dvec3 kProxyRoomLowCorner{-7, -1, -1.5}, kProxyMeanHigh{5, 2, 2.5};
+constexpr dvec3 kProxyRoomLowCorner{-7, -1, -1.5}, kProxyRoomHighCorner{5, 2, 2.5};
 constexpr double kHalfMirrorWidth =
     .4; // half width and height of the flat mirrors, which face along z
 
@@ -27,8 +27,8 @@ struct TwoMirrorRoom {
         scene::Scene scene{.name = "long room"};
         const std::size_t hot = test::add_material(scene, {.name = "hot", .emission = vec3(1)});
         for (int face = open ? 1 : 0; face < 6; ++face)
-            test::add_mesh(scene, test::make_box_wall(face, kProxyRoomLowCorner, kProxyMeanHigh),
-                           hot);
+            test::add_mesh(
+                scene, test::make_box_wall(face, kProxyRoomLowCorner, kProxyRoomHighCorner), hot);
         const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
         for (const dvec3& c : centres)
             test::add_quad(scene, "mirror", mirror,
@@ -51,10 +51,11 @@ struct TwoMirrorRoom {
             if (direction[axis] == 0) continue;
             const bool low = direction[axis] < 0;
             if (open && axis == 0 && !low) continue;
-            const double t = ((low ? kProxyRoomLowCorner : kProxyMeanHigh)[axis] - from[axis]) /
+            const double t = ((low ? kProxyRoomLowCorner : kProxyRoomHighCorner)[axis] -
+                              from[axis]) /
                              direction[axis];
             // A ray that passes the open end has left the room, so it meets no wall beyond.
-            if (axis != 0 && open && from.x + t * direction.x > kProxyMeanHigh.x) continue;
+            if (axis != 0 && open && from.x + t * direction.x > kProxyRoomHighCorner.x) continue;
             nearest = std::min(nearest, t);
         }
         const dvec3 other = centres[1 - mirror] - from;

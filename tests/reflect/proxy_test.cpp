@@ -10,13 +10,14 @@ namespace {
 using namespace catoptric;
 
 constexpr uvec2 kProxyPictureSize{128, 128};
-constexpr int kSearchHitState = 0, kMiss = 2; // states of a search, as in shaders/lib/probe.glsl
+constexpr int kSearchHitState = 0,
+              kSearchMissState = 2; // states of a search, as in shaders/lib/probe.glsl
 
 // The rasteriser snaps vertices to 1/256 of a pixel, so rays are reflected at slightly different
 // points than in the reference. This shows only at the outline of the ball, where normals change
 // fast.
 // Largest errors allowed, in degrees: for the worst pixel, and for 99 % of the pixels.
-constexpr double kSnappedRayDifference = .1, kMostSnapped = .01;
+constexpr double kSnappedRayDifference = .1, kMaxSnappedRayShare = .01;
 
 measure::LookupErrorSummary
 summarise_proxy_errors(const std::string& what,
@@ -37,7 +38,7 @@ TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
         ASSERT_GT(pixels.size(), 1000u);
         double worst;
         EXPECT_LT(summarise_proxy_errors("box, face " + face, pixels, worst).p99_degrees,
-                  kMostSnapped);
+                  kMaxSnappedRayShare);
         EXPECT_LT(worst, kSnappedRayDifference);
         EXPECT_EQ(
             std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
@@ -99,13 +100,13 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
                 0u);
             ASSERT_GT(pixels.size(), 1000u);
             // unorm8 cannot store infinity, so the number of misses is not checked for that format.
-            const auto misses = std::ranges::count(pixels, kMiss,
+            const auto misses = std::ranges::count(pixels, kSearchMissState,
                                                    &measure::LookupDirectionError::state);
             EXPECT_EQ(misses, distance == "r32f" ? std::ssize(pixels) : misses) << shape;
             double worst;
             EXPECT_LT(summarise_proxy_errors("nothing, " + shape + ", " + distance, pixels, worst)
                           .p99_degrees,
-                      kMostSnapped);
+                      kMaxSnappedRayShare);
             EXPECT_LT(worst, kSnappedRayDifference);
         }
 }

@@ -58,37 +58,38 @@ scene::Scene make_floor_under_light(const PunctualCase& lit, double scale) {
     return scene;
 }
 
-class Punctual : public testing::TestWithParam<PunctualCase> {};
-const vec3 kIntensity{9, 7, 5};
+class PunctualLightTest : public testing::TestWithParam<PunctualCase> {};
+const vec3 kPunctualLightIntensity{9, 7, 5};
 INSTANTIATE_TEST_SUITE_P(
-    Lights, Punctual,
-    testing::Values(PunctualCase{"point", {.intensity = kIntensity}, {.5, 2, .3}, {0, 0, -1}},
-                    PunctualCase{"point_with_range",
-                                 {.intensity = kIntensity, .range = 2.4},
-                                 {-.5, 1.2, .3},
-                                 {0, 0, -1}},
-                    PunctualCase{"spot",
-                                 {.kind = Kind::spot,
-                                  .intensity = kIntensity,
-                                  .range = 9,
-                                  .cos_inner = cosine_of_degrees(12),
-                                  .cos_outer = cosine_of_degrees(30)},
-                                 {.4, 2.5, -.3},
-                                 {-.3, -1, .2}},
-                    PunctualCase{"spot_without_penumbra",
-                                 {.kind = Kind::spot,
-                                  .intensity = kIntensity,
-                                  .cos_inner = cosine_of_degrees(25),
-                                  .cos_outer = cosine_of_degrees(25)},
-                                 {.4, 2.5, -.3},
-                                 {0, -1, 0}},
-                    PunctualCase{"directional",
-                                 {.kind = Kind::directional, .intensity = {.9f, .7f, .5f}},
-                                 {0, 1, 0},
-                                 {.5, -1, .2}}),
+    Lights, PunctualLightTest,
+    testing::Values(
+        PunctualCase{"point", {.intensity = kPunctualLightIntensity}, {.5, 2, .3}, {0, 0, -1}},
+        PunctualCase{"point_with_range",
+                     {.intensity = kPunctualLightIntensity, .range = 2.4},
+                     {-.5, 1.2, .3},
+                     {0, 0, -1}},
+        PunctualCase{"spot",
+                     {.kind = Kind::spot,
+                      .intensity = kPunctualLightIntensity,
+                      .range = 9,
+                      .cos_inner = cosine_of_degrees(12),
+                      .cos_outer = cosine_of_degrees(30)},
+                     {.4, 2.5, -.3},
+                     {-.3, -1, .2}},
+        PunctualCase{"spot_without_penumbra",
+                     {.kind = Kind::spot,
+                      .intensity = kPunctualLightIntensity,
+                      .cos_inner = cosine_of_degrees(25),
+                      .cos_outer = cosine_of_degrees(25)},
+                     {.4, 2.5, -.3},
+                     {0, -1, 0}},
+        PunctualCase{"directional",
+                     {.kind = Kind::directional, .intensity = {.9f, .7f, .5f}},
+                     {0, 1, 0},
+                     {.5, -1, .2}}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST_P(Punctual, FloorIsLitAsSpecified) {
+TEST_P(PunctualLightTest, FloorIsLitAsSpecified) {
     const PunctualCase& lit = GetParam();
     for (const double scale : {1.0, 37.0}) {
         const scene::Scene scene = make_floor_under_light(lit, scale);
@@ -113,7 +114,7 @@ TEST_P(Punctual, FloorIsLitAsSpecified) {
     }
 }
 
-TEST_P(Punctual, ShadowsAreTheSameInRasterAndRays) {
+TEST_P(PunctualLightTest, ShadowsAreTheSameInRasterAndRays) {
     scene::Scene scene = test::make_yard_scene();
     const PunctualCase& lit = GetParam();
     scene::PunctualLight light = lit.light;
@@ -141,9 +142,9 @@ measure::Picture render_floor_under_lights(const std::vector<PunctualCase>& all,
 // One light and several lights are drawn by different shader variants.
 TEST(Lights, SeveralLightsAddUp) {
     const std::vector<PunctualCase> all{
-        {"near", {.intensity = kIntensity}, {.5, 2, .3}, {0, 0, -1}},
+        {"near", {.intensity = kPunctualLightIntensity}, {.5, 2, .3}, {0, 0, -1}},
         {"sun", {.kind = Kind::directional, .intensity = {.4f, .5f, .6f}}, {0, 1, 0}, {.5, -1, 0}},
-        {"far", {.intensity = 2.f * kIntensity}, {-1, 3, -.5}, {0, 0, -1}}};
+        {"far", {.intensity = 2.f * kPunctualLightIntensity}, {-1, 3, -.5}, {0, 0, -1}}};
     for (const std::string technique : {"raytrace", "naive:bounces=0"}) {
         std::vector<measure::Picture> alone;
         for (const PunctualCase& light : all)

@@ -75,7 +75,7 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
             .reads(distance, graph::ResourceUse::sampled)
             .writes(found[i], graph::ResourceUse::storage_write)
             .record([=, &asked, count = directions.size()](graph::PassCommands& commands) {
-                commands.bind_pipeline(gpu::ComputeState{"tests/cube_sample.comp", {}});
+                commands.bind_pipeline(gpu::ComputePipelineState{"tests/cube_sample.comp", {}});
                 commands.bind_resource("colour_cubes", colour, graph::TextureFilter::linear);
                 commands.bind_resource("distance_cubes", distance,
                                        i == 0 ? graph::TextureFilter::linear
@@ -84,9 +84,9 @@ PyramidReadBack build_and_read_pyramid(const scene::Scene& scene, const std::str
                 commands.bind_resource("Found", found[i]);
                 commands.dispatch(static_cast<std::uint32_t>((count + 63) / 64), 1);
             });
-        graph.mark_output(found[i]);
+        graph.mark_as_graph_output(found[i]);
     }
-    graph.mark_output(pyramid);
+    graph.mark_as_graph_output(pyramid);
     test::run_graph(runner, graph);
     return {*choice.shared.face, test::read_resource_values<std::uint32_t>(runner, pyramid),
             test::read_resource_values<vec4>(runner, found[0]),

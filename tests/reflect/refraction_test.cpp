@@ -200,7 +200,8 @@ TEST(Refraction, TracerTakesGlassOver) {
     int off = 0, glass = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror_of_hit_word(hits[i]);
-        if (!mirror || mirror == MirrorId::of_list_index(4)) continue; // the mirror ball
+        if (!mirror || mirror == MirrorId::mirror_id_from_list_index(4))
+            continue; // the mirror ball
         ++glass;
         off += test::max_channel_difference(traced.pixels[i], hybrid.pixels[i]) > .02f;
     }

@@ -20,7 +20,7 @@ using namespace catoptric;
 using nlohmann::json;
 
 constexpr uvec2 kReportPictureSize{40, 30};
-constexpr int kReportFrameCount = 8, kWarmup = 3;
+constexpr int kReportFrameCount = 8, kReportWarmupFrames = 3;
 const std::vector<std::size_t> kFramesOfRounds{2, 2, 1, 1, 1, 1}; ///< measured frames in each round
 constexpr double kExposureStops = -1;
 
@@ -34,7 +34,7 @@ scene::Scene make_hall_with_visible_lamp() {
 app::CompareRequest make_report_request(const std::vector<std::string>& rows) {
     app::CompareRequest request;
     request.base = test::make_test_request(make_hall_with_visible_lamp(), rows, kReportPictureSize);
-    request.base.frames = kReportFrameCount, request.base.warmup = kWarmup;
+    request.base.frames = kReportFrameCount, request.base.warmup = kReportWarmupFrames;
     request.base.exposure = kExposureStops;
     return request;
 }
@@ -46,7 +46,7 @@ json compare_and_read_report(const app::CompareRequest& request) {
 app::TechniqueResult render_report_row(const std::string& technique) {
     app::Request request = test::make_test_request(make_hall_with_visible_lamp(), {technique},
                                                    kReportPictureSize);
-    request.frames = kReportFrameCount, request.warmup = kWarmup;
+    request.frames = kReportFrameCount, request.warmup = kReportWarmupFrames;
     request.exposure = kExposureStops;
     return std::move(app::run(test::get_test_engine(), request).parts.front());
 }
@@ -340,7 +340,7 @@ TEST(ReportFigures, RowContinuesFromRoundToRound) {
     request.base = test::make_test_request(scene::make_cornell_mirrors(), rows, kReportPictureSize);
     request.base.camera = request.base.scene.cameras.front();
     request.base.animate = true;
-    request.base.frames = kReportFrameCount, request.base.warmup = kWarmup;
+    request.base.frames = kReportFrameCount, request.base.warmup = kReportWarmupFrames;
     std::vector<int> pictured;
     request.on_finished_row = [&](const report::Comparison& so_far) {
         pictured.push_back(so_far.rows.back().pictured);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr std::uint32_t kRequireFaceTexels = 32, kShadowEdge = 128;
+constexpr std::uint32_t kRequireFaceTexels = 32, kRequireShadowMapEdge = 128;
 
 /// Returns a random hall with one mirror and one moving object.
 scene::Scene make_hall_of_seed(std::uint64_t seed) {
@@ -51,14 +51,14 @@ TEST(Require, FacesWithTheSameContentHashKeepTheirBytes) {
         app::Session session(test::get_test_engine(), scene);
         app::FrameSpec frame_spec{
             .techniques = {"parallax:face=" + std::to_string(kRequireFaceTexels) +
-                           ",shadow_map=" + std::to_string(kShadowEdge)},
+                           ",shadow_map=" + std::to_string(kRequireShadowMapEdge)},
             .camera = scene.cameras[0],
             .size = {16, 16}};
         const auto at = [&](double seconds) {
             frame_spec.time = seconds;
             const scene::Scene now = scene::scene_at_time(scene, seconds);
-            const require::RequiredWorkModel model = requirements.model_for(
-                {now, frame_spec.camera, frame_spec.size, kShadowEdge});
+            const require::RequiredWorkModel model = requirements.make_work_model_for_request(
+                {now, frame_spec.camera, frame_spec.size, kRequireShadowMapEdge});
             return std::pair(model.mirrors[0], app::Access::read_captures(app::Access::render_frame(
                                                    session, frame_spec, {.with_captures = true})));
         };
@@ -98,7 +98,7 @@ TEST(Require, MirrorsReadNoFaceThatIsLeftOut) {
             const require::RequiredWorkModel model = require::make_required_model(
                 {at_rest, now, {64, 48}});
             for (const require::MirrorRequirements& needs : model.mirrors)
-                left_out += needs.faces != require::kAllFaceBits ? 1 : 0;
+                left_out += needs.faces != require::kAllCubeFaceBits ? 1 : 0;
             for (const char* technique :
                  {"parallax:face=32", "secant:face=32", "pyramid:face=32"}) {
                 SCOPED_TRACE(scene.name + " " + camera.name + " " + technique);

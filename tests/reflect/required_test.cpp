@@ -33,11 +33,11 @@ bool do_passes_draw_captures(const Names& names) {
         names, [](const std::string& name) { return name.starts_with("capture/"); });
 }
 
-const Names kSettled{"view", "compose"};
+const Names kSettledPassNames{"view", "compose"};
 
 bool does_model_need_all_faces(const require::RequiredWorkModel& model) {
     return std::ranges::all_of(model.mirrors, [](const require::MirrorRequirements& mirror) {
-        return mirror.is_captured && mirror.faces == require::kAllFaceBits;
+        return mirror.is_captured && mirror.faces == require::kAllCubeFaceBits;
     });
 }
 
@@ -58,12 +58,12 @@ public:
         model_ = app::Access::rendered_model(found);
         EXPECT_TRUE(have_same_pictures(wanted, found)) << "frame " << number_;
         if (!frame_spec.keeps_history) {
-            EXPECT_EQ(app::Access::depends_on_last_frame(found),
-                      app::Access::depends_on_last_frame(wanted));
+            EXPECT_EQ(app::Access::does_frame_part_need_previous_frame(found),
+                      app::Access::does_frame_part_need_previous_frame(wanted));
             // If not all faces are needed, some hold nothing, so the states differ.
             const bool is_whole = does_model_need_all_faces(app::Access::rendered_model(found));
-            EXPECT_TRUE(!is_whole || app::Access::next_frame_state(found) ==
-                                         app::Access::next_frame_state(wanted))
+            EXPECT_TRUE(!is_whole || app::Access::read_next_frame_state(found) ==
+                                         app::Access::read_next_frame_state(wanted))
                 << "frame " << number_;
         }
         return list_pass_names(found.times());
@@ -124,8 +124,8 @@ private:
     int number_ = 0;
 };
 
-class Required : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Rows, Required,
+class RequiredWorkTest : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Rows, RequiredWorkTest,
                          testing::Values("reuse:face=16", "parallax:face=16",
                                          "parallax:face=16,distance=unorm8,colour=float",
                                          "secant:face=16", "layered:face=16", "pyramid:face=auto",
@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Rows, Required,
                              return "row" + std::to_string(instance.index);
                          });
 
-TEST_P(Required, PicturesEqualThoseOfEverything) {
+TEST_P(RequiredWorkTest, PicturesEqualThoseOfEverything) {
     if (std::string_view(GetParam()).ends_with("colour=float") && !test::has_float_colour())
         GTEST_SKIP() << "this device does not filter images of 32-bit floats";
     RequiredAndFullSessions pair(test::make_lit_room(3, 2), {GetParam()});
@@ -168,9 +168,9 @@ TEST(RequiredFrames, StillSceneNeedsOnlyViewAndCompose) {
                      "capture/2.2-2", "capture/2.3-3", "capture/2.5-5", "capture/3.1-1",
                      "capture/3.4-4", "capture/3.6-6", "capture.compare", "view", "compose"}));
     EXPECT_LT(pair.render_until_captures_settle(), 40);
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(pair.render_next_frame(), kSettled);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
     pair.frame_spec.camera.eye.x += .1;
-    EXPECT_EQ(pair.render_next_frame(), kSettled) << "captures are not the camera's";
+    EXPECT_EQ(pair.render_next_frame(), kSettledPassNames) << "captures are not the camera's";
 }
 
 // The first mirror is out of sight and has no capture. The options of the captures must come from a
@@ -212,7 +212,7 @@ TEST(RequiredFrames, ChangedLightAndMaterialsAreDrawnAgain) {
     EXPECT_TRUE(do_passes_draw_captures(pair.render_next_frame()))
         << "there is more light everywhere";
     pair.render_until_captures_settle();
-    EXPECT_EQ(pair.render_next_frame(), kSettled);
+    EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
 }
 
 TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
@@ -222,7 +222,7 @@ TEST(RequiredFrames, MovingObjectsAreDrawnUntilTheyStop) {
         pair.frame_spec.time += 1 / 60.0;
     }
     pair.render_until_captures_settle();
-    EXPECT_EQ(pair.render_next_frame(), kSettled);
+    EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
 }
 
 // The pyramid is computed from all six faces of a cube whenever one of them is drawn.
@@ -233,7 +233,7 @@ TEST(RequiredFrames, PyramidIsMadeAgainWheneverACaptureIsDrawn) {
         pair.frame_spec.time += 1 / 20.0;
     }
     pair.render_until_captures_settle();
-    EXPECT_EQ(pair.render_next_frame(), kSettled);
+    EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
     pair.frame_spec.ambient = .3; // only colours change, but a capture is drawn as a whole
     EXPECT_THAT(pair.render_next_frame(), testing::Contains("pyramid"));
 }
@@ -362,7 +362,7 @@ TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
     pair.apply_to_both_sessions([&](app::Session& session) {
         app::Access::resume_sequence(session, std::move(aside[i++]));
     });
-    EXPECT_EQ(pair.render_next_frame(), kSettled);
+    EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
 }
 
 TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
@@ -382,7 +382,7 @@ TEST(RequiredFrames, FramesThatKeepHistoryLeaveTheSequenceAlone) {
     }
     pair.render_until_captures_settle();
     aside("parallax:face=16", .4);
-    EXPECT_EQ(pair.render_next_frame(), kSettled);
+    EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
     pair.frame_spec.ambient = .4;
     EXPECT_TRUE(do_passes_draw_captures(pair.render_next_frame()));
 }
@@ -398,7 +398,7 @@ TEST(RequiredFrames, CapturesSettleWithSeveralFramesInFlight) {
     std::optional<app::Frame> wanted, found;
     for (int k = 0; k < 48; ++k) wanted = all.frame(spec), found = few.frame(required);
     EXPECT_TRUE(test::have_equal_pixel_bytes(found->hdr(), wanted->hdr()));
-    EXPECT_EQ(list_pass_names(found->times()), kSettled);
+    EXPECT_EQ(list_pass_names(found->times()), kSettledPassNames);
 }
 
 TEST(RequiredFrames, MemoryStaysConstantOverTime) {

@@ -24,7 +24,7 @@ struct FloorMaterial {
     double metallic, roughness;
     dvec3 compute_floor_f0() const { return glm::mix(dvec3(.04), colour, metallic); }
 };
-constexpr double kPlasticMetallic = 0, kMetal = 1;
+constexpr double kPlasticMetallic = 0, kMetalMetallic = 1;
 
 /// Returns a floor at y = 0, seen at a slant, without any light.
 scene::Scene make_rough_floor_scene(const FloorMaterial& material) {
@@ -114,8 +114,8 @@ TEST(RoughSurfaces, HighlightsOfPointLightsFollowTheLobe) {
          {FloorMaterial{{.5, .4, .3}, kPlasticMetallic, .15},
           FloorMaterial{{.5, .4, .3}, kPlasticMetallic, .4},
           FloorMaterial{{.8, .2, .1}, kPlasticMetallic, .9},
-          FloorMaterial{{.9, .6, .3}, kMetal, .3}, FloorMaterial{{.9, .6, .3}, kMetal, .8},
-          FloorMaterial{{.7, .7, .2}, .5, .7}}) {
+          FloorMaterial{{.9, .6, .3}, kMetalMetallic, .3},
+          FloorMaterial{{.9, .6, .3}, kMetalMetallic, .8}, FloorMaterial{{.7, .7, .2}, .5, .7}}) {
         scene::Scene scene = make_rough_floor_scene(material);
         add_point_light(scene, {1, 3, -2}, vec3(20, 30, 40));
         std::vector<dvec3> wanted;
@@ -187,7 +187,7 @@ TEST(RoughSurfaces, MultipleScatteringLosesNoLight) {
     constexpr std::pair<int, int> kTestedPixels[] = {{8, 15}, {4, 9}};
     std::array<std::map<std::string, double>, 2> largest_differences;
     for (const double roughness : {.05, .25, .5, .75, 1.}) {
-        scene::Scene scene = make_rough_floor_scene({dvec3(1), kMetal, roughness});
+        scene::Scene scene = make_rough_floor_scene({dvec3(1), kMetalMetallic, roughness});
         scene.environment = make_smooth_test_environment(true);
         std::vector<double> single;
         for (const auto& [x, y] : kTestedPixels) {
@@ -334,8 +334,8 @@ TEST(RoughSurfaces, RaysFromDrawnSurfacesAreThoseOfTracedOnes) {
 /// The first hit says whether a surface that is no mirror reflects sharply or by a lobe.
 TEST(RoughSurfaces, HitsTellRoughFromSmoothSurfaces) {
     for (const auto& [roughness, code] :
-         {std::pair(.04, shared::kHitSmoothSurface), std::pair(.05, shared::kHitRoughSurface),
-          std::pair(1., shared::kHitRoughSurface)}) {
+         {std::pair(.04, shared::kHitSmoothDielectric), std::pair(.05, shared::kHitRoughNonMirror),
+          std::pair(1., shared::kHitRoughNonMirror)}) {
         const scene::Scene scene = make_rough_floor_scene(
             {{.5, .4, .3}, kPlasticMetallic, roughness});
         for (const char* world : {"raytrace", "raytrace:rays=1"}) {
@@ -344,8 +344,8 @@ TEST(RoughSurfaces, HitsTellRoughFromSmoothSurfaces) {
             EXPECT_EQ(hits.back(), code << 16) << world << ' ' << roughness;
             const measure::Mask rough = measure::mask_rough_surfaces(hits),
                                 smooth = measure::mask_smooth_dielectrics(hits);
-            EXPECT_EQ(rough.back() != 0, code == shared::kHitRoughSurface);
-            EXPECT_EQ(smooth.back() != 0, code == shared::kHitSmoothSurface);
+            EXPECT_EQ(rough.back() != 0, code == shared::kHitRoughNonMirror);
+            EXPECT_EQ(smooth.back() != 0, code == shared::kHitSmoothDielectric);
             EXPECT_EQ(rough.front(), 0) << "the sky";
         }
     }
@@ -354,7 +354,7 @@ TEST(RoughSurfaces, HitsTellRoughFromSmoothSurfaces) {
 /// Lamps light a rough metal that is no mirror as if it were diffuse, because nothing shows their
 /// reflection. Rays of the lobe show it, so there is no stand-in.
 TEST(RoughSurfaces, LampsLightARoughMetalWhereNoRaysGo) {
-    scene::Scene scene = make_rough_floor_scene({{.9, .6, .3}, kMetal, .9});
+    scene::Scene scene = make_rough_floor_scene({{.9, .6, .3}, kMetalMetallic, .9});
     const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(50)});
     test::add_quad(scene, "lamp", lamp, {-.1, 3, -.1}, {.1, 3, -.1}, {.1, 3, .1}, {-.1, 3, .1});
     scene::Scene diffuse = scene;

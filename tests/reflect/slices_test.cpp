@@ -124,11 +124,11 @@ TEST(CaptureBudget, StillSceneConvergesToFullCaptures) {
         everything.model = app::RenderedWork::everything, everything.most_captures = 0;
         const auto settle = [&] {
             std::vector<std::byte> state,
-                next = app::Access::next_frame_state(all.frame(everything));
+                next = app::Access::read_next_frame_state(all.frame(everything));
             int bounces = 0;
             for (; state != next; ++bounces)
                 state = std::move(next),
-                next = app::Access::next_frame_state(all.frame(everything));
+                next = app::Access::read_next_frame_state(all.frame(everything));
             return bounces;
         };
         const auto follow = [&] {

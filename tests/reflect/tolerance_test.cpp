@@ -53,10 +53,11 @@ HitCounts count_hits_between_slats(double nearer, const std::string& technique, 
     return found;
 }
 
-const std::vector<std::string> kSearches{"secant", "march", "pyramid", "layered", "proxy"};
+const std::vector<std::string> kSearchTechniqueNames{"secant", "march", "pyramid", "layered",
+                                                     "proxy"};
 
 TEST(Tolerance, ContinuousSurfaceIsAHit) {
-    for (const std::string& search : kSearches)
+    for (const std::string& search : kSearchTechniqueNames)
         for (const std::string settings :
              {"face=64", "face=256", "face=64,distance=unorm8,range=10",
               "face=256,distance=unorm8,range=10"}) {
@@ -67,7 +68,7 @@ TEST(Tolerance, ContinuousSurfaceIsAHit) {
             EXPECT_LE(found.wrong, found.pixels * 3 / 100) << search << settings;
         }
     // This board is so close to the wall that either may count as the hit.
-    for (const std::string& search : kSearches) {
+    for (const std::string& search : kSearchTechniqueNames) {
         const HitCounts found = count_hits_between_slats(.02, search + ":shadow=none,face=128", 1);
         EXPECT_GE(found.hits, found.pixels * 95 / 100) << search;
     }

@@ -21,8 +21,9 @@ using namespace catoptric;
 constexpr uvec2 kWorkPictureSize{96, 64};
 constexpr std::uint64_t kWorkPixelCount = std::uint64_t{kWorkPictureSize.x} * kWorkPictureSize.y;
 
-std::vector<PassWork> count_work_of_frame(const scene::Scene& scene, const std::string& technique,
-                                          app::RenderedWork model = app::RenderedWork::everything) {
+std::vector<PassWorkCounts>
+count_work_of_frame(const scene::Scene& scene, const std::string& technique,
+                    app::RenderedWork model = app::RenderedWork::everything) {
     app::Request asked = test::make_test_request(scene, {technique}, kWorkPictureSize);
     asked.model = model;
     asked.warmup = 3;
@@ -30,14 +31,14 @@ std::vector<PassWork> count_work_of_frame(const scene::Scene& scene, const std::
     return app::count_frame_work(session, asked);
 }
 
-std::uint64_t total_work_of_kind(const std::vector<PassWork>& passes, WorkKind kind) {
-    return sum_work_of_passes(passes)[kind].value_or(0);
+std::uint64_t total_work_of_kind(const std::vector<PassWorkCounts>& passes, CountedWorkKind kind) {
+    return sum_work_counts_of_passes(passes)[kind].value_or(0);
 }
 
 /// Returns the work of all camera rays, by the traversal on the CPU.
 bvh::BvhTraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene) {
     const app::Request asked = test::make_test_request(scene, {"raytrace"}, kWorkPictureSize);
-    const render::SceneUnits units = render::make_scene_units(scene);
+    const render::SceneUnitTransform units = render::make_scene_units(scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(scene, units);
     const bvh::Bvh tree = app::build_bvh_without_object(geometry, geometry.ranges.size());
     const shared::View view = render::make_camera_view(asked.camera, units, kWorkPictureSize, 0,
@@ -63,16 +64,16 @@ TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
         scene.punctual.clear();
         const auto work = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
         const bvh::BvhTraversalCounters wanted = count_traversal_work_on_cpu(scene);
-        EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), kWorkPixelCount) << name;
-        EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), 0u) << name;
-        EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), 0u) << name;
+        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::camera_rays), kWorkPixelCount) << name;
+        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::mirror_rays), 0u) << name;
+        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::shadow_rays), 0u) << name;
         // Rounding may differ where the compiler of the shader contracts arithmetic.
         const double slack = 1e-3;
-        EXPECT_NEAR(double(total_work_of_kind(work, WorkKind::nodes)), double(wanted.nodes),
+        EXPECT_NEAR(double(total_work_of_kind(work, CountedWorkKind::nodes)), double(wanted.nodes),
                     slack * double(wanted.nodes))
             << name;
-        EXPECT_NEAR(double(total_work_of_kind(work, WorkKind::triangles)), double(wanted.triangles),
-                    slack * double(wanted.triangles))
+        EXPECT_NEAR(double(total_work_of_kind(work, CountedWorkKind::triangles)),
+                    double(wanted.triangles), slack * double(wanted.triangles))
             << name;
     }
 }
@@ -84,17 +85,20 @@ TEST(Work, RaysAreThoseOfTheTracersOwnCounters) {
         const app::TechniqueResult drawn = test::render_technique(scene, technique,
                                                                   kWorkPictureSize, 4);
         ASSERT_TRUE(drawn.rays) << technique;
-        EXPECT_EQ(total_work_of_kind(work, WorkKind::camera_rays), drawn.rays->primary)
+        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::camera_rays), drawn.rays->primary)
             << technique;
-        EXPECT_EQ(total_work_of_kind(work, WorkKind::mirror_rays), drawn.rays->mirror) << technique;
-        EXPECT_EQ(total_work_of_kind(work, WorkKind::shadow_rays), drawn.rays->shadow) << technique;
+        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::mirror_rays), drawn.rays->mirror)
+            << technique;
+        EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::shadow_rays), drawn.rays->shadow)
+            << technique;
     }
 }
 
 TEST(Work, LiveLanesLieBetweenOneAndTheSubgroup) {
     const auto work = count_work_of_frame(scene::load("cornell-mirrors"), "raytrace:depth=4");
-    for (const auto& [each, lanes] : {std::pair(WorkKind::nodes, WorkKind::node_lanes),
-                                      std::pair(WorkKind::triangles, WorkKind::triangle_lanes)}) {
+    for (const auto& [each, lanes] :
+         {std::pair(CountedWorkKind::nodes, CountedWorkKind::node_lanes),
+          std::pair(CountedWorkKind::triangles, CountedWorkKind::triangle_lanes)}) {
         const double live = double(total_work_of_kind(work, each)) /
                             double(total_work_of_kind(work, lanes));
         std::cout << "[ MEASURED ] live lanes: " << live << '\n';
@@ -142,22 +146,23 @@ TEST(Work, LookupsFollowFromTheMasks) {
         std::ranges::count_if(mask, [](auto in) { return in != 0; }));
     ASSERT_GT(mirror_pixels, 100);
     // One look-up a pixel. Rasterised outlines differ from traced ones by a few pixels.
-    EXPECT_NEAR(
-        double(total_work_of_kind(count_work_of_frame(scene, "planar"), WorkKind::colour_lookups)),
-        mirror_pixels, .05 * mirror_pixels);
+    EXPECT_NEAR(double(total_work_of_kind(count_work_of_frame(scene, "planar"),
+                                          CountedWorkKind::colour_lookups)),
+                mirror_pixels, .05 * mirror_pixels);
     // One light at each traced point of a scene with one lamp.
     const auto lit = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
-    EXPECT_LE(total_work_of_kind(lit, WorkKind::lights),
+    EXPECT_LE(total_work_of_kind(lit, CountedWorkKind::lights),
               kWorkPixelCount * scene::list_lights(scene).size());
-    EXPECT_GT(total_work_of_kind(lit, WorkKind::lights), kWorkPixelCount / 4);
+    EXPECT_GT(total_work_of_kind(lit, CountedWorkKind::lights), kWorkPixelCount / 4);
     // Each step of march reads at least one distance.
     const auto march = count_work_of_frame(scene, "march"),
                parallax = count_work_of_frame(scene, "parallax");
-    EXPECT_GE(double(total_work_of_kind(march, WorkKind::distance_lookups)), 2 * mirror_pixels);
-    EXPECT_GE(total_work_of_kind(march, WorkKind::distance_lookups),
-              total_work_of_kind(parallax, WorkKind::distance_lookups));
+    EXPECT_GE(double(total_work_of_kind(march, CountedWorkKind::distance_lookups)),
+              2 * mirror_pixels);
+    EXPECT_GE(total_work_of_kind(march, CountedWorkKind::distance_lookups),
+              total_work_of_kind(parallax, CountedWorkKind::distance_lookups));
     EXPECT_EQ(total_work_of_kind(count_work_of_frame(scene, "naive:bounces=0,shadow=none"),
-                                 WorkKind::shadow_lookups),
+                                 CountedWorkKind::shadow_lookups),
               0u);
 }
 
@@ -170,20 +175,20 @@ TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
     ASSERT_EQ(work.size(), frame.times().passes.size());
     for (std::size_t i = 0; i < work.size(); ++i) {
         EXPECT_EQ(work[i].name, frame.times().passes[i].name);
-        EXPECT_EQ(work[i].counts[WorkKind::passes], 1u);
+        EXPECT_EQ(work[i].counts[CountedWorkKind::passes], 1u);
     }
-    EXPECT_EQ(total_work_of_kind(work, WorkKind::frames), 1u);
-    EXPECT_EQ(total_work_of_kind(work, WorkKind::passes), work.size());
+    EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::frames), 1u);
+    EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::passes), work.size());
     // Composing draws one triangle, reads nothing by attachment and stores 4 bytes a pixel, which
     // are cleared or loaded and stored.
-    const PassWork& compose = work.back();
-    EXPECT_EQ(compose.counts[WorkKind::draws], 1u) << compose.name;
-    EXPECT_EQ(compose.counts[WorkKind::bytes], 2 * 4 * kWorkPixelCount) << compose.name;
-    EXPECT_GE(compose.counts[WorkKind::fragments].value_or(0), kWorkPixelCount);
+    const PassWorkCounts& compose = work.back();
+    EXPECT_EQ(compose.counts[CountedWorkKind::draws], 1u) << compose.name;
+    EXPECT_EQ(compose.counts[CountedWorkKind::bytes], 2 * 4 * kWorkPixelCount) << compose.name;
+    EXPECT_GE(compose.counts[CountedWorkKind::fragments].value_or(0), kWorkPixelCount);
     // A capture's six faces: each draws the objects around the mirror.
-    for (const PassWork& pass : work)
+    for (const PassWorkCounts& pass : work)
         if (pass.name.find("capture") != std::string::npos) {
-            EXPECT_GE(pass.counts[WorkKind::draws].value_or(0), 1u) << pass.name;
+            EXPECT_GE(pass.counts[CountedWorkKind::draws].value_or(0), 1u) << pass.name;
         }
 }
 

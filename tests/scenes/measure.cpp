@@ -27,7 +27,7 @@ using namespace catoptric;
 using nlohmann::json;
 
 constexpr uvec2 kJudgedPictureSize{128, 128};
-constexpr float kOffThreshold = .02f;
+constexpr float kOffPixelThreshold = .02f;
 constexpr int kMinJudgedPixels = 32; // size of the smallest object judged on its own
 
 app::Request make_camera_request(app::ResolvedScene& wanted, std::size_t camera) {
@@ -55,7 +55,7 @@ float largest_channel_difference(const vec3& a, const vec3& b) {
 }
 
 /// Surfaces that the camera sees, at kRaysAlongPixelEdge x kRaysAlongPixelEdge places per pixel.
-struct CameraSurfaces {
+struct SurfacesSeenByCamera {
     uvec2 size;
     std::vector<scenes::SeenSurface> seen;
     const scenes::SeenSurface& surface_at(int x, int y) const {
@@ -71,7 +71,7 @@ struct CameraSurfaces {
 };
 
 /// Why a pixel is left out of the comparison of raster and ray tracing.
-enum class LeftOutReason { not_at_all, mirror, sharp, edge };
+enum class PixelLeftOutReason { not_at_all, mirror, sharp, edge };
 
 bool do_surfaces_differ(const scenes::SeenSurface& a, const scenes::SeenSurface& b, float pixel) {
     if (a.object != b.object || a.cut != b.cut || a.shadowed != b.shadowed ||
@@ -83,13 +83,14 @@ bool do_surfaces_differ(const scenes::SeenSurface& a, const scenes::SeenSurface&
                                      std::abs(dot(b.facet, a.place - b.place))) > 2 * pixel;
 }
 
-LeftOutReason find_left_out_reason(const CameraSurfaces& looked, const scenes::SurfaceSight& sight,
-                                   const scene::Scene& scene, std::size_t pixel,
-                                   bool leaves_sharp) {
+PixelLeftOutReason find_left_out_reason(const SurfacesSeenByCamera& looked,
+                                        const scenes::SceneSurfaceCaster& sight,
+                                        const scene::Scene& scene, std::size_t pixel,
+                                        bool leaves_sharp) {
     const scenes::SeenSurface& seen = looked.surface_at_pixel_centre(pixel);
     if (seen.object >= 0 && scene::is_mirror(scene, scene.objects[std::size_t(seen.object)]))
-        return LeftOutReason::mirror;
-    if (leaves_sharp && seen.sharp) return LeftOutReason::sharp;
+        return PixelLeftOutReason::mirror;
+    if (leaves_sharp && seen.sharp) return PixelLeftOutReason::sharp;
     const int fine = int(scenes::kRaysAlongPixelEdge),
               x = int(pixel % looked.size.x) * fine + fine / 2,
               y = int(pixel / looked.size.x) * fine + fine / 2;
@@ -97,47 +98,47 @@ LeftOutReason find_left_out_reason(const CameraSurfaces& looked, const scenes::S
     for (int down = -fine; down <= fine; ++down)
         for (int right = -fine; right <= fine; ++right)
             if (do_surfaces_differ(seen, looked.surface_at(x + right, y + down), width))
-                return LeftOutReason::edge;
-    return LeftOutReason::not_at_all;
+                return PixelLeftOutReason::edge;
+    return PixelLeftOutReason::not_at_all;
 }
 
 /// Compares raster and ray tracing. Returns how many pixels show a surface, how many are left out
 /// and why, and how many of the rest are off. `judged`, if given, becomes a picture: left-out
 /// pixels grey, pixels that are off red, others black.
-json measure_raster_agreement(const app::Request& request, const CameraSurfaces& looked,
-                              const scenes::SurfaceSight& sight, const measure::Picture& raster,
-                              const measure::Picture& rays, bool leaves_sharp,
-                              measure::Picture* judged) {
-    std::map<LeftOutReason, int> counts;
+json measure_raster_agreement(const app::Request& request, const SurfacesSeenByCamera& looked,
+                              const scenes::SceneSurfaceCaster& sight,
+                              const measure::Picture& raster, const measure::Picture& rays,
+                              bool leaves_sharp, measure::Picture* judged) {
+    std::map<PixelLeftOutReason, int> counts;
     int off = 0, shown = 0, background_off = 0, edge_off = 0;
     for (std::size_t i = 0; i < rays.pixels.size(); ++i) {
         const bool is_surface = looked.surface_at_pixel_centre(i).object >= 0;
-        const LeftOutReason why = find_left_out_reason(looked, sight, request.scene, i,
-                                                       leaves_sharp);
+        const PixelLeftOutReason why = find_left_out_reason(looked, sight, request.scene, i,
+                                                            leaves_sharp);
         shown += is_surface;
         counts[why] += is_surface;
         const bool differs = !(largest_channel_difference(raster.pixels[i], rays.pixels[i]) <=
-                               kOffThreshold),
-                   is_off = differs && why == LeftOutReason::not_at_all;
-        edge_off += differs && is_surface && why == LeftOutReason::edge;
+                               kOffPixelThreshold),
+                   is_off = differs && why == PixelLeftOutReason::not_at_all;
+        edge_off += differs && is_surface && why == PixelLeftOutReason::edge;
         off += is_off && is_surface;
         background_off += is_off && !is_surface;
         if (judged)
             judged->pixels[i] = is_off ? vec3(1, 0, 0)
-                                       : vec3(why == LeftOutReason::not_at_all ? 0 : .3f);
+                                       : vec3(why == PixelLeftOutReason::not_at_all ? 0 : .3f);
     }
     return {{"shown", shown},
-            {"judged", counts[LeftOutReason::not_at_all]},
-            {"mirror", counts[LeftOutReason::mirror]},
-            {"sharp", counts[LeftOutReason::sharp]},
-            {"edge", counts[LeftOutReason::edge]},
+            {"judged", counts[PixelLeftOutReason::not_at_all]},
+            {"mirror", counts[PixelLeftOutReason::mirror]},
+            {"sharp", counts[PixelLeftOutReason::sharp]},
+            {"edge", counts[PixelLeftOutReason::edge]},
             {"edge_off", edge_off},
             {"off", off},
             {"background_off", background_off}};
 }
 
 /// Returns the pixels of each object that covers at least kMinJudgedPixels pixels.
-std::map<int, std::vector<std::size_t>> list_pixels_of_objects(const CameraSurfaces& looked) {
+std::map<int, std::vector<std::size_t>> list_pixels_of_objects(const SurfacesSeenByCamera& looked) {
     std::map<int, std::vector<std::size_t>> pixels;
     for (std::size_t i = 0; i < std::size_t{looked.size.x} * looked.size.y; ++i)
         if (looked.surface_at_pixel_centre(i).object >= 0)
@@ -148,7 +149,8 @@ std::map<int, std::vector<std::size_t>> list_pixels_of_objects(const CameraSurfa
 
 /// Returns the standard deviation of the visible texels of a texture, 0 to 1, of the channel that
 /// varies most.
-float deviation_of_texels(const CameraSurfaces& looked, const std::vector<std::size_t>& pixels) {
+float deviation_of_texels(const SurfacesSeenByCamera& looked,
+                          const std::vector<std::size_t>& pixels) {
     dvec3 sum(0), squares(0);
     for (const std::size_t i : pixels) {
         const dvec3 texel(looked.surface_at_pixel_centre(i).texel);
@@ -183,7 +185,7 @@ float luminance_of_colour(const vec3& colour) { return dot(colour, vec3(.2126f, 
 /// similar normals. Returns nothing if no two normals are 30 degrees apart or if the object is
 /// black.
 std::optional<float> variation_over_normals(const measure::Picture& picture,
-                                            const CameraSurfaces& looked,
+                                            const SurfacesSeenByCamera& looked,
                                             const std::vector<std::size_t>& pixels) {
     struct RunningMean {
         vec3 normal{0};
@@ -212,7 +214,7 @@ std::optional<float> variation_over_normals(const measure::Picture& picture,
 
 /// Returns two figures for each object: the share of pixels that its texture changes, and how far
 /// luminance varies over its normals.
-json measure_object_surfaces(const app::Request& request, const CameraSurfaces& looked,
+json measure_object_surfaces(const app::Request& request, const SurfacesSeenByCamera& looked,
                              const measure::Picture& rays, const measure::Picture& plain_rays) {
     json textures = json::array(), lit = json::array();
     for (const auto& [number, pixels] : list_pixels_of_objects(looked)) {
@@ -252,8 +254,8 @@ void write_picture(const measure::Picture& picture, const std::string& folder, c
                        folder + "/" + name + "-" + std::to_string(camera) + ".png");
 }
 
-constexpr const char* kRaster = "naive:bounces=0";
-constexpr const char* kRays = "raytrace";
+constexpr const char* kRasterTechnique = "naive:bounces=0";
+constexpr const char* kRayTracingTechnique = "raytrace";
 
 json measure_view_of_camera(app::Engine& engine, const std::string& name, std::size_t camera,
                             const std::string& folder) {
@@ -261,10 +263,10 @@ json measure_view_of_camera(app::Engine& engine, const std::string& name, std::s
     app::Request request = make_camera_request(wanted, camera);
     app::Session session(engine, request.scene);
     app::resolve_auto_exposure(session, request);
-    const measure::Picture raster = render_picture(session, request, kRaster),
-                           rays = render_picture(session, request, kRays);
-    const scenes::SurfaceSight sight(request);
-    const CameraSurfaces looked{request.size, sight.look()};
+    const measure::Picture raster = render_picture(session, request, kRasterTechnique),
+                           rays = render_picture(session, request, kRayTracingTechnique);
+    const scenes::SceneSurfaceCaster sight(request);
+    const SurfacesSeenByCamera looked{request.size, sight.look()};
     measure::Picture judged(int(kJudgedPictureSize.x), int(kJudgedPictureSize.y));
     json line = {{"scene", name}, {"camera", request.camera.name}, {"exposure", request.exposure}};
     line["agreement"] = measure_raster_agreement(request, looked, sight, raster, rays, true,
@@ -275,19 +277,19 @@ json measure_view_of_camera(app::Engine& engine, const std::string& name, std::s
     app::Request flat = request;
     flat.scene = remove_vertex_colours(replace_textures_by_mean(request.scene));
     app::Session flat_session(engine, flat.scene);
-    line.update(
-        measure_object_surfaces(request, looked, rays, render_picture(flat_session, flat, kRays)));
+    line.update(measure_object_surfaces(request, looked, rays,
+                                        render_picture(flat_session, flat, kRayTracingTechnique)));
 
     app::ResolvedScene smooth = app::load_resolved_scene(
         name, {.overrides = {.dielectric_mirrors = true}});
     app::Request with = make_camera_request(smooth, camera);
     with.exposure = request.exposure;
     app::Session with_session(engine, with.scene);
-    const scenes::SurfaceSight with_sight(with);
+    const scenes::SceneSurfaceCaster with_sight(with);
     line["agreement_dielectric_mirrors"] = measure_raster_agreement(
         with, {with.size, with_sight.look()}, with_sight,
-        render_picture(with_session, with, kRaster), render_picture(with_session, with, kRays),
-        false, nullptr);
+        render_picture(with_session, with, kRasterTechnique),
+        render_picture(with_session, with, kRayTracingTechnique), false, nullptr);
     return line;
 }
 

@@ -58,7 +58,7 @@ vec4 sample_texture_filtered(const scene::Texture& texture, const vec4& uv) {
 
 } // namespace
 
-SurfaceSight::SurfaceSight(const app::Request& request)
+SceneSurfaceCaster::SceneSurfaceCaster(const app::Request& request)
     : current_scene_(scene::scene_at_time(request.scene, request.time)),
       space_(render::make_scene_units(request.scene)),
       geometry_(render::make_frame_geometry(current_scene_, space_)),
@@ -84,8 +84,8 @@ SurfaceSight::SurfaceSight(const app::Request& request)
     tree_ = bvh::build_bvh(all, geometry_.core);
 }
 
-std::optional<SurfaceSight::CutOutSurface>
-SurfaceSight::meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut) const {
+std::optional<SceneSurfaceCaster::CutOutSurface>
+SceneSurfaceCaster::meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut) const {
     constexpr int kMaxCutOutSurfaces = 64; // most cut-out surfaces along a ray
     for (cut = 0; cut < kMaxCutOutSurfaces; ++cut) {
         const auto hit = bvh::find_closest_hit<float>(tree_, ray, farthest, skipped);
@@ -118,7 +118,7 @@ SurfaceSight::meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut
     return {};
 }
 
-std::uint32_t SurfaceSight::shadows(const SeenSurface& seen, std::uint32_t triangle) const {
+std::uint32_t SceneSurfaceCaster::shadows(const SeenSurface& seen, std::uint32_t triangle) const {
     std::uint32_t hidden = 0;
     for (std::size_t i = 0; i < lights_.size() && i < 32; ++i) {
         const scene::PointLight& light = lights_[i];
@@ -137,7 +137,7 @@ std::uint32_t SurfaceSight::shadows(const SeenSurface& seen, std::uint32_t trian
     return hidden;
 }
 
-SeenSurface SurfaceSight::see(const f32::Ray& ray) const {
+SeenSurface SceneSurfaceCaster::see(const f32::Ray& ray) const {
     SeenSurface seen;
     const auto met = meet(ray, std::numeric_limits<float>::max(),
                           bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, seen.cut);
@@ -174,7 +174,7 @@ SeenSurface SurfaceSight::see(const f32::Ray& ray) const {
     return seen;
 }
 
-std::vector<SeenSurface> SurfaceSight::look() const {
+std::vector<SeenSurface> SceneSurfaceCaster::look() const {
     const uvec2 fine = size_ * kRaysAlongPixelEdge;
     std::vector<SeenSurface> seen;
     for (std::size_t i = 0; i < std::size_t{fine.x} * fine.y; ++i)
@@ -182,7 +182,7 @@ std::vector<SeenSurface> SurfaceSight::look() const {
     return seen;
 }
 
-float SurfaceSight::pixel_at(float distance) const {
+float SceneSurfaceCaster::pixel_at(float distance) const {
     const float across = 2 / (float(size_.y) * length(view_.down));
     return view_.parallel ? across : across * distance;
 }

@@ -29,10 +29,10 @@ struct SeenSurface {
     vec4 texel{0};              ///< base colour as in the file, 0 to 1; alpha last
 };
 
-class SurfaceSight {
+class SceneSurfaceCaster {
 public:
     /// Prepares the scene at the request's time. Builds a BVH over all triangles.
-    explicit SurfaceSight(const app::Request& request);
+    explicit SceneSurfaceCaster(const app::Request& request);
 
     /// Returns what kRaysAlongPixelEdge x kRaysAlongPixelEdge rays per pixel meet, row by row. A
     /// ray takes about two microseconds, more with lights.
@@ -57,7 +57,7 @@ private:
     }
 
     scene::Scene current_scene_;
-    render::SceneUnits space_;
+    render::SceneUnitTransform space_;
     render::FrameGeometry geometry_;
     std::vector<uvec3> triangles_; ///< indices of corners, by triangle
     bvh::Bvh tree_;

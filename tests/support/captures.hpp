@@ -47,11 +47,11 @@ inline CapturedLayers capture_with_options(const scene::Scene& scene,
     const render::CubeCaptureArray cubes = add_black_captures(graph, inputs, options);
     for (const std::optional<graph::ImageHandle>& image :
          {std::optional(cubes.colour), cubes.distance, cubes.colour2, cubes.distance2})
-        if (image) graph.mark_output(*image);
+        if (image) graph.mark_as_graph_output(*image);
     run_graph(runner, graph);
     const auto read = [&](graph::ImageHandle colour, graph::ImageHandle distance) {
-        return CapturedCubes{options.face, runner.read_resource(colour),
-                             runner.read_resource(distance), gpu_scene.scene_units()};
+        return CapturedCubes{options.face, runner.read_back_resource(colour),
+                             runner.read_back_resource(distance), gpu_scene.scene_units()};
     };
     CapturedLayers layers{read(cubes.colour, *cubes.distance), {}};
     if (options.second_layer) layers.second = read(*cubes.colour2, *cubes.distance2);

@@ -21,7 +21,7 @@ inline f32::ObjectPlacement make_placement_of_instance(const bvh::BvhInstance& i
     return {vec3(back[0]),         vec3(back[1]),
             vec3(back[2]),         vec3(to[0]),
             vec3(to[1]),           vec3(to[2]),
-            vec3(instance.centre), bvh::float_rounding_error(instance.centre)};
+            vec3(instance.centre), bvh::double_to_float_rounding_error(instance.centre)};
 }
 
 /// Returns a random rotation after a scale of each axis. The scale squeezes the second axis and

@@ -29,7 +29,7 @@ inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
     const graph::ImageHandle display = add("display", TexelFormat::rgba8_unorm, 1, false);
     g.add_pass("shadow", graph::PassPurpose::scene)
         .writes(shadow, ResourceUse::depth, kBlackClearValue)
-        .set_layer_count(5)
+        .set_pass_layer_count(5)
         .record(nothing);
     for (std::uint32_t n = 0; n < mirrors; ++n) {
         const std::string name = "capture/" + std::to_string(n + 1);
@@ -37,10 +37,10 @@ inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
         g.add_pass(name, graph::PassPurpose::scene)
             .reads(shadow, ResourceUse::sampled)
             .reads(g.previous_contents(cubes), ResourceUse::sampled)
-            .writes(cubes.select_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
-            .writes(distance.select_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
+            .writes(cubes.select_image_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
+            .writes(distance.select_image_layers(6 * n, 6), ResourceUse::colour, kBlackClearValue)
             .writes(depth, ResourceUse::depth, kBlackClearValue)
-            .set_layer_count(6)
+            .set_pass_layer_count(6)
             .record(nothing);
     }
     g.add_pass("view", graph::PassPurpose::scene)
@@ -54,8 +54,8 @@ inline graph::Graph make_reuse_graph(std::uint32_t mirrors) {
         .reads(hdr, ResourceUse::sampled)
         .writes(display, ResourceUse::storage_write)
         .record(nothing);
-    g.mark_output(hdr);
-    g.mark_output(display);
+    g.mark_as_graph_output(hdr);
+    g.mark_as_graph_output(display);
     return g;
 }
 

@@ -74,7 +74,7 @@ public:
 
     /// Robustness rules that the shader leaves out, as constants of shaders/lib/plain.glsl. Without
     /// a rule, a test shows the errors that the rule prevents.
-    gpu::ShaderConstants rules{};
+    gpu::ShaderConstantValues rules{};
 
     const bvh::Bvh& traversed_bvh() const { return bvh_; }
 
@@ -101,7 +101,7 @@ public:
 private:
     std::vector<DeviceHit> trace_rays(const std::vector<DeviceRay>& rays, std::uint32_t skipped,
                                       const std::vector<vec4>& lows, std::uint32_t occluded) {
-        gpu::ShaderConstants constants = rules;
+        gpu::ShaderConstantValues constants = rules;
         const bool object_spaces = bvh_.nodes[2].x > 0; // tree with instances (bvh/tlas.hpp)
         constants.emplace_back("object_spaces", object_spaces ? 1u : 0u);
         constants.emplace_back("exact_spheres", has_sphere_primitives() ? 1u : 0u);
@@ -114,7 +114,8 @@ private:
 
     bool has_sphere_primitives() const {
         for (std::size_t i = 2; i < bvh_.triangles.size(); i += 3)
-            if ((bvh::float_word_to_integer(bvh_.triangles[i].w) & bvh::kSpherePrimitiveFlag) != 0)
+            if ((bvh::integer_from_float_bits(bvh_.triangles[i].w) & bvh::kSpherePrimitiveFlag) !=
+                0)
                 return true;
         return false;
     }
@@ -125,7 +126,7 @@ private:
     }
 
     template <typename Out, typename In, typename Push>
-    std::vector<Out> run_ray_shader(const char* shader, const gpu::ShaderConstants& constants,
+    std::vector<Out> run_ray_shader(const char* shader, const gpu::ShaderConstantValues& constants,
                                     const char* input, const std::vector<In>& in,
                                     const char* output, const Push& push) {
         upload_to_buffer(get_test_device().device, input_, "input", in, gpu::BufferUsage::plain);
@@ -139,11 +140,11 @@ private:
                 commands.bind_resource(input, input_);
                 commands.bind_resource("Lows", lows_);
                 commands.bind_resource(output, out);
-                commands.bind_pipeline(gpu::ComputeState{shader, constants});
+                commands.bind_pipeline(gpu::ComputePipelineState{shader, constants});
                 commands.push_constants(push);
                 commands.dispatch((list_size_as_uint32(in) + 63) / 64, 1);
             });
-        graph.mark_output(out);
+        graph.mark_as_graph_output(out);
         test::run_graph(runner_, graph);
         return read_resource_values<Out>(runner_, out);
     }
@@ -177,7 +178,7 @@ inline DeviceHit find_hit_on_cpu(const bvh::Bvh& hierarchy, const DeviceRay& ray
         hierarchy, {ray.origin, ray.direction, ray.leaves}, ray.t_max, skipped, &steps, low);
     DeviceHit result;
     if (hit) result = {hit->t, hit->barycentric, hit->triangle, hit->object, 1, 0};
-    result.steps = static_cast<std::uint32_t>(steps.count_all_steps());
+    result.steps = static_cast<std::uint32_t>(steps.count_traversal_steps_total());
     return result;
 }
 

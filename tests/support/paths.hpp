@@ -65,7 +65,7 @@ struct PixelComparison {
 inline bool is_pixel_off(const vec3& a, const vec3& b) {
     // A channel that is NaN counts as off, because the comparison is then false.
     for (int i = 0; i < 3; ++i)
-        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kVisibleDifference)))
+        if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kMaxInvisibleChannelDifference)))
             return true;
     return false;
 }

@@ -24,7 +24,7 @@ inline reflect::TechniqueOutputs add_technique(graph::Graph& graph,
 inline render::CubeCaptureArray add_black_captures(graph::Graph& graph,
                                                    const render::FrameInputs& inputs,
                                                    const render::CaptureOptions& options) {
-    const render::MirrorCaptures captures = render::declare_captures(
+    const render::MirrorCaptures captures = render::declare_capture_images(
         graph, inputs, "capture", std::vector(inputs.scene.mirror_count(), options));
     render::add_capture_passes(graph, inputs, captures,
                                render::use_same_shader_for_mirrors(inputs.scene, {}));

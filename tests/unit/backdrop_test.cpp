@@ -17,7 +17,7 @@ using Names = std::vector<std::string>;
 /// Returns the names of the objects that find_shadowless_backdrops reports. The light is at `place`
 /// in world units. A directional light instead shines along `place` from infinitely far away.
 Names list_backdrop_names(const scene::Scene& scene, const dvec3& place, bool directional = false) {
-    const render::SceneUnits space = render::make_scene_units(scene);
+    const render::SceneUnitTransform space = render::make_scene_units(scene);
     shared::Light light{};
     light.kind = directional ? shared::kLightKindDirectional : shared::kLightKindPoint;
     light.position = vec3(space.world_to_scene_units(place));

@@ -39,7 +39,7 @@ Comparison make_timed_comparison() {
 
 std::vector<BaselineFinding> judge(const Comparison& now, const Comparison& before,
                                    const BaselineLimits& limits = {}) {
-    return judge_against_baseline(now, to_json(before), "old.json", limits);
+    return judge_comparison_against_baseline(now, to_json(before), "old.json", limits);
 }
 
 std::vector<std::string> list_quantities(const std::vector<BaselineFinding>& findings,
@@ -151,14 +151,15 @@ TEST(Baseline, MoreCountedWorkIsWorse) {
     };
     Comparison now = make_timed_comparison();
     for (Row& row : now.rows) {
-        catoptric::WorkCounts counts{};
-        counts[catoptric::WorkKind::nodes] = 120;
+        catoptric::WorkCountsByKind counts{};
+        counts[catoptric::CountedWorkKind::nodes] = 120;
         catoptric::measure::set_row_work(row, {{"view", counts}});
     }
     now.device.name = "another", now.studies.emplace_back("work");
     const auto judge_nodes = [&](double nodes) {
-        return list_quantities(judge_against_baseline(now, with_work(nodes), "old.json", {}),
-                               BaselineVerdict::worse);
+        return list_quantities(
+            judge_comparison_against_baseline(now, with_work(nodes), "old.json", {}),
+            BaselineVerdict::worse);
     };
     const Names both{now.rows[0].label + ": work: nodes", now.rows[1].label + ": work: nodes"};
     EXPECT_EQ(judge_nodes(100), both);
@@ -179,7 +180,7 @@ TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
     const Comparison before = make_timed_comparison();
     const auto refusal = [&](const Comparison& now, const std::string& json) -> std::string {
         try {
-            judge_against_baseline(now, json, "old.json", {});
+            judge_comparison_against_baseline(now, json, "old.json", {});
         } catch (const Error& error) {
             EXPECT_EQ(error.failure, Failure::bad_data);
             return error.what();

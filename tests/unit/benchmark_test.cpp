@@ -13,10 +13,10 @@ namespace {
 
 using namespace catoptric;
 using measure::BenchmarkChange;
+using measure::BenchmarkCostKind;
 using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
-using measure::CostKind;
 using Outcome = BenchmarkChange::BenchmarkChangeOutcome;
 using nlohmann::json;
 
@@ -39,10 +39,10 @@ BenchmarkRun make_benchmark_run(std::vector<BenchmarkResult> list) {
     return run;
 }
 
-const std::vector<double> kSix{10, 11, 12, 13, 14, 15};
+const std::vector<double> kSixBenchmarkTimes{10, 11, 12, 13, 14, 15};
 
 std::vector<double> make_benchmark_times(double factor) {
-    std::vector<double> values = kSix;
+    std::vector<double> values = kSixBenchmarkTimes;
     for (double& value : values) value *= factor;
     return values;
 }
@@ -67,7 +67,7 @@ TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
 TEST(BenchmarkCompare, RunsDifferIfTheRatioIntervalExcludesOne) {
     const auto outcome = [](double factor) {
         return compute_only_change(
-                   make_benchmark_run({make_benchmark("a", kSix)}),
+                   make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}),
                    make_benchmark_run({make_benchmark("a", make_benchmark_times(factor))}))
             .outcome();
     };
@@ -85,32 +85,34 @@ TEST(BenchmarkCompare, FewerThanSixRoundsGiveAnUnknownOutcome) {
 }
 
 TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
-    BenchmarkResult counted = make_benchmark("a", kSix),
+    BenchmarkResult counted = make_benchmark("a", kSixBenchmarkTimes),
                     more = make_benchmark("a", make_benchmark_times(.5));
     for (BenchmarkRound& round : counted.rounds) round.cycles = 1e6;
     for (BenchmarkRound& round : more.rounds) round.cycles = 2e6;
     const BenchmarkChange found = compute_only_change(make_benchmark_run({counted}),
                                                       make_benchmark_run({more}));
-    EXPECT_EQ(found.cost, CostKind::cycles);
+    EXPECT_EQ(found.cost, BenchmarkCostKind::cycles);
     EXPECT_EQ(found.ratio.median, 2);
     EXPECT_EQ(found.outcome(), Outcome::mixed) << "twice the cycles in half the time";
     more.rounds[3].cycles.reset();
     EXPECT_EQ(compute_only_change(make_benchmark_run({counted}), make_benchmark_run({more})).cost,
-              CostKind::cpu_time);
+              BenchmarkCostKind::cpu_time);
 }
 
 TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
-    BenchmarkResult counted = make_benchmark("a", kSix), more = make_benchmark("a", kSix);
+    BenchmarkResult counted = make_benchmark("a", kSixBenchmarkTimes),
+                    more = make_benchmark("a", kSixBenchmarkTimes);
     for (BenchmarkRound& round : counted.rounds) round.instructions = 1e6;
     for (BenchmarkRound& round : more.rounds) round.instructions = 3e6;
     const BenchmarkChange found = compute_only_change(make_benchmark_run({counted}),
                                                       make_benchmark_run({more}));
-    EXPECT_EQ(found.cost, CostKind::instructions);
+    EXPECT_EQ(found.cost, BenchmarkCostKind::instructions);
     EXPECT_EQ(found.ratio.median, 3);
 }
 
 TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
-    BenchmarkResult before = make_benchmark("a", kSix), after = make_benchmark("a", kSix);
+    BenchmarkResult before = make_benchmark("a", kSixBenchmarkTimes),
+                    after = make_benchmark("a", kSixBenchmarkTimes);
     for (BenchmarkRound& round : before.rounds)
         round.counters = {{"work/nodes", 1000}, {"work/draws", 7}, {"work/bytes", 5}, {"rays", 1}};
     for (BenchmarkRound& round : after.rounds)
@@ -131,23 +133,27 @@ TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
 TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
     BenchmarkResult shared = make_benchmark("a", make_benchmark_times(1.1));
     for (BenchmarkRound& round : shared.rounds) round.real_ms /= 2;
-    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", kSix)}),
+    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}),
                                   make_benchmark_run({shared}))
                   .outcome(),
               Outcome::mixed);
 }
 
 TEST(BenchmarkCompare, WallTimeIsComparedIfTheDeviceIsNoProcessor) {
-    BenchmarkRun gpu = make_benchmark_run({make_benchmark("a", kSix)});
+    BenchmarkRun gpu = make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)});
     gpu.device.type = "discrete";
-    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", kSix)}), gpu).cost,
-              CostKind::real_time);
+    EXPECT_EQ(
+        compute_only_change(make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}), gpu)
+            .cost,
+        BenchmarkCostKind::real_time);
 }
 
 TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {
     const measure::BenchmarkChanges found = measure::compare_benchmark_runs(
-        make_benchmark_run({make_benchmark("gone", kSix), make_benchmark("both", kSix)}),
-        make_benchmark_run({make_benchmark("both", kSix), make_benchmark("new", kSix)}));
+        make_benchmark_run({make_benchmark("gone", kSixBenchmarkTimes),
+                            make_benchmark("both", kSixBenchmarkTimes)}),
+        make_benchmark_run({make_benchmark("both", kSixBenchmarkTimes),
+                            make_benchmark("new", kSixBenchmarkTimes)}));
     ASSERT_EQ(found.list.size(), 1U);
     EXPECT_THAT(found.only_before, testing::ElementsAre("gone"));
     EXPECT_THAT(found.only_after, testing::ElementsAre("new"));
@@ -158,12 +164,12 @@ TEST(BenchmarkJoin, JoinedRunsAppendRoundsAndDropUnmatchedBenchmarks) {
         make_benchmark_run({make_benchmark("a", {1, 2}), make_benchmark("b", {5})}),
         make_benchmark_run({make_benchmark("a", {3})}));
     ASSERT_EQ(both.benchmarks.size(), 1U);
-    EXPECT_EQ(list_round_costs(both.benchmarks[0], CostKind::real_time),
+    EXPECT_EQ(list_benchmark_cost_per_round(both.benchmarks[0], BenchmarkCostKind::real_time),
               (std::vector{1.0, 2.0, 3.0}));
 }
 
 TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
-    BenchmarkRun run = make_benchmark_run({make_benchmark("frame/x", kSix)});
+    BenchmarkRun run = make_benchmark_run({make_benchmark("frame/x", kSixBenchmarkTimes)});
     run.benchmarks[0].rounds[0].cycles = 5e6;
     run.benchmarks[0].rounds[0].counters["rays"] = 508289;
     run.uncounted = "nobody knows";
@@ -193,7 +199,8 @@ TEST(BenchmarkFile, FileFollowsTheGoogleBenchmarkFormat) {
 }
 
 TEST(BenchmarkFile, WrittenRunIsReadBackUnchanged) {
-    BenchmarkRun run = make_benchmark_run({make_benchmark("a", kSix), make_benchmark("b", {1.5})});
+    BenchmarkRun run = make_benchmark_run(
+        {make_benchmark("a", kSixBenchmarkTimes), make_benchmark("b", {1.5})});
     run.commit = "abc", run.device.name = "llvmpipe", run.noisy = true;
     run.benchmarks[1].rounds[0].cycles = 7, run.benchmarks[1].rounds[0].instructions = 9;
     run.benchmarks[1].rounds[0].counters["gpu_ms"] = .25;
@@ -203,7 +210,8 @@ TEST(BenchmarkFile, WrittenRunIsReadBackUnchanged) {
     EXPECT_EQ(read.device.name, "llvmpipe");
     EXPECT_EQ(read.noisy, true);
     ASSERT_EQ(read.benchmarks.size(), 2U);
-    EXPECT_EQ(list_round_costs(read.benchmarks[0], CostKind::cpu_time), kSix);
+    EXPECT_EQ(list_benchmark_cost_per_round(read.benchmarks[0], BenchmarkCostKind::cpu_time),
+              kSixBenchmarkTimes);
     const BenchmarkRound& round = read.benchmarks[1].rounds.at(0);
     EXPECT_EQ(round.iterations, 3U);
     EXPECT_EQ(round.cycles, 7);
@@ -268,7 +276,7 @@ TEST(BenchmarkFile, ErrorsNamePlaceExpectedAndFound) {
 
 TEST(BenchmarkChanges, ComparisonIsWrittenAsJson) {
     const json document = json::parse(report::to_json(measure::compare_benchmark_runs(
-        make_benchmark_run({make_benchmark("a", kSix), make_benchmark("b", {1})}),
+        make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes), make_benchmark("b", {1})}),
         make_benchmark_run(
             {make_benchmark("a", make_benchmark_times(2)), make_benchmark("c", {1})}))));
     EXPECT_EQ(document["schema"], "catoptric/bench-compare/1");

@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string kDark = "o thing\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string kUnlitTriangleObjText = "o thing\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string kCamera = "# catoptric camera c 0 0 5 0 0 0 0 1 0 40\n";
 
 class Beside : public test::InFolder {
@@ -33,7 +33,7 @@ protected:
     /// Loads a small scene whose override file x.obj.catoptric.json contains the text `beside`.
     app::ResolvedScene load_with_override_file(const std::string& beside,
                                                const SceneOverrides& overrides = {}) const {
-        const std::string scene = write_file_beside_scene("x.obj", kDark + kCamera);
+        const std::string scene = write_file_beside_scene("x.obj", kUnlitTriangleObjText + kCamera);
         write_file_beside_scene("x.obj.catoptric.json", beside);
         return app::load_resolved_scene(scene, {.overrides = overrides});
     }
@@ -86,7 +86,7 @@ TEST_F(Beside, OverrideFileChangesTheSceneHashAndCanBeIgnored) {
 
 TEST_F(Beside, CameraIndexCountsInTheOrderOfTheScene) {
     const std::string scene = write_file_beside_scene(
-        "x.obj", kDark + kCamera + "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
+        "x.obj", kUnlitTriangleObjText + kCamera + "# catoptric camera d 0 0 6 0 0 0 0 1 0 40\n" +
                      "# catoptric camera e 0 0 7 0 0 0 0 1 0 40\n");
     for (const auto& [index, name] : {std::pair("0", "c"), {"1", "d"}, {"2", "e"}}) {
         write_file_beside_scene("x.obj.catoptric.json",
@@ -181,7 +181,7 @@ TEST_F(Beside, MissingSceneItemErrorsNameFileAndKey) {
 TEST_F(Beside, AnimationNameIsRefusedForAFileWithoutAnimations) {
     SceneOverrides walk;
     walk.animation = "walk";
-    const std::string path = write_file_beside_scene("x.obj", kDark);
+    const std::string path = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
     for (const std::string& scene : {path, std::string("cornell-mirrors")})
         EXPECT_THAT(
             test::catch_error_text(Failure::usage,
@@ -200,7 +200,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.multiple_scattering = true, overrides.light_samples = 9;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
-    const std::string scene = write_file_beside_scene("x.obj", kDark);
+    const std::string scene = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
     const std::string text = write_scene_file_text(overrides, scene);
     EXPECT_THAT(text, HasSubstr("\"environment\": \"sky.exr\""));
     write_file_beside_scene("x.obj.catoptric.json", text);
@@ -254,14 +254,14 @@ TEST_F(Beside, DefaultCameraOfAClosedRoomIsInside) {
     EXPECT_TRUE(camera_of(make_closed_room_obj(true, false))) << "outside it shows its backs alone";
     EXPECT_TRUE(camera_of(make_closed_room_obj(false, true))) << "outside it hides its mirror";
     EXPECT_FALSE(camera_of(make_closed_room_obj(false, false))) << "a crate";
-    EXPECT_FALSE(camera_of(kDark)) << "not closed";
+    EXPECT_FALSE(camera_of(kUnlitTriangleObjText)) << "not closed";
     std::string open = make_closed_room_obj(true, true);
     open.erase(open.find("f 7 8 6 5")); // removes this wall and the text after it
     EXPECT_FALSE(camera_of(open)) << "walls are missing";
 }
 
 TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
-    const std::string path = write_file_beside_scene("x.obj", kDark);
+    const std::string path = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
     app::ResolvedScene found = app::load_resolved_scene(path, {});
     const Camera camera = app::choose_or_add_camera(found, 2);
     ASSERT_NE(found.scene.environment, nullptr);
@@ -284,15 +284,15 @@ TEST_F(Beside, FileWithoutLightAndCameraGetsBoth) {
 TEST_F(Beside, NoEnvironmentIsAddedToALitSceneOrIfTheUserChoseNone) {
     SceneOverrides none;
     none.environment = "none";
-    const std::string dark = write_file_beside_scene("x.obj", kDark + kCamera);
+    const std::string dark = write_file_beside_scene("x.obj", kUnlitTriangleObjText + kCamera);
     const app::ResolvedScene black = app::load_resolved_scene(dark, {.overrides = none});
     EXPECT_EQ(black.scene.environment, nullptr);
     EXPECT_EQ(app::choose_ambient_light(black), .05);
     EXPECT_THAT(black.scene.unsupported, IsEmpty());
     EXPECT_THAT(black.said, IsEmpty());
     write_file_beside_scene("l.mtl", "newmtl l\nKe 1 1 1\n");
-    const std::string lit = write_file_beside_scene("y.obj",
-                                                    "mtllib l.mtl\nusemtl l\n" + kDark + kCamera);
+    const std::string lit = write_file_beside_scene("y.obj", "mtllib l.mtl\nusemtl l\n" +
+                                                                 kUnlitTriangleObjText + kCamera);
     EXPECT_EQ(app::load_resolved_scene(lit, {}).scene.environment, nullptr);
     SceneOverrides turned;
     turned.environment_rotation = 3;
@@ -307,7 +307,7 @@ TEST_F(Beside, NegativeOrMissingEnvironmentsAreRefused) {
     measure::write_exr(picture, folder / "sky.exr");
     SceneOverrides overrides;
     overrides.environment = (folder / "sky.exr").string();
-    const std::string path = write_file_beside_scene("x.obj", kDark);
+    const std::string path = write_file_beside_scene("x.obj", kUnlitTriangleObjText);
     EXPECT_THAT(
         test::catch_error_text(Failure::bad_data,
                                [&] { app::load_resolved_scene(path, {.overrides = overrides}); }),
@@ -327,7 +327,7 @@ TEST_F(Beside, RadianceEnvironmentFilesAreRead) {
     SceneOverrides overrides;
     overrides.environment = write_file_beside_scene("sky.hdr", file);
     const app::ResolvedScene found = app::load_resolved_scene(
-        write_file_beside_scene("x.obj", kDark), {.overrides = overrides});
+        write_file_beside_scene("x.obj", kUnlitTriangleObjText), {.overrides = overrides});
     ASSERT_EQ(found.scene.environment->size, uvec2(2, 1));
     const std::vector<vec3>& texels = found.scene.environment->texels;
     const vec3 first(1, .5f, .25f),

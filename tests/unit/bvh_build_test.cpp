@@ -20,7 +20,7 @@ std::vector<TriangleReference> make_triangle_references(std::span<const Triangle
         const BoundingBox box = compute_triangle_bounds(triangles[i].a, triangles[i].b,
                                                         triangles[i].c, 0);
         result.push_back(
-            {load_simd_vector(box.lo, index_to_float_word(i)), load_simd_vector(box.hi, 0)});
+            {load_simd_vector(box.lo, index_to_bits_in_float(i)), load_simd_vector(box.hi, 0)});
     }
     return result;
 }
@@ -40,8 +40,8 @@ double node_cost_of_references(std::span<const TriangleReference> references, st
 
 std::vector<TriangleReference> sort_references_along_axis(std::vector<TriangleReference> references,
                                                           int axis) {
-    std::ranges::stable_sort(references, {},
-                             [&](const TriangleReference& r) { return r.centre_of_box()[axis]; });
+    std::ranges::stable_sort(
+        references, {}, [&](const TriangleReference& r) { return r.bounding_box_centre()[axis]; });
     return references;
 }
 
@@ -56,7 +56,7 @@ TEST(BvhDivision, SweepFindsTheCheapestDivision) {
                 if (std::max(middle, count - middle) <= most)
                     least = std::min(least, node_cost_of_references(
                                                 sort_references_along_axis(few, axis), middle));
-        const std::optional<SweepSplit> found = find_best_division_by_sweep(few, most);
+        const std::optional<SweptSahSplit> found = find_best_sah_split_by_sweep(few, most);
         ASSERT_EQ(found.has_value(), std::isfinite(least));
         if (!found) continue;
         EXPECT_NEAR(found->cost, least, 1e-6 * least);
@@ -71,8 +71,8 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
         const std::size_t count = 50 * seed, most = seed % 2 == 0 ? count : 3 * count / 4;
         std::vector<TriangleReference> all = make_triangle_references(
             make_random_triangles(count, seed));
-        TriangleReferenceRange part;
-        for (const TriangleReference& r : all) part.add_reference(r);
+        TriangleReferenceSpanRange part;
+        for (const TriangleReference& r : all) part.add_triangle_reference_to_bin(r);
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const std::vector<TriangleReference> along = sort_references_along_axis(all, axis);
@@ -81,30 +81,31 @@ TEST(BvhDivision, BinsFindTheCheapestPlaneBetweenBins) {
                              place = lo + (hi - lo) * plane / kSplitBinCount;
                 const auto middle = static_cast<std::size_t>(
                     std::ranges::count_if(along, [&](const TriangleReference& r) {
-                        return double{r.centre_of_box()[axis]} < place;
+                        return double{r.bounding_box_centre()[axis]} < place;
                     }));
                 if (middle > 0 && middle < count && std::max(middle, count - middle) <= most)
                     least = std::min(least, node_cost_of_references(along, middle));
             }
         }
-        SplitBins bins;
-        bins.add_references(all, SplitBinMapping(part.centres));
-        const std::optional<BinSplit> split = find_best_split(bins, most);
+        SahSplitBins bins;
+        bins.add_triangle_references_of_bins(all, CentroidToBinMapping(part.centres));
+        const std::optional<BinnedSahSplit> split = find_best_binned_sah_split(bins, most);
         ASSERT_TRUE(split);
-        const std::size_t middle = bins.left_count(*split);
+        const std::size_t middle = bins.left_triangle_count_of_split(*split);
         std::vector<TriangleReference> sides(count);
         std::array<SimdBox, 2> centres;
-        split->scatter_references(all, SplitBinMapping(part.centres),
-                                  {sides.data(), &sides[middle]}, centres);
+        split->scatter_references_to_bins(all, CentroidToBinMapping(part.centres),
+                                          {sides.data(), &sides[middle]}, centres);
         EXPECT_NEAR(node_cost_of_references(sides, middle), least, 1e-6 * least);
         for (std::size_t side = 0; side < 2; ++side) {
             const auto own = std::span(sides).subspan(side == 0 ? 0 : middle,
                                                       side == 0 ? middle : count - middle);
-            TriangleReferenceRange made;
-            for (const TriangleReference& r : own) made.add_reference(r);
+            TriangleReferenceSpanRange made;
+            for (const TriangleReference& r : own) made.add_triangle_reference_to_bin(r);
             EXPECT_EQ(bins.extents(*split)[side].to_bounding_box(), made.box.to_bounding_box());
             EXPECT_EQ(centres[side].to_bounding_box(), made.centres.to_bounding_box());
-            EXPECT_TRUE(std::ranges::is_sorted(own, {}, &TriangleReference::triangle_number))
+            EXPECT_TRUE(
+                std::ranges::is_sorted(own, {}, &TriangleReference::triangle_index_of_reference))
                 << "in their order";
         }
     }
@@ -193,7 +194,7 @@ TEST(BvhBuild, ThreadedBuildStoresTrianglesOnceAndUnchanged) {
         const Bvh bvh = build_bvh(input.triangles, input.core, kMaxLeafTriangles, 3);
         std::vector<char> seen(input.triangles.size());
         for (std::size_t i = 0; i < bvh.triangles.size(); i += 3) {
-            const std::uint32_t number = float_word_to_integer(bvh.triangles[i + 1].w);
+            const std::uint32_t number = integer_from_float_bits(bvh.triangles[i + 1].w);
             ASSERT_LT(number, seen.size());
             ASSERT_EQ(seen[number]++, 0);
             const Triangle& t = input.triangles[number];

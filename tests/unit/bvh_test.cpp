@@ -54,8 +54,9 @@ TEST(Bvh, TreeIsSoundForAnyTriangleCount) {
 std::size_t count_casters_before(const Bvh& bvh, std::size_t place) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < place; ++i)
-        count += (float_word_to_integer(bvh.triangles[3 * i + 2].w) & kCastsNoShadowFlag) == 0 ? 1
-                                                                                               : 0;
+        count += (integer_from_float_bits(bvh.triangles[3 * i + 2].w) & kCastsNoShadowFlag) == 0
+                     ? 1
+                     : 0;
     return count;
 }
 
@@ -67,14 +68,14 @@ TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
         for (std::size_t i = 0; i < shadowless; ++i)
             triangles[7919 * i % kTriangleCount].flags = kCastsNoShadowFlag;
         for (std::size_t i = 3; i < kTriangleCount; i += 1000)
-            if (triangles[i].flags == 0) triangles[i].b.x = test::kInfinity;
+            if (triangles[i].flags == 0) triangles[i].b.x = test::kFloatInfinity;
         const Bvh bvh = build_bvh(triangles, {}, kMaxLeafTriangles, 1);
         const std::size_t stored = kTriangleCount - bvh.dropped,
                           casters = stored - std::min(shadowless, stored);
         expect_valid_bvh(bvh, stored);
         EXPECT_TRUE(
             have_equal_bytes(bvh.nodes, build_bvh(triangles, {}, kMaxLeafTriangles, 3).nodes));
-        const bool is_apart = shadowless > 0 && shadowless <= kMaxSeparateShadowlessTriangles;
+        const bool is_apart = shadowless > 0 && shadowless <= kMaxShadowlessTriangleSubtreeSize;
         const std::uint32_t first = float_to_bits(bvh.nodes[3].x),
                             second = float_to_bits(bvh.nodes[3].y);
         EXPECT_EQ(first, is_apart ? float_to_bits(bvh.nodes[4].w) : f32::kBvhRoot);
@@ -88,8 +89,8 @@ TEST(Bvh, AFewTrianglesWithoutShadowsGetATreeOfTheirOwn) {
 
 TEST(Bvh, RaysMissAnEmptyTree) {
     const Bvh bvh = build_bvh({});
-    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
-    EXPECT_FALSE(has_any_hit<float>(bvh, {vec3(0), vec3(1)}, test::kInfinity));
+    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(1)}, test::kFloatInfinity));
+    EXPECT_FALSE(has_any_hit<float>(bvh, {vec3(0), vec3(1)}, test::kFloatInfinity));
 }
 
 TEST(Bvh, EqualInputsGiveEqualBytes) {
@@ -105,14 +106,14 @@ TEST(Bvh, RaysThatSkipOneSidedTrianglesMissALampFromBehind) {
     const auto meets = [&](double from, std::uint32_t skipped) {
         const dvec3 origin(0, 0, from), direction(0, 0, 1 - from);
         const bool in_double = find_closest_hit<double>(bvh, {origin, direction, 0},
-                                                        test::kInfinity, skipped)
+                                                        test::kFloatInfinity, skipped)
                                    .has_value();
         const Ray<float> ray{vec3(origin), vec3(direction), 0};
-        EXPECT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity, skipped).has_value(),
+        EXPECT_EQ(find_closest_hit<float>(bvh, ray, test::kFloatInfinity, skipped).has_value(),
                   in_double);
-        EXPECT_EQ(
-            find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity, skipped).has_value(),
-            in_double);
+        EXPECT_EQ(find_closest_hit_by_brute_force<float>(bvh, ray, test::kFloatInfinity, skipped)
+                      .has_value(),
+                  in_double);
         return in_double;
     };
     EXPECT_TRUE(meets(3, kOneSidedFlag));
@@ -126,12 +127,13 @@ TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
     const Triangle far{{-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, 0x1ffffffe, 0};
     const Bvh bvh = build_bvh(std::vector{far, near});
     const Ray<float> ray{vec3(0), vec3(0, 0, 1)};
-    const auto first = find_closest_hit<float>(bvh, ray, test::kInfinity);
+    const auto first = find_closest_hit<float>(bvh, ray, test::kFloatInfinity);
     ASSERT_TRUE(first);
     EXPECT_EQ(first->triangle, 1u);
     EXPECT_EQ(first->object, 7u);
     EXPECT_EQ(first->t, 1);
-    const auto seen = find_closest_hit<float>(bvh, ray, test::kInfinity, kHiddenFromCameraFlag);
+    const auto seen = find_closest_hit<float>(bvh, ray, test::kFloatInfinity,
+                                              kHiddenFromCameraFlag);
     ASSERT_TRUE(seen);
     EXPECT_EQ(seen->triangle, 0u) << "camera rays pass through";
     EXPECT_EQ(seen->object, 0x1ffffffeu);
@@ -142,9 +144,9 @@ TEST(Bvh, HitsReportNumberAndObjectAndRespectFlags) {
 
 TEST(Bvh, NonFiniteTrianglesAreDroppedAndCounted) {
     std::vector<Triangle> triangles = make_random_triangles(100, 3);
-    triangles[10].b.y = test::kNan;
-    triangles[20].c.x = test::kInfinity;
-    triangles[99].a.z = -test::kInfinity;
+    triangles[10].b.y = test::kFloatNan;
+    triangles[20].c.x = test::kFloatInfinity;
+    triangles[99].a.z = -test::kFloatInfinity;
     const Bvh bvh = build_bvh(triangles);
     EXPECT_EQ(bvh.dropped, 3u);
     expect_valid_bvh(bvh, 97);
@@ -167,7 +169,7 @@ TEST(Bvh, BuildSurvivesCornersOfRandomBits) {
         const Bvh bvh = build_bvh(triangles);
         EXPECT_EQ(bvh.dropped, triangles.size() - finite);
         expect_valid_bvh(bvh, finite);
-        find_closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kInfinity);
+        find_closest_hit<float>(bvh, {vec3(1), vec3(1, 2, 3)}, test::kFloatInfinity);
     }
 }
 
@@ -181,12 +183,12 @@ TEST(Bvh, LowestNumberWinsAmongCoincidentTriangles) {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     EXPECT_LT(time.count(), 5);
     expect_valid_bvh(bvh, copies.size());
-    const auto hit = find_closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity);
+    const auto hit = find_closest_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kFloatInfinity);
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 0u);
     BvhTraversalCounters steps;
-    EXPECT_TRUE(has_any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kInfinity, 0, &steps));
-    EXPECT_LE(steps.count_all_steps(), kMaxTreeDepth + kMaxLeafTriangles);
+    EXPECT_TRUE(has_any_hit<float>(bvh, {vec3(0), vec3(0, 0, 1)}, test::kFloatInfinity, 0, &steps));
+    EXPECT_LE(steps.count_traversal_steps_total(), kMaxTreeDepth + kMaxLeafTriangles);
 }
 
 TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
@@ -208,7 +210,7 @@ TEST(Bvh, CopiesWithinOneObjectAreStoredOnce) {
     EXPECT_EQ(bvh.copies, triangles.size() - 16);
     EXPECT_EQ(bvh.dropped, 0u);
     for (std::size_t i = 0; i < 16; ++i)
-        EXPECT_LT(float_word_to_integer(bvh.triangles[3 * i + 1].w), 16u)
+        EXPECT_LT(integer_from_float_bits(bvh.triangles[3 * i + 1].w), 16u)
             << "the lowest number of each stays";
     const std::vector<Triangle> few(kMaxLeafTriangles, triangles.front());
     EXPECT_EQ(build_bvh(few).copies, 0u) << "a leaf has room for them";
@@ -223,7 +225,7 @@ TEST(Bvh, LowestNumberWinsAmongCopiesInDifferentLeaves) {
     for (int i = 0; i < 2000; ++i) {
         const auto hit = find_closest_hit<float>(
             bvh, {0.5f * random.random_point_in_cube(), random.random_unit_direction()},
-            test::kInfinity);
+            test::kFloatInfinity);
         ASSERT_TRUE(hit);
         ASSERT_LT(hit->triangle, original.size());
     }
@@ -255,7 +257,7 @@ void expect_equal_to_brute_force(const std::vector<Triangle>& triangles, int ray
                                        : aim.a + along * (aim.b - aim.a);
         Ray<Real> ray{Vec3<Real>(origin), Vec3<Real>(target - origin)};
         if (i % 8 == 0) ray.direction[i / 8 % 3] = i % 16 == 0 ? Real(0) : Real(-0.0);
-        const Real t_max = i % 2 == 0 ? Real(test::kInfinity)
+        const Real t_max = i % 2 == 0 ? Real(test::kFloatInfinity)
                                       : Real(random.random_number_between(0, 1.5f));
         const auto tree = find_closest_hit<Real>(bvh, ray, t_max);
         const auto all = find_closest_hit_by_brute_force<Real>(bvh, ray, t_max);
@@ -287,11 +289,13 @@ TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
         const bool is_blocked = has_any_hit<float>(bvh, ray, 2, kCastsNoShadowFlag, &steps);
         ASSERT_EQ(is_blocked,
                   has_any_hit<float>(only_casters, ray, 2, kCastsNoShadowFlag, &steps_of_casters));
-        ASSERT_TRUE(is_blocked || steps.count_all_steps() == steps_of_casters.count_all_steps())
+        ASSERT_TRUE(is_blocked || steps.count_traversal_steps_total() ==
+                                      steps_of_casters.count_traversal_steps_total())
             << "the same tree";
         for (const std::uint32_t skipped : {0u, kCastsNoShadowFlag})
-            ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity, skipped),
-                      find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity, skipped));
+            ASSERT_EQ(
+                find_closest_hit<float>(bvh, ray, test::kFloatInfinity, skipped),
+                find_closest_hit_by_brute_force<float>(bvh, ray, test::kFloatInfinity, skipped));
         blocked += is_blocked ? 1 : 0;
     }
     EXPECT_GT(blocked, 100u);
@@ -315,8 +319,9 @@ TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
                           random.random_number_between(1, 3));
         const Bvh bvh = build_bvh(std::span(&t, 1));
         const Ray<float> ray{origin, target - origin};
-        const auto expected = find_closest_hit_by_brute_force<float>(bvh, ray, test::kInfinity);
-        ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kInfinity), expected) << i;
+        const auto expected = find_closest_hit_by_brute_force<float>(bvh, ray,
+                                                                     test::kFloatInfinity);
+        ASSERT_EQ(find_closest_hit<float>(bvh, ray, test::kFloatInfinity), expected) << i;
         hits += expected ? 1 : 0;
     }
     EXPECT_GT(hits, 200);
@@ -328,9 +333,9 @@ TEST(ClosestHit, FloatHitsAgreeWithDoubleHits) {
     for (int i = 0; i < 20000; ++i) {
         const vec3 origin = 0.5f * random.random_point_in_cube(),
                    direction = random.random_unit_direction();
-        const auto single = find_closest_hit<float>(bvh, {origin, direction}, test::kInfinity);
+        const auto single = find_closest_hit<float>(bvh, {origin, direction}, test::kFloatInfinity);
         const auto precise_hit = find_closest_hit<double>(bvh, {dvec3(origin), dvec3(direction)},
-                                                          test::kInfinity);
+                                                          test::kFloatInfinity);
         ASSERT_TRUE(single && precise_hit);
         ASSERT_NEAR(single->t, precise_hit->t, 4e-6);
         const vec3& b = single->barycentric;
@@ -351,7 +356,8 @@ int count_rays_leaking_from_mesh(float scale, vec3 offset, int rays, unsigned se
         const vec3 target = i % 4 == 0 ? t.a
                                        : t.a + random.random_number_between(0, 1) * (t.b - t.a);
         const vec3 origin = offset + 0.4f * scale * random.random_point_in_cube();
-        if (!find_closest_hit<float>(bvh, {origin, target - origin}, test::kInfinity)) ++result;
+        if (!find_closest_hit<float>(bvh, {origin, target - origin}, test::kFloatInfinity))
+            ++result;
     }
     return result;
 }
@@ -374,17 +380,18 @@ TEST(ClosestHit, AxisAlignedRaysFromInsideAClosedMeshAlwaysHit) {
                 vec3 origin = t.a;
                 origin[axis] = 0;
                 if (glm::length(origin) > 0.99f) continue;
-                ASSERT_TRUE(find_closest_hit<float>(bvh, {origin, direction}, test::kInfinity));
+                ASSERT_TRUE(
+                    find_closest_hit<float>(bvh, {origin, direction}, test::kFloatInfinity));
             }
 }
 
 TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
     const Bvh bvh = build_bvh(make_divided_octahedron(4));
     test::RandomNumbers random(15);
-    for (float bad : {test::kNan, test::kInfinity, -test::kInfinity})
+    for (float bad : {test::kFloatNan, test::kFloatInfinity, -test::kFloatInfinity})
         for (int k = 0; k < 7; ++k) {
             vec3 origin(0), direction = random.random_unit_direction();
-            float t_max = test::kInfinity;
+            float t_max = test::kFloatInfinity;
             if (k < 3)
                 origin[k] = bad;
             else if (k < 6)
@@ -396,9 +403,9 @@ TEST(ClosestHit, InvalidRaysMissWithoutVisitingNodes) {
             EXPECT_FALSE(find_closest_hit<float>(bvh, {origin, direction}, t_max, 0, &steps));
             EXPECT_FALSE(has_any_hit<float>(bvh, {origin, direction}, t_max));
             EXPECT_FALSE(find_closest_hit_by_brute_force<float>(bvh, {origin, direction}, t_max));
-            EXPECT_EQ(steps.count_all_steps(), 0u);
+            EXPECT_EQ(steps.count_traversal_steps_total(), 0u);
         }
-    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kInfinity))
+    EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(0)}, test::kFloatInfinity))
         << "no direction";
     EXPECT_FALSE(find_closest_hit<float>(bvh, {vec3(0), vec3(1)}, -0.0f));
 }
@@ -415,8 +422,9 @@ TEST(ClosestHit, ScalingByPowersOfTwoLeavesHitsUnchanged) {
         for (int i = 0; i < 2000; ++i) {
             const vec3 origin = 2.0f * random.random_point_in_cube(),
                        direction = random.random_unit_direction();
-            const auto a = find_closest_hit<float>(one, {origin, direction}, test::kInfinity);
-            const auto b = find_closest_hit<float>(other, {s * origin, direction}, test::kInfinity);
+            const auto a = find_closest_hit<float>(one, {origin, direction}, test::kFloatInfinity);
+            const auto b = find_closest_hit<float>(other, {s * origin, direction},
+                                                   test::kFloatInfinity);
             ASSERT_EQ(a.has_value(), b.has_value());
             if (!a) continue;
             ASSERT_EQ(a->triangle, b->triangle);
@@ -447,7 +455,7 @@ TEST(ClosestHit, SpawnedRaysMissTheTriangleTheyLeave) {
             const vec3 direction = random.random_unit_direction();
             const vec3 n = f32::facet_normal(t.a, t.b, t.c);
             const Ray<float> ray{f32::ray_spawn_origin(p, error, n, direction), direction, 1};
-            ASSERT_FALSE(find_closest_hit<float>(bvh, ray, test::kInfinity));
+            ASSERT_FALSE(find_closest_hit<float>(bvh, ray, test::kFloatInfinity));
         }
     }
 }
@@ -469,7 +477,8 @@ TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
                                                   0.5f * scale * random.random_unit_direction());
             const vec3 origin = f32::ray_spawn_origin(p, error, f32::facet_normal(a, b, c),
                                                       direction);
-            const auto hit = find_closest_hit<float>(bvh, {origin, direction, 0}, test::kInfinity);
+            const auto hit = find_closest_hit<float>(bvh, {origin, direction, 0},
+                                                     test::kFloatInfinity);
             ASSERT_TRUE(hit);
             ASSERT_GT(hit->t, scale);
         }
@@ -479,7 +488,7 @@ TEST(ClosestHit, RaysSpawnedInsideABallCrossTheBall) {
 TEST(Refit, RefitWithoutMovementChangesNothing) {
     for (const Bounds<float>& core : {Bounds<float>{}, Bounds<float>{vec3(-.5f), vec3(.3f)}}) {
         std::vector<Triangle> triangles = make_random_triangles(500, 3);
-        triangles[7].b.y = test::kNan;
+        triangles[7].b.y = test::kFloatNan;
         const Bvh built = build_bvh(triangles, core);
         Bvh refitted = built;
         triangles[7] = triangles[8]; // triangle 7 was dropped at build, so refit ignores it
@@ -511,8 +520,8 @@ TEST(Refit, HitsEqualThoseOfANewlyBuiltTree) {
             const Triangle& aim = triangles[random.random_integer_below(triangles.size())];
             const vec3 origin = 2.0f * random.random_point_in_cube();
             const Ray<float> ray{origin, (k % 2 ? aim.a : (aim.a + aim.b) * 0.5f) - origin, 0};
-            const auto hit = find_closest_hit<float>(refitted, ray, test::kInfinity),
-                       wanted = find_closest_hit<float>(rebuilt, ray, test::kInfinity);
+            const auto hit = find_closest_hit<float>(refitted, ray, test::kFloatInfinity),
+                       wanted = find_closest_hit<float>(rebuilt, ray, test::kFloatInfinity);
             ASSERT_EQ(hit.has_value(), wanted.has_value());
             if (!hit) continue;
             ++found;
@@ -542,7 +551,7 @@ TEST(Refit, PartialRefitEqualsFullRefit) {
         for (std::size_t i = 0; i < triangles.size(); ++i)
             triangles[i].object = i >= 80 && i < 150 ? 1 : 0;
         Bvh few = build_bvh(triangles, core), all = few;
-        const BvhRefitRegion reach = find_refit_region(few, std::vector<char>{0, 1});
+        const ChangedBvhRegion reach = find_bvh_region_to_refit(few, std::vector<char>{0, 1});
         EXPECT_LT(reach.boxes.size(), count_nodes(few)) << "half of them";
         test::RandomNumbers random(23);
         for (int step = 0; step < 5; ++step) {
@@ -586,8 +595,8 @@ TEST(ClosestHit, RaysVisitFewNodes) {
         BvhTraversalCounters steps;
         find_closest_hit<float>(
             bvh, {0.5f * random.random_point_in_cube(), random.random_unit_direction()},
-            test::kInfinity, 0, &steps);
-        total += steps.count_all_steps();
+            test::kFloatInfinity, 0, &steps);
+        total += steps.count_traversal_steps_total();
     }
     EXPECT_LT(total / 1000, 60u);
 }

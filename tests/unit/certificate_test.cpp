@@ -19,28 +19,30 @@ TEST(Certificate, NumbersOfViewsAreThoseOfTheTables) {
     } known[] = {{.90, 0, 29}, {.95, 0, 59}, {.99, 0, 299},
                  {.90, 1, 46}, {.95, 1, 93}, {.99, 1, 473}};
     for (const auto& [share, failures, views] : known)
-        EXPECT_EQ(count_views_needed(share, .95, failures), views) << share << " " << failures;
+        EXPECT_EQ(count_views_needed_for_certificate(share, .95, failures), views)
+            << share << " " << failures;
 }
 
 TEST(Certificate, BoundIsTheShareAtWhichTheFailuresBecomeUnlikely) {
     // Without a failure the bound is the n-th root of 1 - confidence.
     for (const std::size_t views : {1, 6, 59, 1000})
-        EXPECT_NEAR(kept_share_lower_bound(0, views, .95),
+        EXPECT_NEAR(lower_bound_of_passing_view_share(0, views, .95),
                     std::pow(.05, 1.0 / static_cast<double>(views)), 1e-12);
     // Two views, one failure: P(at most one failure) = 1 - p^2 = .05.
-    EXPECT_NEAR(kept_share_lower_bound(1, 2, .95), 1 - std::sqrt(.95), 1e-12);
+    EXPECT_NEAR(lower_bound_of_passing_view_share(1, 2, .95), 1 - std::sqrt(.95), 1e-12);
     // Clopper-Pearson for 2 of 30: one-sided 95 % bound of the failures is .19529.
-    EXPECT_NEAR(kept_share_lower_bound(2, 30, .95), 1 - .19529, 2e-4);
-    EXPECT_EQ(kept_share_lower_bound(0, 0, .95), 0);
-    EXPECT_EQ(kept_share_lower_bound(5, 5, .95), 0);
+    EXPECT_NEAR(lower_bound_of_passing_view_share(2, 30, .95), 1 - .19529, 2e-4);
+    EXPECT_EQ(lower_bound_of_passing_view_share(0, 0, .95), 0);
+    EXPECT_EQ(lower_bound_of_passing_view_share(5, 5, .95), 0);
     // More failures never prove more, and more views never prove less.
     for (std::size_t failures = 0; failures < 20; ++failures) {
-        EXPECT_GT(kept_share_lower_bound(failures, 50, .9),
-                  kept_share_lower_bound(failures + 1, 50, .9));
-        EXPECT_LT(kept_share_lower_bound(failures, 50, .9),
-                  kept_share_lower_bound(failures, 51, .9));
+        EXPECT_GT(lower_bound_of_passing_view_share(failures, 50, .9),
+                  lower_bound_of_passing_view_share(failures + 1, 50, .9));
+        EXPECT_LT(lower_bound_of_passing_view_share(failures, 50, .9),
+                  lower_bound_of_passing_view_share(failures, 51, .9));
     }
-    const double many = kept_share_lower_bound(500, 10'000, .95); // logarithms, no overflow
+    const double many = lower_bound_of_passing_view_share(500, 10'000,
+                                                          .95); // logarithms, no overflow
     EXPECT_GT(many, .945);
     EXPECT_LT(many, .95);
 }
@@ -55,7 +57,7 @@ TEST(Certificate, BoundCoversTheTrueShare) {
         for (int trial = 0; trial < kTrials; ++trial) {
             std::size_t failures = 0;
             for (int view = 0; view < 59; ++view) failures += keeps(random) ? 0 : 1;
-            wrong += kept_share_lower_bound(failures, 59, .95) > share ? 1 : 0;
+            wrong += lower_bound_of_passing_view_share(failures, 59, .95) > share ? 1 : 0;
         }
         EXPECT_LE(wrong, .05 * kTrials + 3 * std::sqrt(kTrials * .05 * .95)) << share;
     }
@@ -92,16 +94,16 @@ TEST(Certificate, ToleranceLimitCoversTheQuantile) {
 
 /// A view of which half a mirror is NaN must not be judged by the other half.
 TEST(Certificate, ViewFailsIfAPixelIsNotFiniteAndKeepsIfItShowsNoMirror) {
-    using catoptric::app::error_of_view;
     using catoptric::app::ErrorQuantity;
+    using catoptric::app::mirror_error_of_view;
     Difference view;
     view.pixels = 100, view.flip = .01, view.rmse = .02;
-    EXPECT_EQ(error_of_view(ErrorQuantity::flip, view), .01);
-    EXPECT_EQ(error_of_view(ErrorQuantity::rmse, view), .02);
+    EXPECT_EQ(mirror_error_of_view(ErrorQuantity::flip, view), .01);
+    EXPECT_EQ(mirror_error_of_view(ErrorQuantity::rmse, view), .02);
     view.nonfinite = 1;
-    EXPECT_TRUE(std::isinf(error_of_view(ErrorQuantity::flip, view)));
+    EXPECT_TRUE(std::isinf(mirror_error_of_view(ErrorQuantity::flip, view)));
     view = Difference();
-    EXPECT_EQ(error_of_view(ErrorQuantity::flip, view), 0);
+    EXPECT_EQ(mirror_error_of_view(ErrorQuantity::flip, view), 0);
 }
 
 } // namespace

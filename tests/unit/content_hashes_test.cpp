@@ -25,9 +25,10 @@ constexpr std::uint32_t kShadowMapEdgeTexels = 1024;
 class ModelAtInstants {
 public:
     explicit ModelAtInstants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
-    RequiredWorkModel model_at(double seconds) {
+    RequiredWorkModel required_work_model_at_time(double seconds) {
         const scene::Scene now = scene::scene_at_time(rest_, seconds);
-        return requirements_.model_for({now, rest_.cameras[0], {64, 64}, kShadowMapEdgeTexels});
+        return requirements_.make_work_model_for_request(
+            {now, rest_.cameras[0], {64, 64}, kShadowMapEdgeTexels});
     }
 
 private:
@@ -48,8 +49,10 @@ int count_unchanged_faces(const RequiredWorkModel& before, const RequiredWorkMod
 TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     ModelAtInstants instants(scene);
-    const RequiredWorkModel first = instants.model_at(0), second = instants.model_at(0),
-                            elsewhere = instants.model_at(1), again = instants.model_at(1);
+    const RequiredWorkModel first = instants.required_work_model_at_time(0),
+                            second = instants.required_work_model_at_time(0),
+                            elsewhere = instants.required_work_model_at_time(1),
+                            again = instants.required_work_model_at_time(1);
     EXPECT_EQ(count_unchanged_faces(first, second), 24);
     EXPECT_EQ(count_unchanged_faces(elsewhere, again), 24);
     EXPECT_EQ(first.lights[0].content_hash, second.lights[0].content_hash);
@@ -63,10 +66,10 @@ TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
 TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     ModelAtInstants instants(scene);
-    RequiredWorkModel before = instants.model_at(0);
+    RequiredWorkModel before = instants.required_work_model_at_time(0);
     int stays = 0;
     for (int frame = 1; frame <= 20; ++frame) {
-        const RequiredWorkModel after = instants.model_at(.1 * frame);
+        const RequiredWorkModel after = instants.required_work_model_at_time(.1 * frame);
         stays += count_unchanged_faces(before, after);
         for (std::size_t face = 0; face < 6; ++face)
             EXPECT_NE(before.mirrors[3].content_hashes[face],
@@ -82,7 +85,8 @@ TEST(RequireStamps, EditsOfLampsMaterialsAndObjectsChangeContentHashes) {
     scene::Scene scene = rest;
     RequiredWorkModelBuilder requirements(scene);
     const auto model = [&] {
-        return RequiredWorkModel(requirements.model_for({scene, scene.cameras[0], {64, 64}}));
+        return RequiredWorkModel(
+            requirements.make_work_model_for_request({scene, scene.cameras[0], {64, 64}}));
     };
     const RequiredWorkModel first = model();
     scene.materials[3].emission = {1, 1, 1};
@@ -119,7 +123,8 @@ TEST(RequireStamps, ApproachingBlockChangesOnlyTheFaceThatShowsTheBlock) {
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.5, 0, 0}, .period = 1};
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
     ModelAtInstants instants(scene);
-    const RequiredWorkModel before = instants.model_at(.1), after = instants.model_at(.2);
+    const RequiredWorkModel before = instants.required_work_model_at_time(.1),
+                            after = instants.required_work_model_at_time(.2);
     // Five faces keep their hash: all but face +X.
     EXPECT_EQ(count_unchanged_faces(before, after), 5);
     EXPECT_NE(before.mirrors[0].content_hashes[0], after.mirrors[0].content_hashes[0]);
@@ -202,7 +207,8 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
         scene.objects[mover].motion = scene::HarmonicMotion{
             .amplitude = dvec3(numbers.random_unit_direction()), .period = 2};
         ModelAtInstants instants(scene);
-        const RequiredWorkModel before = instants.model_at(.2), after = instants.model_at(.5);
+        const RequiredWorkModel before = instants.required_work_model_at_time(.2),
+                                after = instants.required_work_model_at_time(.5);
         const scene::Scene then = scene::scene_at_time(scene, .2),
                            now = scene::scene_at_time(scene, .5);
         const test::ObjectRayCaster old_tree(then), new_tree(now);

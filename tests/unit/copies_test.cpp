@@ -47,7 +47,7 @@ std::size_t count_steps_past_copies(std::size_t count) {
             EXPECT_EQ(hit->object, 0u) << "the first of them is seen";
         }
     EXPECT_GT(hits, 100);
-    return steps.count_all_steps();
+    return steps.count_traversal_steps_total();
 }
 
 TEST(CopiesInOnePlace, ManyCopiesCostARayNoMoreStepsThanFewCopies) {
@@ -63,7 +63,8 @@ TEST(CopiesInOnePlace, CopiesOfMaskedSurfacesAreKept) {
     for (std::uint32_t i = 0; i < 40; ++i)
         triangles.push_back(
             {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), i / 2, i < 20 ? bvh::kAlphaMaskedFlag : 0});
-    const bvh::Bvh tree = bvh::build_bvh(triangles, {}, bvh::DuplicateSearchScope::across_objects);
+    const bvh::Bvh tree = bvh::build_bvh(triangles, {},
+                                         bvh::DuplicateTriangleSearchScope::across_objects);
     // Ten masked objects keep one copy each, and the other ten objects keep one copy together.
     EXPECT_EQ(bvh::count_triangles(tree), 11u);
     EXPECT_EQ(bvh::count_triangles(bvh::build_bvh(triangles)), 20u);

@@ -87,9 +87,10 @@ TEST(Core, CoreLeavesOutADistantSkyOfManyTriangles) {
 }
 
 TEST(Core, ObjectsFarOutsideDoNotChangeSceneUnits) {
-    const render::SceneUnits plain = render::make_scene_units(scene::make_cornell_mirrors());
+    const render::SceneUnitTransform plain = render::make_scene_units(
+        scene::make_cornell_mirrors());
     for (const double distance : {1e4, 1e9}) {
-        const render::SceneUnits with = render::make_scene_units(
+        const render::SceneUnitTransform with = render::make_scene_units(
             make_scene_with_distant_triangle(distance));
         EXPECT_EQ(with.origin_world, plain.origin_world);
         EXPECT_EQ(with.scale, plain.scale);
@@ -134,7 +135,7 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
     EXPECT_EQ(scene_origin_with_mirrors(apart), middle);
     const scene::Scene scene = make_room_with_mirror_balls(apart);
     const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene, render::make_scene_units(scene), render::VertexSpaceChoice::object_space);
+        scene, render::make_scene_units(scene), render::VertexCoordinateSpaceChoice::object_space);
     for (const std::size_t mirror : scene::mirrors(scene))
         EXPECT_TRUE(geometry.ranges[mirror].own) << mirror;
 }
@@ -143,10 +144,10 @@ TEST(Core, SmallMirrorsFarApartDoNotMoveTheOrigin) {
 /// the vertices of the room would lose precision.
 TEST(Core, MirrorFarOutsideDoesNotMoveTheOrigin) {
     const scene::Scene scene = make_room_with_mirror_balls({{.5, {1e6, 2e5, 0}}});
-    const render::SceneUnits space = render::make_scene_units(scene);
+    const render::SceneUnitTransform space = render::make_scene_units(scene);
     EXPECT_EQ(space.origin_world, scene::bounds(test::make_lit_room(0, 1)).centre());
     const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene, space, render::VertexSpaceChoice::object_space);
+        scene, space, render::VertexCoordinateSpaceChoice::object_space);
     EXPECT_TRUE(geometry.ranges.back().own);
     for (std::size_t i = 0; i + 1 < geometry.ranges.size(); ++i)
         EXPECT_FALSE(geometry.ranges[i].own) << scene.objects[i].name;
@@ -230,7 +231,8 @@ TEST(Core, TriangleFarOutsideDoesNotSlowDownOtherRays) {
         ASSERT_EQ(found.has_value(), wanted.has_value());
         ASSERT_EQ(found ? found->triangle : 0, wanted ? wanted->triangle : 0);
     }
-    EXPECT_LE(steps_with.count_all_steps(), steps_alone.count_all_steps() * 11 / 10);
+    EXPECT_LE(steps_with.count_traversal_steps_total(),
+              steps_alone.count_traversal_steps_total() * 11 / 10);
 
     const std::vector<bvh::Triangle> all = list_bvh_triangles(geometry);
     const bvh::Triangle& stray = all.back();

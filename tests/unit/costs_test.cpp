@@ -13,36 +13,37 @@ namespace {
 
 using namespace catoptric;
 
-WorkCounts make_work_counts(std::uint64_t rays, std::uint64_t fragments, std::uint64_t passes) {
-    WorkCounts counts;
-    counts[WorkKind::camera_rays] = rays;
-    counts[WorkKind::fragments] = fragments;
-    counts[WorkKind::passes] = passes;
+WorkCountsByKind make_work_counts(std::uint64_t rays, std::uint64_t fragments,
+                                  std::uint64_t passes) {
+    WorkCountsByKind counts;
+    counts[CountedWorkKind::camera_rays] = rays;
+    counts[CountedWorkKind::fragments] = fragments;
+    counts[CountedWorkKind::passes] = passes;
     return counts;
 }
 
-constexpr WorkKind kFittedWorkKinds[] = {WorkKind::camera_rays, WorkKind::fragments,
-                                         WorkKind::passes};
+constexpr CountedWorkKind kFittedWorkKinds[] = {
+    CountedWorkKind::camera_rays, CountedWorkKind::fragments, CountedWorkKind::passes};
 
 /// Returns rows of a device with 100 ns a ray, 2 ns a fragment and 50 us a pass, whose times are
 /// off by at most the share `noise`.
-std::vector<measure::TimedRowSample> draw_random_cost_samples(std::size_t count, double noise) {
+std::vector<measure::TimedWorkSample> draw_random_cost_samples(std::size_t count, double noise) {
     std::mt19937_64 random(7);
     const auto draw = [&](double most) { return most * double(random() >> 11) * 0x1p-53; };
-    std::vector<measure::TimedRowSample> samples;
+    std::vector<measure::TimedWorkSample> samples;
     for (std::size_t i = 0; i < count; ++i) {
-        const WorkCounts counts = make_work_counts(
+        const WorkCountsByKind counts = make_work_counts(
             std::uint64_t(draw(1e6)), std::uint64_t(draw(1e7)), 1 + std::uint64_t(draw(30)));
-        const double ms = 1e-6 * (100 * double(*counts[WorkKind::camera_rays]) +
-                                  2 * double(*counts[WorkKind::fragments]) +
-                                  5e4 * double(*counts[WorkKind::passes]));
+        const double ms = 1e-6 * (100 * double(*counts[CountedWorkKind::camera_rays]) +
+                                  2 * double(*counts[CountedWorkKind::fragments]) +
+                                  5e4 * double(*counts[CountedWorkKind::passes]));
         samples.push_back(
             {"row " + std::to_string(i), counts, ms * (1 + noise * (2 * draw(1) - 1))});
     }
     return samples;
 }
 
-double unit_cost_of_kind(const measure::DeviceCosts& costs, WorkKind kind) {
+double unit_cost_of_kind(const measure::DeviceCosts& costs, CountedWorkKind kind) {
     for (const measure::WorkUnitCost& unit : costs.units)
         if (unit.kind == kind) return unit.ns;
     return 0;
@@ -51,35 +52,35 @@ double unit_cost_of_kind(const measure::DeviceCosts& costs, WorkKind kind) {
 TEST(Costs, FitRecoversTheCostsOfALinearDevice) {
     const measure::DeviceCosts costs = measure::fit_unit_costs("d", draw_random_cost_samples(40, 0),
                                                                kFittedWorkKinds);
-    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 1e-3);
-    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, 1e-5);
-    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::passes), 5e4, 1);
+    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::camera_rays), 100, 1e-3);
+    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::fragments), 2, 1e-5);
+    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::passes), 5e4, 1);
     ASSERT_TRUE(costs.fit);
-    EXPECT_EQ(costs.fit->fraction_within(1.0001), 1);
-    EXPECT_EQ(costs.origin, measure::CostOrigin::fitted);
+    EXPECT_EQ(costs.fit->share_of_predictions_within_factor(1.0001), 1);
+    EXPECT_EQ(costs.origin, measure::UnitCostOrigin::fitted);
 }
 
 TEST(Costs, FitOfNoisyTimesIsNear) {
     const measure::DeviceCosts costs = measure::fit_unit_costs(
         "d", draw_random_cost_samples(60, .1), kFittedWorkKinds);
-    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::camera_rays), 100, 5);
-    EXPECT_NEAR(unit_cost_of_kind(costs, WorkKind::fragments), 2, .2);
-    EXPECT_EQ(costs.fit->fraction_within(1.2), 1);
-    EXPECT_LT(costs.fit->fraction_within(1.01), 1);
+    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::camera_rays), 100, 5);
+    EXPECT_NEAR(unit_cost_of_kind(costs, CountedWorkKind::fragments), 2, .2);
+    EXPECT_EQ(costs.fit->share_of_predictions_within_factor(1.2), 1);
+    EXPECT_LT(costs.fit->share_of_predictions_within_factor(1.01), 1);
 }
 
 TEST(Costs, NoCostIsNegative) {
     // Rows with more fragments take less time, so the best cost of a fragment would be negative.
-    std::vector<measure::TimedRowSample> samples;
+    std::vector<measure::TimedWorkSample> samples;
     for (std::uint64_t i = 1; i <= 8; ++i)
         samples.push_back({"row", make_work_counts(1000, 1000 * i, 1), 10.0 - double(i)});
     const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
     for (const measure::WorkUnitCost& unit : costs.units) EXPECT_GT(unit.ns, 0);
-    EXPECT_EQ(unit_cost_of_kind(costs, WorkKind::fragments), 0);
+    EXPECT_EQ(unit_cost_of_kind(costs, CountedWorkKind::fragments), 0);
 }
 
 TEST(Costs, RowIsPredictedByTheOtherRows) {
-    std::vector<measure::TimedRowSample> samples = draw_random_cost_samples(20, 0);
+    std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(20, 0);
     samples[4].ms *= 3; // its own time does not help to predict it
     const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
     EXPECT_NEAR(costs.fit->left_out_ms[4], samples[4].ms / 3, 1e-6 * samples[4].ms);
@@ -92,7 +93,7 @@ TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
             [] { measure::fit_unit_costs("d", draw_random_cost_samples(2, 0), kFittedWorkKinds); }),
         "fitting the costs of 3 kinds of work: wanted at least as many measured rows, found "
         "2");
-    std::vector<measure::TimedRowSample> samples = draw_random_cost_samples(9, 0);
+    std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(9, 0);
     samples[3].ms = 0;
     EXPECT_EQ(test::catch_error_text(
                   Failure::usage, [&] { measure::fit_unit_costs("d", samples, kFittedWorkKinds); }),
@@ -100,10 +101,10 @@ TEST(Costs, FitRefusesTooFewRowsAndTimesThatAreNotPositive) {
 }
 
 measure::DeviceCosts make_device_costs() {
-    measure::DeviceCosts costs{.device = "card", .origin = measure::CostOrigin::literature};
-    costs.units = {{WorkKind::camera_rays, 10, {5, 20}, "a paper"},
-                   {WorkKind::fragments, 1, {.5, 4}, "a data sheet"},
-                   {WorkKind::passes, 1000, {}, ""}};
+    measure::DeviceCosts costs{.device = "card", .origin = measure::UnitCostOrigin::literature};
+    costs.units = {{CountedWorkKind::camera_rays, 10, {5, 20}, "a paper"},
+                   {CountedWorkKind::fragments, 1, {.5, 4}, "a data sheet"},
+                   {CountedWorkKind::passes, 1000, {}, ""}};
     return costs;
 }
 
@@ -128,7 +129,8 @@ TEST(Costs, FrontDependsOnTheCostsOfRaysAndOfOtherWork) {
     const std::vector<measure::Row> rows{make_costed_row("raytrace", 0, 1000, 0),
                                          make_costed_row("secant", .02, 0, 6000),
                                          make_costed_row("worse", .03, 0, 7000)};
-    const measure::PredictedFront front = measure::find_predicted_front(make_device_costs(), rows);
+    const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
+        make_device_costs(), rows);
     // A traced frame costs 10 us and a searched one 6 us, but 5 and 24 us where rays are cheap.
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1, 0}));
     EXPECT_EQ(front.rows_if_rays_are_cheap, (std::vector<std::size_t>{0}));
@@ -138,7 +140,7 @@ TEST(Costs, FrontDependsOnTheCostsOfRaysAndOfOtherWork) {
 TEST(Costs, RowWithoutCountsIsNotOnTheFront) {
     measure::Row blank;
     blank.error.pixels = 10, blank.error.flip = 0;
-    const measure::PredictedFront front = measure::find_predicted_front(
+    const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
         make_device_costs(), {blank, make_costed_row("secant", .02, 0, 6000)});
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1}));
     EXPECT_TRUE(std::isnan(front.times[0].ms));
@@ -193,14 +195,14 @@ TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {
 }
 
 TEST(Work, CountsOfARowAreReadBack) {
-    const std::vector<PassWork> passes{{"a", make_work_counts(1, 2, 1)},
-                                       {"b", make_work_counts(3, 4, 1)}};
+    const std::vector<PassWorkCounts> passes{{"a", make_work_counts(1, 2, 1)},
+                                             {"b", make_work_counts(3, 4, 1)}};
     measure::Row row;
     EXPECT_FALSE(measure::has_counted_work(row));
     measure::set_row_work(row, passes);
     EXPECT_TRUE(measure::has_counted_work(row));
-    EXPECT_EQ(measure::total_work_of_row(row), make_work_counts(4, 6, 2));
-    EXPECT_EQ(sum_work_of_passes(passes, "b"), make_work_counts(3, 4, 1));
+    EXPECT_EQ(measure::total_work_counts_of_row(row), make_work_counts(4, 6, 2));
+    EXPECT_EQ(sum_work_counts_of_passes(passes, "b"), make_work_counts(3, 4, 1));
 }
 
 } // namespace

@@ -81,9 +81,9 @@ TEST(Difference, OnlyPixelsOfTheMaskCount) {
 
 TEST(Difference, NonFinitePixelsOfEitherPictureAreCountedAndLeftOut) {
     const Picture a = make_picture_of_one_row(
-        {vec3(0, test::kNan, 0), vec3(0.5F), vec3(1), vec3(test::kInfinity)});
+        {vec3(0, test::kFloatNan, 0), vec3(0.5F), vec3(1), vec3(test::kFloatInfinity)});
     const Picture b = make_picture_of_one_row(
-        {vec3(0), vec3(0), vec3(1, 1, -test::kInfinity), vec3(test::kNan)});
+        {vec3(0), vec3(0), vec3(1, 1, -test::kFloatInfinity), vec3(test::kFloatNan)});
     const Difference d = difference(a, b, {}, std::vector<float>{1, 0.5F, 1, 1});
     EXPECT_EQ(d.pixels, 4U);
     EXPECT_EQ(d.nonfinite, 3U);
@@ -96,7 +96,7 @@ TEST(Difference, NonFinitePixelsOfEitherPictureAreCountedAndLeftOut) {
 }
 
 TEST(Difference, DifferenceWithoutFinitePixelsIsNan) {
-    const Picture a = make_picture_of_one_row({vec3(test::kNan)});
+    const Picture a = make_picture_of_one_row({vec3(test::kFloatNan)});
     for (const Mask& mask : {Mask{0}, Mask{1}}) {
         const Difference d = difference(a, a, mask, std::vector<float>{0});
         EXPECT_EQ(d.pixels, mask[0]);
@@ -198,7 +198,8 @@ TEST(Mean, MeanUsesUnclampedOrClampedValues) {
 }
 
 TEST(Mean, MeanOfNanIsNan) {
-    const Picture picture = make_picture_of_one_row({vec3(test::kNan, test::kInfinity, 0.5F)});
+    const Picture picture = make_picture_of_one_row(
+        {vec3(test::kFloatNan, test::kFloatInfinity, 0.5F)});
     for (const ValueRange range : {ValueRange::unclamped, ValueRange::clamped})
         EXPECT_TRUE(std::isnan(mean_of(picture, range).rgb.x));
     EXPECT_EQ(mean_of(picture, ValueRange::clamped).rgb.y, 1);

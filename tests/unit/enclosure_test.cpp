@@ -12,8 +12,8 @@ using namespace catoptric;
 
 /// The geometry of a scene that contains only one mirror mesh, with scene units equal to world
 /// units.
-struct EnclosureAlone {
-    explicit EnclosureAlone(scene::Mesh mesh) {
+struct PointEnclosureTest {
+    explicit PointEnclosureTest(scene::Mesh mesh) {
         scene::Scene scene;
         test::add_mesh(scene, std::move(mesh), test::add_material(scene, {.mirror = true}));
         geometry = render::make_frame_geometry(scene, {});
@@ -53,7 +53,7 @@ TEST(Shell, ShellIsAClosedMeshThatFacesOutwards) {
 }
 
 TEST(Enclosure, BallEnclosesThePointsInside) {
-    const EnclosureAlone ball(scene::ball("ball", 3));
+    const PointEnclosureTest ball(scene::ball("ball", 3));
     for (const vec3 inside : {vec3(0), vec3(.5f, -.3f, .2f), vec3(0, 0, -.999f)})
         EXPECT_TRUE(ball.is_point_enclosed(inside));
     for (const vec3 outside : {vec3(.7f, .7f, .7f), vec3(0, 0, -1.001f), vec3(5, 0, 0)})
@@ -63,7 +63,7 @@ TEST(Enclosure, BallEnclosesThePointsInside) {
 
 TEST(Enclosure, ClosedBoxEnclosesPointsWhicheverWayItsFacesPoint) {
     for (const bool outwards : {true, false}) {
-        const EnclosureAlone closed(make_enclosure_box({0, 1, 2, 3, 4, 5}, outwards));
+        const PointEnclosureTest closed(make_enclosure_box({0, 1, 2, 3, 4, 5}, outwards));
         EXPECT_TRUE(closed.is_point_enclosed(vec3(.2f, .9f, -.9f)));
         EXPECT_TRUE(closed.is_point_enclosed(vec3(1, .1f, .2f))) << "a face";
         EXPECT_FALSE(closed.is_point_enclosed(vec3(1.001f, 0, 0)));
@@ -71,7 +71,7 @@ TEST(Enclosure, ClosedBoxEnclosesPointsWhicheverWayItsFacesPoint) {
 }
 
 TEST(Enclosure, OpenMeshesEncloseNoPoint) {
-    const EnclosureAlone open(make_enclosure_box({0, 1, 2, 3, 4}, false)),
+    const PointEnclosureTest open(make_enclosure_box({0, 1, 2, 3, 4}, false)),
         pane(make_enclosure_box({4}, false));
     EXPECT_FALSE(open.is_point_enclosed(vec3(0)));
     EXPECT_FALSE(pane.is_point_enclosed(vec3(0, 0, 1)));

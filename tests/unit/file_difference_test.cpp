@@ -15,7 +15,7 @@
 namespace catoptric::measure {
 namespace {
 
-class FileDifferences : public test::InFolder {};
+class FileDifferenceTest : public test::InFolder {};
 
 /// Draws a picture with flat areas, edges and noise from a seed.
 Picture draw_random_test_picture(int width, int height, unsigned seed) {
@@ -31,7 +31,7 @@ Picture draw_random_test_picture(int width, int height, unsigned seed) {
 }
 
 /// The pictures are several bands high, and their height is no multiple of a band's height.
-TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
+TEST_F(FileDifferenceTest, FiguresFromBandsEqualThoseOfWholePictures) {
     const int width = 8192, height = 700;
     write_exr(draw_random_test_picture(width, height, 1), folder / "a.exr");
     write_exr(draw_random_test_picture(width, height, 2), folder / "b.exr");
@@ -55,7 +55,7 @@ TEST_F(FileDifferences, FiguresFromBandsEqualThoseOfWholePictures) {
     EXPECT_EQ(found.b_clamped.all, mean_of(b, ValueRange::clamped).all);
 }
 
-TEST_F(FileDifferences, PictureFilesOfDifferentSizesAreRefused) {
+TEST_F(FileDifferenceTest, PictureFilesOfDifferentSizesAreRefused) {
     write_png(Picture(3, 2), folder / "a.png");
     write_png(Picture(2, 3), folder / "b.png");
     EXPECT_THAT(test::catch_error_text(

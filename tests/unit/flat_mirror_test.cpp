@@ -21,9 +21,9 @@ scene::Mesh make_flat_board() {
     return scene::quad("board", {-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
 }
 
-const dmat4 kTurned = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7,
-                                  glm::normalize(dvec3(1, 2, -1))) *
-                      glm::scale(dmat4(1), dvec3(3, .5, 2));
+const dmat4 kTurnedObjectPlacement = glm::rotate(glm::translate(dmat4(1), dvec3(30, -7, 2)), .7,
+                                                 glm::normalize(dvec3(1, 2, -1))) *
+                                     glm::scale(dmat4(1), dvec3(3, .5, 2));
 
 TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
     scene::Scene scene;
@@ -49,14 +49,14 @@ TEST(FlatMirror, RoughMirrorHasNoFlatFaces) {
 }
 
 TEST(FlatMirror, FlatMirrorIsFoundUnderAnyTransform) {
-    const auto flat = scene::find_mesh_plane(make_flat_board(), kTurned);
+    const auto flat = scene::find_mesh_plane(make_flat_board(), kTurnedObjectPlacement);
     ASSERT_TRUE(flat);
     EXPECT_LE(flat->off, 1e-12);
-    const dvec3 normal = glm::normalize(glm::dmat3(kTurned)[2]);
+    const dvec3 normal = glm::normalize(glm::dmat3(kTurnedObjectPlacement)[2]);
     EXPECT_NEAR(std::abs(dot(flat->normal, normal)), 1, 1e-12);
     ASSERT_EQ(flat->corners.size(), 4u);
     for (const dvec3& p : make_flat_board().positions) {
-        const dvec3 at(kTurned * dvec4(p, 1));
+        const dvec3 at(kTurnedObjectPlacement * dvec4(p, 1));
         EXPECT_LE(std::ranges::min(flat->corners | std::views::transform([&](const dvec3& c) {
                                        return distance(c, at);
                                    })),
@@ -88,8 +88,8 @@ TEST(FlatMirror, DeviationFromFlatCoversNormalsAndVertices) {
 /// rim.
 TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     const scene::Mesh box = scene::box("board", {-1, -1, -.02}, {1, 1, .02});
-    ASSERT_FALSE(scene::find_mesh_plane(box, kTurned));
-    const scene::FlatFaces flats = scene::find_flat_faces(box, kTurned);
+    ASSERT_FALSE(scene::find_mesh_plane(box, kTurnedObjectPlacement));
+    const scene::FlatFaces flats = scene::find_flat_faces(box, kTurnedObjectPlacement);
     ASSERT_EQ(flats.faces.size(), 6u);
     EXPECT_TRUE(flats.bent.empty());
     EXPECT_NEAR(flats.flat_area_share(1e-9), 1, 1e-9);
@@ -97,19 +97,21 @@ TEST(FlatFaces, ThinBoxHasSixFlatFaces) {
     for (const scene::FlatFace& face : flats.faces) {
         EXPECT_TRUE(face.is_one_sided);
         EXPECT_EQ(face.corners.size(), 4u);
-        EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0) << "it looks outwards";
+        EXPECT_LT(dot(dvec3(kTurnedObjectPlacement[3]) - face.point, face.normal), 0)
+            << "it looks outwards";
         for (const auto& [first, end] : face.triangles) triangles += end - first;
     }
     EXPECT_EQ(triangles, box.triangles.size());
     EXPECT_GT(flats.faces[0].share + flats.faces[1].share, .9) << "the largest first";
     scene::Mesh open = box;
     open.triangles.pop_back();
-    EXPECT_FALSE(scene::find_flat_faces(open, kTurned).faces.front().is_one_sided)
+    EXPECT_FALSE(scene::find_flat_faces(open, kTurnedObjectPlacement).faces.front().is_one_sided)
         << "somebody may look in";
     scene::Mesh inside_out = box;
     for (uvec3& t : inside_out.triangles) std::swap(t.y, t.z);
-    for (const scene::FlatFace& face : scene::find_flat_faces(inside_out, kTurned).faces)
-        EXPECT_LT(dot(dvec3(kTurned[3]) - face.point, face.normal), 0);
+    for (const scene::FlatFace& face :
+         scene::find_flat_faces(inside_out, kTurnedObjectPlacement).faces)
+        EXPECT_LT(dot(dvec3(kTurnedObjectPlacement[3]) - face.point, face.normal), 0);
 }
 
 TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
@@ -126,7 +128,7 @@ TEST(FlatFaces, BentSurfacesBelongToNoFlatFace) {
     const scene::FlatFaces ball = scene::find_flat_faces(scene::ball("ball", 3), dmat4(1));
     EXPECT_TRUE(ball.faces.empty());
     EXPECT_EQ(ball.bent.size(), 1u);
-    const scene::FlatFaces quad = scene::find_flat_faces(make_flat_board(), kTurned);
+    const scene::FlatFaces quad = scene::find_flat_faces(make_flat_board(), kTurnedObjectPlacement);
     EXPECT_TRUE(quad.is_single_plane());
     EXPECT_FALSE(quad.faces.front().is_one_sided) << "a mirror has two sides";
 }
@@ -167,7 +169,7 @@ TEST(MirroredViews, MirroredEyeIsBehindTheMirrorAndSeesTheReflection) {
     EXPECT_EQ(behind.at(0).view.clip, vec4(0, 0, -1, -3)) << "on whichever side the eye is";
     // The mirror covers x from -1.5 / 3 to .5 / 3 of half the picture, and y from -1.25 / 3 to .75
     // / 3, upside down. The area has a margin of one pixel.
-    EXPECT_EQ(views[0].area, (graph::PixelArea{15, 23, 24, 24}));
+    EXPECT_EQ(views[0].area, (graph::PixelRectangle{15, 23, 24, 24}));
     // A point p lies in the mirrored view where the mirror image of p lies in the camera's view.
     const vec3 p(.3f, -.6f, 2), image(.3f, -.6f, -2);
     const render::MirroredViewEye eye = make_eye_at({.5, .25, 3}, {.5, .25, 0});
@@ -222,7 +224,8 @@ TEST(MirroredViews, NestingDepthIsLimitedByBouncesAndNumberOfViews) {
             ASSERT_LT(*views[i].within, i) << "after the view that shows it";
             EXPECT_NE(views[*views[i].within].mirror, views[i].mirror);
             depth[i] = depth[*views[i].within] + 1;
-            const graph::PixelArea &inner = views[i].area, &outer = views[*views[i].within].area;
+            const graph::PixelRectangle &inner = views[i].area,
+                                        &outer = views[*views[i].within].area;
             EXPECT_TRUE(inner.x >= outer.x && inner.y >= outer.y &&
                         inner.x + inner.width <= outer.x + outer.width &&
                         inner.y + inner.height <= outer.y + outer.height);

@@ -13,8 +13,8 @@ namespace catoptric::measure {
 namespace {
 
 // The formulas of the test pictures equal those of tests/golden/flip_reference.py, which explains
-// them. That script printed the figures in kCases.
-using Formula = int (*)(int x, int y, int c, bool b);
+// them. That script printed the figures in kFlipTestCases.
+using TestPictureFormula = int (*)(int x, int y, int c, bool b);
 
 int scrambled_pixel(int x, int y, int c, unsigned seed) {
     unsigned h = static_cast<unsigned>(x) * 374761393U + static_cast<unsigned>(y) * 668265263U +
@@ -24,9 +24,9 @@ int scrambled_pixel(int x, int y, int c, unsigned seed) {
 }
 
 int constant_pixel(int, int, int c, bool b) {
-    constexpr std::array<int, 3> kA = {200, 60, 30};
+    constexpr std::array<int, 3> kTriangleCornerA = {200, 60, 30};
     constexpr std::array<int, 3> kB = {190, 80, 40};
-    return (b ? kB : kA)[static_cast<std::size_t>(c)];
+    return (b ? kB : kTriangleCornerA)[static_cast<std::size_t>(c)];
 }
 int edge_pattern_pixel(int x, int y, int, bool b) { return x + y / 2 < (b ? 25 : 22) ? 40 : 220; }
 int point_pattern_pixel(int x, int y, int, bool b) {
@@ -42,7 +42,7 @@ int natural_pattern_pixel(int x, int y, int c, bool b) {
 }
 int primary_colour_pixel(int, int, int c, bool b) { return c == (b ? 2 : 1) ? 255 : 0; }
 
-Picture make_picture_of_formula(Formula formula, int width, int height, bool b) {
+Picture make_picture_of_formula(TestPictureFormula formula, int width, int height, bool b) {
     Picture picture(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
@@ -52,7 +52,7 @@ Picture make_picture_of_formula(Formula formula, int width, int height, bool b) 
 }
 
 struct FlipTestCase {
-    Formula formula;
+    TestPictureFormula formula;
     int width, height;
     double pixels_per_degree;
     double mean;
@@ -60,7 +60,7 @@ struct FlipTestCase {
 };
 constexpr std::array<std::array<double, 2>, 5> kPublishedPixelPlaces = {
     {{0, 0}, {0.5, 0.5}, {0.3, 0.7}, {0.9, 0.1}, {0.999, 0.999}}};
-const FlipTestCase kCases[] = {
+const FlipTestCase kFlipTestCases[] = {
     // The expected figures come from flip-evaluator 1.7, the program of FLIP's authors.
     {constant_pixel,
      24,
@@ -151,9 +151,9 @@ TEST(Flip, PixelErrorDependsOnlyOnPixelsWithinReach) {
                 << x << ", " << y;
 }
 
-class Published : public testing::TestWithParam<FlipTestCase> {};
+class PublishedFlipTest : public testing::TestWithParam<FlipTestCase> {};
 
-TEST_P(Published, MapAndMeanEqualThoseOfFlipEvaluator) {
+TEST_P(PublishedFlipTest, MapAndMeanEqualThoseOfFlipEvaluator) {
     const FlipTestCase& wanted = GetParam();
     const Picture a = make_picture_of_formula(wanted.formula, wanted.width, wanted.height, false);
     const Picture b = make_picture_of_formula(wanted.formula, wanted.width, wanted.height, true);
@@ -169,7 +169,7 @@ TEST_P(Published, MapAndMeanEqualThoseOfFlipEvaluator) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Flip, Published, testing::ValuesIn(kCases));
+INSTANTIATE_TEST_SUITE_P(Flip, PublishedFlipTest, testing::ValuesIn(kFlipTestCases));
 
 /// Builds a picture of linear values between the steps of 8 bits. flip_reference.py uses the same
 /// formula.

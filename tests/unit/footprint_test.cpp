@@ -15,15 +15,15 @@ namespace {
 using namespace catoptric;
 using namespace catoptric::render;
 
-const double kPixel = 2 * std::tan(glm::radians(37.5) / 2) /
-                      512; ///< radians of a pixel at the picture's centre
+const double kPixelAngleRadians = 2 * std::tan(glm::radians(37.5) / 2) /
+                                  512; ///< radians of a pixel at the picture's centre
 
 /// Returns the pixels of a square picture from `eye` towards `target`, with the field of view of
 /// the built-in scene's camera.
 PicturePixelGrid make_pixel_grid(const dvec3& eye, const dvec3& target,
                                  std::uint32_t height = 512) {
     const scene::Camera camera{.eye = eye, .target = target, .vertical_fov_degrees = 37.5};
-    return {make_camera_view(camera, SceneUnits{}, uvec2(height), 1), height};
+    return {make_camera_view(camera, SceneUnitTransform{}, uvec2(height), 1), height};
 }
 
 /// Returns the direction of a ray, as an angle, after reflection at a circle of radius |r| around
@@ -55,24 +55,25 @@ TEST(Footprint, FootprintEqualsTheAngleBetweenTwoTracedRays) {
 }
 
 TEST(Footprint, FootprintOfAFlatOrFocusingMirrorIsThePixelAngle) {
-    EXPECT_EQ(angle_between_reflected_pixels(kPixel, 1e9, 0, 1e-9), kPixel);
-    EXPECT_EQ(angle_between_reflected_pixels(kPixel, 1, -.5, 1),
-              kPixel); // the eye is in the focus of a hollow mirror
-    EXPECT_EQ(angle_between_reflected_pixels(kPixel, 0, 5, 1), kPixel); // the eye is on the mirror
+    EXPECT_EQ(angle_between_reflected_pixels(kPixelAngleRadians, 1e9, 0, 1e-9), kPixelAngleRadians);
+    EXPECT_EQ(angle_between_reflected_pixels(kPixelAngleRadians, 1, -.5, 1),
+              kPixelAngleRadians); // the eye is in the focus of a hollow mirror
+    EXPECT_EQ(angle_between_reflected_pixels(kPixelAngleRadians, 0, 5, 1),
+              kPixelAngleRadians); // the eye is on the mirror
 }
 
 TEST(Footprint, FaceEdgesEqualHandComputedValues) {
     const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
-    EXPECT_NEAR(pixels.angle_per_pixel(1), kPixel, 1e-7 * kPixel);
-    EXPECT_NEAR(cube_edge_texels_for_footprint(kPixel), 1184.62,
+    EXPECT_NEAR(pixels.camera_angle_per_pixel(1), kPixelAngleRadians, 1e-7 * kPixelAngleRadians);
+    EXPECT_NEAR(cube_edge_texels_for_footprint(kPixelAngleRadians), 1184.62,
                 .01); // the face edge that a flat mirror needs
     // At the nearest point of a ball straight ahead, a reflected pixel covers 1 + 2 distance /
     // radius times its angle.
-    EXPECT_NEAR(texels_needed_by_sphere(pixels, {0, 0, 12}, 2),
-                cube_edge_texels_for_footprint(kPixel * (1 + 2 * 10 / 2.)), .01);
-    EXPECT_EQ(
-        texels_needed_by_sphere(pixels, {0, 0, 1}, 2),
-        cube_edge_texels_for_footprint(pixels.angle_per_pixel(0))); // the eye is inside the ball
+    EXPECT_NEAR(cube_edge_needed_by_sphere(pixels, {0, 0, 12}, 2),
+                cube_edge_texels_for_footprint(kPixelAngleRadians * (1 + 2 * 10 / 2.)), .01);
+    EXPECT_EQ(cube_edge_needed_by_sphere(pixels, {0, 0, 1}, 2),
+              cube_edge_texels_for_footprint(
+                  pixels.camera_angle_per_pixel(0))); // the eye is inside the ball
 }
 
 TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
@@ -80,37 +81,40 @@ TEST(Footprint, PixelsOffTheAxisCoverSmallerAngles) {
     // The expected angle lies between the two borders of a pixel in the middle row, at distance
     // `place` from the axis.
     for (const double place : {.0, .1, .3}) {
-        const double between = std::atan(place + kPixel / 2) - std::atan(place - kPixel / 2);
-        EXPECT_NEAR(pixels.angle_per_pixel(std::cos(std::atan(place))) / between, 1, 1e-6);
+        const double between = std::atan(place + kPixelAngleRadians / 2) -
+                               std::atan(place - kPixelAngleRadians / 2);
+        EXPECT_NEAR(pixels.camera_angle_per_pixel(std::cos(std::atan(place))) / between, 1, 1e-6);
     }
     const double corner = std::sqrt(2.) * std::tan(glm::radians(37.5) / 2);
-    EXPECT_NEAR(pixels.corner_cosine(), std::cos(std::atan(corner)), 1e-7);
-    EXPECT_EQ(pixels.angle_per_pixel(0), pixels.angle_per_pixel(pixels.corner_cosine()));
-    const double ahead = texels_needed_by_sphere(pixels, {0, 0, 12}, .1);
-    const double aside = texels_needed_by_sphere(pixels,
-                                                 vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
+    EXPECT_NEAR(pixels.cosine_to_view_at_corner(), std::cos(std::atan(corner)), 1e-7);
+    EXPECT_EQ(pixels.camera_angle_per_pixel(0),
+              pixels.camera_angle_per_pixel(pixels.cosine_to_view_at_corner()));
+    const double ahead = cube_edge_needed_by_sphere(pixels, {0, 0, 12}, .1);
+    const double aside = cube_edge_needed_by_sphere(
+        pixels, vec3(12.0 * glm::normalize(dvec3(.3, 0, 1))), .1);
     EXPECT_NEAR(aside / ahead, 1 + .3 * .3, .01);
 }
 
 TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
     const PicturePixelGrid pixels = make_pixel_grid(dvec3(0), {0, 0, 1});
-    EXPECT_EQ(texels_needed_by_sphere(pixels, {0, 0, -12}, 2), 0);
-    EXPECT_EQ(texels_needed_by_sphere(pixels, {12, 0, 12}, 2), 0);
-    EXPECT_GT(texels_needed_by_sphere(pixels, {5, 0, 12}, 2), 0) << "its rim is";
+    EXPECT_EQ(cube_edge_needed_by_sphere(pixels, {0, 0, -12}, 2), 0);
+    EXPECT_EQ(cube_edge_needed_by_sphere(pixels, {12, 0, 12}, 2), 0);
+    EXPECT_GT(cube_edge_needed_by_sphere(pixels, {5, 0, 12}, 2), 0) << "its rim is";
     // The triangle lies wholly behind the eye, but is so wide that its bounds reach around the
     // sides of the picture.
     const std::vector<shared::Vertex> corners{
         {{-50, -50, -9}, {0, 0, 1}}, {{50, -50, -.5f}, {0, 0, 1}}, {{0, 50, -.5f}, {0, 0, 1}}};
     const std::vector<std::uint32_t> triangle{0, 1, 2};
-    EXPECT_EQ(texels_needed_by_mesh(pixels, corners, triangle), 0);
-    EXPECT_GT(texels_needed_by_mesh(make_pixel_grid(dvec3(0), {0, 0, -1}), corners, triangle), 0);
+    EXPECT_EQ(cube_edge_needed_by_mesh(pixels, corners, triangle), 0);
+    EXPECT_GT(cube_edge_needed_by_mesh(make_pixel_grid(dvec3(0), {0, 0, -1}), corners, triangle),
+              0);
 }
 
 struct FootprintMirror {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     double needed_face_edge(const dvec3& eye, const dvec3& target) const {
-        return texels_needed_by_mesh(make_pixel_grid(eye, target), vertices, indices);
+        return cube_edge_needed_by_mesh(make_pixel_grid(eye, target), vertices, indices);
     }
 };
 
@@ -134,8 +138,8 @@ TEST(Footprint, BallMeshNeedsTheSameEdgeAsItsSphere) {
     // The tolerance allows for the width of a facet, about a twentieth of the radius. The point
     // nearest to the eye is up to half a facet away from a vertex.
     for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
-        const double wanted = texels_needed_by_sphere(make_pixel_grid(eye, target), vec3(centre),
-                                                      kMirrorBallRadius);
+        const double wanted = cube_edge_needed_by_sphere(make_pixel_grid(eye, target), vec3(centre),
+                                                         kMirrorBallRadius);
         EXPECT_NEAR(ball.needed_face_edge(eye, target), wanted, .01 * wanted);
     }
 }
@@ -156,9 +160,9 @@ TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
         });
         const dvec3 top(0, 0, -kMirrorBallRadius), away(0, 0, -kDistance);
         const double bulge = cube_edge_texels_for_footprint(
-                         kPixel * (1 + 2 * kDistance / kMirrorBallRadius)),
+                         kPixelAngleRadians * (1 + 2 * kDistance / kMirrorBallRadius)),
                      hollow = cube_edge_texels_for_footprint(
-                         kPixel * (2 * kDistance / kMirrorBallRadius - 1));
+                         kPixelAngleRadians * (2 * kDistance / kMirrorBallRadius - 1));
         EXPECT_NEAR(mirror.needed_face_edge(top + away, top), bulge, .01 * bulge);
         EXPECT_NEAR(mirror.needed_face_edge(top - away, top), hollow, .01 * hollow);
     }
@@ -182,7 +186,7 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
     const dvec3 eye(0, 0, 5), middle(0);
     // Squared tangent of the angle between the camera's axis and a corner of the plane.
     const double corner = 2 * .4 * .4 / (5 * 5);
-    const double wanted = cube_edge_texels_for_footprint(kPixel) * (1 + corner);
+    const double wanted = cube_edge_texels_for_footprint(kPixelAngleRadians) * (1 + corner);
     EXPECT_NEAR(make_mirror_of_mesh(plane, bent).needed_face_edge(eye, middle), wanted,
                 .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
@@ -196,7 +200,7 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
 
 TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     const auto edge = [](const std::vector<double>& needs) {
-        return choose_common_capture_edge(needs, 16384);
+        return choose_common_capture_face_edge(needs, 16384);
     };
     EXPECT_EQ(edge({}), 16u);
     EXPECT_EQ(edge({0}), 16u);
@@ -206,8 +210,8 @@ TEST(Footprint, CommonEdgeCoversTheLargestNeed) {
     EXPECT_EQ(edge({16370}), 16384u);
     EXPECT_EQ(edge({1e30}), 16384u);
     EXPECT_EQ(edge({std::numeric_limits<double>::infinity()}), 16384u);
-    EXPECT_EQ(choose_common_capture_edge(std::vector<double>{90}, 100), 96u);
-    EXPECT_EQ(choose_common_capture_edge(std::vector<double>{97}, 100), 100u);
+    EXPECT_EQ(choose_common_capture_face_edge(std::vector<double>{90}, 100), 96u);
+    EXPECT_EQ(choose_common_capture_face_edge(std::vector<double>{97}, 100), 100u);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 
 /// A render graph with two images that share memory, an image kept for the next frame, a culled
 /// pass and a buffer.
-struct Dump : ::testing::Test {
+struct GraphDumpTest : ::testing::Test {
     Graph g;
     ImageHandle first = add_graph_image("first"), second = add_graph_image("second"),
                 third = add_graph_image("third");
@@ -26,12 +26,12 @@ struct Dump : ::testing::Test {
     BufferHandle args = g.add_buffer({.name = "args", .bytes = 64});
     GraphPlan plan;
 
-    Dump() {
+    GraphDumpTest() {
         const auto body = [](PassCommands&) {};
         g.add_pass("one", PassPurpose::scene)
             .writes(first, ResourceUse::colour, kBlackClearColour)
             .writes(args, ResourceUse::storage_write)
-            .set_layer_count(2)
+            .set_pass_layer_count(2)
             .record(body);
         g.add_pass("two")
             .reads(first, ResourceUse::sampled)
@@ -53,10 +53,10 @@ struct Dump : ::testing::Test {
             .record(body);
         g.add_pass("five")
             .writes(kept, ResourceUse::colour, kBlackClearColour)
-            .set_layer_count(2)
+            .set_pass_layer_count(2)
             .record(body);
-        g.add_pass("six").writes(kept.select_layers(0, 1), ResourceUse::colour).record(body);
-        g.mark_output(out);
+        g.add_pass("six").writes(kept.select_image_layers(0, 1), ResourceUse::colour).record(body);
+        g.mark_as_graph_output(out);
         plan = graph::plan_graph(g, {}, make_default_requirement_queries());
     }
 
@@ -65,8 +65,8 @@ struct Dump : ::testing::Test {
     }
 };
 
-TEST_F(Dump, TextListsPassesImagesAndBuffers) {
-    EXPECT_EQ(plan_to_text(g, plan),
+TEST_F(GraphDumpTest, TextListsPassesImagesAndBuffers) {
+    EXPECT_EQ(graph_plan_to_text(g, plan),
               R"(6 passes, scene_passes 1, 5376 bytes (6400 without sharing)
 
 passes
@@ -105,8 +105,8 @@ buffers
 )");
 }
 
-TEST_F(Dump, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
-    const std::string dot = plan_to_dot(g, plan);
+TEST_F(GraphDumpTest, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
+    const std::string dot = graph_plan_to_graphviz_dot(g, plan);
     EXPECT_THAT(dot, HasSubstr("p0 [shape=box, style=solid, label=\"one\\n(scene)\"]"));
     EXPECT_THAT(dot, HasSubstr("p3 [shape=box, style=dashed, label=\"vain\"]"));
     EXPECT_THAT(dot, HasSubstr("i5 [shape=ellipse, label=\"say \\\"no\\\"\"]"));
@@ -118,7 +118,7 @@ TEST_F(Dump, DotDrawsCulledPassesDashedAndPreviousFrameDotted) {
     EXPECT_THAT(dot, HasSubstr("p6 -> i3 [style=solid, label=\"colour [0,1)\"]"));
 }
 
-TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
+TEST_F(GraphDumpTest, JsonListsPassesImagesAndBuffers) {
     const Json json = Json::parse(plan_to_json(g, plan));
     ASSERT_EQ(json["passes"].size(), 6u);
     EXPECT_EQ(json["passes"][0]["name"], "one");
@@ -149,16 +149,16 @@ TEST_F(Dump, JsonListsPassesImagesAndBuffers) {
 TEST(EmptyDump, DumpOfAnEmptyGraphHasNoSections) {
     const Graph g;
     const GraphPlan plan = graph::plan_graph(g, {}, make_default_requirement_queries());
-    EXPECT_EQ(plan_to_text(g, plan),
+    EXPECT_EQ(graph_plan_to_text(g, plan),
               "0 passes, scene_passes 0, 0 bytes (0 without sharing)\n\npasses\n");
-    EXPECT_THAT(plan_to_dot(g, plan), Not(HasSubstr("->")));
+    EXPECT_THAT(graph_plan_to_graphviz_dot(g, plan), Not(HasSubstr("->")));
     EXPECT_EQ(Json::parse(plan_to_json(g, plan))["passes"], Json::array());
 }
 
 // In a frame of 100 mirrors, the depth images of all captures share the same memory.
 TEST(LargeDump, DumpNamesTheFirstSharingImagesAndCountsTheOthers) {
     const Graph g = test::make_reuse_graph(100);
-    const std::string text = plan_to_text(
+    const std::string text = graph_plan_to_text(
         g, graph::plan_graph(g, {}, make_default_requirement_queries()));
     EXPECT_THAT(text, HasSubstr("shares with 'view.depth', 'capture/1.depth', 'capture/2.depth'"));
     EXPECT_THAT(text, HasSubstr(", 'capture/31.depth' and 68 more\n"));

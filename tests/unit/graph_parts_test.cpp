@@ -42,12 +42,12 @@ TEST(Runs, RunsEqualOneValuePerCell) {
             const int value = static_cast<int>(draw.random_number_below(3));
             const bool set = draw.random_number_below(2) == 0;
             const auto change = [&](int& cell) { cell = set ? value : (cell + value) % 5; };
-            runs.modify_each_run(first, end,
-                                 [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
+            runs.modify_each_equal_run(
+                first, end, [&](std::uint32_t, std::uint32_t, int& cell) { change(cell); });
             for (std::uint32_t i = first; i < end; ++i) change(cells[i]);
             ASSERT_EQ(list_run_length_cells(runs), cells) << "seed " << seed << ", step " << step;
             const auto begin = cells.begin();
-            EXPECT_EQ(runs.contains_value(first, end, value),
+            EXPECT_EQ(runs.has_any_equal_value(first, end, value),
                       std::count(begin + first, begin + end, value) > 0);
         }
     }
@@ -79,7 +79,7 @@ TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
                                           draw.random_number_below(2)));
         std::vector<MemoryPlacement> all = plan.images;
         all.insert(all.end(), plan.buffers.begin(), plan.buffers.end());
-        SharedMemoryUsers users(plan);
+        LastUsersOfSharedMemory users(plan);
         std::vector<std::pair<MemoryPlacement, AccessStateSet>> left;
         for (int step = 0; step < 40; ++step) {
             const MemoryPlacement& mine = all[draw.random_number_below(count)];
@@ -88,11 +88,11 @@ TEST(MemoryUsers, MemoryUsersAreThoseOfAllOverlappingPlacements) {
                 if (other.heap == mine.heap && other.offset < mine.offset + mine.bytes &&
                     mine.offset < other.offset + other.bytes)
                     expected |= touches;
-            ASSERT_EQ(users.touches_left_in(mine), expected)
+            ASSERT_EQ(users.unfinished_accesses_in_memory(mine), expected)
                 << "seed " << seed << ", step " << step;
             const AccessStateSet touches = AccessStateSet{1}
                                            << draw.random_number_below(kAccessStateCodeCount);
-            users.record_last_touches(mine, touches);
+            users.record_last_accesses_to_memory(mine, touches);
             left.emplace_back(mine, touches);
         }
     }
@@ -152,7 +152,7 @@ TEST(Places, ImagesGetTheLowestFreeOffset) {
             }
             pass.record([](PassCommands&) {});
         }
-        g.mark_output(out);
+        g.mark_as_graph_output(out);
         const MemoryRequirementQueries sizer{
             .image =
                 [](const ImageDesc& desc) {

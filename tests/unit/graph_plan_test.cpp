@@ -29,11 +29,11 @@ std::vector<std::string> list_surviving_pass_names(const Graph& graph, const Gra
 AccessState make_planned_access_state(ResourceUse use, bool write, bool raster) {
     return {.nothing = false, .use = use, .write = write, .raster = raster};
 }
-const AccessState kFresh{};
+const AccessState kUntouchedAccess{};
 const AccessState kColour = make_planned_access_state(ResourceUse::colour, true, true);
 const AccessState kSampledInRaster = make_planned_access_state(ResourceUse::sampled, false, true);
 const AccessState kSampledInCompute = make_planned_access_state(ResourceUse::sampled, false, false);
-const AccessState kCopied = make_planned_access_state(ResourceUse::copy_from, false, false);
+const AccessState kCopyReadAccess = make_planned_access_state(ResourceUse::copy_from, false, false);
 
 /// Returns a barrier as text: the resource, [first layer,layer count], the use before and after,
 /// and other uses that the barrier waits for.
@@ -90,9 +90,10 @@ struct SeedReportFrame {
             PassBuilder pass = g.add_pass(name + "/" + std::to_string(n), PassPurpose::scene);
             pass.reads(shadow, ResourceUse::sampled);
             if (source) pass.reads(*source, ResourceUse::sampled);
-            pass.writes(target.select_layers(6 * n, 6), ResourceUse::colour, kBlackClearColour)
+            pass.writes(target.select_image_layers(6 * n, 6), ResourceUse::colour,
+                        kBlackClearColour)
                 .writes(depth, ResourceUse::depth, kBlackClearColour)
-                .set_layer_count(6)
+                .set_pass_layer_count(6)
                 .record(record_no_commands);
         }
     }
@@ -107,7 +108,7 @@ struct SeedReportFrame {
             .reads(hdr, ResourceUse::sampled)
             .writes(ldr, ResourceUse::colour, kBlackClearColour)
             .record(record_no_commands);
-        g.mark_output(ldr);
+        g.mark_as_graph_output(ldr);
     }
 
     std::uint32_t mirrors;
@@ -225,7 +226,7 @@ TEST(GraphPlan, HistoryContainsOnlyImagesOfThePreviousFrame) {
 }
 
 /// A graph with four images of equal size and a buffer. Each test adds its own passes.
-struct SmallGraph : ::testing::Test {
+struct SmallGraphPlanTest : ::testing::Test {
     Graph g;
     ImageHandle a = add_small_image("a"), b = add_small_image("b"), c = add_small_image("c"),
                 d = add_small_image("d");
@@ -237,11 +238,11 @@ struct SmallGraph : ::testing::Test {
     PassBuilder add_clearing_pass(const std::string& name, ImageHandle image) {
         return g.add_pass(name)
             .writes(image, ResourceUse::colour, kBlackClearColour)
-            .set_layer_count(image.layer_count);
+            .set_pass_layer_count(image.layer_count);
     }
 };
 
-TEST_F(SmallGraph, GraphWithoutOutputsHasNoPasses) {
+TEST_F(SmallGraphPlanTest, GraphWithoutOutputsHasNoPasses) {
     add_clearing_pass("a", a).record(record_no_commands);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(plan.passes, IsEmpty());
@@ -249,14 +250,14 @@ TEST_F(SmallGraph, GraphWithoutOutputsHasNoPasses) {
     EXPECT_FALSE(plan.images[a.id].used);
 }
 
-TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
+TEST_F(SmallGraphPlanTest, UnneededPassIsCulledWithAReason) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b)
         .reads(a, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
         .record(record_no_commands);
     add_clearing_pass("c", c).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(c);
+    g.mark_as_graph_output(c);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_surviving_pass_names(g, plan), ElementsAre("a", "c"));
     ASSERT_EQ(plan.culled.size(), 1u);
@@ -266,51 +267,51 @@ TEST_F(SmallGraph, UnneededPassIsCulledWithAReason) {
     EXPECT_FALSE(plan.buffers[args.id].used);
 }
 
-TEST_F(SmallGraph, PassWhoseImageIsOverwrittenUnreadIsCulled) {
+TEST_F(SmallGraphPlanTest, PassWhoseImageIsOverwrittenUnreadIsCulled) {
     add_clearing_pass("lost", a).record(record_no_commands);
     add_clearing_pass("seen", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("wanted", a).record(record_no_commands);
-    g.mark_output(a);
-    g.mark_output(b);
+    g.mark_as_graph_output(a);
+    g.mark_as_graph_output(b);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("seen", "b", "wanted"));
 }
 
-TEST_F(SmallGraph, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
+TEST_F(SmallGraphPlanTest, PassWhoseImageIsLoadedOrPartlyOverwrittenIsKept) {
     add_clearing_pass("base", a).record(record_no_commands);
-    add_clearing_pass("part", a.select_layers(1, 2)).record(record_no_commands);
+    add_clearing_pass("part", a.select_image_layers(1, 2)).record(record_no_commands);
     g.add_pass("load")
-        .writes(a.select_layers(0, 1), ResourceUse::colour)
+        .writes(a.select_image_layers(0, 1), ResourceUse::colour)
         .record(record_no_commands);
-    g.mark_output(a);
+    g.mark_as_graph_output(a);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("base", "part", "load"));
 }
 
-TEST_F(SmallGraph, PassWhoseLayersAreNotReadIsCulled) {
-    add_clearing_pass("low", a.select_layers(0, 2)).record(record_no_commands);
-    add_clearing_pass("high", a.select_layers(2, 2)).record(record_no_commands);
+TEST_F(SmallGraphPlanTest, PassWhoseLayersAreNotReadIsCulled) {
+    add_clearing_pass("low", a.select_image_layers(0, 2)).record(record_no_commands);
+    add_clearing_pass("high", a.select_image_layers(2, 2)).record(record_no_commands);
     add_clearing_pass("b", b)
-        .reads(a.select_layers(0, 2), ResourceUse::sampled)
+        .reads(a.select_image_layers(0, 2), ResourceUse::sampled)
         .record(record_no_commands);
-    g.mark_output(b);
+    g.mark_as_graph_output(b);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)), ElementsAre("low", "b"));
 }
 
-TEST_F(SmallGraph, PassWhoseImageTheNextFrameReadsIsKept) {
+TEST_F(SmallGraphPlanTest, PassWhoseImageTheNextFrameReadsIsKept) {
     add_clearing_pass("base", b).record(record_no_commands);
     // The next frame reads image `a`, so passes `history` and `base` are kept.
     add_clearing_pass("history", a).reads(b, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("view", c)
         .reads(g.previous_contents(a), ResourceUse::sampled)
         .record(record_no_commands);
-    g.mark_output(c);
+    g.mark_as_graph_output(c);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("base", "history", "view"));
 }
 
-TEST_F(SmallGraph, OnlyTheLastWriterIsKeptForTheNextFrame) {
+TEST_F(SmallGraphPlanTest, OnlyTheLastWriterIsKeptForTheNextFrame) {
     add_clearing_pass("view", c)
         .reads(g.previous_contents(a), ResourceUse::sampled)
         .record(record_no_commands);
@@ -320,29 +321,29 @@ TEST_F(SmallGraph, OnlyTheLastWriterIsKeptForTheNextFrame) {
         .record(record_no_commands);
     // Only pass `history`, which the next frame needs, reads image `b`.
     add_clearing_pass("deeper", b).record(record_no_commands);
-    g.mark_output(c);
+    g.mark_as_graph_output(c);
     EXPECT_THAT(list_surviving_pass_names(g, plan_test_graph(g)),
                 ElementsAre("view", "history", "deeper"));
 }
 
-TEST_F(SmallGraph, HistoryThatFeedsOnlyItselfIsCulled) {
+TEST_F(SmallGraphPlanTest, HistoryThatFeedsOnlyItselfIsCulled) {
     add_clearing_pass("loop", a)
         .reads(g.previous_contents(a), ResourceUse::sampled)
         .record(record_no_commands);
     add_clearing_pass("view", c).record(record_no_commands);
-    g.mark_output(c);
+    g.mark_as_graph_output(c);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_surviving_pass_names(g, plan), ElementsAre("view"));
     EXPECT_FALSE(plan.images[a.id].used);
     EXPECT_EQ(plan.bytes, 4u * 64 * 8);
 }
 
-TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
+TEST_F(SmallGraphPlanTest, ImageLifetimeSpansFirstToLastUse) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("culled", d).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("c", c).reads(b, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(c);
+    g.mark_as_graph_output(c);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_EQ(plan.images[a.id].first, 0u);
     EXPECT_EQ(plan.images[a.id].last, 1u);
@@ -352,12 +353,12 @@ TEST_F(SmallGraph, ImageLifetimeSpansFirstToLastUse) {
     EXPECT_TRUE(plan.images[c.id].alone);
 }
 
-TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
+TEST_F(SmallGraphPlanTest, ImagesOfDifferentHeapsShareNoMemory) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("c", c).reads(b, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("d", d).reads(c, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(d);
+    g.mark_as_graph_output(d);
     MemoryRequirementQueries sizer = make_default_requirement_queries();
     sizer.image = [](const ImageDesc& desc) {
         return MemoryRequirements{
@@ -372,10 +373,10 @@ TEST_F(SmallGraph, ImagesOfDifferentHeapsShareNoMemory) {
     EXPECT_THAT(replay_graph_plan(g, plan, sizer), IsEmpty());
 }
 
-TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
+TEST_F(SmallGraphPlanTest, FirstWriteAndReadAfterWriteNeedBarriers) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(b);
+    g.mark_as_graph_output(b);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 0), ElementsAre("image 0 [0,4] nothing > colour!/raster"));
     EXPECT_THAT(list_barrier_texts(plan, 1),
@@ -385,17 +386,17 @@ TEST_F(SmallGraph, FirstWriteAndReadAfterWriteNeedBarriers) {
                 ElementsAre("image 1 [0,4] colour!/raster > copy_from"));
 }
 
-TEST_F(SmallGraph, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
+TEST_F(SmallGraphPlanTest, ReadAfterReadInTheSameLayoutNeedsNoBarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     add_clearing_pass("c", c).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(b);
-    g.mark_output(c);
+    g.mark_as_graph_output(b);
+    g.mark_as_graph_output(c);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 2),
                 ElementsAre("image 2 [0,4] nothing > colour!/raster"));
 }
 
-TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
+TEST_F(SmallGraphPlanTest, ReadInAnotherStageWaitsForTheFirstReader) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     g.add_pass("sum")
@@ -403,16 +404,16 @@ TEST_F(SmallGraph, ReadInAnotherStageWaitsForTheFirstReader) {
         .writes(args, ResourceUse::storage_write)
         .record(record_no_commands);
     add_clearing_pass("rewrite", a).record(record_no_commands);
-    g.mark_output(a);
-    g.mark_output(b);
-    g.mark_output(args);
+    g.mark_as_graph_output(a);
+    g.mark_as_graph_output(b);
+    g.mark_as_graph_output(args);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > sampled"));
     EXPECT_THAT(list_barrier_texts(plan, 3),
                 ElementsAre("image 0 [0,4] sampled/raster > colour!/raster +sampled"));
 }
 
-TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
+TEST_F(SmallGraphPlanTest, ReadInAnotherLayoutNeedsABarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     g.add_pass("copy")
@@ -420,9 +421,9 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
         .writes(c, ResourceUse::copy_to)
         .record(record_no_commands);
     add_clearing_pass("d", d).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(b);
-    g.mark_output(c);
-    g.mark_output(d);
+    g.mark_as_graph_output(b);
+    g.mark_as_graph_output(c);
+    g.mark_as_graph_output(d);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 2), ElementsAre("image 0 [0,4] sampled/raster > copy_from",
                                                          "image 2 [0,4] nothing > copy_to!"));
@@ -431,24 +432,24 @@ TEST_F(SmallGraph, ReadInAnotherLayoutNeedsABarrier) {
                             "image 0 [0,4] copy_from > sampled/raster"));
 }
 
-TEST_F(SmallGraph, WriteAfterWriteNeedsABarrier) {
+TEST_F(SmallGraphPlanTest, WriteAfterWriteNeedsABarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
     g.add_pass("blur").writes(a, ResourceUse::storage).record(record_no_commands);
     g.add_pass("again").writes(a, ResourceUse::storage).record(record_no_commands);
-    g.mark_output(a);
+    g.mark_as_graph_output(a);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 1),
                 ElementsAre("image 0 [0,4] colour!/raster > storage!"));
     EXPECT_THAT(list_barrier_texts(plan, 2), ElementsAre("image 0 [0,4] storage! > storage!"));
 }
 
-TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
-    add_clearing_pass("low", a.select_layers(0, 2)).record(record_no_commands);
+TEST_F(SmallGraphPlanTest, BarriersMergeLayersOfEqualUse) {
+    add_clearing_pass("low", a.select_image_layers(0, 2)).record(record_no_commands);
     g.add_pass("high")
-        .writes(a.select_layers(2, 2), ResourceUse::storage_write)
+        .writes(a.select_image_layers(2, 2), ResourceUse::storage_write)
         .record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
-    g.mark_output(b);
+    g.mark_as_graph_output(b);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 2),
                 ElementsAre("image 1 [0,4] nothing > colour!/raster",
@@ -456,19 +457,19 @@ TEST_F(SmallGraph, BarriersMergeLayersOfEqualUse) {
                             "image 0 [2,2] storage_write! > sampled/raster"));
 }
 
-TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentUses) {
+TEST_F(SmallGraphPlanTest, BarriersDoNotMergeLayersOfDifferentUses) {
     add_clearing_pass("a", a).record(record_no_commands);
     g.add_pass("blur")
-        .reads(a.select_layers(0, 2), ResourceUse::sampled)
-        .writes(a.select_layers(2, 2), ResourceUse::storage_write)
+        .reads(a.select_image_layers(0, 2), ResourceUse::sampled)
+        .writes(a.select_image_layers(2, 2), ResourceUse::storage_write)
         .record(record_no_commands);
-    g.mark_output(a);
+    g.mark_as_graph_output(a);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 1),
                 ElementsAre("image 0 [0,2] colour!/raster > sampled",
                             "image 0 [2,2] colour!/raster > storage_write!"));
 }
 
-TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentFrames) {
+TEST_F(SmallGraphPlanTest, BarriersDoNotMergeLayersOfDifferentFrames) {
     add_clearing_pass("a", a).record(record_no_commands);
     g.add_pass("sum")
         .reads(a, ResourceUse::sampled)
@@ -476,20 +477,20 @@ TEST_F(SmallGraph, BarriersDoNotMergeLayersOfDifferentFrames) {
         .record(record_no_commands);
     add_clearing_pass("b", b).reads(a, ResourceUse::sampled).record(record_no_commands);
     g.add_pass("copy")
-        .reads(g.previous_contents(a.select_layers(0, 2)), ResourceUse::copy_from)
-        .reads(a.select_layers(2, 2), ResourceUse::copy_from)
+        .reads(g.previous_contents(a.select_image_layers(0, 2)), ResourceUse::copy_from)
+        .reads(a.select_image_layers(2, 2), ResourceUse::copy_from)
         .writes(c, ResourceUse::copy_to)
         .record(record_no_commands);
-    g.mark_output(args);
-    g.mark_output(b);
-    g.mark_output(c);
+    g.mark_as_graph_output(args);
+    g.mark_as_graph_output(b);
+    g.mark_as_graph_output(c);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 3),
                 ElementsAre("previous 0 [0,2] sampled > copy_from +sampled/raster",
                             "image 0 [2,2] sampled > copy_from +sampled/raster",
                             "image 2 [0,4] nothing > copy_to!"));
 }
 
-TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
+TEST_F(SmallGraphPlanTest, BuffersNeedBarriersOnlyBetweenUses) {
     g.add_pass("fill").writes(args, ResourceUse::storage_write).record(record_no_commands);
     add_clearing_pass("a", a).reads(args, ResourceUse::indirect).record(record_no_commands);
     g.add_pass("b")
@@ -497,9 +498,9 @@ TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
         .writes(b, ResourceUse::storage_write)
         .record(record_no_commands);
     g.add_pass("refill").writes(args, ResourceUse::copy_to).record(record_no_commands);
-    g.mark_output(a);
-    g.mark_output(b);
-    g.mark_output(args);
+    g.mark_as_graph_output(a);
+    g.mark_as_graph_output(b);
+    g.mark_as_graph_output(args);
     const GraphPlan plan = plan_test_graph(g);
     EXPECT_THAT(list_barrier_texts(plan, 0), IsEmpty());
     EXPECT_THAT(list_barrier_texts(plan, 1), ElementsAre("image 0 [0,4] nothing > colour!/raster",
@@ -513,31 +514,31 @@ TEST_F(SmallGraph, BuffersNeedBarriersOnlyBetweenUses) {
     EXPECT_EQ(list_last_barrier_texts(plan).back(), "buffer 0 [0,1] copy_to! > copy_from");
 }
 
-TEST_F(SmallGraph, HistoryImageAsOutputIsLeftSampledInAllLayers) {
-    add_clearing_pass("a", a.select_layers(0, 2))
-        .reads(g.previous_contents(a.select_layers(0, 2)), ResourceUse::sampled)
+TEST_F(SmallGraphPlanTest, HistoryImageAsOutputIsLeftSampledInAllLayers) {
+    add_clearing_pass("a", a.select_image_layers(0, 2))
+        .reads(g.previous_contents(a.select_image_layers(0, 2)), ResourceUse::sampled)
         .record(record_no_commands);
-    g.mark_output(a.select_layers(0, 1));
+    g.mark_as_graph_output(a.select_image_layers(0, 1));
     EXPECT_THAT(
         list_last_barrier_texts(plan_test_graph(g)),
         ElementsAre("image 0 [0,2] colour!/raster > sampled", "image 0 [2,2] nothing > sampled"));
 }
 
-TEST_F(SmallGraph, OverlappingOutputsGetOneFinalBarrier) {
+TEST_F(SmallGraphPlanTest, OverlappingOutputsGetOneFinalBarrier) {
     add_clearing_pass("a", a).record(record_no_commands);
-    g.mark_output(a.select_layers(0, 3));
-    g.mark_output(a.select_layers(1, 2));
+    g.mark_as_graph_output(a.select_image_layers(0, 3));
+    g.mark_as_graph_output(a.select_image_layers(1, 2));
     EXPECT_THAT(list_last_barrier_texts(plan_test_graph(g)),
                 ElementsAre("image 0 [0,3] colour!/raster > copy_from"));
 }
 
-TEST_F(SmallGraph, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
+TEST_F(SmallGraphPlanTest, ReadOfThePreviousFrameInAnotherLayoutNeedsABarrier) {
     g.add_pass("copy")
         .reads(g.previous_contents(a), ResourceUse::copy_from)
         .writes(b, ResourceUse::copy_to)
         .record(record_no_commands);
     add_clearing_pass("a", a).record(record_no_commands);
-    g.mark_output(b);
+    g.mark_as_graph_output(b);
     EXPECT_THAT(list_barrier_texts(plan_test_graph(g), 0),
                 ElementsAre("previous 0 [0,4] sampled > copy_from +sampled/raster",
                             "image 1 [0,4] nothing > copy_to!"));

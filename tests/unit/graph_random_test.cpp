@@ -39,7 +39,7 @@ struct RandomGraphSample {
     void expect_replay_error(const GraphPlan& wrong, const std::string& mistake) const {
         EXPECT_THAT(replay_graph_plan(graph, wrong, sizer), Not(IsEmpty()))
             << mistake << "\n"
-            << plan_to_text(graph, right);
+            << graph_plan_to_text(graph, right);
     }
     MemoryRequirementQueries sizer;
     Graph graph;

@@ -52,14 +52,14 @@ Picture make_wrong_picture() {
             picture.at(x, y) += vec3(x % 2 == 0 ? .05f : -.05f);
     return picture;
 }
-constexpr double kTrueSquaredError = .0025, kNoiseDeviation = .08;
+constexpr double kTrueMeanSquaredError = .0025, kNoiseDeviation = .08;
 
-measure::HalvesEstimate estimate_error_of_all_pixels(const Picture& picture, const Picture& a,
-                                                     const Picture& b,
-                                                     const measure::Mask& mask = {}) {
-    measure::ReferenceHalves halves{a, b, a, std::vector<float>(a.pixels.size(), .01f)};
-    return measure::estimate_error_by_halves(picture, halves, mask,
-                                             std::vector<float>(a.pixels.size(), .02f));
+measure::NoiseFreeErrorEstimate estimate_error_of_all_pixels(const Picture& picture,
+                                                             const Picture& a, const Picture& b,
+                                                             const measure::Mask& mask = {}) {
+    measure::NoisyReferenceHalves halves{a, b, a, std::vector<float>(a.pixels.size(), .01f)};
+    return measure::estimate_noise_free_error_by_halves(picture, halves, mask,
+                                                        std::vector<float>(a.pixels.size(), .02f));
 }
 
 double mean_square_difference(const Picture& a, const Picture& b) {
@@ -101,14 +101,14 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
         test::RandomNumbers numbers(seed);
         const Picture a = add_noise(truth, kNoiseDeviation, numbers),
                       b = add_noise(truth, kNoiseDeviation, numbers);
-        const measure::HalvesEstimate found = estimate_error_of_all_pixels(wrong, a, b);
+        const measure::NoiseFreeErrorEstimate found = estimate_error_of_all_pixels(wrong, a, b);
         ASSERT_TRUE(found.ci95.is_known());
         const auto holds = [&](double square) {
             return found.ci95.low <= square && square <= found.ci95.high;
         };
-        held += holds(kTrueSquaredError);
+        held += holds(kTrueMeanSquaredError);
         biased_held += holds(mean_square_difference(wrong, a));
-        held_by_deviation += std::abs(found.squared_error - kTrueSquaredError) <=
+        held_by_deviation += std::abs(found.squared_error - kTrueMeanSquaredError) <=
                              1.96 * found.deviation;
         mean += found.squared_error / 20;
         width += (found.ci95.high - found.ci95.low) / 20;
@@ -116,16 +116,16 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
         EXPECT_NEAR(found.halves_rmse, std::sqrt(2.) * kNoiseDeviation, .002);
     }
     std::cout << "[ MEASURED ] " << held << " of 20 intervals hold the true error, " << biased_held
-              << " that of one half; mean estimate " << mean << " of " << kTrueSquaredError
+              << " that of one half; mean estimate " << mean << " of " << kTrueMeanSquaredError
               << ", mean width " << width << ", held by the deviation " << held_by_deviation
               << '\n';
     EXPECT_GE(held, 17);
     EXPECT_GE(held_by_deviation, 17);
     EXPECT_EQ(biased_held, 0);
-    EXPECT_NEAR(mean, kTrueSquaredError, 5e-5);
+    EXPECT_NEAR(mean, kTrueMeanSquaredError, 5e-5);
     // 4 standard errors of the mean of 49152 products, whose variance is that of
     // (e - n)(e - m) = e^2 - e(n + m) + nm: 2 e^2 s^2 + s^4.
-    const double e = kTrueSquaredError, s = kNoiseDeviation * kNoiseDeviation;
+    const double e = kTrueMeanSquaredError, s = kNoiseDeviation * kNoiseDeviation;
     const double wanted = 4 * std::sqrt((2 * e * s + s * s) /
                                         (3. * kTestPictureEdge * kTestPictureEdge));
     EXPECT_NEAR(width, wanted, .25 * wanted);
@@ -150,7 +150,7 @@ TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
     a.pixels = {vec3(.5f), vec3(1.5f, .5f, .5f), vec3(2), vec3(3)};
     b.pixels = {vec3(.5f), vec3(.5f), vec3(3), vec3(.5f)};
     x.pixels = {vec3(.5f), vec3(.5f), vec3(1), vec3(1)};
-    const measure::HalvesEstimate found = estimate_error_of_all_pixels(x, a, b);
+    const measure::NoiseFreeErrorEstimate found = estimate_error_of_all_pixels(x, a, b);
     EXPECT_DOUBLE_EQ(found.crossing, .5);
     EXPECT_DOUBLE_EQ(found.squared_error, 0); // clamped: (1-1)(1-1) and (1-1)(1-.5)
     // Pixel 3: (1-2)(1-3) = 2 in three channels. Pixel 4: (1-3)(1-.5) = -1.
@@ -162,7 +162,7 @@ measure::Difference make_hidden_difference() {
     Picture x(kTestPictureEdge, kTestPictureEdge), a = x, b = x;
     for (std::size_t i = 0; i < x.pixels.size(); ++i)
         x.pixels[i] = vec3(.5f), a.pixels[i] = vec3(.6f), b.pixels[i] = vec3(.4f);
-    const measure::ReferenceHalves halves = measure::make_reference_halves(a, b, 0);
+    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(a, b, 0);
     return measure::compute_difference_from_halves(
         x, halves, {}, measure::compute_flip_against_halves(x, halves, 0));
 }
@@ -205,7 +205,8 @@ TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {
 
 TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
     const Picture truth = make_true_picture(), wrong = make_wrong_picture();
-    const measure::ReferenceHalves halves = measure::make_reference_halves(truth, truth, 1);
+    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(truth, truth,
+                                                                                      1);
     const std::vector<float> map = measure::compute_flip_against_halves(wrong, halves, 1);
     Picture shown = wrong;
     for (vec3& pixel : shown.pixels) pixel *= 2;
@@ -231,9 +232,10 @@ TEST(Halves, DifferencesBelowTheFloorTie) {
     near.error.flip_floor = far.error.flip_floor = .02;
     EXPECT_FALSE(measure::has_less_flip(near, far));
     EXPECT_FALSE(measure::has_less_flip(far, near));
-    EXPECT_TRUE(measure::is_better_variant_choice(far, near)) << "it is faster and ties in FLIP";
+    EXPECT_TRUE(measure::is_better_row_of_same_technique(far, near))
+        << "it is faster and ties in FLIP";
     report::Comparison made = report::sample::make_comparison({near, far});
-    made.pareto = measure::find_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(made.pareto, std::vector<std::size_t>{1});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[0]);
     EXPECT_EQ(measure::find_ties_with_closest_row(made),
@@ -243,10 +245,10 @@ TEST(Halves, DifferencesBelowTheFloorTie) {
         made.rows[0].views.push_back(made.rows[0]);
         made.rows[1].views.push_back(made.rows[1]);
     }
-    EXPECT_FALSE(measure::differ_over_views(made.rows[0], made.rows[1], "flip"));
+    EXPECT_FALSE(measure::do_rows_differ_over_views(made.rows[0], made.rows[1], "flip"));
     for (report::Row& each : made.rows)
         for (measure::Errors& view : each.views) view.error.flip_floor = 0;
-    EXPECT_TRUE(measure::differ_over_views(made.rows[0], made.rows[1], "flip"));
+    EXPECT_TRUE(measure::do_rows_differ_over_views(made.rows[0], made.rows[1], "flip"));
 }
 
 TEST(Halves, WantedFloorIsAFifthOfTheLeastFlipOfARowWithCaptures) {

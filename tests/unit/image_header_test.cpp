@@ -39,13 +39,13 @@ std::string make_tiff_bytes(std::uint32_t width, std::uint32_t height, std::uint
     return text + std::string(bytes, '\0');
 }
 
-ImageShape read_image_shape(const std::string& file) {
+ImageSizeAndChannels read_image_shape(const std::string& file) {
     return read_image_header(MemoryByteSource(file), "tiff", "a.tif").value();
 }
 
 TEST(TiffHeader, HeaderGivesSizeAndChannelsInEitherByteOrder) {
     for (const bool is_big_endian : {false, true}) {
-        const ImageShape shape = read_image_shape(
+        const ImageSizeAndChannels shape = read_image_shape(
             make_tiff_bytes(70000, 3, 1, 630000, is_big_endian));
         EXPECT_EQ(shape.size, uvec2(70000, 3)) << is_big_endian;
         EXPECT_EQ(shape.channel_count, 3u) << is_big_endian;

@@ -20,25 +20,25 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-const Error kLost(Failure::device_lost, "Vulkan: cannot run frame 7: \"lost\"");
-const std::string kWhy = "4 of 8 rows: Vulkan: cannot run frame 7: \"lost\"";
+const Error kDeviceLostError(Failure::device_lost, "Vulkan: cannot run frame 7: \"lost\"");
+const std::string kDeviceLostReportText = "4 of 8 rows: Vulkan: cannot run frame 7: \"lost\"";
 
 Comparison make_stopped_comparison() {
     Comparison made = make_usual_comparison();
     made.complete = false;
     made.asked = 8;
-    made.stopped = kLost;
+    made.stopped = kDeviceLostError;
     return made;
 }
 
 TEST(IncompleteReport, EveryFileSaysWhyTheRunStoppedAndHowManyRowsItHas) {
     const json document = json::parse(catoptric::report::to_json(make_stopped_comparison()));
     EXPECT_EQ(document["complete"], false);
-    EXPECT_EQ(document["incomplete"], kWhy);
+    EXPECT_EQ(document["incomplete"], kDeviceLostReportText);
     EXPECT_EQ(document["rows_asked"], 8);
     EXPECT_EQ(document["rows"].size(), 4U);
     EXPECT_THAT(catoptric::report::to_markdown(make_stopped_comparison()),
-                HasSubstr("> Incomplete, " + kWhy));
+                HasSubstr("> Incomplete, " + kDeviceLostReportText));
     EXPECT_THAT(catoptric::report::to_html(make_stopped_comparison()),
                 HasSubstr("Incomplete, 4 of 8 rows: Vulkan: cannot run frame 7: &quot;lost&quot;"));
     const std::string csv = catoptric::report::to_csv(make_stopped_comparison());
@@ -174,7 +174,7 @@ TEST_F(GrowingReport, IncompleteStressReportSaysSoInEveryFile) {
     StressResults stress;
     stress.complete = false;
     stress.asked = 27;
-    stress.stopped = kLost;
+    stress.stopped = kDeviceLostError;
     stress.rows = {{.id = "N1", .pictures = {{"N1-found", 4, 3, "a PNG"}}}};
     StressReportWriter writer(folder / "out");
     writer.write_stress_results(stress);

@@ -75,9 +75,9 @@ TEST(Json, JsonErrorContainsNoTextOfTheParser) {
     EXPECT_GT(refused, 1000);
 }
 
-using JsonFiles = test::InFolder;
+using JsonFileTest = test::InFolder;
 
-TEST_F(JsonFiles, AllReadersGiveTheSameJsonError) {
+TEST_F(JsonFileTest, AllReadersGiveTheSameJsonError) {
     const auto put = [&](const std::string& name, const std::string& text) {
         std::ofstream(folder / name, std::ios::binary) << text;
         return (folder / name).string();

@@ -14,11 +14,11 @@ TEST(Judge, RowsOfAMovingSceneAreRankedByWholeFrameTime) {
     measure::Row a = make_row("a", 1, .1, .1), b = make_row("b", 2, .1, .2);
     a.frame_ms = make_time_samples(9), b.frame_ms = make_time_samples(3);
     EXPECT_TRUE(measure::is_confidently_faster(a, b));
-    EXPECT_TRUE(measure::is_better_variant_choice(a, b));
+    EXPECT_TRUE(measure::is_better_row_of_same_technique(a, b));
     a.moves = b.moves = true;
     EXPECT_TRUE(measure::is_confidently_faster(b, a)) << "the host's work counts";
-    EXPECT_FALSE(measure::is_better_variant_choice(a, b)) << "it is closer, and slower";
-    EXPECT_EQ(measure::find_front_of_rows({a, b}), (std::vector<std::size_t>{1, 0}));
+    EXPECT_FALSE(measure::is_better_row_of_same_technique(a, b)) << "it is closer, and slower";
+    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (std::vector<std::size_t>{1, 0}));
 }
 
 using Front = std::vector<std::size_t>;
@@ -35,41 +35,41 @@ measure::Row make_row_with_varying_time(double ms, double flip) {
 }
 
 TEST(Judge, FrontEqualsHandComputedFronts) {
-    EXPECT_EQ(measure::find_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_equal_times(3, 1), make_row_with_equal_times(1, 3),
                    make_row_with_equal_times(2, 2), make_row_with_equal_times(3, 3),
                    make_row_with_equal_times(2, 2.5)}),
               (Front{1, 2, 0}));
-    EXPECT_EQ(measure::find_front_of_rows({make_row_with_equal_times(5, 5)}), Front{0});
-    EXPECT_EQ(measure::find_front_of_rows({}), Front{});
+    EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(5, 5)}), Front{0});
+    EXPECT_EQ(measure::find_pareto_front_of_rows({}), Front{});
     // Of rows with equal times, the row with less error is on the front.
-    EXPECT_EQ(measure::find_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_equal_times(1, 2), make_row_with_equal_times(1, 1)}),
               Front{1});
-    EXPECT_EQ(measure::find_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_equal_times(2, 1), make_row_with_equal_times(1, 1)}),
               Front{1}); // of equal errors, the faster row is on the front
-    EXPECT_EQ(measure::find_front_of_rows({make_row_with_equal_times(1, 1),
-                                           make_row_with_equal_times(2, 2),
-                                           make_row_with_equal_times(1, 1)}),
+    EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(1, 1),
+                                                  make_row_with_equal_times(2, 2),
+                                                  make_row_with_equal_times(1, 1)}),
               (Front{0, 2}));
 }
 
 /// A row with black mirrors cannot be the fastest row, and cannot be on the front either.
 TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     measure::Row black = make_row_with_equal_times(1, .5);
-    EXPECT_EQ(measure::find_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
               (Front{0, 1}));
     black.mirrors_black = true;
-    EXPECT_EQ(measure::find_front_of_rows(
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {black, make_row_with_equal_times(2, .1), make_row_with_equal_times(3, .6)}),
               Front{1});
-    EXPECT_FALSE(measure::is_better_variant_choice(black, make_row_with_equal_times(3, .6)));
-    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(1, .1), black));
+    EXPECT_FALSE(measure::is_better_row_of_same_technique(black, make_row_with_equal_times(3, .6)));
+    EXPECT_FALSE(measure::is_better_row_of_same_technique(make_row_with_equal_times(1, .1), black));
     measure::Comparison made;
     made.rows = {black, make_row_with_equal_times(2, .1)};
-    made.pareto = measure::find_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
     EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[1]});
     ASSERT_EQ(measure::rank_rows_by_time(made).black.size(), 1U);
@@ -84,10 +84,10 @@ TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
     file.gpu_ms = {};
     file.gpu_ms.median = NAN;
     made.rows = {make_row_with_equal_times(2, .1), file, make_row_with_equal_times(3, .05)};
-    made.pareto = measure::find_front_of_rows(made.rows);
+    made.pareto = measure::find_pareto_front_of_rows(made.rows);
     EXPECT_EQ(made.pareto, (Front{0, 2}));
-    EXPECT_EQ(measure::find_time_places(made, made.rows[2]).last, 2u);
-    EXPECT_EQ(measure::find_time_places(made, made.rows[1]).first, 0u);
+    EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[2]).last, 2u);
+    EXPECT_EQ(measure::find_time_rank_range_of_row(made, made.rows[1]).first, 0u);
     EXPECT_EQ(measure::find_fastest_rows(made), std::vector<const measure::Row*>{&made.rows[0]});
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[1]);
     const measure::TimeRanking ranking = measure::rank_rows_by_time(made);
@@ -118,24 +118,24 @@ TEST(Judge, RowsDifferInTimeOnlyIfEveryRoundAgrees) {
                     .low,
                 1.05, 1e-12);
 
-    EXPECT_TRUE(measure::is_better_variant_choice(make_row_with_equal_times(10, 1),
-                                                  make_row_with_varying_time(12, 1)));
-    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(10, 1),
-                                                   make_row_with_varying_time(11, 1)));
-    EXPECT_TRUE(measure::is_better_variant_choice(make_row_with_varying_time(11, .9),
-                                                  make_row_with_equal_times(10, 1)))
+    EXPECT_TRUE(measure::is_better_row_of_same_technique(make_row_with_equal_times(10, 1),
+                                                         make_row_with_varying_time(12, 1)));
+    EXPECT_FALSE(measure::is_better_row_of_same_technique(make_row_with_equal_times(10, 1),
+                                                          make_row_with_varying_time(11, 1)));
+    EXPECT_TRUE(measure::is_better_row_of_same_technique(make_row_with_varying_time(11, .9),
+                                                         make_row_with_equal_times(10, 1)))
         << "closer, and not told apart in time";
-    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_varying_time(12, .9),
-                                                   make_row_with_equal_times(10, 1)))
+    EXPECT_FALSE(measure::is_better_row_of_same_technique(make_row_with_varying_time(12, .9),
+                                                          make_row_with_equal_times(10, 1)))
         << "closer, but slower";
-    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(10, 1.1),
-                                                   make_row_with_varying_time(12, 1)));
-    EXPECT_EQ(measure::find_front_of_rows(
+    EXPECT_FALSE(measure::is_better_row_of_same_technique(make_row_with_equal_times(10, 1.1),
+                                                          make_row_with_varying_time(12, 1)));
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_varying_time(11, 1), make_row_with_equal_times(10, 1)}),
               (Front{1, 0}));
-    EXPECT_EQ(measure::find_front_of_rows({make_row_with_equal_times(10, 1),
-                                           make_row_with_varying_time(11, .9),
-                                           make_row_with_equal_times(12, .9)}),
+    EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(10, 1),
+                                                  make_row_with_varying_time(11, .9),
+                                                  make_row_with_equal_times(12, .9)}),
               (Front{1, 2}));
 }
 
@@ -145,7 +145,7 @@ TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     a.error.rmse = a.error_all.flip = .5;
     EXPECT_TRUE(measure::has_less_flip(a, b));
     EXPECT_FALSE(measure::has_less_flip(b, a));
-    EXPECT_TRUE(measure::is_better_variant_choice(a, b));
+    EXPECT_TRUE(measure::is_better_row_of_same_technique(a, b));
     // With six drawn views, b is closer in only four, so neither row counts as closer.
     for (int view = 0; view < 6; ++view) {
         a.views.push_back(a), b.views.push_back(b);
@@ -153,10 +153,10 @@ TEST(Judge, CloserRowHasLessFlipOverMirrorsOrOverAllDrawnViews) {
     }
     EXPECT_FALSE(measure::has_less_flip(a, b));
     EXPECT_FALSE(measure::has_less_flip(b, a));
-    EXPECT_EQ(measure::find_front_of_rows({a, b}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{0, 1}));
     for (measure::Errors& view : a.views) view.error.flip = .3;
     EXPECT_TRUE(measure::has_less_flip(b, a)) << "in every view";
-    EXPECT_EQ(measure::find_front_of_rows({a, b}), (Front{1}));
+    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{1}));
 }
 
 TEST(Judge, RowsWithFewerThanSixRoundsTie) {
@@ -165,7 +165,7 @@ TEST(Judge, RowsWithFewerThanSixRoundsTie) {
     b.gpu_ms.rounds.pop_back();
     EXPECT_FALSE(measure::time_ratio_interval(a, b).is_known());
     EXPECT_TRUE(measure::is_time_tie(a, b));
-    EXPECT_EQ(measure::find_front_of_rows({a, b}), (Front{0, 1}));
+    EXPECT_EQ(measure::find_pareto_front_of_rows({a, b}), (Front{0, 1}));
 }
 
 TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
@@ -174,10 +174,11 @@ TEST(Judge, FailedRowsAreNotOnTheFrontAndBeatNoRow) {
                  no_error = make_row_with_equal_times(1, 0);
     failed.error.nonfinite = 1;
     no_error.error.rmse = no_error.error.flip = measure::Difference::kNone;
-    EXPECT_EQ(
-        measure::find_front_of_rows({failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
-        Front{3});
-    EXPECT_FALSE(measure::is_better_variant_choice(make_row_with_equal_times(1, 1), no_error));
+    EXPECT_EQ(measure::find_pareto_front_of_rows(
+                  {failed, no_time, no_error, make_row_with_equal_times(5, 5)}),
+              Front{3});
+    EXPECT_FALSE(
+        measure::is_better_row_of_same_technique(make_row_with_equal_times(1, 1), no_error));
 }
 
 TEST(Judge, TiedRowsShareTheirPlaces) {
@@ -185,7 +186,8 @@ TEST(Judge, TiedRowsShareTheirPlaces) {
         {make_row_with_equal_times(10, 1), make_row_with_varying_time(11, 1),
          make_row_with_equal_times(5, 1), make_row_with_equal_times(30, 1)});
     const auto places = [&](std::size_t i) {
-        const measure::TimeRankRange found = measure::find_time_places(made, made.rows[i]);
+        const measure::TimeRankRange found = measure::find_time_rank_range_of_row(made,
+                                                                                  made.rows[i]);
         return std::pair(found.first, found.last);
     };
     EXPECT_EQ(places(0), (std::pair<std::size_t, std::size_t>(2, 3)));

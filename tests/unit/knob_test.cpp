@@ -13,27 +13,28 @@ constexpr TechniqueKnob kExampleTechniqueKnobs[] = {
     {.name = "face", .help = "", .low = 1, .high = 64, .value = 16, .special = "auto"}};
 
 std::string knob_error_text(std::string_view knob, std::string_view text) {
-    KnobSettings settings(kExampleTechniqueKnobs);
-    return test::catch_error_text(Failure::usage, [&] { settings.set_knob("row", knob, text); });
+    TechniqueKnobSettings settings(kExampleTechniqueKnobs);
+    return test::catch_error_text(Failure::usage,
+                                  [&] { settings.set_knob_from_text("row", knob, text); });
 }
 
 TEST(Knob, SpecialWordReplacesANumber) {
-    KnobSettings settings(kExampleTechniqueKnobs);
+    TechniqueKnobSettings settings(kExampleTechniqueKnobs);
     EXPECT_FALSE(settings.is_special(kExampleTechniqueKnobs[1]));
-    settings.set_knob("row", "face", "auto");
+    settings.set_knob_from_text("row", "face", "auto");
     EXPECT_TRUE(settings.is_special(kExampleTechniqueKnobs[1]));
-    EXPECT_EQ(settings.format_value(kExampleTechniqueKnobs[1]), "auto");
-    EXPECT_FALSE(settings == KnobSettings(kExampleTechniqueKnobs));
-    settings.set_knob("row", "face", "16");
-    EXPECT_EQ(settings.number_value(kExampleTechniqueKnobs[1]), 16);
-    EXPECT_TRUE(settings == KnobSettings(kExampleTechniqueKnobs));
+    EXPECT_EQ(settings.format_current_knob_value(kExampleTechniqueKnobs[1]), "auto");
+    EXPECT_FALSE(settings == TechniqueKnobSettings(kExampleTechniqueKnobs));
+    settings.set_knob_from_text("row", "face", "16");
+    EXPECT_EQ(settings.numeric_knob_value(kExampleTechniqueKnobs[1]), 16);
+    EXPECT_TRUE(settings == TechniqueKnobSettings(kExampleTechniqueKnobs));
 }
 
 TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
-    KnobSettings settings(kExampleTechniqueKnobs);
-    settings.set_knob("row", "face", "auto");
+    TechniqueKnobSettings settings(kExampleTechniqueKnobs);
+    settings.set_knob_from_text("row", "face", "auto");
     try {
-        settings.number_value(kExampleTechniqueKnobs[1]);
+        settings.numeric_knob_value(kExampleTechniqueKnobs[1]);
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_EQ(error.failure, Failure::internal);
@@ -44,11 +45,11 @@ TEST(Knob, ReadingASpecialWordAsANumberIsAnError) {
 
 TEST(Knob, LargeNumbersAreWrittenWithoutAnExponent) {
     const TechniqueKnob range{.name = "range", .low = 1, .high = 1e6, .value = 1000};
-    KnobSettings settings(std::span(&range, 1));
-    settings.set_knob("row", "range", "100000");
-    EXPECT_EQ(settings.format_value(range), "100000");
+    TechniqueKnobSettings settings(std::span(&range, 1));
+    settings.set_knob_from_text("row", "range", "100000");
+    EXPECT_EQ(settings.format_current_knob_value(range), "100000");
     try {
-        settings.set_knob("row", "range", "0");
+        settings.set_knob_from_text("row", "range", "0");
         ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1000000,"));

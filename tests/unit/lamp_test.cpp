@@ -88,14 +88,14 @@ Mesh make_uneven_box_mesh(const dvec3& half) {
     return mesh;
 }
 
-struct ClosedLamp {
+struct ClosedLampMesh {
     const char* name;
     Mesh mesh;
     double area;
 };
 
 /// Returns unevenly divided closed lamps.
-std::vector<ClosedLamp> make_closed_lamps() {
+std::vector<ClosedLampMesh> make_closed_lamps() {
     return {{"sphere", make_uneven_sphere_mesh(.1), 4 * test::kPi * .01},
             {"box", make_uneven_box_mesh({.1, .05, .08}), 8 * (.005 + .008 + .004)},
             {"cylinder", make_uneven_cylinder_mesh(.06, .2), 2 * test::kPi * .06 * (.06 + .2)}};

@@ -18,7 +18,7 @@ using namespace catoptric::measure;
 using catoptric::vec3;
 
 constexpr int kLightEdgePictureWidth = 8, kHeight = 5;
-const std::vector<float> kNoFlip(kLightEdgePictureWidth* kHeight, 0.0F);
+const std::vector<float> kZeroFlipMap(kLightEdgePictureWidth* kHeight, 0.0F);
 
 Picture make_noise_picture(std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -42,9 +42,9 @@ LightEdgeErrorSplit split_error_at_mask(const Picture& a, const Picture& b, cons
         if (mirrors[i] == 0) there[i] = 0;
         if (there[i] != 0) elsewhere[i] = 0;
     }
-    return {split_error_by_light_edges(difference(a, b, there, kNoFlip),
-                                       difference(a, b, elsewhere, kNoFlip)),
-            difference(a, b, mirrors, kNoFlip)};
+    return {split_error_by_light_edges(difference(a, b, there, kZeroFlipMap),
+                                       difference(a, b, elsewhere, kZeroFlipMap)),
+            difference(a, b, mirrors, kZeroFlipMap)};
 }
 
 TEST(LightEdges, SquaredPartsAddUpToTheSquaredRmse) {

@@ -52,9 +52,9 @@ TEST(Limits, MoreImageTexelsThanTheLimitAreRefused) {
     const auto image = std::make_shared<const scene::Image>(
         scene::Image{"wood.png", {8, 4}, std::vector<std::uint32_t>(32)});
     room.materials[room.objects.front().material].albedo_texture = scene::Texture{.image = image};
-    const render::SceneUnits space = render::make_scene_units(room);
+    const render::SceneUnitTransform space = render::make_scene_units(room);
     const render::FrameGeometry geometry = render::make_frame_geometry(
-        room, space, render::VertexSpaceChoice::object_space);
+        room, space, render::VertexCoordinateSpaceChoice::object_space);
     render::DeviceVertices vertices(std::vector<bool>(room.objects.size()), 1);
     vertices.set_geometry(geometry);
     const auto fill = [&](std::uint64_t most) {
@@ -101,7 +101,8 @@ TEST(Limits, AmountsEqualTheStoredGeometry) {
     for (const int count : {0, 3, 65, 66, 80}) {
         const scene::Scene scene = make_room_of_ball_copies(count);
         const render::FrameGeometry geometry = render::make_frame_geometry(
-            scene, render::make_scene_units(scene), render::VertexSpaceChoice::object_space);
+            scene, render::make_scene_units(scene),
+            render::VertexCoordinateSpaceChoice::object_space);
         const render::SceneDataAmounts amounts = render::count_scene_amounts(scene);
         EXPECT_EQ(geometry.vertices.size(), amounts.vertices) << count;
         EXPECT_EQ(geometry.indices.size(), 3 * amounts.triangles) << count;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace test::loading;
 
-class LoadAnimation : public Load {
+class LoadAnimationTest : public Load {
 protected:
     /// Builds a glTF file whose node 0 moves by a track of `path`, with keys at `times` in seconds.
     static GltfFileBuilder make_gltf_with_moving_node(const std::string& path,
@@ -49,9 +49,9 @@ protected:
     }
 };
 
-const float kHalf = std::sqrt(.5f);
+const float kSineOf45Degrees = std::sqrt(.5f);
 
-TEST_F(LoadAnimation, TranslationsFollowEachInterpolation) {
+TEST_F(LoadAnimationTest, TranslationsFollowEachInterpolation) {
     const std::vector<float> values = {0, 0, 0, 2, 4, 0, 0, 0, 8};
     const Scene linear = load_animated_gltf(make_gltf_with_moving_node("translation", values));
     expect_near_point(move_point_with_object(linear, .25), {.5, 1, 0});
@@ -75,16 +75,18 @@ TEST_F(LoadAnimation, TranslationsFollowEachInterpolation) {
     expect_near_point(move_point_with_object(smooth, 2), {1, 0, 0});
 }
 
-TEST_F(LoadAnimation, RotationsFollowEachInterpolation) {
+TEST_F(LoadAnimationTest, RotationsFollowEachInterpolation) {
     // The three keys are rotations about z by 0, 90 and 180 degrees.
-    const std::vector<float> values = {0, 0, 0, 1, 0, 0, kHalf, kHalf, 0, 0, 1, 0};
+    const std::vector<float> values = {0, 0, 0, 1, 0, 0, kSineOf45Degrees, kSineOf45Degrees,
+                                       0, 0, 1, 0};
     const dvec3 x(1, 0, 0);
     const Scene linear = load_animated_gltf(make_gltf_with_moving_node("rotation", values));
     const double angle = M_PI / 2 * .25;
     expect_near_point(move_point_with_object(linear, .25, x),
                       {std::cos(angle), std::sin(angle), 0});
     expect_near_point(move_point_with_object(linear, 1, x), {0, 1, 0});
-    expect_near_point(move_point_with_object(linear, 2, x), {-kHalf, kHalf, 0});
+    expect_near_point(move_point_with_object(linear, 2, x),
+                      {-kSineOf45Degrees, kSineOf45Degrees, 0});
     expect_near_point(move_point_with_object(linear, 9, x), {-1, 0, 0});
     const Scene step = load_animated_gltf(make_gltf_with_moving_node("rotation", values, "STEP"));
     expect_near_point(move_point_with_object(step, .99, x), x);
@@ -106,9 +108,9 @@ TEST_F(LoadAnimation, RotationsFollowEachInterpolation) {
                       {(a * a - b * b) / n, 2 * a * b / n, 0});
 }
 
-TEST_F(LoadAnimation, RotationsOfNormalisedShortsAreRead) {
-    GltfFileBuilder gltf = make_gltf_with_moving_node("rotation", {0, 0, 0, 1, 0, 0, kHalf, kHalf},
-                                                      "LINEAR", {0, 1});
+TEST_F(LoadAnimationTest, RotationsOfNormalisedShortsAreRead) {
+    GltfFileBuilder gltf = make_gltf_with_moving_node(
+        "rotation", {0, 0, 0, 1, 0, 0, kSineOf45Degrees, kSineOf45Degrees}, "LINEAR", {0, 1});
     const std::size_t shorts = gltf.add_accessor<std::int16_t>({0, 0, 0, 32767, 0, 0, 32767, 0},
                                                                "VEC4", 5122);
     gltf.root["accessors"][shorts]["normalized"] = true;
@@ -116,18 +118,18 @@ TEST_F(LoadAnimation, RotationsOfNormalisedShortsAreRead) {
     expect_near_point(move_point_with_object(load_animated_gltf(gltf), 1, {1, 0, 0}), {-1, 0, 0});
 }
 
-TEST_F(LoadAnimation, AnimatedScaleKeepsTranslationAndRotation) {
+TEST_F(LoadAnimationTest, AnimatedScaleKeepsTranslationAndRotation) {
     GltfFileBuilder gltf = make_gltf_with_moving_node("scale", {1, 1, 1, 2, 3, 4, 2, 3, 4});
     gltf.root["nodes"][0]["translation"] = {10, 0, 0};
-    gltf.root["nodes"][0]["rotation"] = {0, 0, kHalf, kHalf};
+    gltf.root["nodes"][0]["rotation"] = {0, 0, kSineOf45Degrees, kSineOf45Degrees};
     const Scene scene = load_animated_gltf(gltf);
     expect_near_point(move_point_with_object(scene, 1, {1, 0, 0}), {10, 2, 0});
     expect_near_point(move_point_with_object(scene, .5, {0, 1, 0}), {8, 0, 0});
 }
 
-TEST_F(LoadAnimation, MovingParentsCarryTheirChildren) {
-    GltfFileBuilder gltf = make_gltf_with_moving_node("rotation", {0, 0, 0, 1, 0, 0, kHalf, kHalf},
-                                                      "LINEAR", {0, 1});
+TEST_F(LoadAnimationTest, MovingParentsCarryTheirChildren) {
+    GltfFileBuilder gltf = make_gltf_with_moving_node(
+        "rotation", {0, 0, 0, 1, 0, 0, kSineOf45Degrees, kSineOf45Degrees}, "LINEAR", {0, 1});
     gltf.root["nodes"][0] = {{"children", {1}}, {"translation", {0, 0, 5}}};
     gltf.root["nodes"].push_back({{"children", {2}}, {"translation", {1, 0, 0}}});
     gltf.root["nodes"].push_back({{"mesh", 0}, {"scale", {2, 2, 2}}});
@@ -146,9 +148,9 @@ TEST_F(LoadAnimation, MovingParentsCarryTheirChildren) {
               std::get<RigAttachment>(two.objects[1].motion).rig);
 }
 
-TEST_F(LoadAnimation, CamerasAndLightsMoveWithTheirNodes) {
-    GltfFileBuilder gltf = make_gltf_with_moving_node("rotation", {0, 0, 0, 1, 0, kHalf, 0, kHalf},
-                                                      "LINEAR", {0, 1});
+TEST_F(LoadAnimationTest, CamerasAndLightsMoveWithTheirNodes) {
+    GltfFileBuilder gltf = make_gltf_with_moving_node(
+        "rotation", {0, 0, 0, 1, 0, kSineOf45Degrees, 0, kSineOf45Degrees}, "LINEAR", {0, 1});
     gltf.root["nodes"][0]["children"] = {1, 2};
     gltf.root["cameras"] = {
         {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
@@ -177,7 +179,7 @@ TEST_F(LoadAnimation, CamerasAndLightsMoveWithTheirNodes) {
     expect_near_point(camera_at_time(slides.cameras.at(0), .5).target, {3, 0, -1});
 }
 
-TEST_F(LoadAnimation, OneAnimationIsPlayedAndTheOthersAreListed) {
+TEST_F(LoadAnimationTest, OneAnimationIsPlayedAndTheOthersAreListed) {
     GltfFileBuilder gltf = make_gltf_with_moving_node("translation", {0, 0, 0, 1, 0, 0}, "STEP",
                                                       {0, 1});
     gltf.root["animations"][0]["name"] = "walk";

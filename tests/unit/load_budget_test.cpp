@@ -9,10 +9,10 @@ namespace {
 
 using namespace test::loading;
 
-class BudgetOfLoading : public Load {
+class LoadBudgetTest : public Load {
 protected:
     std::string budget_error_text(const std::string& name, const std::string& text,
-                                  LoadBudget budget = {}) const {
+                                  SceneLoadBudget budget = {}) const {
         const std::string message = load_error_text(name, text, Failure::bad_data,
                                                     {.budget = budget});
         EXPECT_THAT(message, HasSubstr(", the budget of a scene, found "));
@@ -30,7 +30,7 @@ protected:
 
 // ---- small files that expand to large scenes
 
-TEST_F(BudgetOfLoading, TooManyNodesThatShareAMeshAreRefused) {
+TEST_F(LoadBudgetTest, TooManyNodesThatShareAMeshAreRefused) {
     GltfFileBuilder gltf = make_small_gltf(20'000);
     gltf.root["nodes"] = Json::array(), gltf.root["scenes"][0]["nodes"] = Json::array();
     for (int i = 0; i < 105; ++i) {
@@ -38,7 +38,7 @@ TEST_F(BudgetOfLoading, TooManyNodesThatShareAMeshAreRefused) {
         gltf.root["scenes"][0]["nodes"].push_back(i);
     }
     // Each object has 60,000 vertices: without normals in the file, triangles share no vertices.
-    const LoadBudget shown{.shown = 2'000'000};
+    const SceneLoadBudget shown{.shown = 2'000'000};
     EXPECT_THAT(budget_error_text("x.glb", gltf.glb_bytes(), shown),
                 AllOf(HasSubstr("nodes[33]: wanted at most 2000000 vertices shown by objects"),
                       HasSubstr("found 2040000")));
@@ -49,7 +49,7 @@ TEST_F(BudgetOfLoading, TooManyNodesThatShareAMeshAreRefused) {
                       HasSubstr("found 2020000")));
 }
 
-TEST_F(BudgetOfLoading, TooManyPrimitivesThatShareAccessorsAreRefused) {
+TEST_F(LoadBudgetTest, TooManyPrimitivesThatShareAccessorsAreRefused) {
     GltfFileBuilder gltf = make_small_gltf(20'000);
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     const Json one = primitives[0];
@@ -69,7 +69,7 @@ TEST_F(BudgetOfLoading, TooManyPrimitivesThatShareAccessorsAreRefused) {
                 HasSubstr("wanted at most 4000000 positions"));
 }
 
-TEST_F(BudgetOfLoading, PrimitivesMayShareALongListOfPositions) {
+TEST_F(LoadBudgetTest, PrimitivesMayShareALongListOfPositions) {
     GltfFileBuilder gltf = make_small_gltf();
     const std::size_t positions = gltf.add_accessor(std::vector<float>(3 * 100'000, 1.0f), "VEC3",
                                                     5126);
@@ -80,7 +80,7 @@ TEST_F(BudgetOfLoading, PrimitivesMayShareALongListOfPositions) {
     EXPECT_EQ(triangle_count(load(write_loaded_file("x.glb", gltf.glb_bytes()))), 1u);
 }
 
-TEST_F(BudgetOfLoading, SharedAnimationKeysAreStoredAndCountedOnce) {
+TEST_F(LoadBudgetTest, SharedAnimationKeysAreStoredAndCountedOnce) {
     constexpr std::size_t kAnimationKeyCount = 40'000, kNodes = 500;
     GltfFileBuilder gltf = make_small_gltf();
     std::vector<float> times(kAnimationKeyCount);
@@ -116,7 +116,7 @@ TEST_F(BudgetOfLoading, SharedAnimationKeysAreStoredAndCountedOnce) {
                       HasSubstr("found 1040000")));
 }
 
-TEST_F(BudgetOfLoading, KeysOfAMovingParentAreSharedByItsChildren) {
+TEST_F(LoadBudgetTest, KeysOfAMovingParentAreSharedByItsChildren) {
     GltfFileBuilder gltf = make_small_gltf();
     const Json sampler = {{"input", gltf.add_accessor<float>({0, 1}, "SCALAR", 5126)},
                           {"output", gltf.add_accessor<float>({0, 0, 0, 0, 0, 8}, "VEC3", 5126)}};
@@ -131,7 +131,7 @@ TEST_F(BudgetOfLoading, KeysOfAMovingParentAreSharedByItsChildren) {
     EXPECT_EQ(scene_at_time(scene, .5).objects[1].world_from_object[3], dvec4(0, 0, 4, 1));
 }
 
-TEST_F(BudgetOfLoading, TooManyBytesOfNamesAreRefused) {
+TEST_F(LoadBudgetTest, TooManyBytesOfNamesAreRefused) {
     GltfFileBuilder gltf = make_gltf_with_copies_of_item("nodes", 1000, {{"mesh", 0}});
     gltf.root["meshes"][0]["name"] = std::string(100'000, 'n');
     gltf.root.erase("scenes"), gltf.root.erase("scene");
@@ -149,7 +149,7 @@ TEST_F(BudgetOfLoading, TooManyBytesOfNamesAreRefused) {
     EXPECT_THAT(budget_error_text("x.obj", text), HasSubstr("bytes of names"));
 }
 
-TEST_F(BudgetOfLoading, MaterialLibraryNamedManyTimesIsReadOnce) {
+TEST_F(LoadBudgetTest, MaterialLibraryNamedManyTimesIsReadOnce) {
     std::string materials;
     for (int i = 0; i < 1000; ++i) materials += "newmtl " + std::to_string(i) + "\n";
     write_loaded_file("m.mtl", materials);
@@ -169,7 +169,7 @@ TEST_F(BudgetOfLoading, MaterialLibraryNamedManyTimesIsReadOnce) {
                 HasSubstr("wanted at most 4000 names of files"));
 }
 
-TEST_F(BudgetOfLoading, PolygonsThatNeedTooManyComparisonsAreRefused) {
+TEST_F(LoadBudgetTest, PolygonsThatNeedTooManyComparisonsAreRefused) {
     std::string text, face = "f";
     for (int i = 0; i < 20'000; ++i) {
         const double angle = i * 2 * M_PI / 20'000, radius = 1 + i % 2;
@@ -182,7 +182,7 @@ TEST_F(BudgetOfLoading, PolygonsThatNeedTooManyComparisonsAreRefused) {
                           "polygons"));
 }
 
-TEST_F(BudgetOfLoading, FilesLongerThanTheBudgetAreRefused) {
+TEST_F(LoadBudgetTest, FilesLongerThanTheBudgetAreRefused) {
     write_loaded_file("x.bin", "");
     fs::resize_file(folder / "x.bin", 200ull << 30); // a sparse file without disk blocks
     GltfFileBuilder gltf = make_small_gltf();
@@ -200,7 +200,7 @@ TEST_F(BudgetOfLoading, FilesLongerThanTheBudgetAreRefused) {
 
 // ---- the limit of each budget
 
-TEST_F(BudgetOfLoading, TooLongGltfListsAreRefused) {
+TEST_F(LoadBudgetTest, TooLongGltfListsAreRefused) {
     EXPECT_THAT(
         budget_error_text(
             "x.glb", make_gltf_with_copies_of_item("nodes", 125'001, Json::object()).glb_bytes()),
@@ -222,43 +222,43 @@ TEST_F(BudgetOfLoading, TooLongGltfListsAreRefused) {
                 HasSubstr("wanted at most 100 primitives"));
 }
 
-TEST_F(BudgetOfLoading, EachBudgetCanBeLowered) {
+TEST_F(LoadBudgetTest, EachBudgetCanBeLowered) {
     const auto with = [](auto member, std::uint64_t value) {
-        LoadBudget budget;
+        SceneLoadBudget budget;
         budget.*member = value;
         return budget;
     };
     const std::string glb = make_small_gltf(3).glb_bytes(),
                       obj = kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 3 2\no b\nf 1 2 3\n";
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::triangles, 2)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::triangles, 2)),
                 HasSubstr("2 triangles in meshes"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::vertices, 3)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::vertices, 3)),
                 HasSubstr("3 positions"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::vertices, 12)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::vertices, 12)),
                 HasSubstr("12 vertices in meshes"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::json_bytes, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::json_bytes, 99)),
                 HasSubstr("99 bytes of JSON"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::json_memory, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::json_memory, 99)),
                 HasSubstr("99 bytes of memory for its JSON"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::file_bytes, 99)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::file_bytes, 99)),
                 HasSubstr("99 bytes in its files"));
-    EXPECT_THAT(budget_error_text("x.glb", glb, with(&LoadBudget::objects, 0)),
+    EXPECT_THAT(budget_error_text("x.glb", glb, with(&SceneLoadBudget::objects, 0)),
                 HasSubstr("0 meshes"));
-    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::triangles, 2)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&SceneLoadBudget::triangles, 2)),
                 HasSubstr("x.obj:8: wanted at most 2 triangles"));
-    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::vertices, 2)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&SceneLoadBudget::vertices, 2)),
                 HasSubstr("x.obj:3: wanted at most 2 positions"));
-    EXPECT_THAT(budget_error_text("x.obj", obj, with(&LoadBudget::objects, 1)),
+    EXPECT_THAT(budget_error_text("x.obj", obj, with(&SceneLoadBudget::objects, 1)),
                 HasSubstr("1 objects"));
     EXPECT_THAT(budget_error_text("x.obj",
                                   kTriangle + "# catoptric motion a step 2 0 0 0 0 1 0 0 0\n",
-                                  with(&LoadBudget::keys, 1)),
+                                  with(&SceneLoadBudget::keys, 1)),
                 HasSubstr("x.obj:4: wanted at most 1 keys"));
 }
 
 // ---- large, valid files
 
-TEST_F(BudgetOfLoading, MillionTrianglesFitTheBudget) {
+TEST_F(LoadBudgetTest, MillionTrianglesFitTheBudget) {
     constexpr std::uint32_t kTextureSideTexels = 708;
     GltfFileBuilder gltf = make_small_gltf();
     std::vector<float> positions;
@@ -280,7 +280,7 @@ TEST_F(BudgetOfLoading, MillionTrianglesFitTheBudget) {
         << "each triangle has its normal";
 }
 
-TEST_F(BudgetOfLoading, HundredThousandNamesFitTheBudget) {
+TEST_F(LoadBudgetTest, HundredThousandNamesFitTheBudget) {
     constexpr std::size_t kItemCount = 100'000;
     std::string text = "mtllib m.mtl\n" + kTriangle, materials;
     for (std::size_t i = 0; i < kItemCount; ++i) {

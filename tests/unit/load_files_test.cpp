@@ -9,7 +9,7 @@ namespace {
 
 using namespace test::loading;
 
-class LoadFiles : public Load {
+class LoadFilesTest : public Load {
 protected:
     /// Returns the position bytes of a triangle that is `size` wide.
     static std::string encode_triangle_positions(float size) {
@@ -35,7 +35,7 @@ protected:
     }
 };
 
-TEST_F(LoadFiles, UriIsPercentDecodedOnlyOnce) {
+TEST_F(LoadFilesTest, UriIsPercentDecodedOnlyOnce) {
     write_loaded_file("in/a+b.bin", encode_triangle_positions(1)),
         write_loaded_file("in/a b.bin", encode_triangle_positions(2));
     write_loaded_file("in/%41.bin", encode_triangle_positions(3)),
@@ -53,7 +53,7 @@ TEST_F(LoadFiles, UriIsPercentDecodedOnlyOnce) {
     EXPECT_EQ(load_triangle_width("../in/./a+b.bin"), 1);
 }
 
-TEST_F(LoadFiles, UriMustBeARelativePath) {
+TEST_F(LoadFilesTest, UriMustBeARelativePath) {
     EXPECT_THAT(uri_error_text("/etc/passwd"),
                 AllOf(HasSubstr("buffers[0]: uri"), HasSubstr("absolute")));
     EXPECT_THAT(uri_error_text("%2fetc/passwd"), HasSubstr("absolute"));
@@ -68,7 +68,7 @@ TEST_F(LoadFiles, UriMustBeARelativePath) {
                 HasSubstr("'gone.bin' is not there"));
 }
 
-TEST_F(LoadFiles, FilesAboveTheSceneFolderAreRefused) {
+TEST_F(LoadFilesTest, FilesAboveTheSceneFolderAreRefused) {
     for (const char* uri : {"../out/secret.bin", "%2e%2e/out/secret.bin", "../gone.bin",
                             "sub/../../out/secret.bin", "../../../../../../../../etc/passwd"})
         EXPECT_THAT(uri_error_text(uri),
@@ -85,7 +85,7 @@ TEST_F(LoadFiles, FilesAboveTheSceneFolderAreRefused) {
     EXPECT_THAT(uri_error_text("../inside.bin"), HasSubstr("--root"));
 }
 
-TEST_F(LoadFiles, LinksAreResolvedBeforeTheFolderIsChecked) {
+TEST_F(LoadFilesTest, LinksAreResolvedBeforeTheFolderIsChecked) {
     write_loaded_file("in/own.bin", encode_triangle_positions(1));
     fs::create_symlink("own.bin", folder / "in/link.bin");
     fs::create_symlink("../out/secret.bin", folder / "in/secret.bin");
@@ -108,7 +108,7 @@ TEST_F(LoadFiles, LinksAreResolvedBeforeTheFolderIsChecked) {
     EXPECT_EQ(triangle_count(load((folder / "door/x.gltf").string())), 1u);
 }
 
-TEST_F(LoadFiles, OnlyRegularFilesAreRead) {
+TEST_F(LoadFilesTest, OnlyRegularFilesAreRead) {
     fs::create_directories(folder / "in/sub");
     ASSERT_EQ(::mkfifo((folder / "in/pipe.bin").c_str(), 0600), 0);
     EXPECT_THAT(uri_error_text("sub"), HasSubstr("a folder"));
@@ -118,7 +118,7 @@ TEST_F(LoadFiles, OnlyRegularFilesAreRead) {
                 testing::ThrowsMessage<Error>(HasSubstr("a device or a pipe")));
 }
 
-TEST_F(LoadFiles, MaterialLibrariesAndMapsAboveTheFolderAreRefused) {
+TEST_F(LoadFilesTest, MaterialLibrariesAndMapsAboveTheFolderAreRefused) {
     write_loaded_file("out/m.mtl", "newmtl a\n");
     write_loaded_file("in/m.mtl", "newmtl a\nmap_Kd -s 1 1 1 -clamp on wood and stone.png\n");
     fs::create_symlink("../out/m.mtl", folder / "in/link.mtl");
@@ -135,7 +135,7 @@ TEST_F(LoadFiles, MaterialLibrariesAndMapsAboveTheFolderAreRefused) {
     EXPECT_EQ(load((folder / "in/x.obj").string(), {.root = folder}).objects.size(), 1u);
 }
 
-TEST_F(LoadFiles, ImagesAboveTheFolderAreRefused) {
+TEST_F(LoadFilesTest, ImagesAboveTheFolderAreRefused) {
     const auto with_image = [](const std::string& uri) {
         return make_gltf_text("\"scene\":0", "\"scene\":0,\"images\":[{\"uri\":\"" + uri + "\"}]");
     };
@@ -146,7 +146,7 @@ TEST_F(LoadFiles, ImagesAboveTheFolderAreRefused) {
     EXPECT_EQ(scene.files.size(), 1u) << "what is not there is no file of it";
 }
 
-TEST_F(LoadFiles, SceneListsItsFiles) {
+TEST_F(LoadFilesTest, SceneListsItsFiles) {
     write_loaded_file("in/a.bin", encode_triangle_positions(1)),
         write_loaded_file("in/wood.png", "not looked into");
     fs::create_symlink("a.bin", folder / "in/b.bin");
@@ -161,19 +161,19 @@ TEST_F(LoadFiles, SceneListsItsFiles) {
     EXPECT_THAT(load("cornell-mirrors").files, testing::IsEmpty());
 }
 
-TEST_F(LoadFiles, FileOfManyBuffersCountsOnce) {
+TEST_F(LoadFilesTest, FileOfManyBuffersCountsOnce) {
     write_loaded_file("in/a.bin", encode_triangle_positions(1));
     std::string text = make_gltf_with_buffer_uri("a.bin");
     std::string more;
     for (int i = 0; i < 100; ++i) more += ",{\"byteLength\":36,\"uri\":\"./a.bin\"}";
     text.insert(text.rfind(']'), more);
-    LoadBudget budget;
+    SceneLoadBudget budget;
     budget.file_bytes = text.size() + 36;
     EXPECT_EQ(
         load_scene_file(write_loaded_file("in/x.gltf", text), {.budget = budget}).files.size(), 2u);
 }
 
-TEST_F(LoadFiles, RootMustBeAFolder) {
+TEST_F(LoadFilesTest, RootMustBeAFolder) {
     const std::string path = write_loaded_file("in/x.gltf", make_gltf_text());
     for (const fs::path& root : {folder / "gone", fs::path(path)})
         EXPECT_THAT([&] { load(path, {.root = root}); },
@@ -181,7 +181,7 @@ TEST_F(LoadFiles, RootMustBeAFolder) {
                         AllOf(HasSubstr("--root: wanted a folder"), HasSubstr(root.string()))));
 }
 
-TEST_F(LoadFiles, DataUrisMustBeValidBase64) {
+TEST_F(LoadFilesTest, DataUrisMustBeValidBase64) {
     EXPECT_THAT(uri_error_text("data:text/plain,abc"), HasSubstr("base64"));
     EXPECT_THAT(uri_error_text("data:;base64"), HasSubstr("base64"));
     EXPECT_THAT(uri_error_text("data:;base64,AA*A"), HasSubstr("'*'"));

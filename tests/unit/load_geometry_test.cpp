@@ -9,7 +9,7 @@ namespace {
 using namespace test::loading;
 using testing::ElementsAre;
 
-class LoadGeometry : public Load {
+class LoadGeometryTest : public Load {
 protected:
     Scene load_geometry_gltf(const GltfFileBuilder& gltf) const {
         return load(write_loaded_file("x.glb", gltf.glb_bytes()));
@@ -32,7 +32,8 @@ protected:
     }
 };
 
-const dvec3 kA(0, 0, 0), kB(1, 0, 0), kC(0, 1, 0), kD(1, 1, 0), kE(0, 2, 0);
+const dvec3 kTriangleCornerA(0, 0, 0), kB(1, 0, 0), kTriangleCornerC(0, 1, 0),
+    kTriangleCornerD(1, 1, 0), kTriangleCornerE(0, 2, 0);
 /// Builds a glTF file whose primitive has five corners, for strips and fans.
 GltfFileBuilder make_five_corner_gltf() {
     GltfFileBuilder gltf = make_small_gltf();
@@ -43,28 +44,31 @@ GltfFileBuilder make_five_corner_gltf() {
     return gltf;
 }
 
-TEST_F(LoadGeometry, StripsReverseEverySecondTriangle) {
+TEST_F(LoadGeometryTest, StripsReverseEverySecondTriangle) {
     GltfFileBuilder gltf = make_five_corner_gltf();
     first_primitive_json(gltf)["mode"] = 5;
-    EXPECT_THAT(
-        list_world_triangles(load_geometry_gltf(gltf)),
-        ElementsAre(std::array{kA, kB, kC}, std::array{kB, kD, kC}, std::array{kC, kD, kE}));
+    EXPECT_THAT(list_world_triangles(load_geometry_gltf(gltf)),
+                ElementsAre(std::array{kTriangleCornerA, kB, kTriangleCornerC},
+                            std::array{kB, kTriangleCornerD, kTriangleCornerC},
+                            std::array{kTriangleCornerC, kTriangleCornerD, kTriangleCornerE}));
     first_primitive_json(gltf)["indices"] = gltf.add_accessor<std::uint8_t>({1, 3, 0, 2}, "SCALAR",
                                                                             5121);
     EXPECT_THAT(list_world_triangles(load_geometry_gltf(gltf)),
-                ElementsAre(std::array{kB, kD, kA}, std::array{kD, kC, kA}));
+                ElementsAre(std::array{kB, kTriangleCornerD, kTriangleCornerA},
+                            std::array{kTriangleCornerD, kTriangleCornerC, kTriangleCornerA}));
 }
 
-TEST_F(LoadGeometry, FanTrianglesEndAtTheSharedCorner) {
+TEST_F(LoadGeometryTest, FanTrianglesEndAtTheSharedCorner) {
     GltfFileBuilder gltf = make_five_corner_gltf();
     first_primitive_json(gltf)["mode"] = 6;
     first_primitive_json(gltf)["indices"] = gltf.add_accessor<std::uint32_t>({0, 1, 3, 4}, "SCALAR",
                                                                              5125);
     EXPECT_THAT(list_world_triangles(load_geometry_gltf(gltf)),
-                ElementsAre(std::array{kB, kD, kA}, std::array{kD, kE, kA}));
+                ElementsAre(std::array{kB, kTriangleCornerD, kTriangleCornerA},
+                            std::array{kTriangleCornerD, kTriangleCornerE, kTriangleCornerA}));
 }
 
-TEST_F(LoadGeometry, PointsAndLinesAreListedAndStripsOfTwoCornersIgnored) {
+TEST_F(LoadGeometryTest, PointsAndLinesAreListedAndStripsOfTwoCornersIgnored) {
     GltfFileBuilder gltf = make_five_corner_gltf();
     for (const int mode : {0, 1, 2, 3}) {
         gltf.root["meshes"][0]["primitives"].push_back(gltf.root["meshes"][0]["primitives"][0]);
@@ -82,7 +86,7 @@ TEST_F(LoadGeometry, PointsAndLinesAreListedAndStripsOfTwoCornersIgnored) {
     EXPECT_EQ(scene.unsupported[0].first, "meshes[0] 'm': primitives[1]");
 }
 
-TEST_F(LoadGeometry, SparseValuesReplaceStoredValuesOrZeros) {
+TEST_F(LoadGeometryTest, SparseValuesReplaceStoredValuesOrZeros) {
     GltfFileBuilder gltf = make_small_gltf();
     const auto view_of = [&](std::size_t accessor) {
         return gltf.root["accessors"][accessor]["bufferView"];
@@ -94,10 +98,10 @@ TEST_F(LoadGeometry, SparseValuesReplaceStoredValuesOrZeros) {
                          {"values", {{"bufferView", view_of(values)}}}};
     gltf.root["accessors"][0]["sparse"] = sparse;
     EXPECT_THAT(list_world_triangles(load_geometry_gltf(gltf)),
-                ElementsAre(std::array{kA, dvec3(5, 0, 0), dvec3(0, 7, 0)}));
+                ElementsAre(std::array{kTriangleCornerA, dvec3(5, 0, 0), dvec3(0, 7, 0)}));
     gltf.root["accessors"][0].erase("bufferView");
     EXPECT_THAT(list_world_triangles(load_geometry_gltf(gltf)),
-                ElementsAre(std::array{kA, dvec3(5, 0, 0), dvec3(0, 7, 0)}));
+                ElementsAre(std::array{kTriangleCornerA, dvec3(5, 0, 0), dvec3(0, 7, 0)}));
     EXPECT_THAT(
         load_error_text("y.glb", gltf.glb_bytes(), Failure::bad_data,
                         {.budget = {.made_bytes = 47}}),
@@ -105,7 +109,7 @@ TEST_F(LoadGeometry, SparseValuesReplaceStoredValuesOrZeros) {
                   "a scene, found 48"));
 }
 
-TEST_F(LoadGeometry, StridedAndQuantisedAttributesAreRead) {
+TEST_F(LoadGeometryTest, StridedAndQuantisedAttributesAreRead) {
     GltfFileBuilder gltf = make_small_gltf();
     // Each corner has x, y and z of 16 bits and two bytes of padding. Normals are stored as bytes.
     std::vector<std::int16_t> corners = {0, 0, 0, 99, 100, 0, 0, 99, 0, -200, 0, 99};
@@ -131,7 +135,7 @@ TEST_F(LoadGeometry, StridedAndQuantisedAttributesAreRead) {
     gltf.root["extensionsUsed"] = {"KHR_mesh_quantization"};
     const Scene scene = load_geometry_gltf(gltf);
     EXPECT_THAT(list_world_triangles(scene),
-                ElementsAre(std::array{kA, dvec3(100, 0, 0), dvec3(0, -200, 0)}));
+                ElementsAre(std::array{kTriangleCornerA, dvec3(100, 0, 0), dvec3(0, -200, 0)}));
     const Mesh& mesh = scene.meshes[0];
     const uvec3 t = mesh.triangles[0];
     EXPECT_EQ(mesh.normals[t.x], vec3(0, 0, -1));
@@ -141,7 +145,7 @@ TEST_F(LoadGeometry, StridedAndQuantisedAttributesAreRead) {
     EXPECT_EQ(mesh.uv[0][t.y], vec2(.2f, 0));
 }
 
-TEST_F(LoadGeometry, TextureCoordinatesAndColoursAreRead) {
+TEST_F(LoadGeometryTest, TextureCoordinatesAndColoursAreRead) {
     GltfFileBuilder gltf = make_small_gltf();
     first_primitive_json(gltf)["attributes"]["TEXCOORD_0"] = gltf.add_accessor<float>(
         {0, 1, 2, 3, 4, 5, 6, 7}, "VEC2", 5126);
@@ -168,7 +172,7 @@ TEST_F(LoadGeometry, TextureCoordinatesAndColoursAreRead) {
     EXPECT_EQ(mesh.colours[other.y], vec4(1));
 }
 
-TEST_F(LoadGeometry, ColoursOfThreeNormalisedBytesAreRead) {
+TEST_F(LoadGeometryTest, ColoursOfThreeNormalisedBytesAreRead) {
     GltfFileBuilder gltf = make_small_gltf();
     const std::size_t colours = gltf.add_accessor<std::uint8_t>(
         {0, 51, 255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "SCALAR", 5121);
@@ -181,7 +185,7 @@ TEST_F(LoadGeometry, ColoursOfThreeNormalisedBytesAreRead) {
     EXPECT_EQ(mesh.colours[mesh.triangles[0].x], vec4(0, .2f, 1, 1));
 }
 
-TEST_F(LoadGeometry, NodesShareTheirMesh) {
+TEST_F(LoadGeometryTest, NodesShareTheirMesh) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["nodes"] = Json::array();
     gltf.root["scenes"][0]["nodes"] = Json::array();
@@ -195,17 +199,18 @@ TEST_F(LoadGeometry, NodesShareTheirMesh) {
     EXPECT_EQ(list_world_triangles(scene)[999][1], dvec3(1000, 0, 0));
 }
 
-TEST_F(LoadGeometry, MorphTargetsAreAppliedWithDefaultWeights) {
+TEST_F(LoadGeometryTest, MorphTargetsAreAppliedWithDefaultWeights) {
     GltfFileBuilder gltf = make_small_gltf();
     const std::size_t by = gltf.add_accessor<float>({0, 0, 4, 0, 0, 4, 0, 0, 4, 0, 0, 4}, "VEC3",
                                                     5126);
     first_primitive_json(gltf)["targets"] = {{{"POSITION", by}}, {{"POSITION", by}}};
     EXPECT_THAT(list_world_triangles(load_geometry_gltf(gltf)),
-                ElementsAre(std::array{kA, kB, kC}));
+                ElementsAre(std::array{kTriangleCornerA, kB, kTriangleCornerC}));
     gltf.root["meshes"][0]["weights"] = {.25, .5};
     const Scene scene = load_geometry_gltf(gltf);
     const dvec3 up(0, 0, 3);
-    EXPECT_THAT(list_world_triangles(scene), ElementsAre(std::array{kA + up, kB + up, kC + up}));
+    EXPECT_THAT(list_world_triangles(scene),
+                ElementsAre(std::array{kTriangleCornerA + up, kB + up, kTriangleCornerC + up}));
     EXPECT_EQ(scene.unsupported.at(0).id, "morph");
     // Weights of a node replace the weights of its mesh. Nodes with equal weights share a mesh.
     gltf.root["nodes"] = {
@@ -214,12 +219,13 @@ TEST_F(LoadGeometry, MorphTargetsAreAppliedWithDefaultWeights) {
     const Scene nodes = load_geometry_gltf(gltf);
     const dvec3 own(0, 0, 4);
     EXPECT_EQ(nodes.meshes.size(), 2u);
-    const std::array moved{kA + own, kB + own, kC + own};
+    const std::array moved{kTriangleCornerA + own, kB + own, kTriangleCornerC + own};
     EXPECT_THAT(list_world_triangles(nodes),
-                ElementsAre(std::array{kA + up, kB + up, kC + up}, moved, moved));
+                ElementsAre(std::array{kTriangleCornerA + up, kB + up, kTriangleCornerC + up},
+                            moved, moved));
 }
 
-TEST_F(LoadGeometry, SkinnedMeshesArePosedByTheirJoints) {
+TEST_F(LoadGeometryTest, SkinnedMeshesArePosedByTheirJoints) {
     GltfFileBuilder gltf = make_small_gltf();
     // The first joint is at height 2 and was bound at height 1, so it lifts vertices by 1. The
     // second joint is at the origin.
@@ -245,7 +251,7 @@ TEST_F(LoadGeometry, SkinnedMeshesArePosedByTheirJoints) {
     EXPECT_EQ(scene.unsupported.at(0).id, "skin");
 }
 
-TEST_F(LoadGeometry, OrthographicCamerasAreRead) {
+TEST_F(LoadGeometryTest, OrthographicCamerasAreRead) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["cameras"] = {
         {{"type", "orthographic"},
@@ -263,7 +269,7 @@ TEST_F(LoadGeometry, OrthographicCamerasAreRead) {
                 HasSubstr("cameras[0] 'plan': orthographic: ymag: wanted a number above 0"));
 }
 
-TEST_F(LoadGeometry, PunctualLightsAreRead) {
+TEST_F(LoadGeometryTest, PunctualLightsAreRead) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"intensity", 8}, {"color", {1, .5, .25}}, {"range", 7}},

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test::loading;
 
-class LoadRefuses : public Load {
+class LoadRefusalTest : public Load {
 protected:
     using Change = std::function<void(GltfFileBuilder&)>;
     std::string load_broken_gltf(const Change& change) const {
@@ -26,11 +26,11 @@ protected:
     }
 };
 
-TEST_F(LoadRefuses, UnchangedSmallFileLoads) {
+TEST_F(LoadRefusalTest, UnchangedSmallFileLoads) {
     EXPECT_EQ(triangle_count(load(write_loaded_file("x.glb", make_small_gltf().glb_bytes()))), 1u);
 }
 
-TEST_F(LoadRefuses, IndicesOutOfRangeAreRefused) {
+TEST_F(LoadRefusalTest, IndicesOutOfRangeAreRefused) {
     EXPECT_THAT(load_broken_gltf("/scene", 1),
                 HasSubstr("scene: wanted an index below 1, found 1"));
     EXPECT_THAT(load_broken_gltf("/scenes/0/nodes/0", 7),
@@ -61,7 +61,7 @@ TEST_F(LoadRefuses, IndicesOutOfRangeAreRefused) {
                 HasSubstr("materials[0]: normalTexture: index: wanted an index below 0"));
 }
 
-TEST_F(LoadRefuses, ValuesOfTheWrongKindAreRefused) {
+TEST_F(LoadRefusalTest, ValuesOfTheWrongKindAreRefused) {
     EXPECT_THAT(load_broken_gltf("/nodes/0/mesh", "0"),
                 HasSubstr("wanted a whole number of at least 0, found \"0\""));
     EXPECT_THAT(load_broken_gltf("/nodes/0/mesh", -1), HasSubstr("found -1"));
@@ -90,7 +90,7 @@ TEST_F(LoadRefuses, ValuesOfTheWrongKindAreRefused) {
     EXPECT_LT(endless.size(), 500u) << "a message, not the file";
 }
 
-TEST_F(LoadRefuses, NodesThatFormNoForestAreRefused) {
+TEST_F(LoadRefusalTest, NodesThatFormNoForestAreRefused) {
     const auto nodes = [&](const Json& list, const Json& roots = {0}) {
         return load_broken_gltf([&](GltfFileBuilder& gltf) {
             gltf.root["nodes"] = list, gltf.root["scenes"][0]["nodes"] = roots;
@@ -105,7 +105,7 @@ TEST_F(LoadRefuses, NodesThatFormNoForestAreRefused) {
     EXPECT_THAT(nodes({above({1}), leaf}, {0, 1}), HasSubstr("second way"));
 }
 
-TEST_F(LoadRefuses, TooDeeplyNestedNodesAreRefused) {
+TEST_F(LoadRefusalTest, TooDeeplyNestedNodesAreRefused) {
     const auto chain = [&](std::size_t depth) {
         GltfFileBuilder gltf = make_small_gltf();
         for (std::size_t i = 0; i + 1 < depth; ++i) gltf.root["nodes"][i] = {{"children", {i + 1}}};
@@ -118,7 +118,7 @@ TEST_F(LoadRefuses, TooDeeplyNestedNodesAreRefused) {
                     HasSubstr("nodes[4096]: wanted at most 4096 nodes one in another"));
 }
 
-TEST_F(LoadRefuses, RotationsWithoutAFiniteLengthAreRefused) {
+TEST_F(LoadRefusalTest, RotationsWithoutAFiniteLengthAreRefused) {
     EXPECT_THAT(load_broken_gltf("/nodes/0/rotation", {0, 0, 0, 0}),
                 AllOf(HasSubstr("nodes[0] 'n': rotation: wanted a quaternion with a length"),
                       HasSubstr("found 0")));
@@ -126,7 +126,7 @@ TEST_F(LoadRefuses, RotationsWithoutAFiniteLengthAreRefused) {
                 HasSubstr("rotation"));
 }
 
-TEST_F(LoadRefuses, InvalidAccessorsAndBufferViewsAreRefused) {
+TEST_F(LoadRefusalTest, InvalidAccessorsAndBufferViewsAreRefused) {
     EXPECT_THAT(load_broken_gltf("/accessors/0/count", 0),
                 HasSubstr("count: wanted at least 1, found 0"));
     EXPECT_THAT(load_broken_gltf("/accessors/0/count", 5), HasSubstr("wanted 5 elements"));
@@ -165,7 +165,7 @@ TEST_F(LoadRefuses, InvalidAccessorsAndBufferViewsAreRefused) {
         << "though nothing uses it";
 }
 
-TEST_F(LoadRefuses, InvalidSparseAccessorsAreRefused) {
+TEST_F(LoadRefusalTest, InvalidSparseAccessorsAreRefused) {
     const auto sparse = [&](const Json& is) {
         return load_broken_gltf(
             [&](GltfFileBuilder& gltf) { gltf.root["accessors"][0]["sparse"] = is; });
@@ -196,7 +196,7 @@ TEST_F(LoadRefuses, InvalidSparseAccessorsAreRefused) {
                 HasSubstr("accessors[0]: wanted at most 134217728 bytes of sparse accessors"));
 }
 
-TEST_F(LoadRefuses, AttributesOfTheWrongTypeOrCountAreRefused) {
+TEST_F(LoadRefusalTest, AttributesOfTheWrongTypeOrCountAreRefused) {
     const auto attribute = [&](const char* name, std::size_t accessor) {
         return load_broken_gltf(("/meshes/0/primitives/0/attributes/" + std::string(name)).c_str(),
                                 accessor);
@@ -216,7 +216,7 @@ TEST_F(LoadRefuses, AttributesOfTheWrongTypeOrCountAreRefused) {
                 HasSubstr("found none")); // the only primitive is left out
 }
 
-TEST_F(LoadRefuses, IndexValuesWithoutAVertexAreRefused) {
+TEST_F(LoadRefusalTest, IndexValuesWithoutAVertexAreRefused) {
     const auto indices = [&](auto values, int component) {
         return load_broken_gltf([&](GltfFileBuilder& gltf) {
             gltf.root["meshes"][0]["primitives"][0]["indices"] = gltf.add_accessor(values, "SCALAR",
@@ -241,7 +241,7 @@ TEST_F(LoadRefuses, IndexValuesWithoutAVertexAreRefused) {
             "meshes[0] 'm': indices: wanted a vertex, found 255, which begins a new primitive"));
 }
 
-TEST_F(LoadRefuses, NonFiniteNumbersAreRefused) {
+TEST_F(LoadRefusalTest, NonFiniteNumbersAreRefused) {
     for (const float number : {std::numeric_limits<float>::quiet_NaN(), HUGE_VALF})
         for (const char* name : {"POSITION", "NORMAL"})
             EXPECT_THAT(load_broken_gltf([&](GltfFileBuilder& gltf) {
@@ -252,7 +252,7 @@ TEST_F(LoadRefuses, NonFiniteNumbersAreRefused) {
                         AllOf(HasSubstr(name), HasSubstr("element 3: wanted finite numbers")));
 }
 
-TEST_F(LoadRefuses, InvalidMeshesThatNoNodeShowsAreRefused) {
+TEST_F(LoadRefusalTest, InvalidMeshesThatNoNodeShowsAreRefused) {
     EXPECT_THAT(
         load_broken_gltf([](GltfFileBuilder& gltf) {
             const std::size_t wrong = gltf.add_accessor<std::uint16_t>({0, 1, 9}, "SCALAR", 5123);
@@ -262,7 +262,7 @@ TEST_F(LoadRefuses, InvalidMeshesThatNoNodeShowsAreRefused) {
         HasSubstr("meshes[1]: indices: wanted indices below 4, found 9"));
 }
 
-TEST_F(LoadRefuses, InvalidCamerasAreRefused) {
+TEST_F(LoadRefusalTest, InvalidCamerasAreRefused) {
     const auto camera = [&](const Json& is) {
         return load_broken_gltf([&](GltfFileBuilder& gltf) { gltf.root["cameras"] = {is}; });
     };
@@ -285,7 +285,7 @@ TEST_F(LoadRefuses, InvalidCamerasAreRefused) {
         HasSubstr("nodes[1] 'c': wanted a camera's node with three axes"));
 }
 
-TEST_F(LoadRefuses, InvalidAnimationsAreRefused) {
+TEST_F(LoadRefusalTest, InvalidAnimationsAreRefused) {
     const auto animated = [&](const std::vector<float>& times, const std::vector<float>& values,
                               const Json& sampler = {}, const Json& channel = {}) {
         return load_broken_gltf([&](GltfFileBuilder& gltf) {
@@ -329,7 +329,7 @@ TEST_F(LoadRefuses, InvalidAnimationsAreRefused) {
                 HasSubstr("samplers[0]: output: wanted quaternions with a length, found 0"));
 }
 
-TEST_F(LoadRefuses, UnknownAnimationNameIsRefused) {
+TEST_F(LoadRefusalTest, UnknownAnimationNameIsRefused) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["animations"] = {
         {{"name", "walk"}, {"samplers", Json::array()}, {"channels", Json::array()}}};
@@ -338,7 +338,7 @@ TEST_F(LoadRefuses, UnknownAnimationNameIsRefused) {
                       HasSubstr("did you mean 'walk'")));
 }
 
-TEST_F(LoadRefuses, RequiredCompressionAndUnknownExtensionsAreRefused) {
+TEST_F(LoadRefusalTest, RequiredCompressionAndUnknownExtensionsAreRefused) {
     const auto required = [&](const char* name) {
         return load_broken_gltf("/extensionsRequired", Json::array({name}));
     };
@@ -361,7 +361,7 @@ TEST_F(LoadRefuses, RequiredCompressionAndUnknownExtensionsAreRefused) {
     }
 }
 
-TEST_F(LoadRefuses, InvalidLightsAreRefused) {
+TEST_F(LoadRefusalTest, InvalidLightsAreRefused) {
     const auto light = [&](const Json& is) {
         return load_broken_gltf([&](GltfFileBuilder& gltf) {
             gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {is};
@@ -380,7 +380,7 @@ TEST_F(LoadRefuses, InvalidLightsAreRefused) {
                 HasSubstr("KHR_lights_punctual: light: wanted an index below 0, found 0"));
 }
 
-TEST_F(LoadRefuses, InvalidMaterialsAndImagesAreRefused) {
+TEST_F(LoadRefusalTest, InvalidMaterialsAndImagesAreRefused) {
     const auto material = [&](const Json& is) {
         return load_broken_gltf([&](GltfFileBuilder& gltf) {
             gltf.root["materials"] = {is};
@@ -406,14 +406,14 @@ TEST_F(LoadRefuses, InvalidMaterialsAndImagesAreRefused) {
         HasSubstr("images[0]: cannot be decoded"));
 }
 
-TEST_F(LoadRefuses, ExposuresOutOfRangeAreRefused) {
+TEST_F(LoadRefusalTest, ExposuresOutOfRangeAreRefused) {
     EXPECT_THAT(load_broken_gltf("/scenes/0/extras", Json{{"catoptric", {{"exposure", 65}}}}),
                 HasSubstr("exposure: wanted -64 to 64, found 65"));
     EXPECT_THAT(load_error_text("x.obj", "# catoptric exposure -1e9\n"),
                 HasSubstr("x.obj:1: exposure wants -64 to 64, found -1e+09"));
 }
 
-TEST_F(LoadRefuses, GlbHeadersThatContradictTheFileAreRefused) {
+TEST_F(LoadRefusalTest, GlbHeadersThatContradictTheFileAreRefused) {
     const std::string whole = make_small_gltf().glb_bytes();
     const auto with = [&](std::size_t at, std::uint32_t word) {
         std::string bytes = whole;
@@ -435,7 +435,7 @@ TEST_F(LoadRefuses, GlbHeadersThatContradictTheFileAreRefused) {
                                             "4")));
 }
 
-TEST_F(LoadRefuses, ObjFacesOfInvalidIndicesOrSizesAreRefused) {
+TEST_F(LoadRefusalTest, ObjFacesOfInvalidIndicesOrSizesAreRefused) {
     EXPECT_THAT(load_error_text("a.obj", kTriangle + "f 1 2 4294967295\n"),
                 HasSubstr("found 4294967295"));
     EXPECT_THAT(load_error_text("b.obj", kTriangle + "f 1 2 4294967296\n"),

@@ -33,7 +33,7 @@ const Image kLoadSurfacePicture{
     .size = {3, 2},
     .texels = {0xff0000ff, 0xff00ff00, 0xffff0000, 0x80402010, 0x00ffffff, 0xffffffff}};
 
-class LoadSurface : public Load {
+class LoadSurfaceTest : public Load {
 protected:
     /// Builds a glTF file with a triangle of the given material, and two textures that show
     /// kLoadSurfacePicture.
@@ -61,7 +61,7 @@ protected:
     }
 };
 
-TEST_F(LoadSurface, MaterialFactorsAndSidesAreRead) {
+TEST_F(LoadSurfaceTest, MaterialFactorsAndSidesAreRead) {
     const Material plain = load_gltf_material(Json::object());
     EXPECT_EQ(plain.albedo, vec3(1));
     EXPECT_EQ(plain.metallic, 1);
@@ -90,7 +90,7 @@ TEST_F(LoadSurface, MaterialFactorsAndSidesAreRead) {
     EXPECT_EQ(out_of_range.albedo, vec3(1, 0, 0));
 }
 
-TEST_F(LoadSurface, PerfectMetalKeepsVertexColours) {
+TEST_F(LoadSurfaceTest, PerfectMetalKeepsVertexColours) {
     GltfFileBuilder gltf = make_gltf_with_material(
         {{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}}});
     EXPECT_TRUE(load_surface_gltf(gltf).materials[0].mirror);
@@ -103,7 +103,7 @@ TEST_F(LoadSurface, PerfectMetalKeepsVertexColours) {
     EXPECT_EQ(scene.meshes[0].colours.size(), 3u);
 }
 
-TEST_F(LoadSurface, DielectricReflectanceFollowsExtensions) {
+TEST_F(LoadSurfaceTest, DielectricReflectanceFollowsExtensions) {
     const auto with_extension = [&](const char* name, const Json& is) {
         return load_gltf_material({{"extensions", {{name, is}}}});
     };
@@ -132,7 +132,7 @@ TEST_F(LoadSurface, DielectricReflectanceFollowsExtensions) {
     EXPECT_EQ(emitted_radiance(flat), vec3(0));
 }
 
-TEST_F(LoadSurface, OnlyEmissionWithoutATextureLightsTheScene) {
+TEST_F(LoadSurfaceTest, OnlyEmissionWithoutATextureLightsTheScene) {
     const Json strong = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}};
     const Material lamp = load_gltf_material(
         {{"emissiveFactor", {1, .5, 0}}, {"extensions", strong}});
@@ -145,7 +145,7 @@ TEST_F(LoadSurface, OnlyEmissionWithoutATextureLightsTheScene) {
     EXPECT_EQ(emitted_radiance(screen), vec3(0)) << "what a texture varies lights nothing";
 }
 
-TEST_F(LoadSurface, AlphaModeDecidesTheCutoff) {
+TEST_F(LoadSurfaceTest, AlphaModeDecidesTheCutoff) {
     EXPECT_EQ(load_gltf_material({{"alphaMode", "MASK"}}).alpha_cutoff, .5f);
     EXPECT_EQ(load_gltf_material({{"alphaMode", "MASK"}, {"alphaCutoff", .25}}).alpha_cutoff, .25f);
     EXPECT_EQ(load_gltf_material({{"alphaMode", "OPAQUE"}, {"alphaCutoff", .25}}).alpha_cutoff, 0);
@@ -157,7 +157,7 @@ TEST_F(LoadSurface, AlphaModeDecidesTheCutoff) {
     EXPECT_THAT(blended.unsupported[0].materials, ElementsAre(0));
 }
 
-TEST_F(LoadSurface, TexturesAndSamplersAreRead) {
+TEST_F(LoadSurfaceTest, TexturesAndSamplersAreRead) {
     const Scene scene = load_surface_gltf(
         make_gltf_with_material({{"pbrMetallicRoughness",
                                   {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
@@ -180,7 +180,7 @@ TEST_F(LoadSurface, TexturesAndSamplersAreRead) {
     EXPECT_EQ(rough.v_row, vec3(0, 1, 0));
 }
 
-TEST_F(LoadSurface, TextureTransformsAreRead) {
+TEST_F(LoadSurfaceTest, TextureTransformsAreRead) {
     const auto transformed = [&](const Json& transform) {
         return *load_gltf_material({{"pbrMetallicRoughness",
                                      {{"baseColorTexture",
@@ -204,7 +204,7 @@ TEST_F(LoadSurface, TextureTransformsAreRead) {
     EXPECT_EQ(turned.uv_set, 1u) << "the transform's own set wins";
 }
 
-TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
+TEST_F(LoadSurfaceTest, ImagesAreReadFromDataUrisFilesAndBufferViews) {
     const std::string png = encode_image_png(kLoadSurfacePicture);
     GltfFileBuilder gltf = make_gltf_with_material(
         {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}}});
@@ -224,10 +224,11 @@ TEST_F(LoadSurface, ImagesAreReadFromDataUrisFilesAndBufferViews) {
     EXPECT_EQ(texels(), kLoadSurfacePicture.texels) << "a buffer view";
 }
 
-TEST_F(LoadSurface, GreyImagesWithAndWithoutAlphaAreDecoded) {
+TEST_F(LoadSurfaceTest, GreyImagesWithAndWithoutAlphaAreDecoded) {
     const std::vector<std::uint8_t> grey = {0, 100, 255}, two = {10, 20, 30, 40};
-    LoadBudgetUsage account({});
-    const auto texels = [&](const ImageShape& shape, const std::vector<std::uint8_t>& values) {
+    SceneLoadBudgetUsage account({});
+    const auto texels = [&](const ImageSizeAndChannels& shape,
+                            const std::vector<std::uint8_t>& values) {
         return decode_image(encode_png(shape, values), "", "x", account)->texels;
     };
     EXPECT_THAT(texels({{3, 1}, 1, {}}, grey), ElementsAre(0xff000000, 0xff646464, 0xffffffff));
@@ -256,8 +257,8 @@ std::string make_two_texel_jpeg() {
     return {kJpegBytes, sizeof kJpegBytes - 1};
 }
 
-TEST_F(LoadSurface, JpegImagesAreDecoded) {
-    LoadBudgetUsage account({});
+TEST_F(LoadSurfaceTest, JpegImagesAreDecoded) {
+    SceneLoadBudgetUsage account({});
     const std::shared_ptr<const Image> image = decode_image(make_two_texel_jpeg(), "", "x",
                                                             account);
     ASSERT_TRUE(image);
@@ -275,7 +276,7 @@ TEST_F(LoadSurface, JpegImagesAreDecoded) {
                 HasSubstr("wanted a flat picture"));
 }
 
-TEST_F(LoadSurface, NormalTexturesAreReadWithTheirScale) {
+TEST_F(LoadSurfaceTest, NormalTexturesAreReadWithTheirScale) {
     const Material plain = load_gltf_material(Json::object());
     EXPECT_FALSE(plain.normal_texture);
     EXPECT_EQ(plain.normal_scale, 1);
@@ -290,8 +291,8 @@ TEST_F(LoadSurface, NormalTexturesAreReadWithTheirScale) {
                 testing::Not(testing::Contains("normal-texture")));
 }
 
-TEST_F(LoadSurface, ImagesWithSidesOver65535TexelsAreRefused) {
-    LoadBudgetUsage account({});
+TEST_F(LoadSurfaceTest, ImagesWithSidesOver65535TexelsAreRefused) {
+    SceneLoadBudgetUsage account({});
     const auto decode = [&](uvec2 size) {
         const Image image{.size = size, .texels = std::vector<std::uint32_t>(size.x * size.y)};
         return decode_image(encode_image_png(image), "", "x", account)->size;
@@ -304,7 +305,7 @@ TEST_F(LoadSurface, ImagesWithSidesOver65535TexelsAreRefused) {
                 HasSubstr("x: wanted sides of at most 65535 texels, found 1x65536"));
 }
 
-TEST_F(LoadSurface, MissingImageIsListedAndTheColourFactorStays) {
+TEST_F(LoadSurfaceTest, MissingImageIsListedAndTheColourFactorStays) {
     GltfFileBuilder gltf = make_gltf_with_material(
         {{"pbrMetallicRoughness",
           {{"baseColorFactor", {.5, .5, .5, 1}}, {"baseColorTexture", {{"index", 0}}}}},
@@ -318,7 +319,7 @@ TEST_F(LoadSurface, MissingImageIsListedAndTheColourFactorStays) {
     EXPECT_THAT(scene.warnings, testing::Contains(HasSubstr("'gone.png' is not there")));
 }
 
-TEST_F(LoadSurface, TexelBudgetIsCheckedBeforeDecoding) {
+TEST_F(LoadSurfaceTest, TexelBudgetIsCheckedBeforeDecoding) {
     // The PNG header claims 60000 x 60000 texels, for which the file has no data.
     const std::string png = encode_image_png(kLoadSurfacePicture);
     std::string huge = png;
@@ -347,7 +348,7 @@ TEST_F(LoadSurface, TexelBudgetIsCheckedBeforeDecoding) {
                 HasSubstr("wanted at most 5 texels in pictures"));
 }
 
-TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
+TEST_F(LoadSurfaceTest, UnsupportedMaterialFeaturesAreListed) {
     const Scene scene = load_surface_gltf(
         make_gltf_with_material({{"name", "all"},
                                  {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
@@ -370,7 +371,7 @@ TEST_F(LoadSurface, UnsupportedMaterialFeaturesAreListed) {
     }
 }
 
-TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
+TEST_F(LoadSurfaceTest, MetalWithTransmissionIsNoGlass) {
     const auto gaps = [&](const Json& pbr) {
         const Scene scene = load_surface_gltf(make_gltf_with_material(
             {{"pbrMetallicRoughness", pbr},
@@ -396,7 +397,7 @@ TEST_F(LoadSurface, MetalWithTransmissionIsNoGlass) {
         << "blue is below 1 in some texels";
 }
 
-TEST_F(LoadSurface, GlassIsReadAsAnIndexOfRefractionAndAnAbsorption) {
+TEST_F(LoadSurfaceTest, GlassIsReadAsAnIndexOfRefractionAndAnAbsorption) {
     const auto read = [&](const Json& volume) {
         return load_surface_gltf(
                    make_gltf_with_material(

@@ -13,7 +13,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::EndsWith;
 
-class LoadUnread : public Load {
+class LoadUnreadFeaturesTest : public Load {
 protected:
     /// Loads a file with `text` and returns its warnings without the file's path.
     std::vector<std::string> load_and_list_warnings(const std::string& name,
@@ -28,7 +28,7 @@ protected:
     }
 };
 
-TEST_F(LoadUnread, FilesThatAreFullyReadGiveNoWarnings) {
+TEST_F(LoadUnreadFeaturesTest, FilesThatAreFullyReadGiveNoWarnings) {
     EXPECT_THAT(load_and_list_warnings("x.obj", kTriangle + "f 1 2 3\n"), testing::IsEmpty());
     EXPECT_THAT(load_and_list_warnings("x.glb", make_small_gltf().glb_bytes()), testing::IsEmpty());
     write_loaded_file("m.mtl", "newmtl a\nKe 1 0 0\nnewmtl b\n");
@@ -36,7 +36,7 @@ TEST_F(LoadUnread, FilesThatAreFullyReadGiveNoWarnings) {
     EXPECT_THAT(load_and_list_warnings("x.obj", lit + "f 1 2 3\n"), testing::IsEmpty());
 }
 
-TEST_F(LoadUnread, GltfLightsGiveNoWarnings) {
+TEST_F(LoadUnreadFeaturesTest, GltfLightsGiveNoWarnings) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["extensionsUsed"] = {"KHR_lights_punctual"};
     gltf.root["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -45,7 +45,7 @@ TEST_F(LoadUnread, GltfLightsGiveNoWarnings) {
     EXPECT_THAT(load_and_list_warnings("x.glb", gltf.glb_bytes()), testing::IsEmpty());
 }
 
-TEST_F(LoadUnread, UnreadMaterialFeaturesGiveWarnings) {
+TEST_F(LoadUnreadFeaturesTest, UnreadMaterialFeaturesGiveWarnings) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["materials"] = {
         {{"name", "wood"},
@@ -72,7 +72,7 @@ TEST_F(LoadUnread, UnreadMaterialFeaturesGiveWarnings) {
             "images[0])"));
 }
 
-TEST_F(LoadUnread, UnreadPrimitivesSkinsAndExtensionsGiveWarnings) {
+TEST_F(LoadUnreadFeaturesTest, UnreadPrimitivesSkinsAndExtensionsGiveWarnings) {
     GltfFileBuilder gltf = make_small_gltf();
     Json& primitives = gltf.root["meshes"][0]["primitives"];
     gltf.root["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
@@ -103,7 +103,7 @@ TEST_F(LoadUnread, UnreadPrimitivesSkinsAndExtensionsGiveWarnings) {
             "extension 'EXT_instancing', not read: 1 (first: nodes[1])"));
 }
 
-TEST_F(LoadUnread, NodesOutsideTheShownSceneGiveAWarning) {
+TEST_F(LoadUnreadFeaturesTest, NodesOutsideTheShownSceneGiveAWarning) {
     GltfFileBuilder gltf = make_small_gltf();
     const std::size_t times = gltf.add_accessor<float>({0, 1}, "SCALAR", 5126),
                       here = gltf.add_accessor<float>({0, 0, 0, 1, 0, 0}, "VEC3", 5126),
@@ -128,7 +128,7 @@ TEST_F(LoadUnread, NodesOutsideTheShownSceneGiveAWarning) {
     EXPECT_EQ(dvec3(moved.objects[0].world_from_object[3]), dvec3(1, 0, 0)) << "the first counts";
 }
 
-TEST_F(LoadUnread, StatementsBeforeTheFirstMaterialGiveAWarning) {
+TEST_F(LoadUnreadFeaturesTest, StatementsBeforeTheFirstMaterialGiveAWarning) {
     write_loaded_file("m.mtl", "Kd 1 0 0\nKe 1 1 1\nnewmtl a\nKd 0 1 0\n");
     const std::string file = fs::canonical(folder).string() + "/m.mtl";
     EXPECT_THAT(
@@ -137,7 +137,7 @@ TEST_F(LoadUnread, StatementsBeforeTheFirstMaterialGiveAWarning) {
             "statements before the first newmtl, left out: 2 (first: " + file + ":1)"));
 }
 
-TEST_F(LoadUnread, LongAttributeNameIsRefusedWithAShortMessage) {
+TEST_F(LoadUnreadFeaturesTest, LongAttributeNameIsRefusedWithAShortMessage) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION" + std::string(5000, 'x')] = 0;
     write_loaded_file("x.glb", gltf.glb_bytes());
@@ -150,7 +150,7 @@ TEST_F(LoadUnread, LongAttributeNameIsRefusedWithAShortMessage) {
     }
 }
 
-TEST_F(LoadUnread, UnreadObjAndMtlStatementsGiveWarnings) {
+TEST_F(LoadUnreadFeaturesTest, UnreadObjAndMtlStatementsGiveWarnings) {
     write_loaded_file("m.mtl", "newmtl a\nNs 10\nKa 0 0 0\nmap_Kd wood.png\nillum 2\n"
                                "newmtl b\nNs 10\nillum 4\nnewmtl c\nillum 2\nd .5\n");
     const std::string file = fs::canonical(folder).string() + "/m.mtl";
@@ -165,7 +165,7 @@ TEST_F(LoadUnread, UnreadObjAndMtlStatementsGiveWarnings) {
                     "statements 'l', not read: 1 (first: " + (folder / "x.obj").string() + ":10)"));
 }
 
-TEST_F(LoadUnread, NumberOfWarningsIsLimited) {
+TEST_F(LoadUnreadFeaturesTest, NumberOfWarningsIsLimited) {
     GltfFileBuilder gltf = make_small_gltf();
     for (int i = 0; i < 200; ++i)
         gltf.root["nodes"].push_back(
@@ -180,7 +180,7 @@ TEST_F(LoadUnread, NumberOfWarningsIsLimited) {
                 Contains(HasSubstr("other statements, not read: 160")));
 }
 
-TEST_F(LoadUnread, ControlCharactersOfAFileAreEscapedInMessages) {
+TEST_F(LoadUnreadFeaturesTest, ControlCharactersOfAFileAreEscapedInMessages) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["nodes"][0]["name"] = "\x1b[2J";
     gltf.root["nodes"][0]["skin"] = 0;
@@ -213,7 +213,7 @@ GltfFileBuilder load_unread_box(const Json& node) {
     return gltf;
 }
 
-TEST_F(LoadUnread, FacetNormalsOfMirroredNodesPointOutwards) {
+TEST_F(LoadUnreadFeaturesTest, FacetNormalsOfMirroredNodesPointOutwards) {
     for (const Json& node : {Json{{"scale", {1, 1, 1}}}, Json{{"scale", {-1, 1, 1}}},
                              Json{{"scale", {-2, -1, -3}}}, Json{{"scale", {1, -1, -1}}},
                              Json{{"matrix", {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}}) {
@@ -249,7 +249,7 @@ double total_scene_area(const Scene& scene) {
     return sum;
 }
 
-TEST_F(LoadUnread, TrianglesOfAPolygonCoverItsArea) {
+TEST_F(LoadUnreadFeaturesTest, TrianglesOfAPolygonCoverItsArea) {
     const auto cut = [&](const std::vector<dvec2>& corners) {
         std::string text, face = "f";
         for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -51,7 +51,7 @@ void expect_nearest_as_by_search(render::NearestTriangleQuery& nearest,
 
 TEST(Nearest, NearestDistanceEqualsThatOfAFullSearchAlsoAfterMoves) {
     for (const scene::Scene& scene : {scene::make_cornell_mirrors(), test::make_lit_room(3, 2)}) {
-        const render::SceneUnits space = render::make_scene_units(scene);
+        const render::SceneUnitTransform space = render::make_scene_units(scene);
         scene::Scene now = scene::scene_at_time(scene, 0);
         render::FrameGeometry geometry = render::make_frame_geometry(now, space);
         render::NearestTriangleQuery nearest;
@@ -78,7 +78,7 @@ TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
     for (int i = 0; i < 40; ++i)
         test::add_ball(scene, "ball", 0, 2.0 * dvec3(numbers.random_point_in_cube()), 1e-4, 2);
     const render::FrameGeometry geometry = render::make_frame_geometry(
-        scene, render::make_scene_units(scene), render::VertexSpaceChoice::object_space);
+        scene, render::make_scene_units(scene), render::VertexCoordinateSpaceChoice::object_space);
     render::NearestTriangleQuery nearest;
     nearest.set_geometry(geometry);
     std::size_t in_object_spaces = 0;

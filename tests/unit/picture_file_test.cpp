@@ -34,21 +34,22 @@ std::string decode_hex(const std::string& hex) {
 }
 
 // The PNG files below were written by a Python script with zlib and struct, not by this engine.
-// kRgb8 has 2x2 pixels with 8 bits per channel: (255 188 0)(1 2 3), then (0 0 0)(128 64 32).
-const std::string kRgb8 = decode_hex(
+// kRgb8PngBytes has 2x2 pixels with 8 bits per channel: (255 188 0)(1 2 3), then (0 0 0)(128 64
+// 32).
+const std::string kRgb8PngBytes = decode_hex(
     "89504e470d0a1a0a0000000d4948445200000002000000020802000000fdd49a73000000144944415478da63f8bf"
     "878191899901081a1c1400182502a223acfc8a0000000049454e44ae426082");
 // A PNG of one pixel, (188 188 188). Its gAMA chunk claims that the values are linear.
-const std::string kGamma1 = decode_hex(
+const std::string kLinearGammaPngBytes = decode_hex(
     "89504e470d0a1a0a0000000d4948445200000001000000010802000000907753de0000000467414d41000186a031"
     "e8965f0000000c4944415478da63d8b3670f00046c02355d11ef200000000049454e44ae426082");
 // A PNG of two grey pixels with 16 bits each: 65535 and 32768.
-const std::string kGrey16 = decode_hex(
+const std::string kGrey16PngBytes = decode_hex(
     "89504e470d0a1a0a0000000d494844520000000200000001100000000081d9fc150000000d4944415478da63f8ff"
     "bf81010007fe027fad8392250000000049454e44ae426082");
 // A PNG of three RGBA pixels: transparent (255 128 0 | 0), opaque black (0 0 0 | 255) and half
 // transparent (0 0 1 | 128).
-const std::string kRgba8 = decode_hex(
+const std::string kRgba8PngBytes = decode_hex(
     "89504e470d0a1a0a0000000d49484452000000030000000108060000001be014b4000000124944415478da63f8df"
     "c00002ff1918181b0016fe030063c4645b0000000049454e44ae426082");
 
@@ -133,24 +134,25 @@ TEST_F(PictureFile, WrittenPngIsEightBitRgbRoundedAndClamped) {
 }
 
 TEST_F(PictureFile, ReadPngIsDecodedFromSrgb) {
-    const Picture picture = read_picture(write_picture_bytes("a.png", kRgb8));
+    const Picture picture = read_picture(write_picture_bytes("a.png", kRgb8PngBytes));
     EXPECT_EQ(picture.at(0, 0).x, 1.0F);
     EXPECT_NEAR(picture.at(0, 0).y, 0.502886, 1e-6); // ((188/255 + 0.055) / 1.055)^2.4
     EXPECT_EQ(picture.at(0, 0).z, 0.0F);
     EXPECT_NEAR(picture.at(1, 0).x, 1 / 255.0 / 12.92, 1e-9);
     EXPECT_NEAR(picture.at(1, 1).y, 0.051269, 1e-6);
-    EXPECT_NEAR(read_picture(write_picture_bytes("gamma.png", kGamma1)).at(0, 0).x, 0.502886, 1e-6);
+    EXPECT_NEAR(read_picture(write_picture_bytes("gamma.png", kLinearGammaPngBytes)).at(0, 0).x,
+                0.502886, 1e-6);
 }
 
 TEST_F(PictureFile, SixteenBitGreyPngIsReadAsRgb) {
-    const Picture picture = read_picture(write_picture_bytes("a.png", kGrey16));
+    const Picture picture = read_picture(write_picture_bytes("a.png", kGrey16PngBytes));
     EXPECT_EQ(picture.at(0, 0), vec3(1));
     EXPECT_NEAR(picture.at(1, 0).x, 0.214053, 1e-5); // 32768 / 65535, decoded from sRGB
     EXPECT_EQ(picture.at(1, 0).x, picture.at(1, 0).z);
 }
 
 TEST_F(PictureFile, AlphaOfAPngIsIgnored) {
-    const Picture picture = read_picture(write_picture_bytes("a.png", kRgba8));
+    const Picture picture = read_picture(write_picture_bytes("a.png", kRgba8PngBytes));
     EXPECT_EQ(picture.at(0, 0).x, 1.0F);
     EXPECT_NEAR(picture.at(0, 0).y, 0.215861, 1e-6);
     EXPECT_EQ(picture.at(1, 0), vec3(0));
@@ -165,12 +167,13 @@ TEST_F(PictureFile, HalfFloatExrOfAnotherWriterIsRead) {
 }
 
 TEST_F(PictureFile, FileFormatIsFoundByContentNotByName) {
-    EXPECT_EQ(read_picture(write_picture_bytes("a.exr", kRgb8)).at(0, 0).x, 1.0F);
+    EXPECT_EQ(read_picture(write_picture_bytes("a.exr", kRgb8PngBytes)).at(0, 0).x, 1.0F);
 }
 
 TEST_F(PictureFile, MaskSelectsPixelsThatAreNotZero) {
-    EXPECT_EQ(read_mask(write_picture_bytes("a.png", kRgb8), 2, 2), (Mask{255, 255, 0, 255}));
-    EXPECT_EQ(read_mask(write_picture_bytes("b.png", kRgba8), 3, 1), (Mask{255, 0, 255}));
+    EXPECT_EQ(read_mask(write_picture_bytes("a.png", kRgb8PngBytes), 2, 2),
+              (Mask{255, 255, 0, 255}));
+    EXPECT_EQ(read_mask(write_picture_bytes("b.png", kRgba8PngBytes), 3, 1), (Mask{255, 0, 255}));
     EXPECT_THAT(
         test::catch_error_text(Failure::bad_data, [&] { read_mask(folder / "a.png", 4, 2); }),
         HasSubstr("a.png: wanted a mask of 4x2 as the pictures, found 2x2"));
@@ -204,7 +207,7 @@ TEST_F(PictureFile, TruncatedFilesAreRefusedAtEveryLength) {
     const std::string exr = make_half_float_exr();
     for (std::size_t size = 0; size < exr.size(); size += 7) refuses("cut.exr", exr, size);
     refuses("cut.exr", exr, exr.size() - 1);
-    for (std::size_t size = 0; size < 60; size += 3) refuses("cut.png", kRgb8, size);
+    for (std::size_t size = 0; size < 60; size += 3) refuses("cut.png", kRgb8PngBytes, size);
 }
 
 TEST_F(PictureFile, FailedWriteKeepsTheOldFile) {

@@ -30,9 +30,9 @@ TEST(ToDisplay, DisplayValuesFollowTheSrgbCurve) {
 TEST(ToDisplay, ValuesOutOfRangeAreClampedAndNanBecomesBlack) {
     EXPECT_EQ(display_value_of_linear(-3), 0.0F);
     EXPECT_EQ(display_value_of_linear(17), 1.0F);
-    EXPECT_EQ(display_value_of_linear(test::kInfinity), 1.0F);
-    EXPECT_EQ(display_value_of_linear(-test::kInfinity), 0.0F);
-    EXPECT_EQ(display_value_of_linear(test::kNan), 0.0F);
+    EXPECT_EQ(display_value_of_linear(test::kFloatInfinity), 1.0F);
+    EXPECT_EQ(display_value_of_linear(-test::kFloatInfinity), 0.0F);
+    EXPECT_EQ(display_value_of_linear(test::kFloatNan), 0.0F);
 }
 
 TEST(ToDisplay, ExposureOfOneStopDoublesTheLight) {

@@ -89,11 +89,11 @@ TEST(Pieces, FacePartHoldsEveryPointOfABoxAndOfAHull) {
 
 TEST(Pieces, DifferingPartHoldsPiecesOfOnlyOneState) {
     const CubeFacePart a{dvec2(-1), dvec2(-.5)}, b{dvec2(0), dvec2(.25)}, c{dvec2(.5), dvec2(.75)};
-    const auto states = [](std::vector<MovingFacePiece> before,
-                           std::vector<MovingFacePiece> after) {
-        MovingFacePieces old, now;
+    const auto states = [](std::vector<MovingObjectFacePart> before,
+                           std::vector<MovingObjectFacePart> after) {
+        MovingObjectFaceParts old, now;
         old.faces[2] = std::move(before), now.faces[2] = std::move(after);
-        old.sort_pieces(), now.sort_pieces();
+        old.sort_moving_face_pieces(), now.sort_moving_face_pieces();
         return find_changed_face_part(old.faces[2], now.faces[2]);
     };
     EXPECT_TRUE(states({}, {}).is_empty());

@@ -11,25 +11,25 @@ namespace {
 
 using namespace catoptric::measure;
 
-struct DrawnProblem {
-    std::vector<MixCandidate> candidates;
+struct RandomMixProblem {
+    std::vector<TechniqueCandidateForMix> candidates;
     std::vector<std::vector<double>> pixels;
     double limit = 0;
 };
 
 /// Draws candidates of which a dearer one usually errs less, as techniques do.
-DrawnProblem draw_problem(std::uint64_t seed) {
+RandomMixProblem draw_random_mix_problem(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     const std::size_t mirrors = 1 + random() % 3, views = 1 + random() % 4;
-    DrawnProblem problem;
+    RandomMixProblem problem;
     for (std::size_t view = 0; view < views; ++view) {
         problem.pixels.emplace_back();
         for (std::size_t mirror = 0; mirror < mirrors; ++mirror)
             problem.pixels.back().push_back(std::floor(1000 * uniform(random)) + 1);
     }
     for (int i = 0; i < 4; ++i) {
-        MixCandidate candidate{1 + 3.0 * i + uniform(random), {}};
+        TechniqueCandidateForMix candidate{1 + 3.0 * i + uniform(random), {}};
         for (std::size_t view = 0; view < views; ++view) {
             candidate.error_sums.emplace_back();
             for (std::size_t mirror = 0; mirror < mirrors; ++mirror)
@@ -42,7 +42,7 @@ DrawnProblem draw_problem(std::uint64_t seed) {
     return problem;
 }
 
-double largest_error(const DrawnProblem& problem, const std::vector<std::size_t>& mix) {
+double largest_error(const RandomMixProblem& problem, const std::vector<std::size_t>& mix) {
     double largest = 0;
     for (std::size_t view = 0; view < problem.pixels.size(); ++view) {
         double error = 0, pixels = 0;
@@ -56,7 +56,7 @@ double largest_error(const DrawnProblem& problem, const std::vector<std::size_t>
 }
 
 /// Returns the time of a mix: that of each mirror's technique by its share of the pixels.
-double time_of(const DrawnProblem& problem, const std::vector<std::size_t>& mix) {
+double time_of_technique_mix(const RandomMixProblem& problem, const std::vector<std::size_t>& mix) {
     double ms = 0;
     for (const std::vector<double>& view : problem.pixels) {
         double pixels = 0;
@@ -71,9 +71,9 @@ TEST(PlanMix, KeepsTheLimitAndIsNearTheBestOfAllMixes) {
     int solved = 0, optimal = 0;
     double worst = 1;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        const DrawnProblem problem = draw_problem(seed);
-        const std::vector<std::size_t> found = find_cheapest_mix(problem.candidates, problem.pixels,
-                                                                 problem.limit);
+        const RandomMixProblem problem = draw_random_mix_problem(seed);
+        const std::vector<std::size_t> found = find_fastest_technique_mix(
+            problem.candidates, problem.pixels, problem.limit);
         const std::size_t mirrors = problem.pixels.front().size();
         double best = INFINITY, best_alone = INFINITY;
         for (std::size_t code = 0; code < std::size_t{1} << (2 * mirrors); ++code) {
@@ -81,16 +81,16 @@ TEST(PlanMix, KeepsTheLimitAndIsNearTheBestOfAllMixes) {
             for (std::size_t mirror = 0, rest = code; mirror < mirrors; ++mirror, rest /= 4)
                 mix.push_back(rest % 4);
             if (largest_error(problem, mix) > problem.limit) continue;
-            best = std::min(best, time_of(problem, mix));
+            best = std::min(best, time_of_technique_mix(problem, mix));
             if (std::ranges::equal(mix, std::vector<std::size_t>(mirrors, mix.front())))
-                best_alone = std::min(best_alone, time_of(problem, mix));
+                best_alone = std::min(best_alone, time_of_technique_mix(problem, mix));
         }
         ASSERT_EQ(found.empty(), std::isinf(best_alone)) << seed;
         if (found.empty()) continue;
         ++solved;
         EXPECT_LE(largest_error(problem, found), problem.limit * (1 + 1e-12)) << seed;
-        const double regret = time_of(problem, found) / best;
-        EXPECT_LE(time_of(problem, found), best_alone * (1 + 1e-12)) << seed;
+        const double regret = time_of_technique_mix(problem, found) / best;
+        EXPECT_LE(time_of_technique_mix(problem, found), best_alone * (1 + 1e-12)) << seed;
         worst = std::max(worst, regret);
         optimal += regret < 1 + 1e-9 ? 1 : 0;
     }
@@ -101,12 +101,12 @@ TEST(PlanMix, KeepsTheLimitAndIsNearTheBestOfAllMixes) {
 
 TEST(PlanMix, AnswersByHand) {
     const std::vector<std::vector<double>> pixels{{100, 0}};
-    const std::vector<MixCandidate> candidates{{1, {{50, 0}}}, {5, {{1, 0}}}};
-    EXPECT_EQ(find_cheapest_mix(candidates, pixels, .1), (std::vector<std::size_t>{1, 1}));
-    EXPECT_EQ(find_cheapest_mix(candidates, pixels, .6), (std::vector<std::size_t>{0, 0}));
-    EXPECT_TRUE(find_cheapest_mix(candidates, pixels, .001).empty());
-    EXPECT_TRUE(find_cheapest_mix({}, pixels, 1).empty());
-    EXPECT_TRUE(find_cheapest_mix(candidates, {}, 1).empty());
+    const std::vector<TechniqueCandidateForMix> candidates{{1, {{50, 0}}}, {5, {{1, 0}}}};
+    EXPECT_EQ(find_fastest_technique_mix(candidates, pixels, .1), (std::vector<std::size_t>{1, 1}));
+    EXPECT_EQ(find_fastest_technique_mix(candidates, pixels, .6), (std::vector<std::size_t>{0, 0}));
+    EXPECT_TRUE(find_fastest_technique_mix(candidates, pixels, .001).empty());
+    EXPECT_TRUE(find_fastest_technique_mix({}, pixels, 1).empty());
+    EXPECT_TRUE(find_fastest_technique_mix(candidates, {}, 1).empty());
 }
 
 } // namespace

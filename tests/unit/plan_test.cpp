@@ -21,7 +21,7 @@ const std::vector<std::string> kMirrorNames{"left ball", "front", "back", "far b
 std::vector<std::string>
 list_technique_labels(const std::string& text,
                       const std::vector<std::string>& names = kMirrorNames) {
-    const reflect::MirrorAssignment assignment = reflect::assign_techniques_to_mirrors(
+    const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
         reflect::parse_plan(text), names);
     std::vector<std::string> result;
     for (const std::uint32_t choice : assignment.of_mirror)
@@ -70,7 +70,7 @@ TEST(PlanText, NumberSelectsAMirrorByPositionNotByName) {
 }
 
 TEST(PlanText, RulesWithEqualTechniquesShareAChoice) {
-    const reflect::MirrorAssignment assignment = reflect::assign_techniques_to_mirrors(
+    const reflect::TechniqueOfEachMirror assignment = reflect::assign_techniques_to_mirrors(
         reflect::parse_plan("1=reuse:face=256 2=march *=reuse"), kMirrorNames);
     EXPECT_EQ(assignment.choices.size(), 2u);
     EXPECT_THAT(assignment.of_mirror, ElementsAre(0, 1, 0, 0));
@@ -112,7 +112,7 @@ TEST(PlanText, PlanHasAShortUniqueFileName) {
     EXPECT_NE(reflect::parse_plan(a).file_name(), reflect::parse_plan(b).file_name());
 }
 
-class PlanFile : public test::InFolder {
+class PlanFileTest : public test::InFolder {
 protected:
     std::string write_plan_file(const std::string& content) {
         const std::string path = (folder / "plan.json").string();
@@ -121,7 +121,7 @@ protected:
     }
 };
 
-TEST_F(PlanFile, PlanFileMeansTheSameAsThePlanText) {
+TEST_F(PlanFileTest, PlanFileMeansTheSameAsThePlanText) {
     const reflect::TechniquePlan text = reflect::parse_plan(
         "1=reuse:face=64 2,back=hybrid *=march");
     EXPECT_TRUE(
@@ -142,7 +142,7 @@ TEST_F(PlanFile, PlanFileMeansTheSameAsThePlanText) {
                     .is_same_plan_as(reflect::parse_plan("*=reuse:face=auto")));
 }
 
-TEST_F(PlanFile, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {
+TEST_F(PlanFileTest, InvalidPlanFilesAreRefusedWithThePlaceOfTheError) {
     const auto bad = [&](const std::string& content, const std::vector<std::string>& words,
                          Failure failure = Failure::bad_data) {
         expect_plan_refused(write_plan_file(content), words, failure);

@@ -29,7 +29,8 @@ enum SpirvOpcode : std::uint32_t {
     kVectorTimesScalar = 142,
     kDot = 148
 };
-constexpr std::uint32_t kNoContractionDecoration = 42, kFma = 50; // kFma: number in GLSL.std.450
+constexpr std::uint32_t kNoContractionDecoration = 42,
+                        kFmaOpcode = 50; // kFmaOpcode: number in GLSL.std.450
 constexpr std::array kFusibleOpcodes{kFNegate, kFAdd, kFSub, kFMul, kVectorTimesScalar, kDot};
 
 /// Functions whose results are compared bit for bit between devices.
@@ -58,7 +59,7 @@ count_fusible_instructions(std::span<const std::uint32_t> words) {
                 kExactFunctions, [&](auto start) { return names[operands[1]].starts_with(start); });
             here = exact == kExactFunctions.end() ? nullptr : &result[*exact];
         }
-        if (here != nullptr && op == kExtInst && operands[3] == kFma) ++here->fusible;
+        if (here != nullptr && op == kExtInst && operands[3] == kFmaOpcode) ++here->fusible;
         if (here != nullptr && std::ranges::find(kFusibleOpcodes, op) != kFusibleOpcodes.end())
             ++(fixed.contains(operands[1]) ? here->fixed : here->fusible);
     }

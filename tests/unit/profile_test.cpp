@@ -29,7 +29,7 @@ app::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (build 
 /// times as long as the default.
 measure::ShaderVariantTrial make_variant_trial(std::size_t variant,
                                                const std::vector<double>& ratios) {
-    const gpu::ShaderVariant& row = gpu::list_shader_variants()[variant];
+    const gpu::ShaderBuildVariant& row = gpu::list_shader_variants()[variant];
     measure::ShaderVariantTrial one{.variant = std::string(row.name),
                                     .choice = std::string(row.choices[1]),
                                     .standard = std::string(row.choices[0]),
@@ -38,15 +38,16 @@ measure::ShaderVariantTrial make_variant_trial(std::size_t variant,
     return one;
 }
 
-const std::vector<double> kFaster{.9, .91, .92, .93, .94, .95},
-    kSlower{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kBoth{.5, .6, .7, .8, .9, 1.01};
+const std::vector<double> kFasterRoundRatios{.9, .91, .92, .93, .94, .95},
+    kSlowerRoundRatios{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kMixedRoundRatios{.5, .6, .7, .8, .9, 1.01};
 
 TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
-    const std::string text = app::make_profile_text(
-        make_device_info(), {make_variant_trial(0, kFaster), make_variant_trial(1, kSlower),
-                             make_variant_trial(2, kBoth)});
+    const std::string text = app::make_profile_text(make_device_info(),
+                                                    {make_variant_trial(0, kFasterRoundRatios),
+                                                     make_variant_trial(1, kSlowerRoundRatios),
+                                                     make_variant_trial(2, kMixedRoundRatios)});
     EXPECT_EQ(app::parse_device_profile(text, "p.json", make_device_info()),
-              (gpu::VariantChoices{1, 0, 0}));
+              (gpu::ShaderVariantChoices{1, 0, 0}));
     const json document = json::parse(text);
     EXPECT_EQ(document["variants"],
               (json{{"groups", "in order"}, {"hierarchy", "texel"}, {"pixels", "blocks"}}));
@@ -61,7 +62,7 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
 
 TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
     const std::string text = app::make_profile_text(make_device_info(),
-                                                    {make_variant_trial(0, kFaster)});
+                                                    {make_variant_trial(0, kFasterRoundRatios)});
     const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
         test::expect_error([&] { app::parse_device_profile(text, "p.json", device); },
@@ -79,7 +80,7 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
 
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     json good = json::parse(
-        app::make_profile_text(make_device_info(), {make_variant_trial(0, kFaster)}));
+        app::make_profile_text(make_device_info(), {make_variant_trial(0, kFasterRoundRatios)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
         test::expect_error([&] { app::parse_device_profile(text, "p.json", make_device_info()); },
                            Failure::bad_data, {"p.json: ", part});
@@ -97,7 +98,7 @@ TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
     refuses(bad.dump(), "variants.pixels: wanted 'blocks' or 'rows', found 'storage'");
     good["variants"] = json::object(); // variants that are left out have their defaults
     EXPECT_EQ(app::parse_device_profile(good.dump(), "p.json", make_device_info()),
-              gpu::VariantChoices{});
+              gpu::ShaderVariantChoices{});
 }
 
 TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
@@ -105,21 +106,22 @@ TEST(Profile, ProfileFileNameHasOnlyPortableCharacters) {
               "10de-2330-.._a_b_c_d_.json");
 }
 
-class ProfilePlace : public test::InFolder {
+class ProfileFileTest : public test::InFolder {
 protected:
     void write_profile_file(const std::string& name, const std::string& text) const {
         std::ofstream(folder / name) << text;
     }
     std::string make_valid_profile_text() const {
-        return app::make_profile_text(make_device_info(), {make_variant_trial(0, kFaster)});
+        return app::make_profile_text(make_device_info(),
+                                      {make_variant_trial(0, kFasterRoundRatios)});
     }
 };
 
-TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
+TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     app::EngineOptions options;
     options.profiles = folder;
     app::DeviceInfo device = make_device_info();
-    EXPECT_EQ(app::choose_shader_variants(options, device), gpu::VariantChoices{})
+    EXPECT_EQ(app::choose_shader_variants(options, device), gpu::ShaderVariantChoices{})
         << "there is none";
     EXPECT_EQ(device.profile + device.warning, "");
     EXPECT_THAT(device.variants,
@@ -127,30 +129,31 @@ TEST_F(ProfilePlace, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
                                      Pair("pixels", "blocks")));
     const std::string name = app::make_profile_file_name(device);
     write_profile_file(name, make_valid_profile_text());
-    EXPECT_EQ(app::choose_shader_variants(options, device), (gpu::VariantChoices{1, 0, 0}));
+    EXPECT_EQ(app::choose_shader_variants(options, device), (gpu::ShaderVariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
-         {std::string("{"),
-          app::make_profile_text(make_device_info("another"), {make_variant_trial(0, kFaster)})}) {
+         {std::string("{"), app::make_profile_text(make_device_info("another"),
+                                                   {make_variant_trial(0, kFasterRoundRatios)})}) {
         write_profile_file(name, text);
         device = make_device_info();
-        EXPECT_EQ(app::choose_shader_variants(options, device), gpu::VariantChoices{});
+        EXPECT_EQ(app::choose_shader_variants(options, device), gpu::ShaderVariantChoices{});
         EXPECT_EQ(device.profile, "");
         EXPECT_THAT(device.warning, testing::StartsWith((folder / name).string() + ": "));
         EXPECT_THAT(device.warning, testing::HasSubstr("; shaders are as by default"));
     }
 }
 
-TEST_F(ProfilePlace, ProfileNamedByAnOptionMustBeUsable) {
+TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
     app::DeviceInfo device = make_device_info();
     const auto choose = [&](const std::string& name) {
         return app::choose_shader_variants({.profile = folder / name, .profiles = folder}, device);
     };
     write_profile_file("good.json", make_valid_profile_text()), write_profile_file("bad.json", "3");
-    write_profile_file("other.json", app::make_profile_text(make_device_info("another"),
-                                                            {make_variant_trial(0, kFaster)}));
-    EXPECT_EQ(choose("good.json"), (gpu::VariantChoices{1, 0, 0}));
+    write_profile_file("other.json",
+                       app::make_profile_text(make_device_info("another"),
+                                              {make_variant_trial(0, kFasterRoundRatios)}));
+    EXPECT_EQ(choose("good.json"), (gpu::ShaderVariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});
     test::expect_error([&] { choose("other.json"); }, Failure::bad_data, {"device.driver: "});
@@ -171,7 +174,7 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
           std::pair("integrated", "in order"), std::pair("virtual", "in order")}) {
         app::DeviceInfo device = make_device_info();
         device.type = type;
-        const gpu::VariantChoices choices = app::choose_shader_variants({}, device);
+        const gpu::ShaderVariantChoices choices = app::choose_shader_variants({}, device);
         EXPECT_THAT(device.variants, testing::Contains(Pair("groups", groups))) << type;
         EXPECT_THAT(device.variants, testing::Contains(Pair("hierarchy", "texel"))) << type;
         EXPECT_EQ(choices, app::choose_default_variants(device));
@@ -182,12 +185,12 @@ TEST(Variants, WorkGroupsAreInOrderExceptOnAProcessor) {
 
 TEST(Variants, ChoicesOtherThanDefaultsBecomeShaderConstants) {
     EXPECT_TRUE(render::make_tracer_constants({}, 16, 128).empty());
-    const gpu::ShaderConstants all = render::make_tracer_constants({1, 1, 1}, 128, 128);
+    const gpu::ShaderConstantValues all = render::make_tracer_constants({1, 1, 1}, 128, 128);
     EXPECT_THAT(
         all, testing::ElementsAre(Pair("groups_in_order", testing::VariantWith<std::uint32_t>(1U)),
                                   Pair("bvh_in_storage", testing::VariantWith<std::uint32_t>(1U)),
                                   Pair("pixels_in_rows", testing::VariantWith<std::uint32_t>(1U))));
-    const gpu::ShaderConstants large = render::make_tracer_constants({0, 1, 0}, 129, 128);
+    const gpu::ShaderConstantValues large = render::make_tracer_constants({0, 1, 0}, 129, 128);
     EXPECT_TRUE(large.empty()) << "more bytes than a storage buffer may have";
 }
 

@@ -60,7 +60,7 @@ private:
 
     ImageHandle choose_random_part_of_image(const ImageHandle& image) {
         const std::uint32_t first = random_number_below(image.layer_count);
-        return image.select_layers(first, random_number_below(image.layer_count - first) + 1);
+        return image.select_image_layers(first, random_number_below(image.layer_count - first) + 1);
     }
 
     void add_random_pass(std::uint32_t number) {
@@ -92,11 +92,11 @@ private:
         const ResourceUse use = is_depth_image(target) ? ResourceUse::depth : ResourceUse::colour;
         std::optional<ClearValue> clear;
         if (!is_image_written(target) || is_chosen_with_chance(60)) clear = ClearValue{};
-        pass.writes(target, use, clear).set_layer_count(target.layer_count);
+        pass.writes(target, use, clear).set_pass_layer_count(target.layer_count);
         if (use == ResourceUse::depth || is_chosen_with_chance(50)) return;
         for (const ImageHandle& image : images_) { // attaches a depth image for the depth test
             if (!is_depth_image(image) || image.layer_count < target.layer_count) continue;
-            const ImageHandle depth = image.select_layers(0, target.layer_count);
+            const ImageHandle depth = image.select_image_layers(0, target.layer_count);
             if (!is_image_written(depth)) continue;
             touched_[image.id] = true;
             pass.reads(depth, ResourceUse::depth);
@@ -129,7 +129,7 @@ private:
     /// frame.
     void add_disjoint_read(PassBuilder& pass, const ImageHandle& target, bool copy) {
         if (target.first_layer == 0) return;
-        const ImageHandle rest = images_[target.id].select_layers(0, target.first_layer);
+        const ImageHandle rest = images_[target.id].select_image_layers(0, target.first_layer);
         if (is_image_written(rest) && is_chosen_with_chance(50))
             pass.reads(rest, random_reading_use(rest, copy));
         else if (is_chosen_with_chance(10))
@@ -161,7 +161,7 @@ private:
             .writes(images_[id],
                     is_depth_image(images_[id]) ? ResourceUse::depth : ResourceUse::colour,
                     ClearValue{})
-            .set_layer_count(images_[id].layer_count)
+            .set_pass_layer_count(images_[id].layer_count)
             .record([](PassCommands&) {});
         written_[id].assign(images_[id].layer_count, true);
     }
@@ -169,13 +169,16 @@ private:
     void mark_random_output() {
         for (const ImageHandle& image : images_) {
             const ImageHandle part = choose_random_part_of_image(image);
-            if (is_image_written(part) && is_chosen_with_chance(15)) graph_.mark_output(part);
+            if (is_image_written(part) && is_chosen_with_chance(15))
+                graph_.mark_as_graph_output(part);
         }
         for (const ImageHandle& image : images_) // so that most graphs have an output
-            if (graph_.list_output_images().empty() && is_image_written(image.select_layers(0, 1)))
-                graph_.mark_output(image.select_layers(0, 1));
+            if (graph_.list_output_images().empty() &&
+                is_image_written(image.select_image_layers(0, 1)))
+                graph_.mark_as_graph_output(image.select_image_layers(0, 1));
         for (std::uint32_t b = 0; b < buffers_.size(); ++b)
-            if (buffer_written_[b] && is_chosen_with_chance(20)) graph_.mark_output(buffers_[b]);
+            if (buffer_written_[b] && is_chosen_with_chance(20))
+                graph_.mark_as_graph_output(buffers_[b]);
     }
 
     std::mt19937& random_;

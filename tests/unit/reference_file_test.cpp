@@ -30,15 +30,15 @@ app::StoredReference make_stored_reference() {
     return stored;
 }
 
-const app::ReferenceKey kKey{
+const app::ReferenceKey kTestReferenceKey{
     {"scene", "cafe"}, {"camera", "0,0,1"}, {"time", "0"}, {"size", "5x3"}};
 
-using ReferenceFile = test::InFolder;
+using ReferenceFileTest = test::InFolder;
 
-TEST_F(ReferenceFile, KeepsHalvesVarianceSeedsAndTimes) {
+TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
     const app::StoredReference before = make_stored_reference();
-    app::write_reference_file(before, kKey, folder / "halves.exr");
-    app::StoredReference after = app::read_reference_file(kKey, folder / "halves.exr");
+    app::write_reference_file(before, kTestReferenceKey, folder / "halves.exr");
+    app::StoredReference after = app::read_reference_file(kTestReferenceKey, folder / "halves.exr");
     EXPECT_EQ(after.seeds, before.seeds);
     EXPECT_EQ(after.gpu_ms, before.gpu_ms);
     EXPECT_EQ(after.a.picture_count(), 2);
@@ -57,11 +57,11 @@ TEST_F(ReferenceFile, KeepsHalvesVarianceSeedsAndTimes) {
         }
 }
 
-TEST_F(ReferenceFile, NamesThePartOfTheKeyThatDiffers) {
+TEST_F(ReferenceFileTest, NamesThePartOfTheKeyThatDiffers) {
     const std::filesystem::path file = folder / "halves.exr";
-    app::write_reference_file(make_stored_reference(), kKey, file);
-    for (const auto& [name, value] : kKey) {
-        app::ReferenceKey other = kKey;
+    app::write_reference_file(make_stored_reference(), kTestReferenceKey, file);
+    for (const auto& [name, value] : kTestReferenceKey) {
+        app::ReferenceKey other = kTestReferenceKey;
         for (auto& part : other)
             if (part.first == name) part.second = "another";
         EXPECT_THAT(test::catch_error_text(Failure::bad_data,
@@ -69,13 +69,13 @@ TEST_F(ReferenceFile, NamesThePartOfTheKeyThatDiffers) {
                     AllOf(HasSubstr("the " + name + " another"), HasSubstr(value)));
     }
     measure::write_exr(draw_random_picture(1), file);
-    EXPECT_THAT(
-        test::catch_error_text(Failure::bad_data, [&] { app::read_reference_file(kKey, file); }),
-        HasSubstr("wanted the channel A.R"));
-    EXPECT_THAT(
-        test::catch_error_text(Failure::missing_input,
-                               [&] { app::read_reference_file(kKey, folder / "none.exr"); }),
-        HasSubstr("none.exr"));
+    EXPECT_THAT(test::catch_error_text(Failure::bad_data,
+                                       [&] { app::read_reference_file(kTestReferenceKey, file); }),
+                HasSubstr("wanted the channel A.R"));
+    EXPECT_THAT(test::catch_error_text(
+                    Failure::missing_input,
+                    [&] { app::read_reference_file(kTestReferenceKey, folder / "none.exr"); }),
+                HasSubstr("none.exr"));
 }
 
 } // namespace

@@ -242,7 +242,7 @@ private:
     }
 
     static AccessState make_access_state_of_use(const Pass& pass, const GraphCellUse& u) {
-        return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster()};
+        return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster_pass()};
     }
 
     void check_access_state_of_use(const GraphCellUse& u, const AccessState& t) {

@@ -339,7 +339,7 @@ double find_number_in_csv_column(const std::map<std::string, std::string>& line,
 }
 
 /// Returns whether a test of this program has registered this metric.
-bool is_row_of_some_test(const std::string& name) {
+bool is_test_registered_metric_name(const std::string& name) {
     return name.find("test_only") != name.npos || name.starts_with("(test)");
 }
 
@@ -365,7 +365,7 @@ TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
         wanted.insert(name);
         EXPECT_EQ(found[name], field) << name;
     }
-    std::erase_if(found, [](const auto& one) { return is_row_of_some_test(one.first); });
+    std::erase_if(found, [](const auto& one) { return is_test_registered_metric_name(one.first); });
     std::set<std::string> there;
     for (const auto& [name, field] : found) there.insert(name);
     EXPECT_EQ(there, wanted);
@@ -440,7 +440,7 @@ TEST(ReportFields, ReportTablesHoldEachFigureInItsColumn) {
         EXPECT_NEAR(std::stod(cells[title]), value, 1e-3) << title;
         cells.erase(title);
     }
-    std::erase_if(cells, [](const auto& one) { return is_row_of_some_test(one.first); });
+    std::erase_if(cells, [](const auto& one) { return is_test_registered_metric_name(one.first); });
     EXPECT_EQ(cells, wanted);
 
     EXPECT_EQ(

@@ -222,7 +222,7 @@ TEST(ReportHtml, HtmlPlotDrawsIntervalsOfTimes) {
     EXPECT_EQ(lengths[2], 0);
 }
 
-class ReportWrite : public test::InFolder {
+class ReportWritingTest : public test::InFolder {
 protected:
     Error catch_error_of_writing_report(const fs::path& path) const {
         try {
@@ -234,7 +234,7 @@ protected:
     }
 };
 
-TEST_F(ReportWrite, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
+TEST_F(ReportWritingTest, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
     const fs::path out = folder / "out";
     fs::create_directories(out / "images");
     catoptric::write_file(out / "report.json", std::string(1 << 20, 'x'));
@@ -256,14 +256,14 @@ TEST_F(ReportWrite, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
     EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 19);
 }
 
-TEST_F(ReportWrite, WritingAReportCreatesTheFolderAndItsParents) {
+TEST_F(ReportWritingTest, WritingAReportCreatesTheFolderAndItsParents) {
     const fs::path out = folder / "missing" / "too" / "out";
     catoptric::report::write(make_usual_comparison(), out);
     EXPECT_EQ(catoptric::read_file(out / "report.json"),
               catoptric::report::to_json(make_usual_comparison()));
 }
 
-TEST_F(ReportWrite, WritingAReportFailsIfTheFolderIsAFile) {
+TEST_F(ReportWritingTest, WritingAReportFailsIfTheFolderIsAFile) {
     catoptric::write_file(folder / "out", "a file");
     const Error error = catch_error_of_writing_report(folder / "out");
     EXPECT_EQ(error.failure, Failure::cannot_create);

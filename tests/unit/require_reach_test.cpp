@@ -23,7 +23,7 @@ using testing::Not;
 TEST(RequireFaces, FlatMirrorNeedsOnlyTheFacesInFront) {
     scene::Scene scene = scene::make_flat_mirror_room();
     const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
-    EXPECT_EQ(model.mirrors[0].faces, kAllFaceBits & ~(1 << 4)); // the mirror faces -z
+    EXPECT_EQ(model.mirrors[0].faces, kAllCubeFaceBits & ~(1 << 4)); // the mirror faces -z
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the capture of mirror 1 'mirror'");
     EXPECT_EQ(model.left_out[0].saves, "1 of six faces, each time that they would be drawn again");
@@ -35,7 +35,7 @@ TEST(RequireFaces, FlatMirrorSeenFromBothSidesNeedsAllFaces) {
     const std::size_t mirror = scene.objects[6].material;
     scene.objects[4].world_from_object[3].z = 5;
     test::add_ball(scene, "ball", mirror, {1.7, 1, 4}, .2, 2);
-    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaceBits);
+    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllCubeFaceBits);
 }
 
 TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
@@ -44,8 +44,8 @@ TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
     test::add_quad(scene, "beside", mirror, {1.9, .5, 2.98}, {1.5, .5, 2.98}, {1.5, 2.1, 2.98},
                    {1.9, 2.1, 2.98});
     const RequiredWorkModel model = make_required_model({scene, scene.cameras[0]});
-    EXPECT_EQ(model.mirrors[0].faces, kAllFaceBits & ~(1 << 4));
-    EXPECT_EQ(model.mirrors[1].faces, kAllFaceBits & ~(1 << 4));
+    EXPECT_EQ(model.mirrors[0].faces, kAllCubeFaceBits & ~(1 << 4));
+    EXPECT_EQ(model.mirrors[1].faces, kAllCubeFaceBits & ~(1 << 4));
     ASSERT_EQ(model.left_out.size(), 1u);
     EXPECT_EQ(model.left_out[0].what, "face +Z of the captures of mirrors 1-2");
 }
@@ -53,7 +53,7 @@ TEST(RequireFaces, PanelsOnOneWallNeedOnlyTheFacesInFront) {
 TEST(RequireFaces, CurvedMirrorsAndOrthographicCamerasNeedAllFaces) {
     scene::Scene scene = scene::make_flat_mirror_room();
     scene.cameras[0].orthographic_height = 3;
-    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllFaceBits);
+    EXPECT_EQ(make_required_model({scene, scene.cameras[0]}).mirrors[0].faces, kAllCubeFaceBits);
     EXPECT_EQ(find_normal_of_flat_mesh(scene::ball("", 2)), dvec3(0));
     EXPECT_EQ(find_normal_of_flat_mesh(scene::box("", dvec3(0), dvec3(1))), dvec3(0));
     EXPECT_EQ(find_normal_of_flat_mesh(scene.meshes[scene.objects[6].mesh]), dvec3(0, 0, -1));
@@ -94,7 +94,7 @@ TEST(RequireLights, LightShiningAwayFromVisibleSurfacesNeedsNoShadowMap) {
 TEST(RequireLeftOut, CulledWorkOfManyMirrorsIsListedOnce) {
     EXPECT_EQ(format_number_ranges({1}), "1");
     EXPECT_EQ(format_number_ranges({1, 2, 3, 7, 9, 10}), "1-3, 7, 9-10");
-    EXPECT_EQ(list_face_names(1 | 8 | 32), "+X -Y -Z");
+    EXPECT_EQ(list_cube_face_names(1 | 8 | 32), "+X -Y -Z");
     scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = add_material(scene, {.mirror = true});
     for (int i = 0; i < 50; ++i)

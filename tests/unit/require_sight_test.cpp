@@ -99,34 +99,34 @@ TEST(RequireWall, WallsAreMadeOfFlatConvexQuadrilaterals) {
 }
 
 TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
-    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({3, 0, 0}, 1)),
+    EXPECT_EQ(cube_faces_that_may_show_box(bounds_around_point({3, 0, 0}, 1)),
               1); // only face +X shows the box
-    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({0, -3, 0}, 1)),
+    EXPECT_EQ(cube_faces_that_may_show_box(bounds_around_point({0, -3, 0}, 1)),
               1 << 3); // only face -Y shows the box
-    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({3, 3, 0}, .5)),
+    EXPECT_EQ(cube_faces_that_may_show_box(bounds_around_point({3, 3, 0}, .5)),
               1 | 1 << 2); // faces +X and +Y show the box
-    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({-2, 2, -2}, .1)),
+    EXPECT_EQ(cube_faces_that_may_show_box(bounds_around_point({-2, 2, -2}, .1)),
               2 | 4 | 32); // faces -X, +Y and -Z show the box
-    EXPECT_EQ(faces_that_may_show_box(bounds_around_point({0, 0, 0}, .1)), kAllFaceBits);
-    EXPECT_EQ(faces_in_front_of_plane({0, 0, 1}, .1),
-              kAllFaceBits & ~(1 << 5)); // all faces except -Z
-    EXPECT_EQ(faces_in_front_of_plane(glm::normalize(dvec3(1, 0, 1)), .1), kAllFaceBits);
+    EXPECT_EQ(cube_faces_that_may_show_box(bounds_around_point({0, 0, 0}, .1)), kAllCubeFaceBits);
+    EXPECT_EQ(cube_faces_in_front_of_plane({0, 0, 1}, .1),
+              kAllCubeFaceBits & ~(1 << 5)); // all faces except -Z
+    EXPECT_EQ(cube_faces_in_front_of_plane(glm::normalize(dvec3(1, 0, 1)), .1), kAllCubeFaceBits);
 }
 
 TEST(RequireFrustum, FrustumHoldsBoxesInThePicture) {
     scene::Camera camera{.eye = {0, 0, 0}, .target = {0, 0, 1}, .vertical_fov_degrees = 90};
     const PictureFrustum wide(camera, {200, 100});
-    EXPECT_TRUE(wide.may_contain_box(bounds_around_point({0, 9, 10}, .1)));
-    EXPECT_FALSE(wide.may_contain_box(bounds_around_point({0, 11, 10}, .1)));
-    EXPECT_TRUE(wide.may_contain_box(bounds_around_point({19, 0, 10}, .1)));
-    EXPECT_FALSE(wide.may_contain_box(bounds_around_point({21, 0, 10}, .1)));
-    EXPECT_FALSE(wide.may_contain_box(bounds_around_point({0, 0, -1}, .5)));
+    EXPECT_TRUE(wide.may_frustum_contain_box(bounds_around_point({0, 9, 10}, .1)));
+    EXPECT_FALSE(wide.may_frustum_contain_box(bounds_around_point({0, 11, 10}, .1)));
+    EXPECT_TRUE(wide.may_frustum_contain_box(bounds_around_point({19, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_frustum_contain_box(bounds_around_point({21, 0, 10}, .1)));
+    EXPECT_FALSE(wide.may_frustum_contain_box(bounds_around_point({0, 0, -1}, .5)));
     camera.orthographic_height = 4;
     const PictureFrustum parallel(camera, {200, 100});
-    EXPECT_TRUE(parallel.may_contain_box(bounds_around_point({0, 1.8, 100}, .1)));
-    EXPECT_FALSE(parallel.may_contain_box(bounds_around_point({0, 2.2, 100}, .1)));
-    EXPECT_TRUE(parallel.may_contain_box(bounds_around_point({3.8, 0, 100}, .1)));
-    EXPECT_FALSE(parallel.may_contain_box(bounds_around_point({4.2, 0, 100}, .1)));
+    EXPECT_TRUE(parallel.may_frustum_contain_box(bounds_around_point({0, 1.8, 100}, .1)));
+    EXPECT_FALSE(parallel.may_frustum_contain_box(bounds_around_point({0, 2.2, 100}, .1)));
+    EXPECT_TRUE(parallel.may_frustum_contain_box(bounds_around_point({3.8, 0, 100}, .1)));
+    EXPECT_FALSE(parallel.may_frustum_contain_box(bounds_around_point({4.2, 0, 100}, .1)));
 }
 
 /// Returns a hall with three mirrors in front of a partition and one mirror behind the partition.
@@ -164,9 +164,11 @@ TEST(RequireSight, MirrorThatIsNotSeenIsNotCaptured) {
 TEST(RequireSight, SightFollowsAMovingWall) {
     scene::Scene scene = make_hall_with_partition();
     RequiredWorkModelBuilder requirements(scene);
-    EXPECT_FALSE(requirements.model_for({scene, scene.cameras[0]}).mirrors[3].is_captured);
+    EXPECT_FALSE(
+        requirements.make_work_model_for_request({scene, scene.cameras[0]}).mirrors[3].is_captured);
     scene.objects[6].world_from_object[3] = {0, 6, 0, 1};
-    const RequiredWorkModel& model = requirements.model_for({scene, scene.cameras[0]});
+    const RequiredWorkModel& model = requirements.make_work_model_for_request(
+        {scene, scene.cameras[0]});
     EXPECT_TRUE(model.mirrors[3].is_captured);
     EXPECT_THAT(model.mirrors[0].sees, ElementsAre(1, 2, 3));
     EXPECT_THAT(model.left_out, IsEmpty());
@@ -207,14 +209,17 @@ TEST(RequireFrustum, FrustumTestsATriangleAndNotItsBounds) {
     const std::array<dvec3, 3> aslant{{{-14, 9, 10}, {-9, 15, 10}, {-14, 16, 10}}};
     Bounds<double> box;
     for (const dvec3& corner : aslant) box.add(corner);
-    EXPECT_TRUE(square.may_contain_box(box));
-    EXPECT_FALSE(square.may_contain_triangle(aslant, 0));
-    EXPECT_TRUE(square.may_contain_triangle(aslant, 2));
+    EXPECT_TRUE(square.may_frustum_contain_box(box));
+    EXPECT_FALSE(square.may_frustum_contain_triangle(aslant, 0));
+    EXPECT_TRUE(square.may_frustum_contain_triangle(aslant, 2));
     // A triangle around the whole picture, so that none of its corners is inside.
-    EXPECT_TRUE(square.may_contain_triangle({{{-99, -50, 10}, {99, -50, 10}, {0, 99, 10}}}, 0));
-    EXPECT_FALSE(square.may_contain_triangle({{{-99, -50, -10}, {99, -50, -10}, {0, 99, -10}}}, 0));
-    EXPECT_TRUE(square.may_contain_ball({0, 11, 10}, .8)); // the centre is .707 outside the plane
-    EXPECT_FALSE(square.may_contain_ball({0, 11, 10}, .7));
+    EXPECT_TRUE(
+        square.may_frustum_contain_triangle({{{-99, -50, 10}, {99, -50, 10}, {0, 99, 10}}}, 0));
+    EXPECT_FALSE(
+        square.may_frustum_contain_triangle({{{-99, -50, -10}, {99, -50, -10}, {0, 99, -10}}}, 0));
+    EXPECT_TRUE(
+        square.may_frustum_contain_ball({0, 11, 10}, .8)); // the centre is .707 outside the plane
+    EXPECT_FALSE(square.may_frustum_contain_ball({0, 11, 10}, .7));
 }
 
 /// The bounds of mirror 1 of the gallery reach into the first camera's picture, but the mirror's
@@ -228,7 +233,7 @@ TEST(RequireSight, MirrorIsSeenByItsSurfaceNotByItsBounds) {
     EXPECT_THAT(text, testing::Not(HasSubstr("mirror 1 'large ball': in the camera's view")));
     const PictureFrustum picture(gallery.cameras[0], {512, 512});
     const scene::Object& ball = now.objects[scene::mirrors(now)[0]];
-    EXPECT_TRUE(picture.may_contain_box(scene::bounds(now, ball)));
+    EXPECT_TRUE(picture.may_frustum_contain_box(scene::bounds(now, ball)));
 }
 
 /// Number of mirrors called unseen, of mirrors that a capture was said not to show, and of traced
@@ -247,7 +252,7 @@ void check_mirrors_seen_from_camera(const test::ObjectRayCaster& tree, const sce
     for (std::size_t i = 0; i < mirrors.size(); ++i)
         for (int k = 0; k < 60; ++k) {
             const dvec3 to = tree.random_point_on_object(mirrors[i], numbers);
-            if (!picture.may_contain_box({to, to})) continue;
+            if (!picture.may_frustum_contain_box({to, to})) continue;
             const dvec3 from = picture.is_orthographic() ? to - dot(to - picture.eye_position(),
                                                                     picture.view_direction()) *
                                                                     picture.view_direction()

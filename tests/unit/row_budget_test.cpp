@@ -31,7 +31,7 @@ std::string label_of_row_or_none(const measure::Row* found) {
 std::string choose_row_label_in_budget(double max_ms, double max_flip) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.max_ms = max_ms, made.max_flip = max_flip;
-    return label_of_row_or_none(measure::find_row_within_budget(made).row);
+    return label_of_row_or_none(measure::find_best_rows_within_budget(made).row);
 }
 
 TEST(RowBudget, TimeBudgetChoosesTheClosestRowInTime) {
@@ -58,12 +58,12 @@ TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.rows[2].gpu_ms = make_time_samples(5, .1); // 4.5 to 5.5
     made.max_ms = 5.2;
-    const measure::BudgetedRows found = measure::find_row_within_budget(made);
+    const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);
     EXPECT_EQ(label_of_row_or_none(found.row), "fast");
     ASSERT_EQ(found.undecided.size(), 1u);
     EXPECT_EQ(label_of_row_or_none(found.undecided[0]), "middle");
     made.max_flip = .05;
-    EXPECT_TRUE(measure::find_row_within_budget(made).undecided.empty()) << "too far off";
+    EXPECT_TRUE(measure::find_best_rows_within_budget(made).undecided.empty()) << "too far off";
 }
 
 TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
@@ -71,7 +71,7 @@ TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
     made.rows.push_back(make_row("other", 5, .1, .1)); // in every second round the faster
     made.rows[2].gpu_ms = make_time_samples(5, .1), made.rows[4].gpu_ms = make_time_samples(5, -.1);
     made.max_flip = .15;
-    const measure::BudgetedRows found = measure::find_row_within_budget(made);
+    const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);
     EXPECT_EQ(label_of_row_or_none(found.row), "middle");
     ASSERT_EQ(found.ties.size(), 1u);
     EXPECT_EQ(label_of_row_or_none(found.ties[0]), "other");
@@ -81,7 +81,7 @@ TEST(RowBudget, FailedRowsAreNeverChosen) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.rows[3].error.nonfinite = 1;
     made.max_flip = .05;
-    EXPECT_EQ(measure::find_row_within_budget(made).row, nullptr);
+    EXPECT_EQ(measure::find_best_rows_within_budget(made).row, nullptr);
 }
 
 TEST(RowBudget, SentenceNamesRowDeviceAndWhatComesNearest) {

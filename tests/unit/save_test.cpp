@@ -11,7 +11,7 @@ namespace {
 
 using namespace test::loading;
 
-class Save : public Load {
+class SaveSceneTest : public Load {
 protected:
     Scene save_and_load_scene(const Scene& scene) const {
         save_glb(scene, folder / "x.glb");
@@ -27,7 +27,7 @@ protected:
     }
 };
 
-TEST_F(Save, SavedMaterialsLoadUnchanged) {
+TEST_F(SaveSceneTest, SavedMaterialsLoadUnchanged) {
     Scene scene = make_square_scene();
     const auto image = std::make_shared<const Image>(
         Image{.name = "p", .size = {2, 2}, .texels = {0xff0000ff, 0x8000ff00, 0, 0x12345678}});
@@ -81,7 +81,7 @@ TEST_F(Save, SavedMaterialsLoadUnchanged) {
         << "written once";
 }
 
-TEST_F(Save, SavedTextureCoordinatesAndColoursLoadUnchanged) {
+TEST_F(SaveSceneTest, SavedTextureCoordinatesAndColoursLoadUnchanged) {
     Scene scene = make_square_scene();
     Mesh& mesh = scene.meshes[0];
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -93,7 +93,7 @@ TEST_F(Save, SavedTextureCoordinatesAndColoursLoadUnchanged) {
     EXPECT_EQ(found.meshes[0].colours, mesh.colours);
 }
 
-TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
+TEST_F(SaveSceneTest, SavedLightsAndCamerasLoadUnchanged) {
     using enum PunctualLight::Kind;
     Scene scene = make_square_scene();
     dmat4 turned(1);
@@ -132,7 +132,7 @@ TEST_F(Save, SavedLightsAndCamerasLoadUnchanged) {
     EXPECT_FALSE(save_and_load_scene(make_square_scene()).exposure);
 }
 
-TEST_F(Save, SavedRigsLoadUnchanged) {
+TEST_F(SaveSceneTest, SavedRigsLoadUnchanged) {
     Scene scene = make_square_scene();
     const auto turns = std::make_shared<const RotationTrack>(
         RotationTrack{.times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, 1, 0}}});

@@ -369,9 +369,9 @@ TEST(DefaultCamera, DefaultCameraExistsForAnEmptyScene) {
 
 /// Holds a scene with data in every field. Tests change one field at a time and expect another
 /// hash.
-class HashOf : public testing::Test {
+class SceneHashTest : public testing::Test {
 protected:
-    HashOf() {
+    SceneHashTest() {
         scene_ = make_cornell_mirrors();
         const TranslationTrack keys{.interpolation = TranslationTrack::Interpolation::cubic,
                                     .times = {0, 1},
@@ -413,7 +413,7 @@ protected:
     std::set<std::string> hashes_;
 };
 
-TEST_F(HashOf, SceneHashChangesWithMeshes) {
+TEST_F(SceneHashTest, SceneHashChangesWithMeshes) {
     expect_new_hash("a bit",
                     [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
     expect_new_hash_of_components(
@@ -431,7 +431,7 @@ TEST_F(HashOf, SceneHashChangesWithMeshes) {
     });
 }
 
-TEST_F(HashOf, SceneHashChangesWithMaterials) {
+TEST_F(SceneHashTest, SceneHashChangesWithMaterials) {
     expect_new_hash_of_components(
         "albedo", [](Scene & s) -> auto& { return s.materials.back().albedo; });
     expect_new_hash_of_components(
@@ -445,7 +445,7 @@ TEST_F(HashOf, SceneHashChangesWithMaterials) {
     expect_new_hash("name", [](Scene& s) { s.materials.back().name += "'"; });
 }
 
-TEST_F(HashOf, SceneHashChangesWithObjects) {
+TEST_F(SceneHashTest, SceneHashChangesWithObjects) {
     expect_new_hash("name", [](Scene& s) { s.objects[6].name = "other"; });
     expect_new_hash("mesh", [](Scene& s) { s.objects[6].mesh = 0; });
     expect_new_hash("material", [](Scene& s) { s.objects[6].material = 0; });
@@ -461,7 +461,7 @@ TEST_F(HashOf, SceneHashChangesWithObjects) {
     EXPECT_TRUE(hashes_.insert(hash_scene(make_closed_cornell_mirrors())).second);
 }
 
-TEST_F(HashOf, SceneHashChangesWithMotions) {
+TEST_F(SceneHashTest, SceneHashChangesWithMotions) {
     expect_new_hash("none", [](Scene& s) { s.objects[7].motion = {}; });
     expect_new_hash("harmonic", [](Scene& s) {
         s.objects[7].motion = HarmonicMotion{{0, 50, 0}, 5};
@@ -489,7 +489,7 @@ TEST_F(HashOf, SceneHashChangesWithMotions) {
             "turn", [&](Scene & s) -> auto& { return motion_of_scene(s).world_from_keys[column]; });
 }
 
-TEST_F(HashOf, SceneHashChangesWithCameras) {
+TEST_F(SceneHashTest, SceneHashChangesWithCameras) {
     expect_new_hash_of_components(
         "eye", [](Scene & s) -> auto& { return s.cameras[0].eye; });
     expect_new_hash_of_components(
@@ -503,7 +503,7 @@ TEST_F(HashOf, SceneHashChangesWithCameras) {
 
 /// The hash uses the values of animation keys, not their address, so a copied file has the same
 /// hash.
-TEST_F(HashOf, SceneHashIgnoresNameFilesAndWarnings) {
+TEST_F(SceneHashTest, SceneHashIgnoresNameFilesAndWarnings) {
     const std::string whole = hash_scene(scene_);
     EXPECT_EQ(whole.size(), 16u);
     Scene copy = scene_;

@@ -19,7 +19,7 @@ using namespace catoptric;
 using testing::Contains;
 using testing::HasSubstr;
 
-const app::RegisteredSearch kFound{
+const app::RegisteredSearch kTestSearch{
     {.name = "test_search",
      .summary = "For a test.",
      .shader = "test_search.frag",
@@ -73,7 +73,7 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
 bool does_technique_read_all_captures(const std::string& technique) {
     const scene::Scene room = scene::make_cornell_mirrors();
     require::RequiredWorkModelInput question{.now = room, .camera = room.cameras.front()};
-    reflect::add_demands_of_plan(question, {reflect::parse_plan(technique)});
+    reflect::add_capture_needs_of_plan(question, {reflect::parse_plan(technique)});
     return question.asks_all;
 }
 

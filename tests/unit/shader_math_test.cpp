@@ -71,9 +71,9 @@ TEST(Light, LightNeedsNoShadowRayIfACosineIsNotPositive) {
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(0, 2, 0), vec3(0, 1, 0))) << "light faces away";
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(2, 0, 0), vec3(-1, 0, 0))) << "grazing, cosine 0";
     EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(0), vec3(0))) << "light at the point";
-    EXPECT_FALSE(lit(vec3(test::kNan), vec3(0, 2, 0), vec3(0)));
-    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(test::kNan), vec3(0)));
-    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(test::kInfinity), vec3(0)));
+    EXPECT_FALSE(lit(vec3(test::kFloatNan), vec3(0, 2, 0), vec3(0)));
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(test::kFloatNan), vec3(0)));
+    EXPECT_FALSE(lit(vec3(0, 1, 0), vec3(test::kFloatInfinity), vec3(0)));
 }
 
 TEST(Light, MeanCosineIsTheSameForOppositeDirections) {
@@ -89,8 +89,8 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
     for (const float size : {1.0f, -1.0f, 1e-6f, 1e6f}) {
         const auto share = [&](double degrees) {
             const double angle = glm::radians(degrees);
-            return f32::facet_light_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
-                                          vec3(0, size, 0));
+            return f32::one_sided_lamp_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
+                                             vec3(0, size, 0));
         };
         EXPECT_EQ(share(-40), 0);
         EXPECT_EQ(share(-.001), 0);
@@ -99,7 +99,7 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
         EXPECT_EQ(share(90), 1);
         // If the shading normal equals the facet's normal, the share is 1 even at grazing angles.
         const vec3 up(0, 1, 0), grazing = glm::normalize(vec3(1, .01f, 0));
-        EXPECT_NEAR(f32::facet_light_share(grazing, up, size * up), 1, 1e-5);
+        EXPECT_NEAR(f32::one_sided_lamp_share(grazing, up, size * up), 1, 1e-5);
     }
 }
 
@@ -148,7 +148,7 @@ TEST(TriangleTest, TriangleTestMissesIfACoordinateIsNan) {
     const vec3 a(0, 0, 2), b(4, 0, 2), c(0, 4, 2);
     for (int i = 0; i < 3; ++i) {
         vec3 bad(0.5f);
-        bad[i] = test::kNan;
+        bad[i] = test::kFloatNan;
         EXPECT_FALSE(intersect_test_triangle(bad, b, c, {1, 1, 0}, {0, 0, 1}).hit);
         EXPECT_FALSE(intersect_test_triangle(a, b, bad, {1, 1, 0}, {0, 0, 1}).hit);
         EXPECT_FALSE(intersect_test_triangle(a, b, c, bad, {0, 0, 1}).hit);
@@ -232,7 +232,7 @@ TEST(TriangleTest, TriangleTestIsUnchangedByScalingWithPowersOfTwo) {
 // ---- Boxes and spheres
 
 bool does_ray_hit_box(vec3 lo, vec3 hi, vec3 origin, vec3 direction,
-                      float t_max = test::kInfinity) {
+                      float t_max = test::kFloatInfinity) {
     float t;
     const f32::BoxTestRay ray = f32::make_box_ray({origin, direction}, vec3(-1), vec3(1), 1);
     return f32::intersect_box_slabs(lo, hi, ray, t_max, t);
@@ -249,8 +249,8 @@ TEST(SlabTest, SlabTestHitsAndMissesKnownBoxes) {
     EXPECT_FALSE(does_ray_hit_box(lo, hi, {-5, 0, 0}, {1, 0, 0}, 3.9f)) << "beyond t_max";
     EXPECT_TRUE(does_ray_hit_box(lo, hi, {-5, 1, -1}, {1, 0, -0.0f})) << "along an edge: 0 * inf";
     EXPECT_TRUE(does_ray_hit_box({-1, 0, -1}, {1, 0, 1}, {0, 5, 0}, {0, -1, 0})) << "flat box";
-    EXPECT_FALSE(
-        does_ray_hit_box(vec3(test::kInfinity), vec3(-test::kInfinity), vec3(0), {1, 0, 0}))
+    EXPECT_FALSE(does_ray_hit_box(vec3(test::kFloatInfinity), vec3(-test::kFloatInfinity), vec3(0),
+                                  {1, 0, 0}))
         << "empty box";
 }
 
@@ -273,8 +273,10 @@ TEST(SphereTest, SphereTestWorksFromOutsideInsideAndBehind) {
     EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {{-3, 0, 0}, {1, 0, 0}}, 2, t))
         << "t_max excluded";
     EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {{-3, 1.001f, 0}, {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {vec3(test::kNan), {1, 0, 0}}, 10, t));
-    EXPECT_FALSE(f32::intersect_sphere_robustly(vec3(0), 1, {vec3(0), vec3(test::kNan)}, 10, t));
+    EXPECT_FALSE(
+        f32::intersect_sphere_robustly(vec3(0), 1, {vec3(test::kFloatNan), {1, 0, 0}}, 10, t));
+    EXPECT_FALSE(
+        f32::intersect_sphere_robustly(vec3(0), 1, {vec3(0), vec3(test::kFloatNan)}, 10, t));
 }
 
 TEST(SphereTest, SphereTestStaysPreciseFarAway) {
@@ -284,8 +286,8 @@ TEST(SphereTest, SphereTestStaysPreciseFarAway) {
         const vec3 direction = glm::normalize(0.5f * random.random_unit_direction() - origin);
         float t;
         double exact;
-        ASSERT_TRUE(
-            f32::intersect_sphere_robustly(vec3(0), 1, {origin, direction}, test::kInfinity, t));
+        ASSERT_TRUE(f32::intersect_sphere_robustly(vec3(0), 1, {origin, direction},
+                                                   test::kFloatInfinity, t));
         ASSERT_TRUE(f64::intersect_sphere_robustly(dvec3(0), 1, {dvec3(origin), dvec3(direction)},
                                                    1e30, exact));
         // The textbook formula for spheres is off by about 1 here. The ray's origin is known only
@@ -340,7 +342,7 @@ TEST(Spawn, SpawnedRayNeverMeetsItsOwnSphereFromOutside) {
                              centre + 0.99f * radius * random.random_point_in_cube() * 0.57f -
                                  ray.origin};
         float t;
-        ASSERT_TRUE(f32::intersect_sphere_robustly(centre, radius, aimed, test::kInfinity, t));
+        ASSERT_TRUE(f32::intersect_sphere_robustly(centre, radius, aimed, test::kFloatInfinity, t));
         vec3 error;
         const vec3 p = f32::sphere_hit_point(centre, radius, aimed, t, error);
         const vec3 n = glm::normalize(p - centre);
@@ -348,7 +350,7 @@ TEST(Spawn, SpawnedRayNeverMeetsItsOwnSphereFromOutside) {
         if (glm::dot(out, n) < 0) out = -out;
         const vec3 origin = f32::ray_spawn_origin(p, error, n, out);
         ASSERT_FALSE(
-            f32::intersect_sphere_robustly(centre, radius, {origin, out}, test::kInfinity, t))
+            f32::intersect_sphere_robustly(centre, radius, {origin, out}, test::kFloatInfinity, t))
             << i;
     }
 }
@@ -375,11 +377,11 @@ TEST(Parallax, ParallaxFindsThePointAtTheCapturedDistance) {
 
 TEST(Parallax, ParallaxKeepsTheDirectionWithoutAUsableDistance) {
     const vec3 dir(0, 0, 1);
-    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, test::kInfinity), dir);
-    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, test::kNan), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, test::kFloatInfinity), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(1), dir, test::kFloatNan), dir);
     EXPECT_EQ(f32::parallax_direction(vec3(0), dir, 0), dir) << "|p| = 0";
     EXPECT_EQ(f32::parallax_direction(vec3(0, 0, 2), dir, 0), dir) << "|p| = 0";
-    EXPECT_EQ(f32::parallax_direction(vec3(test::kNan), dir, 1), dir);
+    EXPECT_EQ(f32::parallax_direction(vec3(test::kFloatNan), dir, 1), dir);
     EXPECT_EQ(f32::parallax_direction(vec3(0, 0, 3e38f), -dir, 3e38f), -dir) << "overflow";
 }
 
@@ -413,7 +415,7 @@ TEST(Srgb, SrgbEncodingMatchesKnownValues) {
     EXPECT_EQ(f32::srgb_from_linear_channel(1), 1);
     EXPECT_EQ(f32::srgb_from_linear_channel(7), 1);
     EXPECT_EQ(f32::srgb_from_linear_channel(-1), 0);
-    EXPECT_EQ(f32::srgb_from_linear_channel(test::kNan), 0);
+    EXPECT_EQ(f32::srgb_from_linear_channel(test::kFloatNan), 0);
     EXPECT_NEAR(f32::srgb_from_linear_channel(0.214041f), 0.5f, 1e-5f);
     EXPECT_FLOAT_EQ(f32::srgb_from_linear_channel(0.002f), 0.02584f);
 }

@@ -25,10 +25,10 @@ constexpr std::uint32_t kAllPlayersCoalition = 31;
 std::vector<double> list_worths_of_players(const std::function<double(std::uint32_t)>& value) {
     ShapleyValues shapley(kPlayerCount, 1);
     for (std::uint32_t c = kAllPlayersCoalition + 1; c-- > 0;)
-        shapley.add_coalition(c, std::vector{value(c)});
+        shapley.add_coalition_value(c, std::vector{value(c)});
     std::vector<double> worths;
     for (std::size_t i = 0; i < kPlayerCount; ++i)
-        worths.push_back(shapley.shapley_values_of(i)[0]);
+        worths.push_back(shapley.shapley_values_of_player(i)[0]);
     return worths;
 }
 
@@ -40,13 +40,13 @@ struct CoalitionBonus {
 
 // Every game is a sum of such bonuses, and each bonus is shared equally by its members. Here are
 // single players, pairs, a triple with a loss, and all five players. Player 3 is only in the last.
-const std::vector<CoalitionBonus> kBonuses = {{0b00000, 7}, {0b00001, 1},   {0b00010, 2},
-                                              {0b00011, 4}, {0b10110, -6},  {0b10001, .5},
-                                              {0b00100, 3}, {0b11111, 2.5}, {0b00111, .75}};
+const std::vector<CoalitionBonus> kCoalitionBonuses = {
+    {0b00000, 7},  {0b00001, 1}, {0b00010, 2},   {0b00011, 4},  {0b10110, -6},
+    {0b10001, .5}, {0b00100, 3}, {0b11111, 2.5}, {0b00111, .75}};
 
 double value_of_coalition_with_bonuses(std::uint32_t coalition) {
     double value = 0;
-    for (const CoalitionBonus& bonus : kBonuses)
+    for (const CoalitionBonus& bonus : kCoalitionBonuses)
         if ((coalition & bonus.members) == bonus.members) value += bonus.amount;
     return value;
 }
@@ -55,7 +55,7 @@ TEST(Shapley, ShapleySharesEachBonusEquallyAmongItsMembers) {
     const std::vector<double> found = list_worths_of_players(value_of_coalition_with_bonuses);
     for (std::size_t i = 0; i < kPlayerCount; ++i) {
         double wanted = 0;
-        for (const CoalitionBonus& bonus : kBonuses)
+        for (const CoalitionBonus& bonus : kCoalitionBonuses)
             if ((bonus.members >> i & 1U) != 0)
                 wanted += bonus.amount / std::popcount(bonus.members);
         EXPECT_NEAR(found[i], wanted, 1e-14) << "player " << i;
@@ -91,33 +91,33 @@ TEST(Shapley, PlayersWithEqualEffectAreWorthTheSame) {
 TEST(Shapley, ShapleyValuesOfTheGloveMarketAreTheKnownOnes) {
     ShapleyValues market(3, 1);
     for (std::uint32_t c = 0; c < 8; ++c)
-        market.add_coalition(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
-    EXPECT_NEAR(market.shapley_values_of(0)[0], 1.0 / 6, 1e-15);
-    EXPECT_NEAR(market.shapley_values_of(1)[0], 1.0 / 6, 1e-15);
-    EXPECT_NEAR(market.shapley_values_of(2)[0], 2.0 / 3, 1e-15);
+        market.add_coalition_value(c, std::vector{(c & 4U) != 0 && (c & 3U) != 0 ? 1.0 : 0.0});
+    EXPECT_NEAR(market.shapley_values_of_player(0)[0], 1.0 / 6, 1e-15);
+    EXPECT_NEAR(market.shapley_values_of_player(1)[0], 1.0 / 6, 1e-15);
+    EXPECT_NEAR(market.shapley_values_of_player(2)[0], 2.0 / 3, 1e-15);
 }
 
 TEST(Shapley, ShapleyKeepsSeveralGamesApart) {
     ShapleyValues games(2, 2);
-    games.add_coalition(0b11, std::vector{5.0, 1.0});
-    games.add_coalition(0b00, std::vector{0.0, 1.0});
-    games.add_coalition(0b10, std::vector{1.0, 1.0});
-    games.add_coalition(0b01, std::vector{2.0, 3.0});
-    EXPECT_EQ(games.shapley_values_of(0), (std::vector{3.0, 1.0}));
-    EXPECT_EQ(games.shapley_values_of(1), (std::vector{2.0, -1.0}));
+    games.add_coalition_value(0b11, std::vector{5.0, 1.0});
+    games.add_coalition_value(0b00, std::vector{0.0, 1.0});
+    games.add_coalition_value(0b10, std::vector{1.0, 1.0});
+    games.add_coalition_value(0b01, std::vector{2.0, 3.0});
+    EXPECT_EQ(games.shapley_values_of_player(0), (std::vector{3.0, 1.0}));
+    EXPECT_EQ(games.shapley_values_of_player(1), (std::vector{2.0, -1.0}));
 }
 
 TEST(Shapley, InvalidCoalitionsAndPlayerCountsAreRefused) {
     ShapleyValues shapley(2, 1);
     const std::vector<double> value{1};
-    shapley.add_coalition(0, value), shapley.add_coalition(1, value),
-        shapley.add_coalition(3, value);
+    shapley.add_coalition_value(0, value), shapley.add_coalition_value(1, value),
+        shapley.add_coalition_value(3, value);
     for (const auto& [action, words] : std::vector<std::pair<std::function<void()>, std::string>>{
-             {[&] { shapley.shapley_values_of(0); }, "coalition 2 of 2 players is missing"},
-             {[&] { shapley.add_coalition(3, value); }, "coalition 3 came twice"},
-             {[&] { shapley.add_coalition(4, value); },
+             {[&] { shapley.shapley_values_of_player(0); }, "coalition 2 of 2 players is missing"},
+             {[&] { shapley.add_coalition_value(3, value); }, "coalition 3 came twice"},
+             {[&] { shapley.add_coalition_value(4, value); },
               "coalition 4 of 2 players: wanted a number below 4"},
-             {[&] { shapley.add_coalition(2, {}); },
+             {[&] { shapley.add_coalition_value(2, {}); },
               "coalition 2: wanted values of 1 games, found 0"},
              {[] { ShapleyValues(17, 1); }, "wanted 1 to 16 players, found 17"}})
         test::expect_error(action, Failure::internal, {words});

@@ -34,7 +34,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-const measure::RegisteredMetric kRedness{
+const measure::RegisteredMetric kRednessTestMetric{
     {.name = "test_only/redness",
      .unit = "parts",
      .help = "red of the first pixel",
@@ -44,7 +44,7 @@ const measure::RegisteredMetric kRedness{
          return row.hdr.pixels.empty() ? measure::Difference::kNone : row.hdr.pixels[0].x;
      }}};
 
-const measure::RegisteredMetric kGreener{
+const measure::RegisteredMetric kGreenerTestMetric{
     {.name = "test_only_greener",
      .help = "pixels of the mask in which a is greener than b",
      .columns = {{"(test) greener", measure::MetricValueFormat::fixed}},
@@ -57,10 +57,11 @@ const measure::RegisteredMetric kGreener{
      }}};
 
 scene::Scene make_empty_scene() { return {.name = "test-only"}; }
-const scene::RegisteredBuiltInScene kScene{{"test-only", "nothing at all", make_empty_scene}};
+const scene::RegisteredBuiltInScene kTestOnlyScene{
+    {"test-only", "nothing at all", make_empty_scene}};
 
 constexpr scene::PunctualLight::Kind kTestOnlyLightKind{200};
-const scene::RegisteredLightKind kLightKind{
+const scene::RegisteredLightKind kTestOnlyLightKindEntry{
     {.id = kTestOnlyLightKind,
      .name = "test-only",
      .gltf_type = "spot",
@@ -75,9 +76,9 @@ constexpr reflect::Technique kTestOnlyTechnique{.name = "testonly",
                                                 .order = 1000,
                                                 .knobs = kTestOnlyKnobs,
                                                 .compared = kReportTableRows};
-const reflect::RegisteredTechnique kTestOnly{kTestOnlyTechnique};
+const reflect::RegisteredTechnique kTestOnlyTechniqueEntry{kTestOnlyTechnique};
 
-const app::RegisteredStudy kStudied{
+const app::RegisteredStudy kTestOnlyStudy{
     {.name = "test-only",
      .help = "for a test",
      .number = "N",
@@ -90,7 +91,7 @@ const app::RegisteredStudy kStudied{
      .run =
          [](const app::StudyInput& input) {
              for (measure::Row& row : input.comparison.rows)
-                 measure::set_study_metric(row, "test_only_half", input.count / 2.0);
+                 measure::set_row_metric_of_study(row, "test_only_half", input.count / 2.0);
          },
      .metrics = {{.name = "test_only_half",
                   .help = "half of the number",
@@ -143,7 +144,7 @@ TEST(Tables, MetricsOfAStudyAreInReportsThatAskForIt) {
     made.studies = {"test-only"};
     EXPECT_TRUE(json::parse(report::to_json(made))["rows"][0]["test_only_half"].is_null())
         << "the study has not run yet";
-    measure::set_study_metric(made.rows[0], "test_only_half", 1.5);
+    measure::set_row_metric_of_study(made.rows[0], "test_only_half", 1.5);
     EXPECT_EQ(json::parse(report::to_json(made))["rows"][0]["test_only_half"], 1.5);
     EXPECT_THAT(report::to_csv(made), HasSubstr(",test_only_half,"));
     for (const std::string& text : {report::to_markdown(made), report::to_html(made)}) {
@@ -178,7 +179,7 @@ TEST(Tables, MetricOfADifferenceCountsOnlyItsMask) {
         const measure::Difference found = measure::difference(green, black, mask, map);
         const auto& table = measure::list_difference_metrics();
         const auto row = std::ranges::find(table, "test_only_greener", &measure::Metric::name);
-        return std::get<double>(measure::metric_value(*row, found));
+        return std::get<double>(measure::metric_value_of_difference(*row, found));
     };
     EXPECT_EQ(greener({}), 1);
     EXPECT_EQ(greener({255, 0}), 0);
@@ -195,7 +196,7 @@ TEST(Tables, MetricsAreSortedAndRefuseOtherSubjects) {
     EXPECT_EQ(find("psnr").better, measure::BetterDirection::more);
     const auto refused = [](const measure::Metric& quantity, const auto& of) {
         try {
-            measure::metric_value(quantity, of);
+            measure::metric_value_of_difference(quantity, of);
         } catch (const Error& error) {
             return std::string(error.what());
         }

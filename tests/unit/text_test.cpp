@@ -45,12 +45,12 @@ TEST(Text, PrintableTextIsUnchanged) {
 }
 
 TEST(Text, QuotesOfLongTextsAreCut) {
-    EXPECT_EQ(quote_as_printable_text("a\x1b"), "'a\\x1b'");
-    EXPECT_EQ(quote_as_printable_text(std::string(80, 'x')), "'" + std::string(80, 'x') + "'");
-    EXPECT_EQ(quote_as_printable_text(std::string(20'000, 'x')),
+    EXPECT_EQ(quote_text_with_escapes("a\x1b"), "'a\\x1b'");
+    EXPECT_EQ(quote_text_with_escapes(std::string(80, 'x')), "'" + std::string(80, 'x') + "'");
+    EXPECT_EQ(quote_text_with_escapes(std::string(20'000, 'x')),
               "'" + std::string(80, 'x') + "...' (20000 bytes)");
     // A quote never ends in the middle of a character.
-    EXPECT_EQ(quote_as_printable_text(std::string(79, 'x') + "üüü"),
+    EXPECT_EQ(quote_text_with_escapes(std::string(79, 'x') + "üüü"),
               "'" + std::string(79, 'x') + "...' (85 bytes)");
 }
 

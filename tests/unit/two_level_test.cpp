@@ -19,8 +19,8 @@ std::vector<Triangle> make_two_level_ball_triangles(int levels) {
 
 /// A tree with one instance at a random place. The instance has a size of 1e-8 to 1 and is rotated,
 /// squeezed and mirrored.
-struct TwoLevelAlone {
-    explicit TwoLevelAlone(const Bvh& tree, test::RandomNumbers& numbers)
+struct TwoLevelBvhTest {
+    explicit TwoLevelBvhTest(const Bvh& tree, test::RandomNumbers& numbers)
         : instance{.tree = &tree,
                    .scene_from_own = test::random_scaled_rotation(
                        numbers, std::pow(10., numbers.random_number_between(-8, 0)),
@@ -30,7 +30,7 @@ struct TwoLevelAlone {
                    .shift = 100},
           whole(
               assemble_two_level_bvh(build_bvh({}, {vec3(-1), vec3(1)}), std::span(&instance, 1))),
-          place(detail::read_instance_placement<float>(whole, index_of_instance_record())) {}
+          place(detail::read_instance_ray_transform<float>(whole, index_of_instance_record())) {}
     std::uint32_t index_of_instance_record() const {
         return static_cast<std::uint32_t>(count_nodes(whole)) - 1 - f32::kBvhNodesPerInstance;
     }
@@ -46,7 +46,7 @@ TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
     const Bvh tree = build_bvh(triangles);
     test::RandomNumbers numbers(31);
     for (int k = 0; k < 200; ++k) {
-        const TwoLevelAlone alone(tree, numbers);
+        const TwoLevelBvhTest alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
             const Triangle& aim = triangles[numbers.random_integer_below(triangles.size())];
             const vec3 at = i % 3 ? aim.a + (aim.b - aim.a) * numbers.random_unit_fraction()
@@ -56,7 +56,8 @@ TEST(TwoLevel, ClosedMeshesInObjectSpaceDoNotLeak) {
             const vec3 origin = f32::add_offset_to_object_centre(
                 alone.place, f32::rotate_to_scene_offset(alone.place, from), low);
             const f32::Ray ray{origin, f32::rotate_to_scene_offset(alone.place, at - from), 0};
-            ASSERT_TRUE(find_closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr, low))
+            ASSERT_TRUE(
+                find_closest_hit<float>(alone.whole, ray, test::kFloatInfinity, 0, nullptr, low))
                 << "thing " << k << ", ray " << i;
         }
     }
@@ -70,7 +71,7 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
     const Bvh tree = build_bvh(triangles);
     test::RandomNumbers numbers(32);
     for (int k = 0; k < 200; ++k) {
-        const TwoLevelAlone alone(tree, numbers);
+        const TwoLevelBvhTest alone(tree, numbers);
         for (int i = 0; i < 300; ++i) {
             const auto number = static_cast<std::uint32_t>(
                 numbers.random_integer_below(triangles.size()));
@@ -92,8 +93,8 @@ TEST(TwoLevel, RayDoesNotMeetTheSurfaceThatItLeaves) {
                                       facet, direction),
                 low);
             const f32::Ray ray{origin, direction, 100 + number + 1};
-            const auto hit = find_closest_hit<float>(alone.whole, ray, test::kInfinity, 0, nullptr,
-                                                     low);
+            const auto hit = find_closest_hit<float>(alone.whole, ray, test::kFloatInfinity, 0,
+                                                     nullptr, low);
             if (!hit) continue;
             // The ball is a subdivided tetrahedron and not convex everywhere, so the ray may meet
             // it again. The ray in double precision must then meet it, too.
@@ -144,11 +145,11 @@ TEST(TwoLevel, RaysMeetTheSameTrianglesAsInAFlatTree) {
         const f32::Ray ray{3.0f * numbers.random_point_in_cube(), numbers.random_unit_direction(),
                            0};
         const std::uint32_t skipped = i % 2 ? kHiddenFromCameraFlag : 0;
-        const auto wanted = find_closest_hit<float>(one, ray, test::kInfinity, skipped),
-                   hit = find_closest_hit<float>(two, ray, test::kInfinity, skipped),
-                   again = find_closest_hit<float>(other, ray, test::kInfinity, skipped);
+        const auto wanted = find_closest_hit<float>(one, ray, test::kFloatInfinity, skipped),
+                   hit = find_closest_hit<float>(two, ray, test::kFloatInfinity, skipped),
+                   again = find_closest_hit<float>(other, ray, test::kFloatInfinity, skipped);
         ASSERT_EQ(hit.has_value(), again.has_value());
-        ASSERT_EQ(hit.has_value(), has_any_hit<float>(two, ray, test::kInfinity, skipped));
+        ASSERT_EQ(hit.has_value(), has_any_hit<float>(two, ray, test::kFloatInfinity, skipped));
         if (hit) {
             ASSERT_EQ(hit->t, again->t);
             ASSERT_EQ(hit->triangle, again->triangle);
@@ -205,7 +206,7 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
     for (int i = 0; i < 1000; ++i) {
         const dvec3 v = dvec3(numbers.random_point_in_cube()) +
                         1e-8 * dvec3(numbers.random_point_in_cube());
-        const vec3 low = float_rounding_error(v);
+        const vec3 low = double_to_float_rounding_error(v);
         for (int k = 0; k < 3; ++k) {
             const volatile float high = static_cast<float>(v[k]);
             EXPECT_NEAR(double{high} + double{low[k]}, v[k], 1e-15);
@@ -214,10 +215,10 @@ TEST(TwoLevel, LowPartIsTheRoundingErrorOfAFloat) {
 }
 
 TEST(TwoLevel, StretchOfKnownMatricesIsInBounds) {
-    EXPECT_EQ(max_rounding_amplification(dmat3(.25)), 1);
-    EXPECT_LE(max_rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
-    EXPECT_GT(max_rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
-    EXPECT_EQ(max_rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(max_matrix_rounding_amplification(dmat3(.25)), 1);
+    EXPECT_LE(max_matrix_rounding_amplification(dmat3(.6, .8, 0, -.8, .6, 0, 0, 0, 1)), 2);
+    EXPECT_GT(max_matrix_rounding_amplification(dmat3(1, 0, 0, 1, 1e-3, 0, 0, 0, 1)), 1000);
+    EXPECT_EQ(max_matrix_rounding_amplification(dmat3(0)), std::numeric_limits<double>::infinity());
 }
 
 } // namespace

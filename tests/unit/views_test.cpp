@@ -41,7 +41,7 @@ Row make_row_with_view_flips(const std::string& label, const std::vector<double>
     return row;
 }
 
-const std::vector<double> kFlips{.1, .2, .3, .15, .25, .12, .22, .18};
+const std::vector<double> kFlipOfEachView{.1, .2, .3, .15, .25, .12, .22, .18};
 
 std::vector<double> add_to_all_values(std::vector<double> values, double more) {
     for (double& value : values) value += more;
@@ -50,7 +50,7 @@ std::vector<double> add_to_all_values(std::vector<double> values, double more) {
 
 Comparison make_comparison_with_views(std::vector<Row> rows) {
     Comparison made = sample::make_comparison(std::move(rows));
-    for (std::uint64_t i = 0; i < kFlips.size(); ++i)
+    for (std::uint64_t i = 0; i < kFlipOfEachView.size(); ++i)
         made.views.push_back({{"1,2," + std::to_string(i) + ":4,5,6:40",
                                {1, 2, double(i)},
                                {4, 5, 6},
@@ -62,52 +62,52 @@ Comparison make_comparison_with_views(std::vector<Row> rows) {
 }
 
 TEST(Views, EqualRowsTieOverViews) {
-    const Row row = make_row_with_view_flips("a", kFlips);
+    const Row row = make_row_with_view_flips("a", kFlipOfEachView);
     for (const char* figure : {"flip", "off", "mae", "rmse"})
-        EXPECT_FALSE(measure::differ_over_views(row, row, figure)) << figure;
+        EXPECT_FALSE(measure::do_rows_differ_over_views(row, row, figure)) << figure;
 }
 
 /// The two rows differ by 1e-6 in each view. The views differ from each other by far more.
 TEST(Views, RowThatIsSlightlyWorseInEachViewDoesNotTie) {
-    const Row a = make_row_with_view_flips("a", kFlips),
-              b = make_row_with_view_flips("b", add_to_all_values(kFlips, 1e-6));
-    EXPECT_TRUE(measure::differ_over_views(a, b, "flip"));
-    EXPECT_TRUE(measure::differ_over_views(b, a, "flip"));
+    const Row a = make_row_with_view_flips("a", kFlipOfEachView),
+              b = make_row_with_view_flips("b", add_to_all_values(kFlipOfEachView, 1e-6));
+    EXPECT_TRUE(measure::do_rows_differ_over_views(a, b, "flip"));
+    EXPECT_TRUE(measure::do_rows_differ_over_views(b, a, "flip"));
     EXPECT_LT(measure::metric_difference_interval_over_views(a, b, "flip").high, 0);
     EXPECT_GT(measure::metric_difference_interval_over_views(b, a, "flip").low, 0);
 }
 
 TEST(Views, OneOutlierDoesNotBreakATie) {
-    std::vector<double> flips = kFlips;
+    std::vector<double> flips = kFlipOfEachView;
     flips[4] = .99;
-    EXPECT_FALSE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
-                                            make_row_with_view_flips("b", flips), "flip"));
+    EXPECT_FALSE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
+                                                    make_row_with_view_flips("b", flips), "flip"));
     // With many views, one outlier does not hide a difference that all other views show.
     std::vector<double> many(30, .1), more(30, .11);
     more[7] = 0;
-    EXPECT_TRUE(measure::differ_over_views(make_row_with_view_flips("a", many),
-                                           make_row_with_view_flips("b", more), "flip"));
+    EXPECT_TRUE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", many),
+                                                   make_row_with_view_flips("b", more), "flip"));
 }
 
 TEST(Views, TooFewViewsAlwaysTie) {
-    const std::vector<double> five(kFlips.begin(), kFlips.begin() + 5);
-    EXPECT_FALSE(measure::differ_over_views(
+    const std::vector<double> five(kFlipOfEachView.begin(), kFlipOfEachView.begin() + 5);
+    EXPECT_FALSE(measure::do_rows_differ_over_views(
         make_row_with_view_flips("a", five),
         make_row_with_view_flips("b", add_to_all_values(five, .1)), "flip"));
-    EXPECT_FALSE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
-                                            make_row_with_view_flips("b", {}), "flip"))
+    EXPECT_FALSE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
+                                                    make_row_with_view_flips("b", {}), "flip"))
         << "of a run cut short";
 }
 
 /// A view that shows no mirror pixel in one row is left out of the comparison of both rows.
 TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
-    std::vector<double> holed = add_to_all_values(kFlips, 1e-3);
+    std::vector<double> holed = add_to_all_values(kFlipOfEachView, 1e-3);
     holed[0] = test::kDoubleNan;
-    EXPECT_TRUE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
-                                           make_row_with_view_flips("b", holed), "flip"));
+    EXPECT_TRUE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
+                                                   make_row_with_view_flips("b", holed), "flip"));
     holed[1] = holed[2] = test::kDoubleNan; // five views are left, too few
-    EXPECT_FALSE(measure::differ_over_views(make_row_with_view_flips("a", kFlips),
-                                            make_row_with_view_flips("b", holed), "flip"));
+    EXPECT_FALSE(measure::do_rows_differ_over_views(make_row_with_view_flips("a", kFlipOfEachView),
+                                                    make_row_with_view_flips("b", holed), "flip"));
     const measure::Metric& flip = *std::ranges::find(measure::list_difference_metrics(), "flip",
                                                      &measure::Metric::name);
     const measure::MetricOverViews found = measure::compute_metric_over_views(
@@ -119,30 +119,32 @@ TEST(Views, ViewsWithoutMirrorPixelsInOneRowAreLeftOutOfBoth) {
 
 TEST(Views, WithoutDrawnViewsAnyDifferenceCounts) {
     const Row a = sample::make_row("a", 5, .1, .2), b = sample::make_row("b", 5, .1, .2000001);
-    EXPECT_TRUE(measure::differ_over_views(a, b, "flip"));
-    EXPECT_FALSE(measure::differ_over_views(a, b, "rmse"));
+    EXPECT_TRUE(measure::do_rows_differ_over_views(a, b, "flip"));
+    EXPECT_FALSE(measure::do_rows_differ_over_views(a, b, "rmse"));
     Row unknown = a;
     unknown.error = {};
-    EXPECT_FALSE(measure::differ_over_views(a, unknown, "flip"));
+    EXPECT_FALSE(measure::do_rows_differ_over_views(a, unknown, "flip"));
 }
 
 TEST(Views, MetricsThatAreNoNumberOfADifferenceAreRefused) {
-    const Row row = make_row_with_view_flips("a", kFlips);
+    const Row row = make_row_with_view_flips("a", kFlipOfEachView);
     for (const char* name : {"max_at", "gpu_ms", "flop"})
-        EXPECT_THAT(test::catch_error_text(Failure::internal,
-                                           [&] { measure::differ_over_views(row, row, name); }),
-                    HasSubstr("'" + std::string(name) +
-                              "': wanted a figure of a difference that is a number"));
+        EXPECT_THAT(
+            test::catch_error_text(Failure::internal,
+                                   [&] { measure::do_rows_differ_over_views(row, row, name); }),
+            HasSubstr("'" + std::string(name) +
+                      "': wanted a figure of a difference that is a number"));
 }
 
 TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
     Row exact = make_row_with_view_flips("exact", std::vector<double>(8, 0.0));
     exact.is_reference = true;
-    std::vector<double> other = kFlips; // larger than kFlips in half of the views
+    std::vector<double> other = kFlipOfEachView; // larger than kFlipOfEachView in half of the views
     for (std::size_t i = 0; i < other.size(); ++i) other[i] += i % 2 == 0 ? -.01 : .01;
     const Comparison made = make_comparison_with_views(
-        {make_row_with_view_flips("worst", add_to_all_values(kFlips, .4)),
-         make_row_with_view_flips("good", kFlips), make_row_with_view_flips("fair", other), exact});
+        {make_row_with_view_flips("worst", add_to_all_values(kFlipOfEachView, .4)),
+         make_row_with_view_flips("good", kFlipOfEachView), make_row_with_view_flips("fair", other),
+         exact});
     const std::vector<std::string> words = describe_drawn_views(made);
     ASSERT_EQ(words.size(), 4u);
     EXPECT_EQ(words[0],
@@ -153,12 +155,12 @@ TEST(Views, ReportHasASentenceAboutViewsForEachMetric) {
     EXPECT_THAT(words[2], testing::StartsWith("By MAE, view by view, the least first: "));
     EXPECT_THAT(words[3], HasSubstr("95 % interval of their difference"));
     const auto first = [](const Comparison& of) { return describe_drawn_views(of).front(); };
-    EXPECT_THAT(first(make_comparison_with_views({make_row_with_view_flips("a", kFlips),
-                                                  make_row_with_view_flips("b", kFlips)})),
+    EXPECT_THAT(first(make_comparison_with_views({make_row_with_view_flips("a", kFlipOfEachView),
+                                                  make_row_with_view_flips("b", kFlipOfEachView)})),
                 HasSubstr("No two of them are apart."));
     EXPECT_THAT(first(make_comparison_with_views(
-                    {make_row_with_view_flips("a", kFlips),
-                     make_row_with_view_flips("b", add_to_all_values(kFlips, .1))})),
+                    {make_row_with_view_flips("a", kFlipOfEachView),
+                     make_row_with_view_flips("b", add_to_all_values(kFlipOfEachView, .1))})),
                 HasSubstr("Every two of them are apart."));
 }
 
@@ -172,7 +174,7 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
         {make_row_with_view_flips("low", low), make_row_with_view_flips("less", less)});
     made.views.resize(low.size());
     const measure::MetricRowOrder order = measure::order_rows_over_views(made).front();
-    const measure::RowMask& mirrors = measure::list_row_masks().front();
+    const measure::RowPixelMask& mirrors = measure::list_row_masks().front();
     EXPECT_LT(measure::compute_metric_over_views(made.rows[0], mirrors, *order.figure).median,
               measure::compute_metric_over_views(made.rows[1], mirrors, *order.figure).median);
     EXPECT_EQ(order.rows, (std::vector<const Row*>{&made.rows[1], &made.rows[0]}));
@@ -182,7 +184,7 @@ TEST(Views, RowsAreOrderedByDifferencesNotByMedians) {
 
 TEST(Views, ViewsTableHasMediansAndTheWorstView) {
     const ReportTable table = make_views_table(
-        make_comparison_with_views({make_row_with_view_flips("a", kFlips)}));
+        make_comparison_with_views({make_row_with_view_flips("a", kFlipOfEachView)}));
     EXPECT_EQ(table.title, "Over 8 views");
     std::map<std::string, std::string> cells;
     for (std::size_t i = 0; i < table.columns.size(); ++i)
@@ -198,7 +200,7 @@ TEST(Views, ViewsTableHasMediansAndTheWorstView) {
 
 TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
     const json document = json::parse(
-        to_json(make_comparison_with_views({make_row_with_view_flips("a", kFlips)})));
+        to_json(make_comparison_with_views({make_row_with_view_flips("a", kFlipOfEachView)})));
     ASSERT_EQ(document["views"].size(), 8u);
     EXPECT_EQ(document["views"][2]["camera"]["eye"], json({1, 2, 2}));
     EXPECT_EQ(document["views"][2]["time"], 1);
@@ -207,10 +209,10 @@ TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
     const json& flip = views["error"]["flip"];
     EXPECT_NEAR(flip["median"].get<double>(), .19, 1e-12);
     EXPECT_EQ(flip["ci95"], json({.1, .3}));
-    EXPECT_EQ(flip["values"], json(kFlips));
+    EXPECT_EQ(flip["values"], json(kFlipOfEachView));
     EXPECT_EQ(views["worst"],
               json::parse(R"({"view": 2, "flip": 0.3, "image": "images/worst-a.png"})"));
-    for (const measure::RowMask& mask : measure::list_row_masks())
+    for (const measure::RowPixelMask& mask : measure::list_row_masks())
         for (const char* figure : {"flip", "off", "mae", "rmse", "longest_line", "psnr", "p99"})
             EXPECT_TRUE(views[std::string(mask.field)].contains(figure)) << mask.field << figure;
     EXPECT_TRUE(views["error_all"]["flip"]["median"].is_null()) << "nothing is known of it";
@@ -220,7 +222,7 @@ TEST(Views, JsonReportHoldsEachMetricOverEachMask) {
 
 TEST(Views, CsvReportHoldsTheMedianAndIntervalOverViews) {
     std::istringstream csv(
-        to_csv(make_comparison_with_views({make_row_with_view_flips("a", kFlips)})));
+        to_csv(make_comparison_with_views({make_row_with_view_flips("a", kFlipOfEachView)})));
     std::string header, line;
     std::getline(csv, header), std::getline(csv, line);
     std::map<std::string, std::string> found;
@@ -257,7 +259,7 @@ TEST(Views, ReportsWithoutDrawnViewsDoNotMentionViews) {
 }
 
 TEST(Views, ReportSaysIfErrorsOverViewsAreIncomplete) {
-    Comparison made = make_comparison_with_views({make_row_with_view_flips("a", kFlips)});
+    Comparison made = make_comparison_with_views({make_row_with_view_flips("a", kFlipOfEachView)});
     made.complete = false, made.asked = 1;
     EXPECT_THAT(to_markdown(made), Not(HasSubstr("errors over views")));
     made.rows[0].views.resize(7);

@@ -22,7 +22,7 @@ std::string wrong_graph_error_text(const Graph& graph, Failure failure = Failure
 }
 
 /// Holds a graph with images and a buffer. Each test adds passes with one mistake.
-struct WrongGraph : ::testing::Test {
+struct WrongGraphTest : ::testing::Test {
     Graph g;
     ImageHandle cubes = g.add_image(
         {.name = "cubes", .width = 8, .height = 8, .layers = 24, .cube = true});
@@ -34,22 +34,22 @@ struct WrongGraph : ::testing::Test {
     void add_writing_pass(ImageHandle image) {
         g.add_pass("make")
             .writes(image, ResourceUse::colour, kBlackClearColour)
-            .set_layer_count(image.layer_count)
+            .set_pass_layer_count(image.layer_count)
             .record(record_no_commands);
     }
 };
 
-TEST_F(WrongGraph, GraphWithoutAMistakeIsAccepted) {
+TEST_F(WrongGraphTest, GraphWithoutAMistakeIsAccepted) {
     add_writing_pass(cubes);
     g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
-    g.mark_output(out);
+    g.mark_as_graph_output(out);
     EXPECT_EQ(plan_graph(g, {}, make_default_requirement_queries()).passes.size(), 2u);
 }
 
-TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
+TEST_F(WrongGraphTest, ReadBeforeWriteIsRefused) {
     g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
@@ -60,18 +60,18 @@ TEST_F(WrongGraph, ReadBeforeWriteIsRefused) {
               "layers [0,24)");
 }
 
-TEST_F(WrongGraph, UpdateOfUnwrittenLayersIsRefused) {
+TEST_F(WrongGraphTest, UpdateOfUnwrittenLayersIsRefused) {
     g.add_pass("mend")
         .updates(out, ResourceUse::colour, kBlackClearColour)
-        .set_area({1, 1, 2, 2})
+        .set_pass_render_area({1, 1, 2, 2})
         .record(record_no_commands);
-    g.mark_output(out);
+    g.mark_as_graph_output(out);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'mend' updates 'out' [0,1) as colour before any pass writes layers "
               "[0,1)");
 }
 
-TEST_F(WrongGraph, UpdateWithoutAnAreaIsRefused) {
+TEST_F(WrongGraphTest, UpdateWithoutAnAreaIsRefused) {
     add_writing_pass(out);
     g.add_pass("mend")
         .updates(out, ResourceUse::colour, kBlackClearColour)
@@ -80,14 +80,14 @@ TEST_F(WrongGraph, UpdateWithoutAnAreaIsRefused) {
               "pass 'mend' updates 'out' [0,1) as colour, but has no area to do it in");
 }
 
-TEST_F(WrongGraph, ReadOfPartlyWrittenLayersIsRefused) {
+TEST_F(WrongGraphTest, ReadOfPartlyWrittenLayersIsRefused) {
     g.add_pass("a")
-        .writes(cubes.select_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(6)
+        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(6)
         .record(record_no_commands);
     g.add_pass("b")
-        .writes(cubes.select_layers(12, 12), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(12)
+        .writes(cubes.select_image_layers(12, 12), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(12)
         .record(record_no_commands);
     g.add_pass("view")
         .reads(cubes, ResourceUse::sampled)
@@ -98,7 +98,7 @@ TEST_F(WrongGraph, ReadOfPartlyWrittenLayersIsRefused) {
               "layers [6,12)");
 }
 
-TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
+TEST_F(WrongGraphTest, ReadOfTheLastFrameDoesNotCountAsAWrite) {
     g.add_pass("old")
         .reads(g.previous_contents(cubes), ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
@@ -113,21 +113,21 @@ TEST_F(WrongGraph, ReadOfTheLastFrameDoesNotCountAsAWrite) {
               "layers [0,24)");
 }
 
-TEST_F(WrongGraph, LoadOfUnwrittenLayersIsRefused) {
+TEST_F(WrongGraphTest, LoadOfUnwrittenLayersIsRefused) {
     g.add_pass("glow").writes(out, ResourceUse::colour).record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'glow' loads (has no clear for) 'out' [0,1) as colour before any "
               "pass writes layers [0,1)");
 }
 
-TEST_F(WrongGraph, StorageUseOfUnwrittenLayersIsRefused) {
+TEST_F(WrongGraphTest, StorageUseOfUnwrittenLayersIsRefused) {
     g.add_pass("blur").writes(out, ResourceUse::storage).record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'blur' reads and writes 'out' [0,1) as storage before any pass "
               "writes layers [0,1)");
 }
 
-TEST_F(WrongGraph, BufferReadBeforeWriteIsRefused) {
+TEST_F(WrongGraphTest, BufferReadBeforeWriteIsRefused) {
     g.add_pass("draw")
         .reads(args, ResourceUse::indirect)
         .writes(out, ResourceUse::colour, kBlackClearColour)
@@ -136,19 +136,19 @@ TEST_F(WrongGraph, BufferReadBeforeWriteIsRefused) {
               "pass 'draw' reads buffer 'args' as indirect before any pass writes it");
 }
 
-TEST_F(WrongGraph, SamplingAnAttachedLayerIsRefused) {
+TEST_F(WrongGraphTest, SamplingAnAttachedLayerIsRefused) {
     add_writing_pass(cubes);
     g.add_pass("capture")
         .reads(cubes, ResourceUse::sampled)
-        .writes(cubes.select_layers(6, 6), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(6)
+        .writes(cubes.select_image_layers(6, 6), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(6)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' reads 'cubes' [0,24) as sampled while it writes 'cubes' "
               "[6,12) as colour, in layers [6,12)");
 }
 
-TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
+TEST_F(WrongGraphTest, SamplingAStorageTargetIsRefused) {
     add_writing_pass(out);
     g.add_pass("blur")
         .writes(out, ResourceUse::storage_write)
@@ -159,19 +159,19 @@ TEST_F(WrongGraph, SamplingAStorageTargetIsRefused) {
               "storage_write, in layers [0,1)");
 }
 
-TEST_F(WrongGraph, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
+TEST_F(WrongGraphTest, OtherLayersAndLastFrameMayBeSampledWhileAttached) {
     add_writing_pass(cubes);
     g.add_pass("capture")
-        .reads(cubes.select_layers(0, 6), ResourceUse::sampled)
+        .reads(cubes.select_image_layers(0, 6), ResourceUse::sampled)
         .reads(g.previous_contents(cubes), ResourceUse::sampled)
-        .writes(cubes.select_layers(6, 6), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(6)
+        .writes(cubes.select_image_layers(6, 6), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(6)
         .record(record_no_commands);
-    g.mark_output(cubes);
+    g.mark_as_graph_output(cubes);
     EXPECT_EQ(plan_graph(g, {}, make_default_requirement_queries()).passes.size(), 2u);
 }
 
-TEST_F(WrongGraph, BufferReadWhileWrittenIsRefused) {
+TEST_F(WrongGraphTest, BufferReadWhileWrittenIsRefused) {
     g.add_pass("fill").writes(args, ResourceUse::copy_to).record(record_no_commands);
     g.add_pass("sort")
         .reads(args, ResourceUse::storage_read)
@@ -182,17 +182,17 @@ TEST_F(WrongGraph, BufferReadWhileWrittenIsRefused) {
               "'args' as storage_write");
 }
 
-TEST_F(WrongGraph, TwoWritesOfTheSameLayersAreRefused) {
+TEST_F(WrongGraphTest, TwoWritesOfTheSameLayersAreRefused) {
     g.add_pass("twice")
-        .writes(cubes.select_layers(0, 6), ResourceUse::storage_write)
-        .writes(cubes.select_layers(4, 6), ResourceUse::copy_to)
+        .writes(cubes.select_image_layers(0, 6), ResourceUse::storage_write)
+        .writes(cubes.select_image_layers(4, 6), ResourceUse::copy_to)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'twice' writes 'cubes' [0,6) as storage_write and 'cubes' [4,10) "
               "as copy_to: written twice, in layers [4,6)");
 }
 
-TEST_F(WrongGraph, TwoLayoutsAtOnceAreRefused) {
+TEST_F(WrongGraphTest, TwoLayoutsAtOnceAreRefused) {
     add_writing_pass(out);
     g.add_pass("look")
         .reads(out, ResourceUse::sampled)
@@ -205,48 +205,48 @@ TEST_F(WrongGraph, TwoLayoutsAtOnceAreRefused) {
               "[0,1)");
 }
 
-TEST_F(WrongGraph, OutputThatIsNeverWrittenIsRefused) {
+TEST_F(WrongGraphTest, OutputThatIsNeverWrittenIsRefused) {
     add_writing_pass(cubes);
-    g.mark_output(out);
+    g.mark_as_graph_output(out);
     EXPECT_EQ(wrong_graph_error_text(g), "'out' [0,1) is wanted, but no pass writes layers [0,1)");
 }
 
-TEST_F(WrongGraph, OutputLayersThatAreNeverWrittenAreRefused) {
+TEST_F(WrongGraphTest, OutputLayersThatAreNeverWrittenAreRefused) {
     g.add_pass("a")
-        .writes(cubes.select_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(6)
+        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(6)
         .record(record_no_commands);
-    g.mark_output(cubes.select_layers(3, 6));
+    g.mark_as_graph_output(cubes.select_image_layers(3, 6));
     EXPECT_EQ(wrong_graph_error_text(g),
               "'cubes' [3,9) is wanted, but no pass writes layers [6,9)");
 }
 
-TEST_F(WrongGraph, OutputBufferThatIsNeverWrittenIsRefused) {
+TEST_F(WrongGraphTest, OutputBufferThatIsNeverWrittenIsRefused) {
     add_writing_pass(out);
-    g.mark_output(args);
+    g.mark_as_graph_output(args);
     EXPECT_EQ(wrong_graph_error_text(g), "buffer 'args' is wanted, but no pass writes it");
 }
 
-TEST_F(WrongGraph, OutputLayersOutOfRangeAreRefused) {
+TEST_F(WrongGraphTest, OutputLayersOutOfRangeAreRefused) {
     add_writing_pass(out);
-    g.mark_output(out.select_layers(0, 2));
+    g.mark_as_graph_output(out.select_image_layers(0, 2));
     EXPECT_EQ(wrong_graph_error_text(g), "'out' [0,2) is wanted, but the image has layers [0,1)");
 }
 
-TEST_F(WrongGraph, OutputOfThePreviousFrameIsRefused) {
+TEST_F(WrongGraphTest, OutputOfThePreviousFrameIsRefused) {
     add_writing_pass(out);
-    g.mark_output(g.previous_contents(out));
+    g.mark_as_graph_output(g.previous_contents(out));
     EXPECT_EQ(wrong_graph_error_text(g),
               "previous('out') [0,1) is wanted: only this frame's contents can be");
 }
 
-TEST_F(WrongGraph, OutputOfAnotherGraphIsRefused) {
+TEST_F(WrongGraphTest, OutputOfAnotherGraphIsRefused) {
     add_writing_pass(out);
-    g.mark_output(ImageHandle{.id = 9, .layer_count = 1});
+    g.mark_as_graph_output(ImageHandle{.id = 9, .layer_count = 1});
     EXPECT_EQ(wrong_graph_error_text(g), "image number 9 is wanted, but the graph has 3");
 }
 
-TEST_F(WrongGraph, PreviousOfAnUnwrittenImageIsRefused) {
+TEST_F(WrongGraphTest, PreviousOfAnUnwrittenImageIsRefused) {
     g.add_pass("view")
         .reads(g.previous_contents(cubes), ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
@@ -255,13 +255,13 @@ TEST_F(WrongGraph, PreviousOfAnUnwrittenImageIsRefused) {
               "pass 'view' reads previous('cubes') as sampled but no pass writes 'cubes'");
 }
 
-TEST_F(WrongGraph, PreviousOfUnwrittenLayersIsRefused) {
+TEST_F(WrongGraphTest, PreviousOfUnwrittenLayersIsRefused) {
     g.add_pass("a")
-        .writes(cubes.select_layers(0, 6), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(6)
+        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(6)
         .record(record_no_commands);
     g.add_pass("view")
-        .reads(g.previous_contents(cubes.select_layers(0, 12)), ResourceUse::sampled)
+        .reads(g.previous_contents(cubes.select_image_layers(0, 12)), ResourceUse::sampled)
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
@@ -269,7 +269,7 @@ TEST_F(WrongGraph, PreviousOfUnwrittenLayersIsRefused) {
               "writes layers [6,12) of 'cubes'");
 }
 
-TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
+TEST_F(WrongGraphTest, WriteToThePreviousFrameIsRefused) {
     g.add_pass("rewrite")
         .writes(g.previous_contents(out), ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
@@ -278,7 +278,7 @@ TEST_F(WrongGraph, WriteToThePreviousFrameIsRefused) {
               "contents are only read");
 }
 
-TEST_F(WrongGraph, PreviousOfAnotherGraphIsRefused) {
+TEST_F(WrongGraphTest, PreviousOfAnotherGraphIsRefused) {
     try {
         g.previous_contents(ImageHandle{.id = 9});
         FAIL() << "accepted";
@@ -288,53 +288,53 @@ TEST_F(WrongGraph, PreviousOfAnotherGraphIsRefused) {
     }
 }
 
-TEST_F(WrongGraph, LayersOutOfRangeAreRefused) {
+TEST_F(WrongGraphTest, LayersOutOfRangeAreRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_layers(20, 6), ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(6)
+        .writes(cubes.select_image_layers(20, 6), ResourceUse::colour, kBlackClearColour)
+        .set_pass_layer_count(6)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' uses 'cubes' [20,26) as colour, but the image has layers "
               "[0,24)");
 }
 
-TEST_F(WrongGraph, LayerRangeThatOverflowsIsRefused) {
+TEST_F(WrongGraphTest, LayerRangeThatOverflowsIsRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_layers(1, ~0u), ResourceUse::storage_write)
+        .writes(cubes.select_image_layers(1, ~0u), ResourceUse::storage_write)
         .record(record_no_commands);
     EXPECT_THAT(wrong_graph_error_text(g), HasSubstr("but the image has layers [0,24)"));
 }
 
-TEST_F(WrongGraph, EmptyLayerRangeIsRefused) {
+TEST_F(WrongGraphTest, EmptyLayerRangeIsRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_layers(3, 0), ResourceUse::storage_write)
+        .writes(cubes.select_image_layers(3, 0), ResourceUse::storage_write)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' names no layer of 'cubes' as storage_write");
 }
 
-TEST_F(WrongGraph, ImageOfAnotherGraphIsRefused) {
+TEST_F(WrongGraphTest, ImageOfAnotherGraphIsRefused) {
     g.add_pass("a")
         .writes(ImageHandle{.id = 3, .layer_count = 1}, ResourceUse::storage_write)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'a' names image number 3, but the graph has 3");
 }
 
-TEST_F(WrongGraph, BufferOfAnotherGraphIsRefused) {
+TEST_F(WrongGraphTest, BufferOfAnotherGraphIsRefused) {
     g.add_pass("a").writes(BufferHandle{1}, ResourceUse::storage_write).record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'a' names buffer number 1, but the graph has 1");
 }
 
-TEST_F(WrongGraph, AttachmentWithAnotherLayerCountIsRefused) {
+TEST_F(WrongGraphTest, AttachmentWithAnotherLayerCountIsRefused) {
     g.add_pass("capture")
-        .writes(cubes.select_layers(0, 6), ResourceUse::colour, kBlackClearColour)
+        .writes(cubes.select_image_layers(0, 6), ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g),
               "pass 'capture' renders 1 layer(s), but attaches 'cubes' [0,6) as "
               "colour, which are 6");
 }
 
-TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
+TEST_F(WrongGraphTest, AttachmentsOfDifferentSizesAreRefused) {
     const ImageHandle small = g.add_image({.name = "small", .width = 8, .height = 4});
     g.add_pass("view")
         .writes(small, ResourceUse::colour, kBlackClearColour)
@@ -345,7 +345,7 @@ TEST_F(WrongGraph, AttachmentsOfDifferentSizesAreRefused) {
               "depth (8x8): attachments have one size");
 }
 
-TEST_F(WrongGraph, TwoDepthAttachmentsAreRefused) {
+TEST_F(WrongGraphTest, TwoDepthAttachmentsAreRefused) {
     const ImageHandle other = g.add_image(
         {.name = "other", .format = TexelFormat::d32f, .width = 8, .height = 8});
     g.add_pass("view")
@@ -356,7 +356,7 @@ TEST_F(WrongGraph, TwoDepthAttachmentsAreRefused) {
               "pass 'view' attaches both 'other' [0,1) and 'depth' [0,1) as depth");
 }
 
-TEST_F(WrongGraph, DepthUseOfAColourFormatIsRefused) {
+TEST_F(WrongGraphTest, DepthUseOfAColourFormatIsRefused) {
     g.add_pass("shadow")
         .writes(out, ResourceUse::depth, kBlackClearColour)
         .record(record_no_commands);
@@ -365,7 +365,7 @@ TEST_F(WrongGraph, DepthUseOfAColourFormatIsRefused) {
               "colour format");
 }
 
-TEST_F(WrongGraph, ColourUseOfADepthFormatIsRefused) {
+TEST_F(WrongGraphTest, ColourUseOfADepthFormatIsRefused) {
     g.add_pass("shadow")
         .writes(depth, ResourceUse::colour, kBlackClearColour)
         .record(record_no_commands);
@@ -374,79 +374,79 @@ TEST_F(WrongGraph, ColourUseOfADepthFormatIsRefused) {
               "depth format");
 }
 
-TEST_F(WrongGraph, TwoPassesOfOneNameAreRefused) {
+TEST_F(WrongGraphTest, TwoPassesOfOneNameAreRefused) {
     add_writing_pass(out);
     add_writing_pass(cubes);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'make' is declared twice: names are unique");
 }
 
-TEST_F(WrongGraph, TwoImagesOfOneNameAreRefused) {
+TEST_F(WrongGraphTest, TwoImagesOfOneNameAreRefused) {
     g.add_image({.name = "out"});
     EXPECT_EQ(wrong_graph_error_text(g), "image 'out': another image or buffer has the same name");
 }
 
-TEST_F(WrongGraph, BufferNamedLikeAnImageIsRefused) {
+TEST_F(WrongGraphTest, BufferNamedLikeAnImageIsRefused) {
     g.add_buffer({.name = "out", .bytes = 4});
     EXPECT_EQ(wrong_graph_error_text(g), "buffer 'out': another image or buffer has the same name");
 }
 
-TEST_F(WrongGraph, ImageWithoutANameIsRefused) {
+TEST_F(WrongGraphTest, ImageWithoutANameIsRefused) {
     g.add_image({.name = ""});
     EXPECT_EQ(wrong_graph_error_text(g), "image number 3 has no name");
 }
 
-TEST_F(WrongGraph, PassWithoutANameIsRefused) {
+TEST_F(WrongGraphTest, PassWithoutANameIsRefused) {
     add_writing_pass(out);
     g.add_pass("").writes(out, ResourceUse::colour, kBlackClearColour).record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g), "pass number 1 has no name");
 }
 
-TEST_F(WrongGraph, PassWithoutABodyIsRefused) {
+TEST_F(WrongGraphTest, PassWithoutABodyIsRefused) {
     g.add_pass("forgotten").writes(out, ResourceUse::colour, kBlackClearColour);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'forgotten' has no body");
 }
 
-TEST_F(WrongGraph, PassThatWritesNothingIsRefused) {
+TEST_F(WrongGraphTest, PassThatWritesNothingIsRefused) {
     add_writing_pass(out);
     g.add_pass("look").reads(out, ResourceUse::sampled).record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'look' writes nothing");
 }
 
-TEST_F(WrongGraph, PassWithoutLayersIsRefused) {
+TEST_F(WrongGraphTest, PassWithoutLayersIsRefused) {
     g.add_pass("view")
         .writes(out, ResourceUse::colour, kBlackClearColour)
-        .set_layer_count(0)
+        .set_pass_layer_count(0)
         .record(record_no_commands);
     EXPECT_EQ(wrong_graph_error_text(g), "pass 'view' renders 0 layers");
 }
 
-TEST_F(WrongGraph, CubeWithSevenFacesIsRefused) {
+TEST_F(WrongGraphTest, CubeWithSevenFacesIsRefused) {
     g.add_image({.name = "odd", .width = 4, .height = 4, .layers = 7, .cube = true});
     EXPECT_EQ(wrong_graph_error_text(g),
               "image 'odd' is a cube, but its 7 layers are not a multiple of 6");
 }
 
-TEST_F(WrongGraph, CubeThatIsNotSquareIsRefused) {
+TEST_F(WrongGraphTest, CubeThatIsNotSquareIsRefused) {
     g.add_image({.name = "flat", .width = 4, .height = 2, .layers = 6, .cube = true});
     EXPECT_EQ(wrong_graph_error_text(g), "image 'flat' is a cube, but not square: 4x2");
 }
 
-TEST_F(WrongGraph, ImageWithoutSizeIsRefused) {
+TEST_F(WrongGraphTest, ImageWithoutSizeIsRefused) {
     g.add_image({.name = "void", .width = 4, .height = 0, .layers = 2});
     EXPECT_EQ(wrong_graph_error_text(g), "image 'void' is empty: 4x0, 2 layers");
 }
 
-TEST_F(WrongGraph, ImageWithoutLayersIsRefused) {
+TEST_F(WrongGraphTest, ImageWithoutLayersIsRefused) {
     g.add_image({.name = "void", .layers = 0});
     EXPECT_EQ(wrong_graph_error_text(g), "image 'void' is empty: 1x1, 0 layers");
 }
 
-TEST_F(WrongGraph, BufferWithoutSizeIsRefused) {
+TEST_F(WrongGraphTest, BufferWithoutSizeIsRefused) {
     g.add_buffer({.name = "void"});
     EXPECT_EQ(wrong_graph_error_text(g), "buffer 'void' is empty: 0 bytes");
 }
 
-TEST_F(WrongGraph, ClearOfAnImageThatIsNotAttachedIsRefused) {
+TEST_F(WrongGraphTest, ClearOfAnImageThatIsNotAttachedIsRefused) {
     g.add_pass("blur")
         .writes(out, ResourceUse::storage_write, kBlackClearColour)
         .record(record_no_commands);
@@ -455,7 +455,7 @@ TEST_F(WrongGraph, ClearOfAnImageThatIsNotAttachedIsRefused) {
               "are cleared");
 }
 
-TEST_F(WrongGraph, CopyInARasterPassIsRefused) {
+TEST_F(WrongGraphTest, CopyInARasterPassIsRefused) {
     g.add_pass("view")
         .writes(out, ResourceUse::colour, kBlackClearColour)
         .writes(args, ResourceUse::copy_to)
@@ -467,7 +467,7 @@ TEST_F(WrongGraph, CopyInARasterPassIsRefused) {
 
 // Tries every use as a read and as a write, of an image and of a buffer, so that no wrong
 // combination is accepted.
-TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
+TEST_F(WrongGraphTest, UsesInTheWrongDirectionAreRefused) {
     for (const ResourceUse use :
          {ResourceUse::sampled, ResourceUse::storage_read, ResourceUse::storage_write,
           ResourceUse::storage, ResourceUse::colour, ResourceUse::depth, ResourceUse::copy_from,
@@ -504,9 +504,9 @@ TEST_F(WrongGraph, UsesInTheWrongDirectionAreRefused) {
 }
 
 // A mistake is reported even in a pass on which no output depends.
-TEST_F(WrongGraph, CulledPassesAreValidated) {
+TEST_F(WrongGraphTest, CulledPassesAreValidated) {
     add_writing_pass(out);
-    g.mark_output(out);
+    g.mark_as_graph_output(out);
     g.add_pass("debug")
         .reads(cubes, ResourceUse::sampled)
         .writes(args, ResourceUse::storage_write)
@@ -514,51 +514,51 @@ TEST_F(WrongGraph, CulledPassesAreValidated) {
     EXPECT_THAT(wrong_graph_error_text(g), AllOf(HasSubstr("'debug'"), HasSubstr("'cubes'")));
 }
 
-TEST_F(WrongGraph, ImageOverThe2dSizeLimitIsRefused) {
+TEST_F(WrongGraphTest, ImageOverThe2dSizeLimitIsRefused) {
     add_writing_pass(out);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_size_2d = 7}),
               "image 'out' wants 8 texels a side, device allows max_size_2d = 7");
 }
 
-TEST_F(WrongGraph, CubeOverTheSizeLimitIsRefused) {
+TEST_F(WrongGraphTest, CubeOverTheSizeLimitIsRefused) {
     add_writing_pass(out);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_size_cube = 7}),
               "image 'cubes' wants 8 texels a side, device allows max_size_cube = 7");
 }
 
-TEST_F(WrongGraph, ImageOverTheLayerLimitIsRefused) {
+TEST_F(WrongGraphTest, ImageOverTheLayerLimitIsRefused) {
     add_writing_pass(out);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_layers = 23}),
               "image 'cubes' wants 24 layers, device allows max_layers = 23");
 }
 
-TEST_F(WrongGraph, PassOverTheFramebufferLayerLimitIsRefused) {
+TEST_F(WrongGraphTest, PassOverTheFramebufferLayerLimitIsRefused) {
     add_writing_pass(cubes);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_framebuffer_layers = 6}),
               "pass 'make' wants 24 framebuffer layers for 'cubes', device allows "
               "max_framebuffer_layers = 6");
 }
 
-TEST_F(WrongGraph, FrameOverTheMemoryLimitIsRefused) {
+TEST_F(WrongGraphTest, FrameOverTheMemoryLimitIsRefused) {
     add_writing_pass(cubes);
-    g.mark_output(cubes);
+    g.mark_as_graph_output(cubes);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_memory = 12287}),
               "the frame wants 12288 bytes of memory, device allows max_memory = 12287; the "
               "largest is 'cubes' with 12288");
 }
 
-TEST_F(WrongGraph, MemoryOverTheAllocationLimitIsRefused) {
+TEST_F(WrongGraphTest, MemoryOverTheAllocationLimitIsRefused) {
     add_writing_pass(cubes);
-    g.mark_output(cubes);
+    g.mark_as_graph_output(cubes);
     EXPECT_EQ(wrong_graph_error_text(g, Failure::exhausted, {.max_allocation = 12287}),
               "the frame wants 12288 bytes of memory in one piece, device allows max_allocation = "
               "12287; the "
               "largest is 'cubes' with 12288");
 }
 
-TEST_F(WrongGraph, GraphAtEveryLimitIsAccepted) {
+TEST_F(WrongGraphTest, GraphAtEveryLimitIsAccepted) {
     add_writing_pass(cubes);
-    g.mark_output(cubes);
+    g.mark_as_graph_output(cubes);
     const GraphLimits limits{.max_size_2d = 8,
                              .max_size_cube = 8,
                              .max_layers = 24,

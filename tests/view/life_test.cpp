@@ -26,12 +26,12 @@ std::uint64_t read_resident_bytes() {
     return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-class ViewLife : public test::WindowTest {};
+class ViewLifetimeTest : public test::ViewWindowTest {};
 
 /// Memory must not grow from frame to frame. A heap that grows in steps stays constant over some
 /// fifty frames, but a leak of 1 kB per frame shows in every fifty frames. This test is the first
 /// of the file, because memory that other tests free would hide a leak.
-TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
+TEST_F(ViewLifetimeTest, MemoryStaysConstantOverFrames) {
     constexpr int kWindowFrames = 50;
     std::vector<std::uint64_t> resident, on_device;
     SimulatedUser driver;
@@ -54,7 +54,7 @@ TEST_F(ViewLife, MemoryStaysConstantOverFrames) {
     EXPECT_LT(least, kWindowFrames * 1024) << testing::PrintToString(resident);
 }
 
-TEST_F(ViewLife, InvalidOptionsAndMissingDisplayAreRefused) {
+TEST_F(ViewLifetimeTest, InvalidOptionsAndMissingDisplayAreRefused) {
     const auto refused = [&](const Words& words, Failure failure, const std::string& text) {
         try {
             run_view_in_test(words);
@@ -78,7 +78,7 @@ TEST_F(ViewLife, InvalidOptionsAndMissingDisplayAreRefused) {
 }
 
 /// The program answers signals from its first static initialiser on, before main begins.
-TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
+TEST_F(ViewLifetimeTest, SignalsAreAnsweredFromTheFirstInitialiserOn) {
     constexpr std::array kTestedSignals{SIGHUP, SIGINT, SIGTERM};
     int answered = 0;
     for (int i = 0; i < 12; ++i) {
@@ -97,7 +97,7 @@ TEST_F(ViewLife, SignalsAreAnsweredFromTheFirstInitialiserOn) {
 
 /// The window takes 20 sizes or more. During frames 30 to 33 the window is minimised, so its size
 /// is 0.
-TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
+TEST_F(ViewLifetimeTest, WindowIsResizedMinimisedAndClosed) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> sizes;
     SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state,
@@ -123,7 +123,7 @@ TEST_F(ViewLife, WindowIsResizedMinimisedAndClosed) {
 
 /// A plan for which the device lacks memory is chosen several times. Each time the window returns
 /// to the previous plan and frees the images of the failed plan.
-TEST_F(ViewLife, PlanWithoutMemoryFallsBackToThePlanBefore) {
+TEST_F(ViewLifetimeTest, PlanWithoutMemoryFallsBackToThePlanBefore) {
     int refused = 0;
     SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput&, ViewState& state, ViewWindow&) {
@@ -142,7 +142,7 @@ TEST_F(ViewLife, PlanWithoutMemoryFallsBackToThePlanBefore) {
 
 /// The next window restores the settings that the user chose. With `--frames`, settings are neither
 /// read nor written.
-TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
+TEST_F(ViewLifetimeTest, SettingsAreKeptForTheNextWindow) {
     const char* before = std::getenv("XDG_CONFIG_HOME");
     const std::string kept = before ? before : "";
     ::setenv("XDG_CONFIG_HOME", folder.c_str(), 1);
@@ -178,7 +178,7 @@ TEST_F(ViewLife, SettingsAreKeptForTheNextWindow) {
 }
 
 /// Fixture for a window of 60 frames whose device or surface fails during or before these frames.
-class ViewFaults : public ViewLife {
+class ViewFaultTest : public ViewLifetimeTest {
 protected:
     test::ProcessResult run_view_with_fault(const std::string& fault) const {
         test::ProcessStartOptions start{
@@ -197,21 +197,21 @@ protected:
 
 /// The device is lost in the middle of a frame. A new session keeps the user's state, and the
 /// picture equals the picture of `render`.
-TEST_F(ViewFaults, WindowGoesOnAfterALostDevice) {
+TEST_F(ViewFaultTest, WindowGoesOnAfterALostDevice) {
     const test::ProcessResult ended = run_view_with_fault("vkQueueSubmit2:30:-4");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("VK_ERROR_DEVICE_LOST (-4); a new session is made"));
     expect_same_as_rendered("lost.png", words);
 }
 
-TEST_F(ViewFaults, WindowGoesOnAfterALostSurface) {
+TEST_F(ViewFaultTest, WindowGoesOnAfterALostSurface) {
     const test::ProcessResult ended = run_view_with_fault("vkQueuePresentKHR:40:-1000000000");
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("the window's surface was lost; a new session is made"));
     expect_same_as_rendered("lost.png", words);
 }
 
-TEST_F(ViewFaults, DeviceThatCannotPresentIsRefused) {
+TEST_F(ViewFaultTest, DeviceThatCannotPresentIsRefused) {
     const test::ProcessResult ended = run_view_with_fault(
         "vkGetPhysicalDeviceSurfaceSupportKHR:1:0");
     EXPECT_EQ(ended.exit_code, 69) << ended.err;

@@ -54,9 +54,9 @@ private:
     ImGuiContext* context_;
 };
 
-class ViewPanel : public testing::Test {
+class ViewPanelTest : public testing::Test {
 protected:
-    ViewPanel() {
+    ViewPanelTest() {
         unsigned char* texels = nullptr;
         int width = 0, height = 0;
         fonts.GetTexDataAsAlpha8(&texels, &width, &height);
@@ -82,16 +82,16 @@ protected:
             EXPECT_NO_THROW(static_cast<void>(app::parse_technique(text))) << text;
         return texts;
     }
-    static EditedPlanState same_plan(const ViewState& state) { return state.plan; }
+    static EditedPlanState plan_of_view_state(const ViewState& state) { return state.plan; }
 
     scene::Scene scene = scene::load("cornell-mirrors", {});
     ImFontAtlas fonts;
 };
 
-TEST_F(ViewPanel, ControlsChangeTheKnobsOfAllMirrors) {
+TEST_F(ViewPanelTest, ControlsChangeTheKnobsOfAllMirrors) {
     ViewState state;
     state.plan = parse_plan_text("secant");
-    const std::set<std::string> texts = list_plans_reached_by_click(state, same_plan);
+    const std::set<std::string> texts = list_plans_reached_by_click(state, plan_of_view_state);
     for (const char* text : {"secant:face=128", "secant:face=512", "secant:face=auto",
                              "secant:shadow_map=512", "secant:distance=r16f"})
         EXPECT_THAT(texts, Contains(text));
@@ -100,21 +100,21 @@ TEST_F(ViewPanel, ControlsChangeTheKnobsOfAllMirrors) {
     EXPECT_THAT(texts, Each(Not(testing::HasSubstr(" ")))) << "for all mirrors";
 }
 
-TEST_F(ViewPanel, ControlsChangeTheKnobsOfTheChosenMirror) {
+TEST_F(ViewPanelTest, ControlsChangeTheKnobsOfTheChosenMirror) {
     ViewState state;
     state.plan = parse_plan_text("secant:face=64");
     state.chosen = 2;
-    std::set<std::string> texts = list_plans_reached_by_click(state, same_plan);
+    std::set<std::string> texts = list_plans_reached_by_click(state, plan_of_view_state);
     texts.erase("secant:face=64"); // the plan after a click beside all controls
     EXPECT_THAT(texts, Contains("2=secant:face=128 *=secant:face=64"));
     EXPECT_THAT(texts, Contains("2=secant:face=auto *=secant:face=64"));
     EXPECT_THAT(texts, Each(testing::EndsWith(" *=secant:face=64")));
     state.plan.own[2] = {"reuse", {}};
-    EXPECT_THAT(list_plans_reached_by_click(state, same_plan), Contains("secant:face=64"))
+    EXPECT_THAT(list_plans_reached_by_click(state, plan_of_view_state), Contains("secant:face=64"))
         << "as all others";
 }
 
-TEST_F(ViewPanel, ControlsEditTheChosenOneOfTwoPlans) {
+TEST_F(ViewPanelTest, ControlsEditTheChosenOneOfTwoPlans) {
     ViewState state;
     state.mode = ViewMode::split;
     state.plan = parse_plan_text("secant"), state.other = parse_plan_text("parallax");

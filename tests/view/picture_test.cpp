@@ -13,9 +13,9 @@ using namespace catoptric;
 using namespace catoptric::view;
 using testing::HasSubstr;
 
-class ViewPicture : public test::WindowTest {};
+class ViewPictureTest : public test::ViewWindowTest {};
 
-TEST_F(ViewPicture, ScreenshotEqualsThePictureOfRender) {
+TEST_F(ViewPictureTest, ScreenshotEqualsThePictureOfRender) {
     const Words words{"--technique", "reuse:face=32", "--size", "64x48", "--frames",
                       "3",           "--animate"};
     for (const std::string name : {"a.png", "a.exr"}) {
@@ -29,7 +29,7 @@ TEST_F(ViewPicture, ScreenshotEqualsThePictureOfRender) {
 }
 
 /// In each mode the X server must show the picture that the window writes to a file.
-TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
+TEST_F(ViewPictureTest, DisplayShowsThePictureOfEachMode) {
     std::vector<std::string> seen;
     std::vector<measure::Picture> first; // of the modes plan, split and difference
     const auto expect_shown = [&](const SceneViewer& viewer, const std::string& name) {
@@ -92,7 +92,7 @@ TEST_F(ViewPicture, DisplayShowsThePictureOfEachMode) {
 }
 
 /// A change of view, time or size starts the reference picture again.
-TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
+TEST_F(ViewPictureTest, ReferenceRestartsWhenTheViewChanges) {
     const auto passes = [](const ViewReport& report) {
         return report.viewer.progressive_reference().rendered_pass_count();
     };
@@ -125,13 +125,14 @@ TEST_F(ViewPicture, ReferenceRestartsWhenTheViewChanges) {
 }
 
 /// Draws every technique and changes up to three of its knobs while the window runs.
-TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
+TEST_F(ViewPictureTest, EveryTechniqueIsDrawnWhileItsKnobsChange) {
     std::vector<EditedPlanState> plans;
     for (const app::TechniqueInfo& technique : app::techniques()) {
         EditedPlanState plan;
         plan.rest.technique = technique.name;
         for (const app::KnobInfo& knob : technique.knobs)
-            if (knob.name == "face" || knob.name == "shadow_map") set_knob(plan.rest, knob, "16");
+            if (knob.name == "face" || knob.name == "shadow_map")
+                set_knob_from_text(plan.rest, knob, "16");
         plans.push_back(plan);
         std::size_t turned = 0;
         for (const app::KnobInfo& knob : technique.knobs) {
@@ -141,7 +142,7 @@ TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
                                                                  std::min(knob.low + 2, knob.high)))
                                       : knob.choices.back() == knob.value ? knob.choices.front()
                                                                           : knob.choices.back();
-            set_knob(plan.rest, knob, value);
+            set_knob_from_text(plan.rest, knob, value);
             plans.push_back(plan);
             ++turned;
         }
@@ -165,7 +166,7 @@ TEST_F(ViewPicture, EveryTechniqueIsDrawnWhileItsKnobsChange) {
 
 /// A click on a mirror selects the mirror. The technique that is then set applies to this mirror
 /// only.
-TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
+TEST_F(ViewPictureTest, ClickSelectsTheMirrorUnderTheMouse) {
     const scene::Scene scene = scene::load("cornell-mirrors", {});
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
     const scene::Camera& camera = scene.cameras.front();
@@ -201,7 +202,7 @@ TEST_F(ViewPicture, ClickSelectsTheMirrorUnderTheMouse) {
 
 /// The test changes camera, knobs and time. Once frames stop changing, the command that the window
 /// offers for copying renders the same bytes.
-TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
+TEST_F(ViewPictureTest, CopiedCommandRendersThePictureShown) {
     std::string command;
     SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState& state, ViewWindow&) {
@@ -211,7 +212,7 @@ TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
         inputs.wheel = frame == 10 ? 3 : 0;
         if (frame == 5) state.motion.time = .125;
         if (frame == 12)
-            set_knob(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
+            set_knob_from_text(state.plan.rest, find_technique_info("secant")->knobs.front(), "3");
     };
     driver.after = [&](const ViewReport& report) { command = report.command; };
     EXPECT_EQ(run_view_in_test({"cornell-mirrors", "--technique", "secant:face=auto", "--size",
@@ -228,7 +229,7 @@ TEST_F(ViewPicture, CopiedCommandRendersThePictureShown) {
 }
 
 /// The roughness that the user sets for a mirror is shown at once, and is an option of the command.
-TEST_F(ViewPicture, RoughnessOfAMirrorIsShownAndCopied) {
+TEST_F(ViewPictureTest, RoughnessOfAMirrorIsShownAndCopied) {
     std::string command;
     std::vector<int> passes;
     SimulatedUser driver;
@@ -258,7 +259,7 @@ TEST_F(ViewPicture, RoughnessOfAMirrorIsShownAndCopied) {
 }
 
 /// Errors of rough mirrors are measured against rays from their lobes, not against sharp mirrors.
-TEST_F(ViewPicture, ReferenceOfRoughMirrorsIsRough) {
+TEST_F(ViewPictureTest, ReferenceOfRoughMirrorsIsRough) {
     double error = 0;
     SimulatedUser driver;
     driver.before = [&](std::size_t, UserInput& inputs, ViewState& state, ViewWindow&) {
@@ -281,7 +282,7 @@ TEST_F(ViewPicture, ReferenceOfRoughMirrorsIsRough) {
 
 /// A scene file that is dropped on the window is shown. A dropped file that is no scene only leads
 /// to a message.
-TEST_F(ViewPicture, DroppedSceneFileIsLoaded) {
+TEST_F(ViewPictureTest, DroppedSceneFileIsLoaded) {
     write_input_file("broken.glb", "no scene");
     SimulatedUser driver;
     driver.before = [&](std::size_t frame, UserInput& inputs, ViewState&, ViewWindow&) {

@@ -43,12 +43,12 @@ TEST(ViewPlan, EditedMirrorGetsARuleOfItsOwn) {
     plan.own[2] = plan.rest;
     EXPECT_EQ(technique_text_of_plan(plan), "reuse"); // mirror 2 equals the rest
     plan.own[2] = {"raytrace", {}};
-    set_knob(plan.own[2], find_knob_info("raytrace", "depth"), "3");
-    set_knob(plan.rest, find_knob_info("reuse", "face"), "64");
+    set_knob_from_text(plan.own[2], find_knob_info("raytrace", "depth"), "3");
+    set_knob_from_text(plan.rest, find_knob_info("reuse", "face"), "64");
     EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse:face=64");
     EXPECT_THAT(make_plan_option_words(plan),
                 ElementsAre("--plan", "2=raytrace:depth=3 *=reuse:face=64"));
-    set_knob(plan.rest, find_knob_info("reuse", "face"), "256");
+    set_knob_from_text(plan.rest, find_knob_info("reuse", "face"), "256");
     EXPECT_EQ(technique_text_of_plan(plan), "2=raytrace:depth=3 *=reuse");
     EXPECT_EQ(technique_text_of_plan(set_knob_in_plan(parse_plan_text("hybrid"), "show", "state")),
               "hybrid:show=state");
@@ -66,7 +66,7 @@ TEST(ViewPlan, SuggestedPlanBecomesRulesByMirrorNumber) {
               "reuse");
 }
 
-class ViewCamera : public testing::Test {
+class ViewCameraTest : public testing::Test {
 protected:
     scene::Camera camera{.name = "c", .eye = {0, 1, 0}, .target = {0, 1, 4}};
     double distance_to_target(const scene::Camera& c) const {
@@ -74,7 +74,7 @@ protected:
     }
 };
 
-TEST_F(ViewCamera, CameraOrbitsAroundItsTarget) {
+TEST_F(ViewCameraTest, CameraOrbitsAroundItsTarget) {
     const scene::Camera turned = move_camera(camera, {.turned = {100, 40}}, false, 400, 10);
     EXPECT_EQ(turned.target, camera.target);
     EXPECT_NEAR(distance_to_target(turned), 4, 1e-12);
@@ -86,7 +86,7 @@ TEST_F(ViewCamera, CameraOrbitsAroundItsTarget) {
     EXPECT_NEAR(distance_to_target(move_camera(camera, {.wheel = 1}, false, 400, 10)), 3.6, 1e-12);
 }
 
-TEST_F(ViewCamera, FlightMovesTheEyeAndTurningKeepsIt) {
+TEST_F(ViewCameraTest, FlightMovesTheEyeAndTurningKeepsIt) {
     const scene::Camera ahead = move_camera(camera, {.flown = {0, 0, 3}}, true, 400, 10);
     EXPECT_NEAR(ahead.eye.z, 10, 1e-12); // a flight of 3 s covers the reach, 10
     const scene::Camera turned = move_camera(camera, {.turned = {100, 0}}, true, 400, 10);
@@ -94,7 +94,7 @@ TEST_F(ViewCamera, FlightMovesTheEyeAndTurningKeepsIt) {
     EXPECT_LT(turned.target.x, -1); // a turn to the right, which is -x
 }
 
-TEST_F(ViewCamera, ShiftMovesTheSceneByThePixelsDragged) {
+TEST_F(ViewCameraTest, ShiftMovesTheSceneByThePixelsDragged) {
     const scene::Camera shifted = move_camera(camera, {.shifted = {400, 0}}, false, 400, 10);
     EXPECT_NEAR(glm::length(shifted.eye - camera.eye), 8 * std::tan(glm::radians(22.5)), 1e-12);
     EXPECT_EQ(shifted.eye - camera.eye, shifted.target - camera.target);
@@ -102,7 +102,7 @@ TEST_F(ViewCamera, ShiftMovesTheSceneByThePixelsDragged) {
 
 /// A camera that is read back from its text is equal to the bit. Without input a camera stays
 /// unchanged.
-TEST_F(ViewCamera, CameraTextGivesTheSameCamera) {
+TEST_F(ViewCameraTest, CameraTextGivesTheSameCamera) {
     scene::Camera c = camera;
     EXPECT_EQ(move_camera(c, {}, false, 400, 10), camera);
     for (int i = 0; i < 50; ++i) {
@@ -116,7 +116,7 @@ TEST_F(ViewCamera, CameraTextGivesTheSameCamera) {
 
 /// The camera stays valid however far the wheel turns. A scene's camera with too large a field of
 /// view stays unchanged.
-TEST_F(ViewCamera, CameraStaysValidAtExtremeInput) {
+TEST_F(ViewCameraTest, CameraStaysValidAtExtremeInput) {
     for (const double wheel : {1e3, -1e5}) {
         scene::Camera c = camera;
         for (int i = 0; i < 10; ++i) c = move_camera(c, {.wheel = wheel}, false, 400, 10);

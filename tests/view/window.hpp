@@ -11,13 +11,13 @@ namespace test {
 using namespace catoptric;
 using namespace catoptric::view;
 
-class WindowTest : public Cli {
+class ViewWindowTest : public CommandLineTest {
 protected:
     static void SetUpTestSuite() { display = std::make_unique<test::VirtualDisplay>(); }
     static void TearDownTestSuite() { display.reset(); }
     void SetUp() override {
         ASSERT_TRUE(display->is_display_running()) << "Xvfb does not start: apt-get install xvfb";
-        Cli::SetUp();
+        CommandLineTest::SetUp();
     }
 
     /// Runs the window program with the given command line and the validation layer. Returns its

@@ -120,7 +120,7 @@ void walk_tree(vec3 from, vec3 along, bool any, inout TraceHit hit) {
 #endif
 
 // Returns the origin of a ray that leaves a surface on the side to which its direction points.
-vec3 leaving_ray_origin(vec3 point, vec3 facet, vec3 along) { return point + (dot(along, facet) < 0.0 ? -kLift : kLift) * facet; }
+vec3 offset_reflected_ray_origin(vec3 point, vec3 facet, vec3 along) { return point + (dot(along, facet) < 0.0 ? -kLift : kLift) * facet; }
 
 vec3 trace_radiance_of_ray(vec3 from, vec3 along) {
     vec3 weight = vec3(1), sum = vec3(0);
@@ -146,7 +146,7 @@ vec3 trace_radiance_of_ray(vec3 from, vec3 along) {
             to_light /= distance;
             float cosines = max(-dot(to_light, light_normal.xyz), 0.0) * max(dot(to_light, n), 0.0);
             if (cosines > 0.0 && albedo.rgb != vec3(0)) {
-                vec3 origin = leaving_ray_origin(point, facet, to_light);
+                vec3 origin = offset_reflected_ray_origin(point, facet, to_light);
                 TraceHit blocked = TraceHit(light.w, 0.0, 0.0, -1);
                 walk_tree(origin, light.xyz - origin, true, blocked);
                 if (blocked.triangle < 0)
@@ -158,7 +158,7 @@ vec3 trace_radiance_of_ray(vec3 from, vec3 along) {
             along -= 2.0 * dot(along, n) * n;
             float height = dot(along, facet);
             if (height < 0.0) along = normalize(along - 2.0 * height * facet);
-            from = leaving_ray_origin(point, facet, along);
+            from = offset_reflected_ray_origin(point, facet, along);
             goes_on = bounce < int(forward.w);
             ++bounce;
         }

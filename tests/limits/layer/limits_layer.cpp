@@ -25,9 +25,11 @@
 
 namespace {
 
-constexpr std::uint32_t kMaxTexelBufferTexels = 65536, kPushBytes = 128, kStorageBytes = 1u << 27;
+constexpr std::uint32_t kMaxTexelBufferTexels = 65536, kMaxPushConstantBytes = 128,
+                        kMaxStorageBufferBytes = 1u << 27;
 constexpr VkDeviceSize kMappedWindowBytes = VkDeviceSize{256} << 20;
-constexpr std::uint32_t kUnmappableMemoryType = 0, kWindow = 1, kHost = 2, kTypes = 3;
+constexpr std::uint32_t kUnmappableMemoryType = 0, kMappedWindowMemoryType = 1,
+                        kHostVisibleMemoryType = 2, kMemoryTypeCount = 3;
 
 [[noreturn]] void end_process_with_message(const char* what) {
     std::fprintf(stderr, "VK_LAYER_CATOPTRIC_limits: %s\n", what);
@@ -68,8 +70,8 @@ Pfn find_next_function(const std::map<void*, NextLayerCalls>& calls, const void*
 
 void reduce_device_limits(VkPhysicalDeviceLimits& limits) {
     limits.maxTexelBufferElements = std::min(limits.maxTexelBufferElements, kMaxTexelBufferTexels);
-    limits.maxPushConstantsSize = std::min(limits.maxPushConstantsSize, kPushBytes);
-    limits.maxStorageBufferRange = std::min(limits.maxStorageBufferRange, kStorageBytes);
+    limits.maxPushConstantsSize = std::min(limits.maxPushConstantsSize, kMaxPushConstantBytes);
+    limits.maxStorageBufferRange = std::min(limits.maxStorageBufferRange, kMaxStorageBufferBytes);
 }
 
 void hook_device_properties(VkPhysicalDevice device, VkPhysicalDeviceProperties* result) {
@@ -109,38 +111,40 @@ void hook_memory_properties(VkPhysicalDevice device, VkPhysicalDeviceMemoryPrope
     constexpr VkMemoryPropertyFlags kHostVisibleFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                                         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     *result = {};
-    result->memoryHeapCount = kTypes;
+    result->memoryHeapCount = kMemoryTypeCount;
     result->memoryHeaps[kUnmappableMemoryType] = {bytes, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
-    result->memoryHeaps[kWindow] = {kMappedWindowBytes, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
-    result->memoryHeaps[kHost] = {bytes, 0};
-    result->memoryTypeCount = kTypes;
+    result->memoryHeaps[kMappedWindowMemoryType] = {kMappedWindowBytes,
+                                                    VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+    result->memoryHeaps[kHostVisibleMemoryType] = {bytes, 0};
+    result->memoryTypeCount = kMemoryTypeCount;
     result->memoryTypes[kUnmappableMemoryType] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
                                                   kUnmappableMemoryType};
-    result->memoryTypes[kWindow] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHostVisibleFlags,
-                                    kWindow};
-    result->memoryTypes[kHost] = {kHostVisibleFlags | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHost};
+    result->memoryTypes[kMappedWindowMemoryType] = {
+        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kHostVisibleFlags, kMappedWindowMemoryType};
+    result->memoryTypes[kHostVisibleMemoryType] = {
+        kHostVisibleFlags | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kHostVisibleMemoryType};
 }
 
 void hook_buffer_requirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* result) {
     NEXT(devices, device, vkGetBufferMemoryRequirements)(device, buffer, result);
-    result->memoryTypeBits = (1u << kTypes) - 1;
+    result->memoryTypeBits = (1u << kMemoryTypeCount) - 1;
 }
 
 void hook_image_requirements(VkDevice device, VkImage image, VkMemoryRequirements* result) {
     NEXT(devices, device, vkGetImageMemoryRequirements)(device, image, result);
-    result->memoryTypeBits = (1u << kTypes) - 1;
+    result->memoryTypeBits = (1u << kMemoryTypeCount) - 1;
 }
 
 void hook_device_buffer_requirements(VkDevice device, const VkDeviceBufferMemoryRequirements* info,
                                      VkMemoryRequirements2* result) {
     NEXT(devices, device, vkGetDeviceBufferMemoryRequirements)(device, info, result);
-    result->memoryRequirements.memoryTypeBits = (1u << kTypes) - 1;
+    result->memoryRequirements.memoryTypeBits = (1u << kMemoryTypeCount) - 1;
 }
 
 void hook_device_image_requirements(VkDevice device, const VkDeviceImageMemoryRequirements* info,
                                     VkMemoryRequirements2* result) {
     NEXT(devices, device, vkGetDeviceImageMemoryRequirements)(device, info, result);
-    result->memoryRequirements.memoryTypeBits = (1u << kTypes) - 1;
+    result->memoryRequirements.memoryTypeBits = (1u << kMemoryTypeCount) - 1;
 }
 
 // --- calls that the layer checks -----------------------------------------------------------------
@@ -150,7 +154,7 @@ VkResult hook_allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info,
     const auto next = NEXT(devices, device, vkAllocateMemory);
     VkMemoryAllocateInfo of_driver = *info;
     of_driver.memoryTypeIndex = 0;
-    const bool in_window = info->memoryTypeIndex == kWindow;
+    const bool in_window = info->memoryTypeIndex == kMappedWindowMemoryType;
     {
         const std::lock_guard lock(mutex);
         if (in_window &&
@@ -171,7 +175,7 @@ void hook_free_memory(VkDevice device, VkDeviceMemory memory,
     const std::lock_guard lock(mutex);
     const auto found = memories.find(memory);
     if (found == memories.end()) return;
-    if (found->second.type == kWindow)
+    if (found->second.type == kMappedWindowMemoryType)
         window_used[dispatch_key_of_handle(device)] -= found->second.bytes;
     memories.erase(found);
 }
@@ -240,7 +244,8 @@ VkResult hook_create_pipeline_layout(VkDevice device, const VkPipelineLayoutCrea
                                      const VkAllocationCallbacks* callbacks,
                                      VkPipelineLayout* layout) {
     for (std::uint32_t i = 0; i < info->pushConstantRangeCount; ++i)
-        if (info->pPushConstantRanges[i].offset + info->pPushConstantRanges[i].size > kPushBytes)
+        if (info->pPushConstantRanges[i].offset + info->pPushConstantRanges[i].size >
+            kMaxPushConstantBytes)
             end_process_with_message("push constants have more than 128 bytes");
     return NEXT(devices, device, vkCreatePipelineLayout)(device, info, callbacks, layout);
 }

@@ -21,7 +21,7 @@ struct DocumentedScreenshot {
     uvec2 window{872, 512};
 };
 
-const std::vector<DocumentedScreenshot> kShots{
+const std::vector<DocumentedScreenshot> kDocumentedScreenshots{
     {"plan", 12, [](ViewState& state) { state.said = ""; }, {872, 1000}},
     {"split", 8,
      [](ViewState& state) {
@@ -51,24 +51,24 @@ int make_documentation_pictures(const std::filesystem::path& folder) {
     const test::VirtualDisplay display;
     check(display.is_display_running(), Failure::no_device,
           "Xvfb does not start: apt-get install xvfb");
-    std::size_t shot = 0, last = kShots.front().frames;
+    std::size_t shot = 0, last = kDocumentedScreenshots.front().frames;
     SimulatedUser driver;
     driver.before = [&](std::size_t, UserInput& inputs, ViewState& state, ViewWindow& window) {
         inputs.on_controls = true; // ignores the mouse pointer of the X server
-        kShots[shot].set(state);
-        window.resize(kShots[shot].window);
+        kDocumentedScreenshots[shot].set(state);
+        window.resize(kDocumentedScreenshots[shot].window);
     };
     driver.after = [&](const ViewReport& report) {
         if (report.frame < last) return;
         ::usleep(500000); // waits until the X server has drawn
-        const auto& [name, frames, set, size] = kShots[shot];
+        const auto& [name, frames, set, size] = kDocumentedScreenshots[shot];
         measure::write_png(
             display.read_screen_pixels(static_cast<int>(size.x), static_cast<int>(size.y)),
             folder / ("view-" + name + ".png"));
-        if (++shot < kShots.size()) last += kShots[shot].frames;
+        if (++shot < kDocumentedScreenshots.size()) last += kDocumentedScreenshots[shot].frames;
     };
     std::size_t frames = 0;
-    for (const DocumentedScreenshot& one : kShots) frames += one.frames;
+    for (const DocumentedScreenshot& one : kDocumentedScreenshots) frames += one.frames;
     return parse_view_command(
         {"--frames", std::to_string(frames), "--time", "0.4"},
         [&](const ViewOptions& options) { return run_view_window(options, driver); })();
@@ -77,7 +77,7 @@ int make_documentation_pictures(const std::filesystem::path& folder) {
 } // namespace
 
 int main(int argc, char** argv) {
-    return cli::run_other_program_guarded("catoptric_view_pictures", [&] {
+    return cli::run_program_catching_errors("catoptric_view_pictures", [&] {
         check(argc == 2, Failure::usage, "wanted a folder for the pictures");
         return make_documentation_pictures(argv[1]);
     });
