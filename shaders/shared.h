@@ -55,7 +55,10 @@ const uint kTextureNearestFlag = 16u, kTextureSrgbFlag = 32u, kTextureSecondUvFl
 #define MATERIAL_FACTORS(FACTOR)                                                                                       \
     FACTOR(metallic)  /* share of the surface that is metal, 0 to 1 */                                                 \
     FACTOR(roughness) /* glTF roughness, 0 to 1 */                                                                     \
-    FACTOR(transmission) /* share of light not reflected that passes through, 0 to 1 */
+    FACTOR(transmission) /* share of light not reflected that passes through, 0 to 1 */                               \
+    FACTOR(dispersion) /* of glass: 20 divided by the Abbe number; 0: all colours bend alike */                        \
+    FACTOR(clearcoat) /* share of the surface under a clear coat, 0 to 1 */                                            \
+    FACTOR(clearcoat_roughness) /* glTF roughness of the coat, 0 to 1 */
 
 // The parameters of a glTF material that Surface does not hold. Objects with equal parameters share one element.
 struct IN_QUADS MaterialParameters {

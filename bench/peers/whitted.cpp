@@ -251,7 +251,7 @@ private:
         const Real at_surface = dot_product(normal, direction);
         const Real cone = light.is_spot ? spot_light_cone_attenuation(light, direction)
                                         : Real{} + 1.0f;
-        const Real whole = select_lanes(fades_, one_sided_lamp_share(direction, normal),
+        const Real whole = select_lanes(fades_, facet_light_share(direction, normal),
                                         Real{} + 1.0f);
         const Mask asks = diffuse_ & is_lane_greater(at_light, Real{}) &
                           is_lane_greater(at_surface, Real{}) & is_lane_greater(cone, Real{}) &
@@ -271,9 +271,9 @@ private:
                       lit, factor * (weight_ * albedo_ * broadcast_vector<Real>(light.intensity)),
                       broadcast_vector<Real>({}));
     }
-    /// Returns the share of a light that a facet receives, as one_sided_lamp_share of
+    /// Returns the share of a light that a facet receives, as facet_light_share of
     /// shaders/lib/math/light.glsl.
-    Real one_sided_lamp_share(const V& direction, const V& normal) const {
+    Real facet_light_share(const V& direction, const V& normal) const {
         const V unit = normalize_vector(facet_);
         const Real sine = dot_product(direction, unit), zero{}, one = Real{} + 1.0f;
         const Real at_surface = dot_product(normal, direction),

@@ -153,7 +153,8 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.has_normal_texture = material.normal_texture.has_value();
     range.has_lobe = scene::may_reflect_by_lobe(now, object);
     range.rough = range.mirror && range.has_lobe;
-    if (range.rough && !material.roughness_texture)
+    range.clear_coat = scene::has_clear_coat(material);
+    if (range.rough && !material.roughness_texture && !range.clear_coat)
         range.lobe_alpha = f32::roughness_to_alpha(material.roughness);
     // Captures do not show lights without a surface, so a rough mirror's highlights are its own
     // light.

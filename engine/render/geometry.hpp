@@ -33,12 +33,13 @@ struct ObjectDrawRange {
     /// Whether the object has several colours, or reflects sharply without being a mirror.
     bool varies = false;
     bool has_normal_texture = false;
-    bool has_lobe = false; ///< some part reflects by a lobe (scene::may_reflect_by_lobe)
-    bool rough = false;    ///< a mirror that reflects by a lobe (scene::may_reflect_by_lobe)
-    float lobe_alpha = 0;  ///< of a rough mirror, the width of its lobe; 0: a texture varies it
-    bool turns = false;    ///< the normal turns to the viewer's side
-    bool masked = false;   ///< whether an alpha mask may cut out parts of the object
-    bool blended = false;  ///< no mirror, and covers by its alpha what is behind
+    bool has_lobe = false;   ///< some part reflects by a lobe (scene::may_reflect_by_lobe)
+    bool rough = false;      ///< a mirror that reflects by a lobe (scene::may_reflect_by_lobe)
+    float lobe_alpha = 0;    ///< of a rough mirror, the width of its lobe; 0: it has several lobes
+    bool clear_coat = false; ///< scene::has_clear_coat
+    bool turns = false;      ///< the normal turns to the viewer's side
+    bool masked = false;     ///< whether an alpha mask may cut out parts of the object
+    bool blended = false;    ///< no mirror, and covers by its alpha what is behind
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
     bool glass = false;   ///< rays pass through (scene::is_glass)

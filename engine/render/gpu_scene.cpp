@@ -334,6 +334,7 @@ gpu::ShaderConstantValues GpuScene::shader_feature_constants(std::uint32_t view)
             {"details", material_details_.has_varying_colours() ? 1u : 0u},
             {"masks", material_details_.has_cut_out_surfaces() ? 1u : 0u},
             {"has_lobes", material_details_.has_lobe_surfaces() ? 1u : 0u},
+            {"has_clear_coats", material_details_.any_clear_coat() ? 1u : 0u},
             {"has_glass", material_details_.has_any_glass_material() ? 1u : 0u},
             {"has_blending", has_blended_surfaces() ? 1u : 0u},
             {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},

@@ -189,7 +189,8 @@ struct CellTextWriter {
 constexpr CellTextWriter kCellTextWriters[] = {
     {"normal-texture", "height maps are left out; surfaces are as smooth as their triangles"},
     {"occlusion-texture", "left out"},
-    {"clearcoat", "left out"},
+    {"clearcoat-texture", "textures of the coat are left out, and its normals are those of the "
+                          "surface below"},
     {"sheen", "left out"},
     {"anisotropy", "left out"},
     {"iridescence", "left out"},
@@ -204,13 +205,14 @@ constexpr CellTextWriter kCellTextWriters[] = {
     {"rough-dielectric", "where rays are not traced, it reflects the environment and lights "
                          "without a surface, but no lamps and objects; --dielectric-mirrors makes "
                          "mirrors of those that are smooth enough"},
-    {"rough-glass",
-     "rough or partly metallic: its diffuse part is drawn, and it casts a full shadow"},
+    {"rough-glass", "where rays are not traced, a blurred look-up stands for the light that passes "
+                    "it, and lights without a surface are seen in its reflections alone"},
+    {"dispersion", "where rays are not traced, all colours bend alike"},
     {"glass-approximated",
      "where rays are not traced, light that passes it bends by a model of the body (knob "
      "`refract`) and is not reflected inside"},
-    {"glass-as-diffuse", "more objects of glass than the 64 largest: their diffuse part is drawn "
-                         "where rays are not traced"},
+    {"glass-as-diffuse", "glass that is partly metal, or where rays are not traced more objects of "
+                         "glass than the 64 largest: the diffuse part is drawn"},
     {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},

@@ -4,6 +4,7 @@
 #include "scene/material_facts.hpp"
 #include "scene/repair.hpp"
 #include "scene/unsupported_feature.hpp"
+#include "shared.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,6 @@ struct UnsupportedMaterialExtension {
     std::string_view gap;
 };
 constexpr UnsupportedMaterialExtension kUnsupportedMaterialExtensions[] = {
-    {"KHR_materials_clearcoat", "clearcoatFactor", "clearcoat"},
     {"KHR_materials_sheen", "", "sheen"},
     {"KHR_materials_anisotropy", "anisotropyStrength", "anisotropy"},
     {"KHR_materials_iridescence", "iridescenceFactor", "iridescence"}};
@@ -30,6 +30,7 @@ constexpr UnsupportedMaterialExtension kUnsupportedMaterialExtensions[] = {
 constexpr double kMinAttenuation = 1e-6;
 constexpr std::string_view kVolumeExtension =
     "KHR_materials_volume"; // no effect without transmission
+constexpr std::string_view kClearCoatExtension = "KHR_materials_clearcoat";
 constexpr std::string_view kMaterialExtensions[] = {kEmissiveStrengthExtension,
                                                     "KHR_materials_ior",
                                                     "KHR_materials_specular",
@@ -42,8 +43,9 @@ dvec3 read_vector_member(const JsonObject& item, std::string_view key, double ot
     return list.empty() ? dvec3(otherwise) : dvec3(list[0], list[1], list[2]);
 }
 
-float read_fraction_member(const JsonObject& item, std::string_view key, double otherwise) {
-    return static_cast<float>(std::clamp(item.number(key, otherwise), 0.0, 1.0));
+float read_fraction_member(const JsonObject& item, std::string_view key, double otherwise,
+                           double largest = 1) {
+    return static_cast<float>(std::clamp(item.number(key, otherwise), 0.0, largest));
 }
 
 /// Reads one material.
@@ -80,6 +82,7 @@ private:
     bool is_metal_everywhere() const;
     void transmission();
     void other_properties();
+    void report_unread_clear_coat_maps();
     void turn_into_mirror(const vec3& reflectance, const vec3& diffuse);
     void read_extras();
 
@@ -106,7 +109,8 @@ void MaterialReader::base_colour(const JsonObject& item, std::string_view factor
 void MaterialReader::factors(std::string_view extension, const JsonObject& item) {
     for (const MaterialFactor& factor : kMaterialFactors)
         if (factor.extension == extension)
-            material_.*factor.member = read_fraction_member(item, factor.key, factor.gltf_default);
+            material_.*factor.member = read_fraction_member(item, factor.key, factor.gltf_default,
+                                                            factor.largest);
 }
 
 void MaterialReader::read_metallic_roughness_factors(const JsonObject& pbr) {
@@ -202,11 +206,23 @@ void MaterialReader::transmission() {
     }
     if (find_material_extension("KHR_materials_transmission")->has_member("transmissionTexture"))
         report_unsupported_feature("material-extension");
-    if (!is_glass(material_)) return report_unsupported_feature("rough-glass");
+    if (!is_glass(material_)) return report_unsupported_feature("glass-as-diffuse");
     report_unsupported_feature("glass-approximated"), report_unsupported_feature("glass-shadow");
+    if (material_.roughness > shared::kMaxSharpRoughness) report_unsupported_feature("rough-glass");
+    if (material_.dispersion > 0 && material_.solid) report_unsupported_feature("dispersion");
     if (material_.alpha_cutoff == 0) return;
     material_.blended = false, material_.alpha_cutoff = 0; // light passes glass, whatever its alpha
     report_unsupported_feature("material-extension");
+}
+
+/// A coat has the normals of the surface below, and one roughness everywhere.
+void MaterialReader::report_unread_clear_coat_maps() {
+    const JsonObject coat = *find_material_extension(kClearCoatExtension);
+    const bool has_maps = coat.has_member("clearcoatTexture") ||
+                          coat.has_member("clearcoatRoughnessTexture") ||
+                          coat.has_member("clearcoatNormalTexture") ||
+                          material_json_.has_member("normalTexture");
+    if (material_.clearcoat > 0 && has_maps) report_unsupported_feature("clearcoat-texture");
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.
@@ -226,6 +242,7 @@ void MaterialReader::other_properties() {
     for (const auto& [name, value] : extensions_->json_value().items()) {
         if (is_factor_extension(name)) {
             factors(name, *extensions_->read_object_member(name));
+            if (name == kClearCoatExtension) report_unread_clear_coat_maps();
             continue;
         }
         bool is_known = std::ranges::find(kMaterialExtensions, name) !=

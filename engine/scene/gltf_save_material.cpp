@@ -91,7 +91,7 @@ void write_volume(GltfWriter& writer, const Material& material, tinygltf::Materi
 /// Writes the factors of extensions that differ from the defaults of Material.
 void write_extension_factors(GltfWriter& writer, const Material& material, tinygltf::Material& to) {
     const Material usual;
-    for (const auto& [name, member, extension, key, gltf_default] : kMaterialFactors) {
+    for (const auto& [name, member, extension, key, gltf_default, largest] : kMaterialFactors) {
         if (extension == kCoreMaterialFactors || material.*member == usual.*member) continue;
         Value& members = to.extensions[std::string(extension)];
         if (!members.IsObject()) members = Value(Value::Object());

@@ -1,7 +1,6 @@
 #include "scene/material.hpp"
 
 #include "scene/material_facts.hpp"
-#include "shared.h"
 
 namespace catoptric::scene {
 
@@ -18,8 +17,11 @@ bool has_specular_part(const Material& material) {
 bool is_glass(const Material& material) {
     constexpr float kMinGlassTransmission = .5f;
     return material.transmission >= kMinGlassTransmission && material.metallic == 0 &&
-           !material.mirror && !material.unlit && !material.roughness_texture &&
-           material.roughness <= shared::kMaxSharpRoughness;
+           !material.mirror && !material.unlit;
+}
+
+bool has_clear_coat(const Material& material) {
+    return material.clearcoat > 0 && !material.mirror && !material.unlit && !is_glass(material);
 }
 
 bool is_visibly_emissive(const Material& material) { return material.emission != vec3(0); }

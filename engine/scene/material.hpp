@@ -38,8 +38,9 @@ struct Texture {
 /// F90 = mix(dielectric_f90, 1, m). Up to a = .04, the surface shows R times what the mirrored ray
 /// sees, plus (1 - R) times its diffuse light, with R = F0 + (F90 - F0) (1 - cos)^5 (Schlick 1994).
 /// A rougher surface shows a GGX lobe (shaders/lib/math/lobe.glsl) with this Fresnel term, plus 1
-/// minus the lobe's albedo times its diffuse light. With `mirror`, R is `reflectance` everywhere.
-/// In rays, glass (scene::is_glass) reflects R of Fresnel's equations and transmits c (1 - R).
+/// minus the lobe's albedo times its diffuse light. With `mirror`, R is `reflectance` everywhere. A
+/// clear coat of index 1.5 covers the share `clearcoat` of both (KHR_materials_clearcoat). In rays,
+/// glass (scene::is_glass) reflects R of Fresnel's equations and transmits c (1 - R).
 struct Material {
     std::string name;
     vec3 albedo{0};          ///< base colour, linear, in [0,1]
@@ -49,18 +50,16 @@ struct Material {
     bool two_sided = false;  ///< the normal turns to the viewer; an open lamp shines both ways
     bool front_only = false; ///< back invisible to camera and reflected rays; not for mirrors
     bool unlit = false;      ///< shows its albedo in any light (KHR_materials_unlit)
-    float metallic = 0, roughness = 1;
+    float metallic = 0, roughness = 1, clearcoat = 0, clearcoat_roughness = 0;
     vec3 dielectric_f0{0};  ///< reflectance of the part that is no metal, seen head-on; glass: .04
     vec3 dielectric_f90{0}; ///< that at grazing angle; 0 for both: a Lambertian surface
     float transmission = 0; ///< share of light not reflected that passes through, 0 to 1
-    float ior = 1.5f;       ///< index of refraction of what transmits light
-    bool solid = false;     ///< closed meshes are bodies that refract and absorb, else thin sheets
-    vec3 absorption{0};     ///< in solid bodies, per world unit: light falls by e^-absorption
-    float alpha = 1;
-    float alpha_cutoff = 0; ///< parts with less alpha are cut out; 0: none are
-    bool blended = false;   ///< covers the share `alpha`; shadows and mirrors are cut at the cutoff
-    /// `albedo_texture` holds base colour and alpha. It and `emission_texture` are sRGB.
-    /// `roughness_texture` is linear: metallic in blue, roughness in green.
+    float ior = 1.5f, dispersion = 0; ///< of what transmits light; dispersion: 20 / Abbe number
+    bool solid = false; ///< closed meshes are bodies that refract and absorb, else thin sheets
+    vec3 absorption{0}; ///< in solid bodies, per world unit: light falls by e^-absorption
+    float alpha = 1, alpha_cutoff = 0; ///< parts with less alpha than the cutoff are cut out
+    bool blended = false; ///< covers the share `alpha`; shadows and mirrors are cut at the cutoff
+    /// sRGB with alpha; sRGB; linear, with metallic in blue and roughness in green.
     std::optional<Texture> albedo_texture, emission_texture, roughness_texture;
     std::optional<Texture> normal_texture; ///< normals in tangent space, linear, as in glTF
     float normal_scale = 1;                ///< factor of the normals' x and y

@@ -2,12 +2,13 @@
 
 #include "scene/material.hpp"
 
+#include <limits>
 #include <string_view>
 
 // Lists over the members of a material, and facts that follow from them.
 namespace catoptric::scene {
 
-/// A number from 0 to 1 that scales a property of a material. glTF reading and writing, `info` and
+/// A number that scales a property of a material. glTF reading and writing, `info` and
 /// the device's MaterialParameters (shaders/shared.h) follow from the rows of kMaterialFactors.
 struct MaterialFactor {
     std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
@@ -15,6 +16,7 @@ struct MaterialFactor {
     std::string_view extension; ///< glTF extension, or kCoreMaterialFactors
     std::string_view key;       ///< member of that extension
     float gltf_default;         ///< value without this key
+    float largest = 1;          ///< values range from 0 to this
 };
 /// The part of a glTF material that holds the factors of glTF itself.
 inline constexpr std::string_view kCoreMaterialFactors = "pbrMetallicRoughness";
@@ -23,6 +25,11 @@ inline constexpr MaterialFactor kMaterialFactors[] = {
     {"roughness", &Material::roughness, kCoreMaterialFactors, "roughnessFactor", 1},
     {"transmission", &Material::transmission, "KHR_materials_transmission", "transmissionFactor",
      0},
+    {"dispersion", &Material::dispersion, "KHR_materials_dispersion", "dispersion", 0,
+     std::numeric_limits<float>::max()},
+    {"clearcoat", &Material::clearcoat, "KHR_materials_clearcoat", "clearcoatFactor", 0},
+    {"clearcoat_roughness", &Material::clearcoat_roughness, "KHR_materials_clearcoat",
+     "clearcoatRoughnessFactor", 0},
 };
 
 /// Reflectance of glass and plastic seen head-on: that of the index of refraction 1.5, which glTF
@@ -34,12 +41,14 @@ inline constexpr float kUsualDielectricF0 = .04f;
 template <typename Visit>
 inline void visit_material_members(const Material& material, Visit&& visit) {
     const auto& [name, albedo, emission, mirror, reflectance, two_sided, front_only, unlit,
-                 metallic, roughness, dielectric_f0, dielectric_f90, transmission, ior, solid,
-                 absorption, alpha, alpha_cutoff, blended, albedo_texture, emission_texture,
-                 roughness_texture, normal_texture, normal_scale, light] = material;
+                 metallic, roughness, clearcoat, clearcoat_roughness, dielectric_f0, dielectric_f90,
+                 transmission, ior, dispersion, solid, absorption, alpha, alpha_cutoff, blended,
+                 albedo_texture, emission_texture, roughness_texture, normal_texture, normal_scale,
+                 light] = material;
     visit(name), visit(albedo), visit(emission), visit(mirror), visit(reflectance);
     visit(two_sided), visit(front_only), visit(unlit), visit(metallic), visit(roughness);
-    visit(dielectric_f0), visit(dielectric_f90), visit(transmission), visit(ior), visit(solid);
+    visit(clearcoat), visit(clearcoat_roughness), visit(dielectric_f0), visit(dielectric_f90);
+    visit(transmission), visit(ior), visit(dispersion), visit(solid);
     visit(absorption), visit(alpha), visit(alpha_cutoff), visit(blended);
     visit(albedo_texture), visit(emission_texture), visit(roughness_texture);
     visit(normal_texture), visit(normal_scale), visit(light);
@@ -52,9 +61,11 @@ bool is_one_sided(const Material& material);
 /// Returns whether the surface has a specular part, sharp or rough: it is no Lambertian surface.
 /// False for `mirror`, whose reflectance is another member.
 bool has_specular_part(const Material& material);
-/// Returns whether rays pass through the surface: it transmits at least half of the light, is
-/// smooth everywhere and has no metal. Glass casts no shadow.
+/// Returns whether rays pass through the surface: it transmits at least half of the light and has
+/// no metal. Glass casts no shadow.
 bool is_glass(const Material& material);
+/// Returns whether a clear coat covers the surface. Glass, unlit surfaces and `mirror` have none.
+bool has_clear_coat(const Material& material);
 /// Returns F0 of a dielectric with this finite index of refraction in air (Fresnel's equations).
 inline double compute_dielectric_f0(double ior) {
     const double root = (ior - 1) / (ior + 1);

@@ -112,8 +112,10 @@ struct MtlNumberStatement {
     std::optional<double> MtlMaterial::*member;
 };
 constexpr MtlNumberStatement kMtlNumberStatements[] = {
-    {"Ns", &MtlMaterial::shininess}, {"Ni", &MtlMaterial::ior},     {"Pr", &MtlMaterial::roughness},
-    {"Pm", &MtlMaterial::metallic},  {"illum", &MtlMaterial::kind}, {"d", &MtlMaterial::alpha}};
+    {"Ns", &MtlMaterial::shininess}, {"Ni", &MtlMaterial::ior},
+    {"Pr", &MtlMaterial::roughness}, {"Pm", &MtlMaterial::metallic},
+    {"illum", &MtlMaterial::kind},   {"d", &MtlMaterial::alpha},
+    {"Pc", &MtlMaterial::clearcoat}, {"Pcr", &MtlMaterial::clearcoat_roughness}};
 
 void add_radiance_to_mtl_material(const ObjLine& line, const dvec3& radiance, MtlMaterial& draft) {
     draft.emission = vec3(radiance);
@@ -240,6 +242,7 @@ public:
             set_physical_factors();
         else
             set_mtl_reflection();
+        set_clear_coat();
         return material_;
     }
 
@@ -280,6 +283,13 @@ private:
         material_.dielectric_f0 = vec3(static_cast<float>(compute_dielectric_f0(material_.ior)));
         material_.dielectric_f90 = vec3(1);
         if (material_.albedo == vec3(0)) material_.albedo = vec3(1);
+    }
+
+    void set_clear_coat() {
+        material_.clearcoat = static_cast<float>(
+            std::clamp(mtl_material_.clearcoat.value_or(0), 0.0, 1.0));
+        material_.clearcoat_roughness = static_cast<float>(
+            std::clamp(mtl_material_.clearcoat_roughness.value_or(0), 0.0, 1.0));
     }
 
     void set_physical_factors() {

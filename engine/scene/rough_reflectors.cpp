@@ -24,7 +24,10 @@ bool is_rough_somewhere(const Material& material) {
 
 bool may_reflect_by_lobe(const Scene& scene, const Object& object) {
     const Material& material = scene.materials[object.material];
-    return has_specular_part(material) && !material.unlit && is_rough_somewhere(material);
+    const bool has_rough_coat = has_clear_coat(material) &&
+                                material.clearcoat_roughness > shared::kMaxSharpRoughness;
+    return has_rough_coat ||
+           (has_specular_part(material) && !material.unlit && is_rough_somewhere(material));
 }
 
 bool has_rough_reflector(const Scene& scene) {

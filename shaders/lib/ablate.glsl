@@ -87,6 +87,7 @@ RayEndPoint find_captured_ray_end(uint mirror, Lookup lookup) {
 vec3 shade_surface_point(SurfacePoint at, vec3 direction, uint by) {
     shadow_by = by;
     Surface surface = evaluate_surface(at, direction);
+    if (has_clear_coats != 0u) cover_with_clear_coat(surface);
     point = at; // visible_share_of_light starts shadow rays at the global `point`
     return shade_surface(surface, at.position, at.normal, find_facet_normal_for_shading(surface.detail, at.facet), -direction,
                          surface.reflectance != vec3(0));

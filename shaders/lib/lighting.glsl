@@ -18,13 +18,12 @@ vec3 to_viewer_in_tangent_space(vec3 normal, vec3 tangent, vec3 bitangent, vec3 
     return normalize(vec3(dot(tangent, to_viewer), dot(bitangent, to_viewer), max(abs(dot(normal, to_viewer)), kMinViewCosine)));
 }
 
-// Returns the light that the rough lobe evaluated last reflects to the viewer from the environment and from ambient
-// light. Objects do not occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
-vec3 lobe_light_from_environment(vec3 normal, vec3 to_viewer) {
+// Returns the mean light of the environment and the ambient light that arrives in a lobe of that roughness. Objects do not
+// occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
+vec3 mean_environment_light_in_lobe(float roughness, vec3 normal, vec3 to_viewer) {
     vec3 light = vec3(frame_ambient_light());
-    if (environment_kind != kNoEnvironment)
-        light += environment_lobe_radiance(reflect(-to_viewer, normal), specular_lobe.roughness);
-    return specular_lobe_albedo(dot(normal, to_viewer)) * light;
+    if (environment_kind != kNoEnvironment) light += environment_lobe_radiance(reflect(-to_viewer, normal), roughness);
+    return light;
 }
 
 // Returns the radiance of a surface point that lights, ambient light and the environment cause, and its emission:
@@ -34,10 +33,12 @@ vec3 lobe_light_from_environment(vec3 normal, vec3 to_viewer) {
 // what the surface reflects. If they do not, a rough lobe also reflects the environment, and the metal part is lit by
 // lamps as if it were diffuse.
 vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3 to_viewer, bool reflects) {
-    vec3 direct = vec3(0), by_lamps = vec3(0), highlights = vec3(0);
+    vec3 direct = vec3(0), by_lamps = vec3(0), highlights = vec3(0), coat_highlights = vec3(0);
     uint all = one_light != 0u ? 1u : frame.value.light_count;
     bool is_rough = has_lobes != 0u && has_rough_lobe();
-    uint count = surface.albedo == vec3(0) && !is_rough ? 0u : all;
+    bool has_rough_coat = has_clear_coats != 0u && has_lobes != 0u && clear_coat.strength > 0.0 && clear_coat.roughness > kMaxSharpRoughness;
+    if (has_clear_coats != 0u && clear_coat.strength > 0.0) reflects = clear_coat.is_base_shown;
+    uint count = surface.albedo == vec3(0) && !is_rough && !has_rough_coat ? 0u : all;
     float alpha = 1.0;
     vec3 tangent, bitangent, to_eye;
     if (has_lobes != 0u) {
@@ -53,13 +54,17 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         bool is_lit = light < count && !(traces_paths != 0u && is_light_a_lamp(light)) &&
                       sample_light_of_any_kind(light, position, normal, direction, distance, factor);
         if (details != 0u && is_lit && facet != vec3(0)) {
-            factor *= one_sided_lamp_share(direction, normal, facet);
+            factor *= facet_light_share(direction, normal, facet);
             is_lit = factor > 0.0;
         }
         if (is_lit) {
             float visible = visible_share_of_light(light, position, normal, direction, distance);
             vec3 irradiance = read_light(light).intensity * (factor * visible);
             direct += irradiance;
+            if (has_clear_coats != 0u && has_rough_coat && !is_light_a_lamp(light)) {
+                vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
+                coat_highlights += irradiance / to_light.z * evaluate_lobe(roughness_to_alpha(clear_coat.roughness), vec3(kClearCoatF0), vec3(1), to_eye, to_light);
+            }
             if (has_lobes != 0u && is_rough) {
                 vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));
                 if (is_light_a_lamp(light)) by_lamps += irradiance;
@@ -72,7 +77,14 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
     vec3 result = lambertian_radiance(surface.emission, surface.albedo, direct, traces_paths == 0u ? frame_ambient_light() : 0.0);
     if (has_lobes != 0u && is_rough) {
         result += specular_lobe.gain * highlights;
-        if (!reflects) result += specular_lobe.stand_in / kPi * by_lamps + lobe_light_from_environment(normal, to_viewer);
+        if (!reflects)
+            result += specular_lobe.stand_in / kPi * by_lamps +
+                      specular_lobe_albedo(dot(normal, to_viewer)) * mean_environment_light_in_lobe(specular_lobe.roughness, normal, to_viewer);
+    }
+    if (has_clear_coats != 0u && has_rough_coat) {
+        result += clear_coat.strength * coat_highlights;
+        if (!clear_coat.is_shown)
+            result += rough_clear_coat_albedo(dot(normal, to_viewer)) * mean_environment_light_in_lobe(clear_coat.roughness, normal, to_viewer);
     }
     return result;
 }

@@ -198,12 +198,12 @@ vec2 read_lobe_albedo(int x, int y) {
     return unpackUnorm2x16(texture_words_at(kSrgbTableWords + uint(y) * kLobeTableEdge + uint(x)));
 }
 
-// Returns the terms of the albedo of the rough lobe evaluated last, for a viewer at the angle `cosine` to the normal: the
+// Returns the terms of the albedo of a lobe of that roughness, for a viewer at the angle `cosine` to the normal: the
 // albedo is f0 times the first plus f90 times the second (Karis, "Real Shading in Unreal Engine 4", 2013). An interpolated
 // normal that points away from the viewer counts as if it pointed to the viewer.
-vec2 specular_lobe_albedo_terms(float cosine) {
+vec2 lobe_albedo_terms_of(float roughness, float cosine) {
     float x = sqrt(min(abs(cosine), 1.0)) * float(kLobeTableEdge - 1u);
-    float y = clamp(specular_lobe.roughness, 0.0, 1.0) * float(kLobeTableEdge - 1u);
+    float y = clamp(roughness, 0.0, 1.0) * float(kLobeTableEdge - 1u);
     int left = min(int(x), int(kLobeTableEdge) - 2), top = min(int(y), int(kLobeTableEdge) - 2);
     return mix(mix(read_lobe_albedo(left, top), read_lobe_albedo(left + 1, top), x - float(left)),
                mix(read_lobe_albedo(left, top + 1), read_lobe_albedo(left + 1, top + 1), x - float(left)),
@@ -213,14 +213,14 @@ vec2 specular_lobe_albedo_terms(float cosine) {
 // Returns the share of light that the rough lobe evaluated last reflects to that viewer, if equal light arrives from
 // everywhere.
 vec3 specular_lobe_albedo(float cosine) {
-    vec2 terms = specular_lobe_albedo_terms(cosine);
+    vec2 terms = lobe_albedo_terms_of(specular_lobe.roughness, cosine);
     return specular_lobe.gain * (specular_lobe.f0 * terms.x + specular_lobe.f90 * terms.y);
 }
 
 // Returns the factor by which a lobe grows if light that hits several microfacets is not lost (Turquin, "Practical
 // Multiple Scattering Compensation for Microfacet Models", 2019). The lobe is then no longer reciprocal.
 vec3 lobe_multiple_scattering_gain(float cosine) {
-    vec2 terms = specular_lobe_albedo_terms(cosine);
+    vec2 terms = lobe_albedo_terms_of(specular_lobe.roughness, cosine);
     float single = terms.x + terms.y; // albedo of a lobe whose microfacets reflect all light
     return 1.0 + specular_lobe.f0 * (1.0 - single) / single;
 }
@@ -229,7 +229,57 @@ vec3 lobe_multiple_scattering_gain(float cosine) {
 layout(constant_id = HAS_GLASS_CONSTANT) const uint has_glass = 0u;
 vec3 glass_tint = vec3(1); // colour of the light that passes the glass that was evaluated last
 
-// Evaluates the material at a point. Sets specular_lobe, and sets the surface's albedo to the diffuse part and its
+// 1: some surface has a clear coat.
+layout(constant_id = HAS_CLEAR_COATS_CONSTANT) const uint has_clear_coats = 0u;
+
+// The clear coat of the surface that was evaluated last: a thin layer of varnish with the index of refraction 1.5, which
+// reflects in a lobe of its own (KHR_materials_clearcoat). The surface below it loses the light that the coat reflects.
+struct ClearCoat {
+    float strength; // share of the surface that the coat covers; 0: there is no coat
+    float roughness;
+    float reflected;    // share of the light from the viewer's mirrored direction that the coat reflects
+    bool is_shown;      // whether rays or captures show what the coat reflects
+    bool is_base_shown; // whether they show what the surface below it reflects
+};
+ClearCoat clear_coat = ClearCoat(0.0, 0.0, 0.0, false, false);
+const float kClearCoatF0 = 0.04;
+
+// Returns Schlick's reflectance of the coat's material.
+float clear_coat_fresnel(float cosine) { return schlick_fresnel(vec3(kClearCoatF0), vec3(1), cosine).x; }
+
+// Returns the share of light that the coat reflects to a viewer at the angle `cosine`, if equal light arrives from everywhere.
+float rough_clear_coat_albedo(float cosine) {
+    vec2 terms = lobe_albedo_terms_of(clear_coat.roughness, cosine);
+    return clear_coat.strength * (kClearCoatF0 * terms.x + terms.y);
+}
+
+// Puts the coat over the surface that was evaluated last. The surface's reflectance then includes a coat whose reflections
+// rays or captures show.
+void cover_with_clear_coat(inout Surface surface) {
+    if (clear_coat.strength == 0.0) return;
+    float below = 1.0 - clear_coat.reflected;
+    surface.albedo *= below;
+    surface.emission *= below;
+    surface.reflectance *= below;
+    specular_lobe.gain *= below;
+    specular_lobe.stand_in *= below;
+    if (clear_coat.is_shown) surface.reflectance += clear_coat.reflected;
+}
+
+// Replaces the surface that was evaluated last by its coat alone or by what is below the coat, each as often as it
+// reflects light. The mean over `random`, uniform in [0, 1), is the coated surface. For rays that leave in drawn directions.
+void choose_layer_of_clear_coat(float random, inout Surface surface) {
+    if (random < clear_coat.reflected) {
+        bool is_sharp = clear_coat.roughness <= kMaxSharpRoughness;
+        surface.albedo = surface.emission = vec3(0);
+        surface.reflectance = vec3(is_sharp ? 1.0 : 0.0);
+        specular_lobe = SpecularLobe(clear_coat.roughness, vec3(kClearCoatF0), vec3(1), vec3(0),
+                                     vec3(clear_coat.strength / clear_coat.reflected));
+    }
+    clear_coat.strength = 0.0;
+}
+
+// Evaluates the material at a point. Sets clear_coat and specular_lobe, and sets the surface's albedo to the diffuse part and its
 // reflectance to the weight of a mirrored ray. The reflectance of a rough surface is 0 unless the surface is part of a
 // mirror, because only mirrors have captures. `cosine` is the cosine between the normal and the direction to the viewer.
 // The diffuse part is the light that the specular part does not reflect to the viewer: 1 minus the albedo of the lobe
@@ -239,6 +289,7 @@ void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) 
     MaterialParameters detail = read_material_parameters(surface.detail);
     bool is_constant = (detail.flags & kMaterialConstantReflectanceFlag) != 0u;
     specular_lobe.roughness = 0.0;
+    if (has_clear_coats != 0u) clear_coat.strength = 0.0;
     if (!is_constant) surface.reflectance = vec3(0);
     if ((detail.flags & kMaterialVariesFlag) == 0u) return;
     vec3 colour = surface.albedo * at.colour.rgb * sample_texture(detail.albedo, at.uv).rgb;
@@ -263,6 +314,12 @@ void evaluate_material(inout Surface surface, VertexAttribute at, float cosine) 
     vec3 specular_albedo = surface.reflectance;
     if (has_lobes != 0u && has_rough_lobe()) specular_albedo = specular_lobe_albedo(cosine);
     surface.albedo = colour * ((1.0 - metallic) * (1.0 - specular_albedo));
+    if (has_clear_coats != 0u && !is_constant && (detail.flags & kMaterialGlassFlag) == 0u && detail.clearcoat > 0.0) {
+        bool is_shown = detail.clearcoat_roughness <= kMaxSharpRoughness ||
+                        surface.mirror != 0u && detail.clearcoat_roughness <= detail.max_specular_roughness;
+        clear_coat = ClearCoat(detail.clearcoat, detail.clearcoat_roughness, detail.clearcoat * clear_coat_fresnel(cosine),
+                               is_shown, surface.reflectance != vec3(0));
+    }
 }
 
 #endif

@@ -170,8 +170,8 @@ vec3 apply_shown_picture_mode(vec3 colour, Lookup lookup) {
 #include "lib/ablate.glsl"
 #else
 
-// Returns the width alpha of the look-up that shows what the rough surface at the start of the path reflects.
-float rough_lookup_alpha(MirrorPath path, Lookup lookup) {
+// Returns the width alpha of the look-up that shows what the surface of that roughness at the start of the path reflects.
+float rough_lookup_alpha(MirrorPath path, Lookup lookup, float roughness) {
     float ratio = 1.0, foreshortening = 1.0;
     float from_centre = distance_of_last_search_hit();
     if (distance_law != kLawNone && !(from_centre > 0.0)) from_centre = captured_distance(path.mirror, lookup.direction);
@@ -189,14 +189,29 @@ float rough_lookup_alpha(MirrorPath path, Lookup lookup) {
             foreshortening = max(to_centre, 0.1) / max(to_surface, 0.1);
         }
     }
-    return lookup_alpha_by_distance_law(distance_law, specular_lobe.roughness, ratio, foreshortening);
+    return lookup_alpha_by_distance_law(distance_law, roughness, ratio, foreshortening);
 }
 
-// Returns the radiance that the path brings from its end to the rough surface at its start.
-vec3 rough_path_radiance(MirrorPath path, Lookup lookup) {
-    float level = rough_lookup_level(path.mirror, rough_lookup_alpha(path, lookup));
+// Returns the radiance that the path brings from its end to the surface of that roughness at its start.
+vec3 rough_path_radiance(MirrorPath path, Lookup lookup, float roughness) {
+    float level = rough_lookup_level(path.mirror, rough_lookup_alpha(path, lookup, roughness));
     vec3 blurred = capture_colour_at_level(path.mirror, lookup.direction, max(level, 1.0));
     return level < 1.0 ? mix(lookup_colour(path.mirror, lookup), blurred, level) : blurred;
+}
+
+// Returns the radiance that the path brings to glass whose passing light is spread as by a mirror of that roughness.
+vec3 passing_radiance(MirrorPath path, Lookup lookup, float roughness) {
+    if (has_lobes != 0u && (rough == kRoughMips || rough == kRoughPrefilter) && roughness > kMaxSharpRoughness)
+        return rough_path_radiance(path, lookup, roughness);
+    return lookup_colour(path.mirror, lookup);
+}
+
+// Returns what the clear coat at the start of the path reflects to a viewer at the angle `cosine` to the normal. `sharp` is
+// the coat's reflectance as a perfect mirror. With kRoughRays the coat reflects sharply.
+vec3 clear_coat_radiance(MirrorPath path, Lookup lookup, vec3 sharp, float cosine) {
+    if ((rough == kRoughMips || rough == kRoughPrefilter) && clear_coat.roughness > kMaxSharpRoughness)
+        return rough_clear_coat_albedo(cosine) * rough_path_radiance(path, lookup, clear_coat.roughness);
+    return sharp * lookup_colour(path.mirror, lookup);
 }
 #endif
 
@@ -218,6 +233,7 @@ void main() {
         Probe body = read_probe(path.mirror);
         behind = refract_through_body(surface.detail, path.at, seen, n, length(from_eye), body);
         path.weight = vec3(behind.reflected);
+        surface.reflectance = path.weight;
         surface.albedo = vec3(0); // light that is not reflected passes, and none is scattered
     }
     MirrorPath passing = path;
@@ -230,7 +246,14 @@ void main() {
 #else
     bool is_rough = rough != kRoughNone && has_rough_lobe() && surface.reflectance != vec3(0), is_stopped = false;
     bool looks_up_level = is_rough && rough != kRoughRays;
+    vec3 coat_weight = vec3(0);
+    if (has_clear_coats != 0u && clear_coat.strength > 0.0 && clear_coat.is_shown) {
+        coat_weight = vec3(clear_coat.reflected);
+        path.weight -= coat_weight;
+    }
     if (rough != kRoughNone && looks_up_level) path.weight = specular_lobe_albedo(-dot(n, seen));
+    vec3 base_weight = path.weight;
+    if (has_clear_coats != 0u) path.weight = vec3(1); // the surface and its coat share the path
     MirrorPath first = path;
     // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
     Lookup lookup = follow_path_through_mirrors(path, looks_up_level ? 0u : hops);
@@ -238,7 +261,7 @@ void main() {
     if (rough == kRoughNone || !is_rough)
         colour = path.weight * lookup_colour(path.mirror, lookup);
     else if (rough != kRoughRays)
-        colour = path.weight * rough_path_radiance(path, lookup);
+        colour = path.weight * rough_path_radiance(path, lookup, specular_lobe.roughness);
     else {
         // The search along the perfect mirror's direction says how the search ends, and is no sample of the lobe.
         colour = vec3(0);
@@ -259,6 +282,10 @@ void main() {
         is_stopped = i < lobe_rays;
         colour /= float(lobe_rays);
     }
+    if (has_clear_coats != 0u) {
+        if (!is_rough || looks_up_level) colour *= base_weight;
+        if (coat_weight != vec3(0)) colour += path.weight * clear_coat_radiance(path, lookup, coat_weight, -dot(n, seen));
+    }
     if (lights_mirrors != 0u) colour += shade_drawn_fragment(surface, n, facet);
 #endif
     if (has_glass != 0u && refract_model != kRefractNone && is_glass && !is_traced_glass) {
@@ -266,7 +293,11 @@ void main() {
         passing.direction = behind.direction;
         passing.weight = behind.weight;
         Lookup passed = follow_path_through_mirrors(passing, hops);
+#ifdef ABLATE
         colour += passing.weight * lookup_colour(passing.mirror, passed);
+#else
+        colour += passing.weight * passing_radiance(passing, passed, behind.roughness);
+#endif
         if (passed.state == kUnknown) {
             lookup.state = kUnknown;
             lookup.layer = 0.0;

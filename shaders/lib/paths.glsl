@@ -5,6 +5,8 @@
 
 // First dimension of sample_pattern_point that draws the part of the surface, and whether the path ends.
 const uint kPartDimensions = 0x20000u;
+// First dimension that draws the layer of a coated surface, and the one that draws directions of rough glass.
+const uint kLayerDimensions = 0x30000u, kGlassDimensions = 0x40000u;
 // Reflections after which a path may end by chance (Russian roulette).
 const uint kBouncesBeforeRoulette = 3u;
 
@@ -53,7 +55,7 @@ vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 
     float cosine = dot(p.normal, leaving);
     if (!(cosine > 0.0) || parts.diffuse == vec3(0)) return reflected;
     vec3 facet = find_facet_normal_for_shading(parts.detail, p.facet);
-    float share = facet == vec3(0) ? 1.0 : one_sided_lamp_share(leaving, p.normal, facet);
+    float share = facet == vec3(0) ? 1.0 : facet_light_share(leaving, p.normal, facet);
     density += (1.0 - parts.specular_share) * cosine / kPi;
     return reflected + parts.diffuse * (share * cosine / kPi);
 }

@@ -20,7 +20,16 @@ struct RefractedRay {
     vec3 direction; // unit direction in which it leaves
     vec3 weight;    // share of its light that reaches the viewer
     float reflected; // share of the light that the drawn surface reflects instead
+    float roughness; // of a mirror that spreads light as much as the glass does; 0: the glass is smooth
 };
+
+// Returns the roughness of a mirror that spreads light as much as the rough glass that was evaluated last. A facet tilted by
+// a small angle turns reflected light by twice this angle, light through one surface by (ior - 1) times it, and light through
+// both surfaces of a body, whose tilts are independent, by the root of two as much. Facets of a sheet bend like a mirror's.
+float passing_roughness(bool is_solid, float ior) {
+    const float kRootOfHalf = 0.70710678;
+    return has_lobes == 0u ? 0.0 : is_solid ? specular_lobe.roughness * sqrt(min((ior - 1.0) * kRootOfHalf, 1.0)) : specular_lobe.roughness;
+}
 
 // Returns the way along `direction` from `at` to where the ray leaves the box, and the normal there, which points inwards.
 float find_way_out_of_box(vec3 at, vec3 direction, vec3 lowest, vec3 highest, out vec3 normal) {
@@ -47,7 +56,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     vec3 normal = dot(seen, n) > 0.0 ? -n : n;
     float ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine = min(-dot(seen, normal), 1.0), cosine_behind;
     float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);
-    RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected);
+    RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected, passing_roughness(is_solid, glass.ior));
     if (is_inside) ray.weight *= exp(-glass.absorption * from_viewer);
     if (!is_solid || reflected == 1.0) return ray;
     if (is_thin && !is_inside) {

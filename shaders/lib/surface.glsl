@@ -96,6 +96,7 @@ Surface find_surface_at_fragment(inout vec3 n, vec3 facet) {
         }
         n = turned;
         evaluate_material(surface, at, -dot(n, direction));
+        if (has_clear_coats != 0u) cover_with_clear_coat(surface);
     }
     return surface;
 }

@@ -288,6 +288,13 @@ vec3 lifted_shadow_ray_origin(SurfacePoint p, vec3 normal) {
 #include "lib/paths.glsl"
 #include "lib/glass.glsl"
 
+// Returns a number in [0, 1) that chooses a coated surface's layer at the path's `bounce`th surface.
+float draw_layer_choice(uint bounce) {
+    float choice, unused;
+    sample_pattern_point(path_pixel, path_sample, kLayerDimensions + bounce, path_seed, choice, unused);
+    return choice;
+}
+
 // Returns the origin of a ray that leaves the surface along `direction`, for paths that leave diffuse surfaces, too.
 vec3 reflected_ray_origin(SurfacePoint p, vec3 direction) {
     bool goes_below = traces_paths != 0u && is_precision_rule_kept(kOriginErrorBoundRule) && dot(direction, facet_normal_on_shading_side(p.normal, p.facet)) < 0.0;
@@ -420,6 +427,11 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             continue;
         }
         Surface surface = evaluate_surface(point, ray.direction);
+        bool is_coated = has_clear_coats != 0u && clear_coat.strength > 0.0, has_sharp_coat = is_coated && clear_coat.roughness <= kMaxSharpRoughness;
+        if (has_clear_coats != 0u && is_coated) {
+            if (traces_lobes == 0u || is_to_lamp) cover_with_clear_coat(surface);
+            else choose_layer_of_clear_coat(draw_layer_choice(bounce), surface);
+        }
         if (is_to_lamp) {
             if (does_ray_meet_lamp_point(point, ray.origin)) result += lamp_weight * surface.emission;
             resume_path_after_lamp_ray(ray);
@@ -437,12 +449,16 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         bool reflects = surface.mirror != 0u;
         if (details != 0u) reflects = surface.reflectance != vec3(0);
         if (details != 0u && bounce == 0u && surface.mirror == 0u && !is_see_through && met == 0u) {
-            if (reflects) met = kHitSmoothDielectric << kBitsPerMirrorHit;
-            else if (has_rough_lobe()) met = kHitRoughNonMirror << kBitsPerMirrorHit;
+            if (reflects || has_sharp_coat) met = kHitSmoothDielectric << kBitsPerMirrorHit;
+            else if (is_coated || has_rough_lobe()) met = kHitRoughNonMirror << kBitsPerMirrorHit;
         }
         if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
-        if (is_glass(surface.detail)) {
-            result += weight * surface.emission;
+        bool is_passed = has_glass != 0u && is_glass(surface.detail);
+        if (has_glass != 0u && is_passed) surface.albedo = vec3(0); // light that is not reflected passes, and none is scattered
+        // All surfaces share this one call, because the driver's compiler inlines each call with the whole BVH walk of its
+        // shadow ray.
+        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || is_passed || traces_paths != 0u);
+        if (has_glass != 0u && is_passed) {
             done = bounce == max_depth;
             if (!done) split_at_glass(point, surface.detail, bounce, ray, weight);
 #ifdef DOUBLES
@@ -455,9 +471,6 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
             ray_density = 0.0;
             continue;
         }
-        // Diffuse surfaces and lit mirrors share this one call, because the driver's compiler inlines each call with
-        // the whole BVH walk of its shadow ray.
-        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || traces_paths != 0u);
         if (!reflects && (traces_paths == 0u || surface.albedo == vec3(0))) {
             done = true;
         } else if (bounce == max_depth) {

@@ -2,6 +2,7 @@
 #include "core/shader_math.hpp"
 #include "scene/surroundings.hpp"
 #include "support/lit.hpp"
+#include "support/lobe_witness.hpp"
 #include "support/rendering.hpp"
 #include "support/smooth_environment.hpp"
 #include "support/special_values.hpp"
@@ -86,6 +87,113 @@ TEST(GlassBall, EqualsATracerInDoublePrecision) {
                   << kGlassEdge * kGlassEdge << " pixels off by .02, largest difference " << largest
                   << '\n';
         EXPECT_LE(off, kGlassEdge * kGlassEdge / 500);
+    }
+}
+
+/// glTF's formula for the three indices: half of (n - 1) / V away from that of green, where V is
+/// the Abbe number 20 / dispersion.
+TEST(GlassBall, DispersionBendsEachColourByItsOwnIndex) {
+    scene::Material glass = make_glass(1.5f, true);
+    glass.dispersion = 2;
+    scene::Scene scene = make_glass_ball(glass);
+    const measure::Picture found = test::render_technique(scene, "raytrace:depth=16,sphere=exact",
+                                                          {kGlassEdge, kGlassEdge})
+                                       .hdr;
+    int off = 0, unlike_green = 0;
+    for (int y = 0; y < kGlassEdge; ++y)
+        for (int x = 0; x < kGlassEdge; ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                const double half_spread = .5 * (1.5 - 1) / (20. / 2);
+                const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
+                                                                        kGlassEdge);
+                const auto trace_with = [&](double ior) {
+                    scene.materials[0].ior = static_cast<float>(ior);
+                    return trace_ball(scene, scene.cameras.front().eye, direction, false, 1,
+                                      16)[channel];
+                };
+                const double wanted = trace_with(1.5 + (channel - 1) * half_spread);
+                off += std::abs(found.at(x, y)[channel] - wanted) > .02;
+                unlike_green += std::abs(trace_with(1.5) - wanted) > .02;
+            }
+    std::cout << "[ MEASURED ] values off by .02: " << off << "; without dispersion "
+              << unlike_green << '\n';
+    EXPECT_LE(off, 3 * kGlassEdge * kGlassEdge / 500);
+    EXPECT_GT(unlike_green, 10 * off + 100);
+}
+
+/// Single scattering loses light that meets several microfacets. With multiple scattering, rough
+/// glass in a white furnace is invisible.
+TEST(GlassBall, RoughGlassInAWhiteFurnace) {
+    for (const auto& [roughness, least_single] :
+         {std::pair(.1f, .99), std::pair(.3f, .95), std::pair(.6f, .75), std::pair(1.f, .3)}) {
+        scene::Material glass = make_glass(1.5f, true);
+        glass.roughness = roughness;
+        scene::Scene scene = make_glass_ball(glass, 4);
+        auto white = std::make_shared<scene::Environment>();
+        white->size = {16, 8};
+        white->texels.assign(16 * 8, vec3(1));
+        scene.environment = white;
+        const auto render_mean = [&](bool has_multiple_scattering) {
+            scene.has_multiple_scattering = has_multiple_scattering;
+            const measure::Picture seen = test::render_technique(
+                                              scene, "raytrace:depth=48,sphere=exact,rays=16",
+                                              {24, 24})
+                                              .hdr;
+            double sum = 0;
+            for (const vec3& pixel : seen.pixels) sum += pixel.x;
+            return sum / double(seen.pixels.size());
+        };
+        const double single = render_mean(false), multiple = render_mean(true);
+        std::cout << "[ MEASURED ] roughness " << roughness << ": mean " << single
+                  << ", with multiple scattering " << multiple << '\n';
+        EXPECT_GT(single, least_single);
+        EXPECT_LT(single, multiple + 1e-3);
+        EXPECT_NEAR(multiple, 1, .01);
+    }
+}
+
+/// Returns the light that a rough pane shows to a viewer at `o`, by quadrature. The pane's normal
+/// is z. Light passes a sheet as if a mirror's lobe were turned to the other side.
+dvec3 integrate_rough_pane(const scene::Scene& scene, double roughness, const dvec3& o) {
+    dvec3 sum(0);
+    const auto light_from = [&](const dvec3& i) {
+        return scene::environment_radiance(*scene.environment, i);
+    };
+    const double alpha = roughness * roughness;
+    const auto masking = [&](double z) {
+        return 2 / (1 + std::sqrt(1 + alpha * alpha * (1 - z * z) / (z * z)));
+    };
+    for (int channel = 0; channel < 3; ++channel)
+        sum[channel] = test::integrate_over_half_vectors(roughness, o, [&](const dvec3& i) {
+            if (i.z <= 0) return 0.0;
+            double behind;
+            const double fresnel = f64::fresnel_dielectric(glm::dot(o, glm::normalize(o + i)), 1.5,
+                                                           behind),
+                         lobe = test::textbook_lobe_reflectance(roughness, o, i);
+            // The lobe has height-correlated masking, what passes has a factor for each side.
+            const double correlated = 1 / (1 / masking(o.z) + 1 / masking(i.z) - 1);
+            return lobe * (fresnel * light_from(i)[channel] +
+                           (1 - fresnel) * masking(o.z) * masking(i.z) / correlated *
+                               light_from({i.x, i.y, -i.z})[channel]);
+        });
+    return sum;
+}
+
+TEST(GlassPane, RoughSheetSpreadsLightByItsLobe) {
+    for (const float roughness : {.2f, .5f}) {
+        scene::Material glass = make_glass(1.5f, false);
+        glass.roughness = roughness;
+        scene::Scene scene{.name = "pane"};
+        test::add_quad(scene, "pane", test::add_material(scene, glass), {-9, -9, 0}, {9, -9, 0},
+                       {9, 9, 0}, {-9, 9, 0});
+        scene.environment = test::make_smooth_environment();
+        scene.cameras.push_back({.eye = {2, 1, 3}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+        const dvec3 found(
+            test::render_without_ambient(scene, "raytrace:rays=4096", {1, 1}).hdr.at(0, 0));
+        const dvec3 wanted = integrate_rough_pane(scene, roughness,
+                                                  glm::normalize(scene.cameras[0].eye));
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(found[channel], wanted[channel], .01 * wanted[channel]) << roughness;
     }
 }
 

@@ -89,8 +89,8 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
     for (const float size : {1.0f, -1.0f, 1e-6f, 1e6f}) {
         const auto share = [&](double degrees) {
             const double angle = glm::radians(degrees);
-            return f32::one_sided_lamp_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
-                                             vec3(0, size, 0));
+            return f32::facet_light_share(vec3(std::cos(angle), std::sin(angle), 0), normal,
+                                          vec3(0, size, 0));
         };
         EXPECT_EQ(share(-40), 0);
         EXPECT_EQ(share(-.001), 0);
@@ -99,7 +99,7 @@ TEST(Light, FacetReceivesNoLightFromBelowItsPlane) {
         EXPECT_EQ(share(90), 1);
         // If the shading normal equals the facet's normal, the share is 1 even at grazing angles.
         const vec3 up(0, 1, 0), grazing = glm::normalize(vec3(1, .01f, 0));
-        EXPECT_NEAR(f32::one_sided_lamp_share(grazing, up, size * up), 1, 1e-5);
+        EXPECT_NEAR(f32::facet_light_share(grazing, up, size * up), 1, 1e-5);
     }
 }
 

@@ -31,7 +31,7 @@ INLINE vec3 facet_normal_on_shading_side(vec3 normal, vec3 facet) { return dot(n
 // front of the unit shading normal. The share is 0 below the facet's plane. It is 1 from 6 degrees above the facet's
 // plane, or from the light's angle above the shading normal's plane if that is smaller. `facet` points along the
 // facet's normal and has any length.
-INLINE real one_sided_lamp_share(vec3 direction, vec3 normal, vec3 facet) {
+INLINE real facet_light_share(vec3 direction, vec3 normal, vec3 facet) {
     real sine = dot(direction, facet_normal_on_shading_side(normal, facet)) / length(facet);
     real t = clamp(sine / min(kFacetFadeSine, dot(direction, normal)), real(0), real(1));
     return t * t * (real(3) - real(2) * t);

@@ -72,17 +72,23 @@ INLINE real lobe_pdf(real alpha, vec3 to_eye, vec3 to_light) {
            (real(2) * (k * to_eye.z + length_stretched_by_alpha(alpha, to_eye)));
 }
 
-// Returns a direction of light, drawn by bounded sampling of the visible normals, which are points on a spherical cap
-// (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023). `u` and `v` are uniform in [0, 1). The
-// direction may lie below the surface, where the lobe is 0.
-INLINE vec3 sample_lobe(real alpha, vec3 to_eye, real u, real v) {
+// Draws a microfacet's normal among those visible to the viewer, which are points on a spherical cap (Dupuy and Benyoub,
+// "Sampling Visible GGX Normals with Spherical Caps", 2023). `u` and `v` are uniform in [0, 1). `bound` is 1, or
+// visible_normal_sampling_bound for normals that reflect light from above the surface.
+INLINE vec3 sample_visible_normal(real alpha, vec3 to_eye, real bound, real u, real v) {
     vec3 stretched = vec3(alpha * to_eye.x, alpha * to_eye.y, to_eye.z) / length_stretched_by_alpha(alpha, to_eye);
-    real lowest = visible_normal_sampling_bound(alpha, to_eye) * stretched.z;
+    real lowest = bound * stretched.z;
     real angle = real(2) * kPi * u;
     real z = (real(1) - v) * (real(1) + lowest) - lowest;
     real size = sqrt(max(real(0), real(1) - z * z));
     vec3 normal = vec3(size * cos(angle), size * sin(angle), z) + stretched;
-    normal = normalize(vec3(alpha * normal.x, alpha * normal.y, normal.z));
+    return normalize(vec3(alpha * normal.x, alpha * normal.y, normal.z));
+}
+
+// Returns a direction of light, drawn by bounded sampling of the visible normals. `u` and `v` are uniform in [0, 1). The
+// direction may lie below the surface, where the lobe is 0.
+INLINE vec3 sample_lobe(real alpha, vec3 to_eye, real u, real v) {
+    vec3 normal = sample_visible_normal(alpha, to_eye, visible_normal_sampling_bound(alpha, to_eye), u, v);
     return real(2) * dot(to_eye, normal) * normal - to_eye;
 }
 
