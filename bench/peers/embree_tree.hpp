@@ -1,6 +1,6 @@
 #pragma once
 
-#include "embree_scene_handle.hpp"
+#include "embree_scene.hpp"
 
 namespace peers {
 

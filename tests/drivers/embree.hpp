@@ -1,6 +1,6 @@
 #pragma once
 
-#include "peers/embree_scene_handle.hpp"
+#include "peers/embree_scene.hpp"
 #include "support/kernel.hpp"
 
 #include <span>
