@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace catoptric::report {
@@ -191,6 +192,29 @@ std::string make_svg_front_staircase(std::vector<RowPlotPoint> points) {
            "\"/>";
 }
 
+/// Returns one line through all rows that differ in the value of one knob alone, in the order of
+/// its values. Less than three rows make no line.
+std::string make_svg_knob_curves(const std::vector<RowPlotPoint>& points) {
+    std::map<std::string, std::map<double, const RowPlotPoint*>> curves; // by all but the knob
+    for (const RowPlotPoint& point : points)
+        for (const Setting& varied : point.row->settings) {
+            if (!varied.number) continue;
+            std::string others = point.row->technique + ' ' + point.row->model + ' ' + varied.name;
+            for (const Setting& setting : point.row->settings)
+                if (setting.name != varied.name) others += ' ' + setting.name + '=' + setting.text;
+            curves[others].emplace(*varied.number, &point);
+        }
+    std::string svg;
+    for (const auto& [others, curve] : curves) {
+        if (curve.size() < 3) continue;
+        std::string path;
+        for (const auto& [value, point] : curve)
+            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", point->x, point->y);
+        svg += R"(<path class="curve" d=")" + path + "\"/>";
+    }
+    return svg;
+}
+
 /// Returns the interval of a row's time as a line.
 std::string make_svg_time_interval(const RowPlotPoint& point) {
     if (!point.row->time_ms().ci95.is_known()) return "";
@@ -327,7 +351,8 @@ std::string make_comparison_plot(const Comparison& comparison) {
                                          ? "Time of a frame, host and GPU, median, ms"
                                          : "GPU time of a frame, median, ms",
                                      "FLIP over the mirrors") +
-           make_svg_noise_floor(comparison, y) + make_svg_front_staircase(points);
+           make_svg_noise_floor(comparison, y) + make_svg_front_staircase(points) +
+           make_svg_knob_curves(points);
     for (const RowPlotPoint& point : points) svg += make_svg_time_interval(point);
     for (const RowPlotPoint& point : points) svg += make_svg_row_mark(point);
     return svg + make_svg_labels(points) + "</svg>";

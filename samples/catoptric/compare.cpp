@@ -1,6 +1,7 @@
 // catoptric compare: compares all techniques with the reference, with time and error in one table.
 #include "compare.hpp"
 
+#include "axis_option.hpp"
 #include "baseline.hpp"
 #include "core/error.hpp"
 #include "core/image_module.hpp"
@@ -39,6 +40,7 @@ constexpr const char* kCompareExamples = R"(Examples:
   catoptric compare scene.glb -o out --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
   catoptric compare -o out --views 30 --techniques secant march layered
+  catoptric compare cornell-rough -o out --axis rays=1,4,16,64 --techniques raytrace
   catoptric compare cornell-mirrors room.glb -o out
   catoptric compare -o out --model both --techniques parallax hybrid
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax
@@ -51,6 +53,7 @@ struct CompareOptions {
     std::vector<std::string> scenes;
     std::string folder;
     std::vector<std::string> techniques;
+    std::vector<KnobAxis> axes;
     bool together = false;
     double reference_seconds = app::CompareRequest().reference_seconds;
     app::ReferencePixelKind truth = app::ReferencePixelKind::centre;
@@ -98,6 +101,11 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     return request;
 }
 
+std::vector<std::string> list_requested_rows(const app::CompareRequest& request) {
+    const app::Request& base = request.base;
+    return base.techniques.empty() ? app::list_default_techniques(base) : base.techniques;
+}
+
 /// Returns the requests of all scenes. Making them before any work reports a fault of the last
 /// scene at once.
 std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
@@ -121,15 +129,14 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
         app::CompareRequest request = make_compare_request(options, scene);
         if (scenes.size() > 1)
             request.images = report::scene_images_folder(requests.size(), request.base.scene.name);
+        if (!options.axes.empty())
+            request.base.techniques = expand_techniques_along_axes(list_requested_rows(request),
+                                                                   options.axes);
+        app::check_row_techniques(request.base.techniques);
         app::check_picture_rows(request);
         requests.push_back(std::move(request));
     }
     return requests;
-}
-
-std::vector<std::string> list_requested_rows(const app::CompareRequest& request) {
-    const app::Request& base = request.base;
-    return base.techniques.empty() ? app::list_default_techniques(base) : base.techniques;
 }
 
 void check_output_places(const CompareOptions& options,
@@ -347,6 +354,11 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
         "rows to compare, each name[:knob=value,...], plan:FILE.json or \"PATTERN=name ...\", see "
         "'list techniques' (a built-in list)",
         options->techniques);
+    verb.repeated(
+        "--axis", "KNOB=VALUES",
+        "compare each technique that has the knob with each of several values, such as "
+        "rays=1,4,16,64; may be repeated",
+        [options](const std::string& text) { options->axes.push_back(parse_knob_axis(text)); });
     verb.repeated("--row", "NAME=PICTURES",
                   "further row: a picture of the same camera, time and size from another renderer, "
                   "or a folder with one for each view, see 'help views'. EXR and Radiance files "

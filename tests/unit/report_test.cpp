@@ -222,6 +222,34 @@ TEST(ReportHtml, HtmlPlotDrawsIntervalsOfTimes) {
     EXPECT_EQ(lengths[2], 0);
 }
 
+/// Three rows that differ in one knob are joined, in the order of its values. Two are not, and
+/// neither are rows that differ in two knobs.
+TEST(ReportHtml, HtmlPlotJoinsRowsAlongAKnob) {
+    using namespace catoptric::report::sample;
+    const auto count_curves = [](const Comparison& made) {
+        const std::string html = catoptric::report::to_html(made);
+        const std::regex curve("class=\"curve\" d=\"(M[^\"]*)\"");
+        std::vector<std::string> found;
+        for (std::sregex_iterator at(html.begin(), html.end(), curve), end; at != end; ++at)
+            found.push_back((*at)[1]);
+        return found;
+    };
+    Comparison made = make_usual_comparison();
+    made.rows = {make_naive_row(2, 4, .2, .2), make_naive_row(4, 16, .1, .1)};
+    EXPECT_EQ(count_curves(made).size(), 0u);
+    made.rows.push_back(make_naive_row(3, 8, .3, .3));
+    ASSERT_EQ(count_curves(made).size(), 1u);
+    const std::regex places("M([0-9.]+) [0-9.]+L([0-9.]+) [0-9.]+L([0-9.]+) [0-9.]+");
+    std::smatch at;
+    const std::string path = count_curves(made).front();
+    ASSERT_TRUE(std::regex_match(path, at, places)) << path;
+    EXPECT_LT(std::stod(at[1]), std::stod(at[2]));
+    EXPECT_NEAR(std::stod(at[2]) - std::stod(at[1]), std::stod(at[3]) - std::stod(at[2]), .2)
+        << "4, 8 and 16 ms on a logarithmic axis";
+    made.rows[2].settings[1].text = "512";
+    EXPECT_EQ(count_curves(made).size(), 0u);
+}
+
 class ReportWritingTest : public test::InFolder {
 protected:
     Error catch_error_of_writing_report(const fs::path& path) const {

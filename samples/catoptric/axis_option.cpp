@@ -1,0 +1,77 @@
+#include "axis_option.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "session/engine.hpp"
+#include "session/technique_choice.hpp"
+
+#include <algorithm>
+
+namespace catoptric::cli {
+
+namespace {
+
+bool has_knob_of_axis(const std::string& technique, const std::string& knob) {
+    for (const app::TechniqueInfo& info : app::techniques())
+        if (info.name == technique)
+            return std::ranges::find(info.knobs, knob, &app::KnobInfo::name) != info.knobs.end();
+    return false;
+}
+
+/// Returns whether the text "name:knob=value,..." gives the knob a value.
+bool sets_knob(const std::string& text, const std::string& knob) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) return false;
+    return std::ranges::any_of(
+        split_text(text.substr(colon + 1), ","),
+        [&](const std::string& setting) { return setting.starts_with(knob + "="); });
+}
+
+std::vector<std::string> expand_along_axis(const std::vector<std::string>& techniques,
+                                           const KnobAxis& axis) {
+    std::vector<std::string> rows;
+    bool is_known = false;
+    for (const std::string& text : techniques) {
+        const bool varies = has_knob_of_axis(app::parse_technique(text).technique, axis.knob);
+        is_known |= varies;
+        if (!varies || sets_knob(text, axis.knob)) {
+            rows.push_back(text);
+            continue;
+        }
+        const char* separator = text.find(':') == std::string::npos ? ":" : ",";
+        for (const std::string& value : axis.values) {
+            std::string row = text + separator;
+            row += axis.knob + "=" + value;
+            rows.push_back(std::move(row));
+        }
+    }
+    check(is_known, Failure::usage, "--axis ", axis.knob,
+          ": wanted a knob of one of the techniques, see 'list techniques'; found none that has "
+          "it");
+    return rows;
+}
+
+} // namespace
+
+KnobAxis parse_knob_axis(const std::string& text) {
+    const std::size_t end = text.find('=');
+    KnobAxis axis;
+    if (end != std::string::npos)
+        axis = {text.substr(0, end), split_text(text.substr(end + 1), ",")};
+    std::vector<std::string> values = axis.values;
+    std::ranges::sort(values);
+    const bool is_complete = values.size() >= 2 && !values.front().empty() &&
+                             std::ranges::adjacent_find(values) == values.end();
+    check(!axis.knob.empty() && is_complete, Failure::usage,
+          "--axis: wanted KNOB=VALUE,VALUE,... with different values, found ",
+          quote_text_with_escapes(text));
+    return axis;
+}
+
+std::vector<std::string> expand_techniques_along_axes(std::vector<std::string> techniques,
+                                                      const std::vector<KnobAxis>& axes) {
+    for (const KnobAxis& axis : axes) techniques = expand_along_axis(techniques, axis);
+    return techniques;
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace catoptric::cli {
+
+/// A knob, and the values with which each technique that has the knob is compared.
+struct KnobAxis {
+    std::string knob;
+    std::vector<std::string> values;
+};
+
+/// Reads "KNOB=VALUE,VALUE[,...]". Throws `usage` if no two different values follow a name.
+KnobAxis parse_knob_axis(const std::string& text);
+
+/// Returns the rows to compare: each technique that has the knob of an axis, once for each value.
+/// Plans, techniques without the knob and those that set it themselves stay as they are. Several
+/// axes multiply. Throws `usage` if no technique has the knob of an axis.
+std::vector<std::string> expand_techniques_along_axes(std::vector<std::string> techniques,
+                                                      const std::vector<KnobAxis>& axes);
+
+} // namespace catoptric::cli
