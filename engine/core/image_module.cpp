@@ -39,7 +39,7 @@ fs::path find_folder_of_loaded_library() {
 
 /// Returns the module's file. In a build tree it is beside the programs and the library. Installed,
 /// it is in its own folder beside the library.
-fs::path find_image_module_file() {
+fs::path find_image_codec_plugin_file() {
     const fs::path own = find_folder_of_loaded_library();
     const fs::path folders[] = {own, own / "catoptric",
                                 (own / CATOPTRIC_MODULES_FROM_PROGRAMS).lexically_normal()};
@@ -51,7 +51,7 @@ fs::path find_image_module_file() {
 }
 
 const ImageCodecs* load_image_module() {
-    const fs::path file = find_image_module_file();
+    const fs::path file = find_image_codec_plugin_file();
     check_address_space(kCodecModuleAddressSpace, "OpenImageIO");
     void* const module = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(module != nullptr, Failure::internal,

@@ -28,7 +28,7 @@ struct CachedCaptureFace {
     /// objects in `pieces`.
     std::uint64_t settings = 0;
     std::shared_ptr<const require::MovingObjectFaceParts>
-        pieces; ///< moving pieces in the mirror's faces, as of `content_hash`
+        pieces; ///< parts of moving objects that the faces showed when `content_hash` was made
     bool operator==(const CachedCaptureFace&) const = default;
 };
 

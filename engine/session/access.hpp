@@ -140,13 +140,13 @@ struct Access {
     /// frame, the frame is still rendered.
     static Frame show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
                                 const WindowPictures& showing);
-    /// Makes a cut and returns the history of the frame sequence, which `resume_sequence` can
+    /// Makes a cut and returns the history of the frame sequence, which `resume_frame_sequence` can
     /// continue. Waits for frames in flight.
     static FrameSequence suspend_sequence(Session& session);
     /// Continues a suspended sequence: the next frame follows its last one. Discards the present
     /// history. If the scene's units changed in between (see Session::change), the next frame
     /// begins without history.
-    static void resume_sequence(Session& session, FrameSequence sequence);
+    static void resume_frame_sequence(Session& session, FrameSequence sequence);
     /// Returns the plan, written out, of a frame that follows another frame. With
     /// RenderedWork::required, the scene is still and its captures no longer change.
     static std::string format_frame_plan(Session& session, const FrameSpec& spec,

@@ -23,7 +23,7 @@ FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks&
 
 bool FrameLoop::render_next() {
     if (settled_ || number_ >= max_frame_count()) return false;
-    if (aside_) Access::resume_sequence(loop_session_, std::move(*aside_));
+    if (aside_) Access::resume_frame_sequence(loop_session_, std::move(*aside_));
     aside_.reset();
     ++number_;
     FrameSpec spec = request_;

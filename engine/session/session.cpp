@@ -258,7 +258,7 @@ FrameSequence Access::suspend_sequence(Session& session) {
     return FrameSequence(std::move(sequence));
 }
 
-void Access::resume_sequence(Session& session, FrameSequence sequence) {
+void Access::resume_frame_sequence(Session& session, FrameSequence sequence) {
     Session::Impl& self = *session.impl_;
     if (sequence.sequence_impl_->units != self.units) {
         session.forget();

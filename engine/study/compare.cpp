@@ -238,8 +238,9 @@ private:
         comparison_.noise->wanted_floor = measure::choose_target_noise_floor(rows);
     }
 
-    /// Adds frames to a reference with noise, and judges the rows again. Rows that are judged at
-    /// other sample counts have references of their own, which share the time.
+    /// Adds frames to a reference with noise, and judges the rows again. Rows with another number
+    /// of samples per pixel have a reference of their own; all references share
+    /// --reference-seconds.
     void reduce_reference_noise() {
         if (!truths_.has_reference_noise()) return;
         std::map<std::string, std::vector<std::size_t>> groups; // rows by sample count
@@ -397,7 +398,7 @@ private:
             fill_row_times(row, run.list_rounds(), prefixes_[index],
                            comparison_.device.type == "cpu");
             row.noisy = run.has_timing_noise();
-            row.waited = run.mean_share_of_waiting_time();
+            row.waited = run.mean_share_of_time_waiting_for_processor();
             const bool changed = last && !first &&
                                  (compare_request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));

@@ -36,7 +36,7 @@ public:
     int rendered_frame_count() const { return frames_.rendered_frame_count(); }
     const std::vector<std::vector<FrameTimes>>& list_rounds() const { return rounds_; }
     /// Returns waited_share over all rounds; NaN if the system does not report waiting.
-    double mean_share_of_waiting_time() const { return waited_; }
+    double mean_share_of_time_waiting_for_processor() const { return waited_; }
     /// Returns whether the row's threads had to wait for a processor that others had.
     bool has_timing_noise() const { return noisy_; }
 

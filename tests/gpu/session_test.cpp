@@ -150,7 +150,7 @@ TEST(Session, ResumedSequenceContinues) {
     for (int k = 1; k <= 4; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
             const app::FrameSpec spec = make_frame_spec(scene, techniques[i]);
-            if (k > 1) app::Access::resume_sequence(session, std::move(aside[i]));
+            if (k > 1) app::Access::resume_frame_sequence(session, std::move(aside[i]));
             const measure::Picture found = session.frame(spec).hdr();
             if (k > 1)
                 aside[i] = app::Access::suspend_sequence(session);
@@ -178,7 +178,7 @@ TEST(Session, SequenceInOtherSceneUnitsLosesItsHistory) {
     dmat4 far = scene.objects.back().world_from_object;
     far[3] += dvec4(20, 0, 0, 0); // far enough to change the scene units
     session.change(scene::move(scene.objects.size() - 1, far));
-    app::Access::resume_sequence(session, std::move(sequence));
+    app::Access::resume_frame_sequence(session, std::move(sequence));
     app::Session fresh(test::get_test_engine(), session.scene());
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), fresh.frame(spec).hdr()));
 }

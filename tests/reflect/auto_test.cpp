@@ -72,7 +72,7 @@ TEST(Auto, PlanStaysWhenItsSequenceIsResumed) {
     other.techniques = {"reuse:face=16"};
     session.frame(other);
     app::Access::suspend_sequence(session);
-    app::Access::resume_sequence(session, std::move(sequence));
+    app::Access::resume_frame_sequence(session, std::move(sequence));
     // This view does not show the ball.
     frame_spec.camera.eye = {.9, .9, 1.2}, frame_spec.camera.target = {.9, 1, 1.9};
     frame_spec.camera.vertical_fov_degrees = 10;

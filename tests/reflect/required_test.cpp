@@ -352,7 +352,7 @@ TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
         pair.render_next_frame(); // frames of another sequence with the same technique
     std::size_t i = 0;
     pair.apply_to_both_sessions([&](app::Session& session) {
-        app::Access::resume_sequence(session, std::move(aside[i++]));
+        app::Access::resume_frame_sequence(session, std::move(aside[i++]));
     });
     pair.render_until_captures_settle();
     aside.clear(), i = 0;
@@ -360,7 +360,7 @@ TEST(RequiredFrames, ResumedSequenceKeepsItsCaptures) {
         [&](app::Session& session) { aside.push_back(app::Access::suspend_sequence(session)); });
     pair.render_next_frame();
     pair.apply_to_both_sessions([&](app::Session& session) {
-        app::Access::resume_sequence(session, std::move(aside[i++]));
+        app::Access::resume_frame_sequence(session, std::move(aside[i++]));
     });
     EXPECT_EQ(pair.render_next_frame(), kSettledPassNames);
 }

@@ -239,7 +239,7 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
         if (k == 3) { // the times measured before and after this other sequence still count
             app::FrameSequence sequence = app::Access::suspend_sequence(little);
             EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
-            app::Access::resume_sequence(little, std::move(sequence));
+            app::Access::resume_frame_sequence(little, std::move(sequence));
         }
         spec.budget_ms = 1e9;
         EXPECT_EQ(much.frame(spec).slices()->drawn, 3u);

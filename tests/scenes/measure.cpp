@@ -266,7 +266,7 @@ json measure_view_of_camera(app::Engine& engine, const std::string& name, std::s
     const measure::Picture raster = render_picture(session, request, kRasterTechnique),
                            rays = render_picture(session, request, kRayTracingTechnique);
     const scenes::SceneSurfaceCaster sight(request);
-    const SurfacesSeenByCamera looked{request.size, sight.look()};
+    const SurfacesSeenByCamera looked{request.size, sight.find_surfaces_seen_by_camera()};
     measure::Picture judged(int(kJudgedPictureSize.x), int(kJudgedPictureSize.y));
     json line = {{"scene", name}, {"camera", request.camera.name}, {"exposure", request.exposure}};
     line["agreement"] = measure_raster_agreement(request, looked, sight, raster, rays, true,
@@ -287,7 +287,7 @@ json measure_view_of_camera(app::Engine& engine, const std::string& name, std::s
     app::Session with_session(engine, with.scene);
     const scenes::SceneSurfaceCaster with_sight(with);
     line["agreement_dielectric_mirrors"] = measure_raster_agreement(
-        with, {with.size, with_sight.look()}, with_sight,
+        with, {with.size, with_sight.find_surfaces_seen_by_camera()}, with_sight,
         render_picture(with_session, with, kRasterTechnique),
         render_picture(with_session, with, kRayTracingTechnique), false, nullptr);
     return line;

@@ -174,7 +174,7 @@ SeenSurface SceneSurfaceCaster::see(const f32::Ray& ray) const {
     return seen;
 }
 
-std::vector<SeenSurface> SceneSurfaceCaster::look() const {
+std::vector<SeenSurface> SceneSurfaceCaster::find_surfaces_seen_by_camera() const {
     const uvec2 fine = size_ * kRaysAlongPixelEdge;
     std::vector<SeenSurface> seen;
     for (std::size_t i = 0; i < std::size_t{fine.x} * fine.y; ++i)

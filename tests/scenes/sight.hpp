@@ -36,7 +36,7 @@ public:
 
     /// Returns what kRaysAlongPixelEdge x kRaysAlongPixelEdge rays per pixel meet, row by row. A
     /// ray takes about two microseconds, more with lights.
-    std::vector<SeenSurface> look() const;
+    std::vector<SeenSurface> find_surfaces_seen_by_camera() const;
     /// Returns the width of a pixel at a distance, both in scene units.
     float pixel_at(float distance) const;
 

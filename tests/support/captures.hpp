@@ -31,9 +31,9 @@ struct CapturedLayers {
 
 /// Captures every mirror once, without shadows and with all other mirrors black. `range_world`: the
 /// range of r8_unorm distances, in world units. `staged`: see get_test_device().
-inline CapturedLayers capture_with_options(const scene::Scene& scene,
-                                           render::CaptureOptions options, double range_world,
-                                           bool staged = false) {
+inline CapturedLayers draw_cube_captures_with_options(const scene::Scene& scene,
+                                                      render::CaptureOptions options,
+                                                      double range_world, bool staged = false) {
     auto& [device, pipelines] = get_test_device(staged);
     render::GpuScene gpu_scene(device, scene);
     gpu_scene.update(
@@ -63,7 +63,7 @@ inline CapturedCubes capture_mirrors(const scene::Scene& scene, std::uint32_t fa
                                      bool staged = false) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance;
-    return capture_with_options(scene, options, range_world, staged).first;
+    return draw_cube_captures_with_options(scene, options, range_world, staged).first;
 }
 
 /// Captures both depth layers. Distances as r8_unorm range over 10 world units.
@@ -71,7 +71,7 @@ inline std::pair<CapturedCubes, CapturedCubes>
 capture_both_depth_layers(const scene::Scene& scene, std::uint32_t face, TexelFormat distance) {
     render::CaptureOptions options;
     options.face = face, options.distance = distance, options.second_layer = true;
-    CapturedLayers layers = capture_with_options(scene, options, 10);
+    CapturedLayers layers = draw_cube_captures_with_options(scene, options, 10);
     return {std::move(layers.first), std::move(*layers.second)};
 }
 

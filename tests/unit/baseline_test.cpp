@@ -136,7 +136,7 @@ TEST(Baseline, RiseOfFlipIsWorseAboveTheShareAndAboveTheNoise) {
     EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
     now.noise->flip_floor = before.rows[0].error.flip * .04;
     EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse), row);
-    // A row without error may not get one.
+    // Any error is worse for a row that had none.
     Comparison exact = before, inexact = before;
     exact.rows[0].error.flip = 0, inexact.rows[0].error.flip = 1e-5;
     EXPECT_EQ(list_quantities(judge(inexact, exact), BaselineVerdict::worse), row);

@@ -37,7 +37,7 @@ std::vector<unsigned> decode_words(const std::string& script) {
 }
 
 /// Returns the value of a half float by its definition (IEEE 754, binary16).
-double half_value(unsigned half) {
+double decode_half_float(unsigned half) {
     const double sign = (half & 0x8000U) != 0 ? -1 : 1;
     const int exponent = static_cast<int>(half >> 10 & 31),
               fraction = static_cast<int>(half & 1023);
@@ -65,7 +65,7 @@ TEST(Comparer, ValuesAreThoseOfThePictureAsHalves) {
     ASSERT_EQ(words.size(), 3 * picture.pixels.size());
     for (std::size_t i = 0; i < words.size(); ++i) {
         const double wanted = picture.pixels[i / 3][static_cast<int>(i % 3)];
-        EXPECT_NEAR(half_value(words[i]), wanted, std::abs(wanted) * 0x1p-11) << i;
+        EXPECT_NEAR(decode_half_float(words[i]), wanted, std::abs(wanted) * 0x1p-11) << i;
     }
 }
 
@@ -76,12 +76,13 @@ TEST(Comparer, ExtremeValuesStayWhatTheyAre) {
     const std::vector<unsigned> words = decode_words(
         catoptric::report::make_picture_values_script(picture, "a.js"));
     ASSERT_EQ(words.size(), 6U);
-    EXPECT_TRUE(std::isnan(half_value(words[0])));
-    EXPECT_EQ(half_value(words[1]), INFINITY);
-    EXPECT_EQ(half_value(words[2]), -INFINITY);
-    EXPECT_EQ(half_value(words[3]), 0x1p-24);
-    EXPECT_EQ(half_value(words[4]), 65504);
-    EXPECT_EQ(half_value(words[5]), INFINITY) << "a half float holds nothing larger than 65504";
+    EXPECT_TRUE(std::isnan(decode_half_float(words[0])));
+    EXPECT_EQ(decode_half_float(words[1]), INFINITY);
+    EXPECT_EQ(decode_half_float(words[2]), -INFINITY);
+    EXPECT_EQ(decode_half_float(words[3]), 0x1p-24);
+    EXPECT_EQ(decode_half_float(words[4]), 65504);
+    EXPECT_EQ(decode_half_float(words[5]), INFINITY)
+        << "a half float holds nothing larger than 65504";
 }
 
 TEST(Comparer, MirrorOfEachPixelIsThatOfTheFirstHit) {

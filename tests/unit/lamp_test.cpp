@@ -290,8 +290,8 @@ TEST_F(Lamps, SphereWithAHoleIsAnOpenLamp) {
         ASSERT_EQ(list_lights(scene).size(), 1u) << how;
         EXPECT_FALSE(list_lights(scene)[0].closed) << how;
     }
-    // The sphere with a hole shines almost equally in all directions. Its inside shines too, so
-    // half of its surface counts.
+    // The sphere with a hole shines almost equally in all directions. Its inside shines out
+    // through the hole, too, so the lamp is as bright as half of its surface seen head-on.
     const Scene two = load(write_loaded_file("two.glb", make_glb_of_mesh(mesh, true)));
     EXPECT_NEAR(mean_over_six_axes([&](const dvec3& along) {
                     return light_share_in_direction(list_lights(two)[0], along);

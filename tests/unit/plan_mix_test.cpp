@@ -17,7 +17,7 @@ struct RandomMixProblem {
     double limit = 0;
 };
 
-/// Draws candidates of which a dearer one usually errs less, as techniques do.
+/// Makes random candidate techniques. One that costs more usually has the smaller error.
 RandomMixProblem draw_random_mix_problem(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
