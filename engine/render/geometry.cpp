@@ -154,12 +154,13 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.has_lobe = scene::may_reflect_by_lobe(now, object);
     range.rough = range.mirror && range.has_lobe;
     range.clear_coat = scene::has_clear_coat(material);
-    if (range.rough && !material.roughness_texture && !range.clear_coat)
+    if (range.rough && !range.glass && !material.roughness_texture && !range.clear_coat)
         range.lobe_alpha = f32::roughness_to_alpha(material.roughness);
     // Captures do not show lights without a surface, so a rough mirror's highlights are its own
-    // light.
-    range.lit = range.mirror && (!mirror_shows_only_reflections(mesh, material) ||
-                                 (range.has_lobe && !now.punctual.empty()));
+    // light. What is below a clear coat may be too rough for captures, so that lights show it.
+    range.lit = range.mirror &&
+                (range.clear_coat || !mirror_shows_only_reflections(mesh, material) ||
+                 (range.has_lobe && !now.punctual.empty()));
     return range;
 }
 

@@ -189,6 +189,7 @@ struct CellTextWriter {
 constexpr CellTextWriter kCellTextWriters[] = {
     {"normal-texture", "height maps are left out; surfaces are as smooth as their triangles"},
     {"occlusion-texture", "left out"},
+    {"clearcoat", "left out on glass, unlit surfaces and mirrors by `reflectance`"},
     {"clearcoat-texture", "textures of the coat are left out, and its normals are those of the "
                           "surface below"},
     {"sheen", "left out"},
@@ -211,8 +212,10 @@ constexpr CellTextWriter kCellTextWriters[] = {
     {"glass-approximated",
      "where rays are not traced, light that passes it bends by a model of the body (knob "
      "`refract`) and is not reflected inside"},
-    {"glass-as-diffuse", "glass that is partly metal, or where rays are not traced more objects of "
-                         "glass than the 64 largest: the diffuse part is drawn"},
+    {"glass-as-diffuse", "where rays are not traced, of more objects of glass than 64 only the "
+                         "largest are glass; of the others, the diffuse part is drawn"},
+    {"partial-glass", "glass that is partly metal, or lets less than half of the light pass: drawn "
+                      "as if no light passed it"},
     {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},

@@ -237,9 +237,16 @@ PlanCandidate make_plan_candidate(const MirrorCostInputs& known, bool planes) {
 }
 
 /// Returns whether glass is all that is to be seen of the mirrors.
-bool are_all_seen_mirrors_glass(const MirrorCostInputs& known) {
-    for (std::size_t i = 0; i < known.mirror_count(); ++i)
-        if (known.is_seen[i] && !known.is_glass[i]) return false;
+/// Returns whether all seen mirrors are of smooth glass, which rays draw right with one ray for
+/// each pixel.
+bool are_all_seen_mirrors_smooth_glass(const RequiredWorkModelInput& question,
+                                       const MirrorCostInputs& known) {
+    const std::vector<std::size_t> mirrors = scene::mirrors(question.now);
+    for (std::size_t i = 0; i < known.mirror_count(); ++i) {
+        if (!known.is_seen[i]) continue;
+        const scene::Object& object = question.now.objects[mirrors[i]];
+        if (!known.is_glass[i] || scene::may_reflect_by_lobe(question.now, object)) return false;
+    }
     return true;
 }
 
@@ -334,7 +341,8 @@ PlanSuggestion suggest_technique_plan(const RequiredWorkModelInput& question) {
                                           : suggestion.candidates.end(),
                                      std::move(searched));
     }
-    if (known.paths.count_paths_on_mirrors() > 0 && are_all_seen_mirrors_glass(known))
+    if (known.paths.count_paths_on_mirrors() > 0 &&
+        are_all_seen_mirrors_smooth_glass(question, known))
         if (PlanCandidate traced = make_traced_candidate(known);
             traced.cost < suggestion.candidates.front().cost)
             suggestion.candidates.insert(suggestion.candidates.begin(), std::move(traced));

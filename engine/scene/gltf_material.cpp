@@ -82,7 +82,7 @@ private:
     bool is_metal_everywhere() const;
     void transmission();
     void other_properties();
-    void report_unread_clear_coat_maps();
+    void report_unsupported_clear_coat();
     void turn_into_mirror(const vec3& reflectance, const vec3& diffuse);
     void read_extras();
 
@@ -206,7 +206,7 @@ void MaterialReader::transmission() {
     }
     if (find_material_extension("KHR_materials_transmission")->has_member("transmissionTexture"))
         report_unsupported_feature("material-extension");
-    if (!is_glass(material_)) return report_unsupported_feature("glass-as-diffuse");
+    if (!is_glass(material_)) return report_unsupported_feature("partial-glass");
     report_unsupported_feature("glass-approximated"), report_unsupported_feature("glass-shadow");
     if (material_.roughness > shared::kMaxSharpRoughness) report_unsupported_feature("rough-glass");
     if (material_.dispersion > 0 && material_.solid) report_unsupported_feature("dispersion");
@@ -215,14 +215,17 @@ void MaterialReader::transmission() {
     report_unsupported_feature("material-extension");
 }
 
-/// A coat has the normals of the surface below, and one roughness everywhere.
-void MaterialReader::report_unread_clear_coat_maps() {
+/// A coat has the normals of the surface below, and one roughness everywhere. Some surfaces have
+/// no coat (has_clear_coat).
+void MaterialReader::report_unsupported_clear_coat() {
+    if (material_.clearcoat == 0) return;
+    if (!has_clear_coat(material_)) return report_unsupported_feature("clearcoat");
     const JsonObject coat = *find_material_extension(kClearCoatExtension);
     const bool has_maps = coat.has_member("clearcoatTexture") ||
                           coat.has_member("clearcoatRoughnessTexture") ||
                           coat.has_member("clearcoatNormalTexture") ||
                           material_json_.has_member("normalTexture");
-    if (material_.clearcoat > 0 && has_maps) report_unsupported_feature("clearcoat-texture");
+    if (has_maps) report_unsupported_feature("clearcoat-texture");
 }
 
 /// Reads the extensions of kMaterialFactors, and reports what the engine does not draw.
@@ -242,7 +245,6 @@ void MaterialReader::other_properties() {
     for (const auto& [name, value] : extensions_->json_value().items()) {
         if (is_factor_extension(name)) {
             factors(name, *extensions_->read_object_member(name));
-            if (name == kClearCoatExtension) report_unread_clear_coat_maps();
             continue;
         }
         bool is_known = std::ranges::find(kMaterialExtensions, name) !=
@@ -302,9 +304,11 @@ Material MaterialReader::read() {
     // Such a metal reflects all light at every angle, so a mirror without Fresnel is the same.
     const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
                             material_.albedo == vec3(1) && !material_.albedo_texture &&
-                            !material_.roughness_texture && !has_colours_;
+                            !material_.roughness_texture && !has_colours_ &&
+                            material_.clearcoat == 0;
     if (is_perfect) turn_into_mirror(vec3(1), vec3(0));
     read_extras();
+    report_unsupported_clear_coat();
     return material_;
 }
 

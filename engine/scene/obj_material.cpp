@@ -290,6 +290,8 @@ private:
             std::clamp(mtl_material_.clearcoat.value_or(0), 0.0, 1.0));
         material_.clearcoat_roughness = static_cast<float>(
             std::clamp(mtl_material_.clearcoat_roughness.value_or(0), 0.0, 1.0));
+        if (material_.clearcoat > 0 && !has_clear_coat(material_))
+            report_unsupported_feature("clearcoat");
     }
 
     void set_physical_factors() {

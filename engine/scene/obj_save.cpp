@@ -122,6 +122,9 @@ std::string format_material_library(const std::vector<Material>& materials,
         if (material.emission != vec3(0)) text += "Ke " + format_vector(material.emission) + "\n";
         if (material.blended && !is_glass(material))
             text += "d " + format_shortest_number(material.alpha) + "\n";
+        if (has_clear_coat(material))
+            text += "Pc " + format_shortest_number(material.clearcoat) + "\nPcr " +
+                    format_shortest_number(material.clearcoat_roughness) + "\n";
         if (is_glass(material)) text += "Ni " + format_shortest_number(material.ior) + "\n";
         text += material.mirror ? "illum 3\n" : is_glass(material) ? "illum 7\n" : "illum 1\n";
         const bool is_lamp = material.emission != vec3(0);

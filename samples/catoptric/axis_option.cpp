@@ -27,14 +27,31 @@ bool sets_knob(const std::string& text, const std::string& knob) {
         [&](const std::string& setting) { return setting.starts_with(knob + "="); });
 }
 
+/// Returns the technique with the values of all its knobs. Texts that mean the same give the same.
+std::string describe_choice(const std::string& text) {
+    const app::TechniqueChoice choice = app::parse_technique(text);
+    std::string all = choice.technique;
+    for (const Setting& setting : choice.settings)
+        all += " " + setting.name + "=" +
+               (setting.number ? std::to_string(*setting.number) : setting.text);
+    return all;
+}
+
 std::vector<std::string> expand_along_axis(const std::vector<std::string>& techniques,
                                            const KnobAxis& axis) {
     std::vector<std::string> rows;
     bool is_known = false;
+    const auto varies = [&](const std::string& text) {
+        return has_knob_of_axis(app::parse_technique(text).technique, axis.knob) &&
+               !sets_knob(text, axis.knob);
+    };
+    // A new row may be equal to a row that is there, because a value may be the knob's default.
+    std::vector<std::string> known;
+    for (const std::string& text : techniques)
+        if (!varies(text)) known.push_back(describe_choice(text));
     for (const std::string& text : techniques) {
-        const bool varies = has_knob_of_axis(app::parse_technique(text).technique, axis.knob);
-        is_known |= varies;
-        if (!varies || sets_knob(text, axis.knob)) {
+        is_known |= has_knob_of_axis(app::parse_technique(text).technique, axis.knob);
+        if (!varies(text)) {
             rows.push_back(text);
             continue;
         }
@@ -42,6 +59,8 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
         for (const std::string& value : axis.values) {
             std::string row = text + separator;
             row += axis.knob + "=" + value;
+            if (std::ranges::find(known, describe_choice(row)) != known.end()) continue;
+            known.push_back(describe_choice(row));
             rows.push_back(std::move(row));
         }
     }

@@ -18,11 +18,6 @@ uint pending_count = 0u;
 // Rays below this weight are not followed. It is less than the smallest step of an 8-bit picture.
 const float kMinGlassWeight = 1.0 / 512.0;
 
-// Returns whether rays pass through the surface that was evaluated last.
-bool is_glass(uint detail) {
-    return has_glass != 0u && details != 0u && (read_material_parameters(detail).flags & kMaterialGlassFlag) != 0u;
-}
-
 // Sets the ray to one that leaves the point.
 void leave_point(SurfacePoint p, vec3 direction, out Ray ray) { ray = Ray(find_leaving_ray_origin(p, direction), direction, p.leaves); }
 
@@ -30,7 +25,7 @@ void leave_point(SurfacePoint p, vec3 direction, out Ray ray) { ray = Ray(find_l
 // divided by the Abbe number is a measure).
 vec3 glass_iors(MaterialParameters glass) {
     float half_spread = 0.025 * (glass.ior - 1.0) * glass.dispersion;
-    return max(glass.ior + vec3(-half_spread, 0.0, half_spread), vec3(1));
+    return clamp(glass.ior + vec3(-half_spread, 0.0, half_spread), vec3(1), vec3(kLargestFloat));
 }
 
 // Returns whether rays leave the glass that was evaluated last in directions drawn from its microfacets.
@@ -61,7 +56,7 @@ vec3 turn_to_side(vec3 direction, vec3 side) {
 void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, inout vec3 weight) {
     MaterialParameters glass = read_material_parameters(detail);
     vec3 direction = ray.direction;
-    bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_solid && dot(direction, p.facet) > 0.0;
+    bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_inside_glass(detail, direction, p.facet);
     bool is_rough = has_lobes != 0u && draws_from_glass_facets();
     if (is_inside) weight *= exp(-glass.absorption * length(p.position - ray.origin));
     vec3 normal = dot(direction, p.normal) > 0.0 ? -p.normal : p.normal, mean_normal = normal;
@@ -98,18 +93,17 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
         leave_point(p, mirrored, ray);
         return;
     }
-    if (follows_mirrored && pending_count < kMaxPendingRays) {
-        Ray other;
-        leave_point(p, mirrored, other);
-        pending_rays[pending_count++] = PendingRay(other, trace_low, mirrored_weight, bounce + 1u);
-    }
     vec3 low = vec3(0);
     weight = vec3(0);
     colour = 0u;
     bool is_first = true;
     do {
         vec3 part = is_dispersive ? vec3(colour == 0u, colour == 1u, colour == 2u) * passing_weight : passing_weight;
-        if (!(largest_vector_component(part) > kMinGlassWeight) || (!is_first && pending_count == kMaxPendingRays)) continue;
+        if (!(largest_vector_component(part) > kMinGlassWeight)) continue;
+        if (!is_first && pending_count == kMaxPendingRays) {
+            weight += part; // this colour goes the way of the first
+            continue;
+        }
         float ratio = is_inside ? 1.0 / iors[colour] : iors[colour];
         vec3 leaving = direction;
         if (is_solid) leaving = refract_direction(direction, normal, cosine, ratio, behind_cosines[colour]);
@@ -131,6 +125,12 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
         }
         is_first = false;
     } while (++colour < colours);
+    if (follows_mirrored && pending_count < kMaxPendingRays) {
+        trace_low = vec3(0);
+        Ray other;
+        leave_point(p, mirrored, other);
+        pending_rays[pending_count++] = PendingRay(other, trace_low, mirrored_weight, bounce + 1u);
+    }
     trace_low = low;
 }
 

@@ -228,6 +228,14 @@ vec3 lobe_multiple_scattering_gain(float cosine) {
 // 1: rays pass through some surface.
 layout(constant_id = HAS_GLASS_CONSTANT) const uint has_glass = 0u;
 vec3 glass_tint = vec3(1); // colour of the light that passes the glass that was evaluated last
+// Returns whether rays pass through surfaces with these MaterialParameters.
+bool is_glass(uint detail) {
+    return has_glass != 0u && details != 0u && (read_material_parameters(detail).flags & kMaterialGlassFlag) != 0u;
+}
+// Returns whether a ray along `direction` meets the glass from inside a solid body. Facets of solid bodies point outwards.
+bool is_inside_glass(uint detail, vec3 direction, vec3 outwards) {
+    return has_glass != 0u && (read_material_parameters(detail).flags & kMaterialSolidFlag) != 0u && dot(direction, outwards) > 0.0;
+}
 
 // 1: some surface has a clear coat.
 layout(constant_id = HAS_CLEAR_COATS_CONSTANT) const uint has_clear_coats = 0u;

@@ -201,15 +201,14 @@ vec3 rough_path_radiance(MirrorPath path, Lookup lookup, float roughness) {
 
 // Returns the radiance that the path brings to glass whose passing light is spread as by a mirror of that roughness.
 vec3 passing_radiance(MirrorPath path, Lookup lookup, float roughness) {
-    if (has_lobes != 0u && (rough == kRoughMips || rough == kRoughPrefilter) && roughness > kMaxSharpRoughness)
-        return rough_path_radiance(path, lookup, roughness);
+    if (has_lobes != 0u && has_levels && roughness > kMaxSharpRoughness) return rough_path_radiance(path, lookup, roughness);
     return lookup_colour(path.mirror, lookup);
 }
 
 // Returns what the clear coat at the start of the path reflects to a viewer at the angle `cosine` to the normal. `sharp` is
 // the coat's reflectance as a perfect mirror. With kRoughRays the coat reflects sharply.
 vec3 clear_coat_radiance(MirrorPath path, Lookup lookup, vec3 sharp, float cosine) {
-    if ((rough == kRoughMips || rough == kRoughPrefilter) && clear_coat.roughness > kMaxSharpRoughness)
+    if (has_levels && clear_coat.roughness > kMaxSharpRoughness)
         return rough_clear_coat_albedo(cosine) * rough_path_radiance(path, lookup, clear_coat.roughness);
     return sharp * lookup_colour(path.mirror, lookup);
 }
@@ -245,18 +244,21 @@ void main() {
     else colour = find_ablated_radiance(path, lookup);
 #else
     bool is_rough = rough != kRoughNone && has_rough_lobe() && surface.reflectance != vec3(0), is_stopped = false;
-    bool looks_up_level = is_rough && rough != kRoughRays;
     vec3 coat_weight = vec3(0);
-    if (has_clear_coats != 0u && clear_coat.strength > 0.0 && clear_coat.is_shown) {
-        coat_weight = vec3(clear_coat.reflected);
+    bool coat_looks_up_level = false;
+    if (has_clear_coats != 0u && clear_coat.strength > 0.0) {
+        is_rough = is_rough && clear_coat.is_base_shown;
+        if (clear_coat.is_shown) coat_weight = vec3(clear_coat.reflected);
         path.weight -= coat_weight;
+        coat_looks_up_level = clear_coat.is_shown && has_levels && clear_coat.roughness > kMaxSharpRoughness;
     }
-    if (rough != kRoughNone && looks_up_level) path.weight = specular_lobe_albedo(-dot(n, seen));
+    bool looks_up_level = is_rough && rough != kRoughRays;
+    if (rough != kRoughNone && looks_up_level && !is_glass) path.weight = specular_lobe_albedo(-dot(n, seen));
     vec3 base_weight = path.weight;
     if (has_clear_coats != 0u) path.weight = vec3(1); // the surface and its coat share the path
     MirrorPath first = path;
     // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
-    Lookup lookup = follow_path_through_mirrors(path, looks_up_level ? 0u : hops);
+    Lookup lookup = follow_path_through_mirrors(path, looks_up_level || coat_looks_up_level ? 0u : hops);
     vec3 colour;
     if (rough == kRoughNone || !is_rough)
         colour = path.weight * lookup_colour(path.mirror, lookup);
@@ -286,16 +288,25 @@ void main() {
         if (!is_rough || looks_up_level) colour *= base_weight;
         if (coat_weight != vec3(0)) colour += path.weight * clear_coat_radiance(path, lookup, coat_weight, -dot(n, seen));
     }
-    if (lights_mirrors != 0u) colour += shade_drawn_fragment(surface, n, facet);
+    if (lights_mirrors != 0u) {
+        // As in rays (trace_radiance): from inside glass, no light without a surface is seen.
+        if (has_glass != 0u && is_glass && is_inside_glass(surface.detail, seen, n)) {
+            colour += surface.emission;
+        } else {
+            bool turns = has_glass != 0u && is_glass && dot(n, seen) > 0.0;
+            colour += shade_drawn_fragment(surface, turns ? -n : n, facet);
+        }
+    }
 #endif
     if (has_glass != 0u && refract_model != kRefractNone && is_glass && !is_traced_glass) {
         passing.at = behind.origin;
         passing.direction = behind.direction;
         passing.weight = behind.weight;
-        Lookup passed = follow_path_through_mirrors(passing, hops);
 #ifdef ABLATE
+        Lookup passed = follow_path_through_mirrors(passing, hops);
         colour += passing.weight * lookup_colour(passing.mirror, passed);
 #else
+        Lookup passed = follow_path_through_mirrors(passing, has_levels && behind.roughness > kMaxSharpRoughness ? 0u : hops);
         colour += passing.weight * passing_radiance(passing, passed, behind.roughness);
 #endif
         if (passed.state == kUnknown) {

@@ -10,8 +10,7 @@ layout(constant_id = REFRACT_CONSTANT) const uint refract_model = kRefractNone;
 
 // Returns whether light passes the surface that was evaluated last.
 bool is_refracting(uint detail) {
-    return has_glass != 0u && refract_model != kRefractNone && details != 0u &&
-           (read_material_parameters(detail).flags & kMaterialGlassFlag) != 0u;
+    return refract_model != kRefractNone && is_glass(detail);
 }
 
 // A ray of light behind a glass surface.
@@ -52,7 +51,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced;
     bool is_thin = is_auto ? body.kind == kMirrorThinGlass : refract_model == kRefractThin;
     bool is_box = is_auto ? body.kind == kMirrorGlassBox : refract_model == kRefractBox;
-    bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_solid && dot(seen, n) > 0.0;
+    bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_inside_glass(detail, seen, n);
     vec3 normal = dot(seen, n) > 0.0 ? -n : n;
     float ratio = is_inside ? 1.0 / glass.ior : glass.ior, cosine = min(-dot(seen, normal), 1.0), cosine_behind;
     float reflected = fresnel_dielectric(cosine, ratio, cosine_behind);

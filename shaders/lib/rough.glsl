@@ -8,6 +8,7 @@
 
 const uint kRoughNone = 0u, kRoughMips = 1u, kRoughPrefilter = 2u, kRoughRays = 3u;
 layout(constant_id = ROUGH_CONSTANT) const uint rough = kRoughNone; // how rough surfaces are looked up, kRoughCornellScene...
+const bool has_levels = rough == kRoughMips || rough == kRoughPrefilter; // captures have blurred levels
 layout(constant_id = LAW_CONSTANT) const uint distance_law = kLawNone;
 layout(constant_id = LOBE_RAYS_CONSTANT) const uint lobe_rays = 1u; // searches of a rough surface, for kRoughRays
 const uint kSearchSeed = 0x5ea4c4edu; // seed of the lobe's directions; the ray tracer's seeds are hashes

@@ -455,9 +455,14 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         if (traces_lobes != 0u) reflects = reflects || has_rough_lobe();
         bool is_passed = has_glass != 0u && is_glass(surface.detail);
         if (has_glass != 0u && is_passed) surface.albedo = vec3(0); // light that is not reflected passes, and none is scattered
+        vec3 lit_normal = point.normal;
+        bool is_inside = has_glass != 0u && is_passed && is_inside_glass(surface.detail, ray.direction, point.facet);
+        // Glass reflects highlights on the side that is seen, but from inside a body it shows no light without a surface.
+        if (has_glass != 0u && is_passed && dot(lit_normal, ray.direction) > 0.0) lit_normal = -lit_normal;
         // All surfaces share this one call, because the driver's compiler inlines each call with the whole BVH walk of its
         // shadow ray.
-        if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, point.normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || is_passed || traces_paths != 0u);
+        if (has_glass != 0u && is_inside) result += weight * surface.emission;
+        else if (!reflects || details != 0u) result += weight * shade_surface(surface, point.position, lit_normal, find_facet_normal_for_shading(surface.detail, point.facet), -ray.direction, reflects || is_passed || traces_paths != 0u);
         if (has_glass != 0u && is_passed) {
             done = bounce == max_depth;
             if (!done) split_at_glass(point, surface.detail, bounce, ray, weight);

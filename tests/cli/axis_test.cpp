@@ -16,10 +16,22 @@ TEST_F(CommandLineTest, AxisMakesARowForEachValue) {
     for (const nlohmann::json& row : report["rows"]) labels.push_back(row["label"]);
     EXPECT_THAT(labels, testing::ElementsAre("naive:bounces=1,face=16", "naive:bounces=1,face=32",
                                              "naive:bounces=2,face=16", "naive:bounces=2,face=32",
-                                             "naive:face=16", "naive:face=32", "reuse:face=8",
-                                             "raytrace:depth=2"))
+                                             "naive:bounces=3,face=16", "naive:bounces=3,face=32",
+                                             "reuse:face=8", "raytrace:depth=2"))
         << "rows that set the knob, or lack it, stay as they are";
     EXPECT_THAT(read_output_file("out/report.html"), testing::HasSubstr("class=\"curve\""));
+}
+
+TEST_F(CommandLineTest, AxisLeavesOutRowsThatAreThere) {
+    const auto run = run_cli({"compare", "-o", "out", "--size", "24x16", "--frames", "6",
+                              "--warmup", "1", "--quiet", "--axis", "bounces=1,01,2,3",
+                              "--techniques", "naive", "naive:bounces=2"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json report = nlohmann::json::parse(read_output_file("out/report.json"));
+    std::vector<std::string> labels;
+    for (const nlohmann::json& row : report["rows"]) labels.push_back(row["label"]);
+    EXPECT_THAT(labels, testing::UnorderedElementsAre("naive:bounces=1", "naive:bounces=2",
+                                                      "naive:bounces=3"));
 }
 
 TEST_F(CommandLineTest, AxisErrorsSayWhatIsWanted) {

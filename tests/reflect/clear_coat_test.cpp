@@ -220,4 +220,58 @@ TEST(ClearCoat, CapturesShowBothLayers) {
     }
 }
 
+/// A coated metal whose texture makes every second texel too rough for a mirror. There the metal
+/// shows the environment as a surface that is no mirror, and its coat is looked up in the capture.
+TEST(ClearCoat, TexturedMirrorShowsItsCoatWhereTheMetalIsTooRough) {
+    scene::Material paint{
+        .name = "paint", .albedo = {.9f, .7f, .5f}, .metallic = 1, .roughness = 1, .clearcoat = 1};
+    auto image = std::make_shared<scene::Image>();
+    image->size = {2, 1};
+    image->texels = {0xff000000u, 0xffffff00u}; // roughness in green: 0 and 1; metal in blue
+    image->texels[0] |= 0x00ff0000u;
+    paint.roughness_texture = scene::Texture{.image = image, .nearest = true};
+    scene::Scene scene{.name = "floor"};
+    test::add_quad(scene, "floor", test::add_material(scene, paint), {-2, 0, 2}, {2, 0, 2},
+                   {2, 0, -2}, {-2, 0, -2});
+    scene.meshes[0].uv[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.environment = test::make_smooth_environment();
+    scene.cameras.push_back(
+        {.eye = {0, 2, 3}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = 40});
+    scene::find_mirrors(scene);
+    ASSERT_TRUE(scene.objects[0].mirror);
+    const measure::Picture rays = test::render_without_ambient(scene, "raytrace", {48, 48}).hdr;
+    for (const char* technique :
+         {"secant:face=128", "secant:rough=prefilter,face=128", "secant:rough=rays,face=128"}) {
+        const measure::Picture raster =
+            test::render_without_ambient(scene, technique, {48, 48}, 2).hdr;
+        EXPECT_LE(test::share_of_off_pixels(raster, rays, measure::Mask(raster.pixels.size(), 0)),
+                  .005)
+            << technique;
+    }
+}
+
+/// Reflections of a rough coat are looked up in blurred levels, which must be those of the drawn
+/// mirror, even if the path goes on to a second mirror. Compared when all bounces have arrived.
+TEST(ClearCoat, RequiredWorkDrawsThePictureOfAllWork) {
+    scene::Scene room = test::make_lit_room(2, 1);
+    room.materials[room.objects.back().material] = {.name = "coated",
+                                                    .albedo = {.9f, .7f, .5f},
+                                                    .metallic = 1,
+                                                    .roughness = 0,
+                                                    .clearcoat = 1,
+                                                    .clearcoat_roughness = .3f};
+    scene::find_mirrors(room);
+    ASSERT_EQ(scene::mirrors(room).size(), 2u);
+    for (const char* technique : {"secant:face=32", "hybrid:face=32,rough=mips"}) {
+        app::Request asked = test::make_test_request(room, {technique}, {64, 48});
+        asked.warmup = 9;
+        asked.model = app::RenderedWork::everything;
+        const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
+        asked.model = app::RenderedWork::required;
+        EXPECT_TRUE(test::have_equal_pixel_bytes(
+            all, app::run(test::get_test_engine(), asked).parts.front().hdr))
+            << technique;
+    }
+}
+
 } // namespace

@@ -197,6 +197,66 @@ TEST(GlassPane, RoughSheetSpreadsLightByItsLobe) {
     }
 }
 
+/// Returns the scene with a sun that shines along `direction`, and no other light.
+scene::Scene lit_by_sun_alone(scene::Scene scene, const dvec3& direction) {
+    scene.environment.reset();
+    scene::PunctualLight sun{
+        .name = "sun", .kind = scene::PunctualLight::Kind::directional, .intensity = vec3(3)};
+    sun.world_from_light = test::make_light_transform({0, 0, 9}, direction);
+    scene.punctual.push_back(sun);
+    return scene;
+}
+
+/// Lights without a surface do not shine through rough glass (gap `rough-glass`): a ball before
+/// the sun is black, and no highlight appears on its inner side.
+TEST(GlassBall, RoughBallBeforeTheSunIsBlack) {
+    scene::Material glass = make_glass(1.5f, true);
+    glass.roughness = .4f;
+    scene::Scene scene = make_glass_ball(glass, 4);
+    const dvec3 to_eye = scene.cameras.front().eye - scene.cameras.front().target;
+    const scene::Scene against = lit_by_sun_alone(scene, to_eye),
+                       along = lit_by_sun_alone(scene, -to_eye);
+    for (const bool is_two_sided : {false, true})
+        for (const char* technique : {"raytrace", "raytrace:rays=16", "secant:face=16"}) {
+            const auto brightest = [&](scene::Scene lit) {
+                lit.materials.front().two_sided = is_two_sided;
+                scene::find_mirrors(lit);
+                const measure::Picture seen =
+                    test::render_without_ambient(lit, technique, {24, 24}, 2).hdr;
+                float most = 0; // outlines are left out: they do reflect light from behind them
+                for (int y = 8; y < 16; ++y)
+                    for (int x = 8; x < 16; ++x) most = std::max(most, seen.at(x, y).x);
+                return most;
+            };
+            EXPECT_EQ(brightest(against), 0) << technique << ", two-sided " << is_two_sided;
+            EXPECT_GT(brightest(along), .01) << technique << ", two-sided " << is_two_sided;
+        }
+}
+
+/// A sheet has the highlight of a light on the viewer's side, whichever side its normal points to.
+TEST(GlassPane, RoughSheetHasAHighlightOnBothSides) {
+    scene::Material glass = make_glass(1.5f, false);
+    glass.roughness = .4f;
+    std::vector<float> seen;
+    for (const bool is_turned : {false, true})
+        for (const char* technique : {"raytrace", "raytrace:rays=64", "secant:face=16"}) {
+            scene::Scene scene{.name = "pane"};
+            const std::size_t pane = test::add_material(scene, glass);
+            if (is_turned)
+                test::add_quad(scene, "pane", pane, {-9, -9, 0}, {-9, 9, 0}, {9, 9, 0}, {9, -9, 0});
+            else
+                test::add_quad(scene, "pane", pane, {-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0});
+            scene.cameras.push_back(
+                {.eye = {0, 1, 3}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+            scene = lit_by_sun_alone(scene, {0, 1, -3});
+            scene::find_mirrors(scene);
+            seen.push_back(
+                test::render_without_ambient(scene, technique, {1, 1}, 2).hdr.at(0, 0).x);
+        }
+    EXPECT_GT(seen.front(), .1);
+    for (const float highlight : seen) EXPECT_NEAR(highlight, seen.front(), .01 * seen.front());
+}
+
 /// Rays below 1/512 are dropped, so a little light is missing. In a mesh, whose normals are
 /// interpolated, some rays are reflected inside until their depth ends.
 TEST(GlassBall, IsInvisibleInAWhiteFurnace) {

@@ -190,10 +190,10 @@ TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
     const std::string page = report::to_html(made);
     EXPECT_THAT(page, HasSubstr("class=\"noise\"")); // the floor of the plot
     EXPECT_THAT(page, HasSubstr("hidden"));
-    const auto json = nlohmann::json::parse(report::to_json(made));
-    EXPECT_EQ(json["rows"][0]["noise"][0]["mask"], "mirrors");
-    EXPECT_EQ(json["rows"][0]["noise"][0]["squared_error"], -.01);
-    EXPECT_EQ(json["reference"]["noise"]["flip_floor"], hidden.flip_floor);
+    const auto document = nlohmann::json::parse(report::to_json(made));
+    EXPECT_EQ(document["rows"][0]["noise"][0]["mask"], "mirrors");
+    EXPECT_EQ(document["rows"][0]["noise"][0]["squared_error"], -.01);
+    EXPECT_EQ(document["reference"]["noise"]["flip_floor"], hidden.flip_floor);
 }
 
 TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {

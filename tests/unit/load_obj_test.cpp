@@ -128,6 +128,8 @@ TEST_F(LoadObj, IlluminationModelDecidesTheKindOfReflection) {
     const Material coated = load_mtl_material("Kd 1 .5 0\nPc .75\nPcr .25\n");
     EXPECT_EQ(coated.clearcoat, .75f);
     EXPECT_EQ(coated.clearcoat_roughness, .25f);
+    EXPECT_THAT(list_unsupported_feature_ids(load_obj_statements("Ks 1 1 1\nillum 3\nPc 1\n")),
+                ElementsAre("clearcoat"));
     EXPECT_EQ(load_mtl_material("Kd 1 1 1\nPc 7\n").clearcoat, 1) << "kept between 0 and 1";
     for (const char* kind : {"0", "1"}) {
         const Material diffuse = load_mtl_material(std::string("Ks 1 1 1\nNs 900\nillum ") + kind +

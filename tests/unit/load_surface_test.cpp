@@ -369,13 +369,37 @@ TEST_F(LoadSurfaceTest, UnsupportedMaterialFeaturesAreListed) {
                                    {"KHR_materials_volume", Json::object()},
                                    {"KHR_materials_dispersion", Json::object()}}}}));
     EXPECT_THAT(list_unsupported_feature_ids(scene),
-                testing::UnorderedElementsAre("occlusion-texture", "clearcoat-texture", "sheen",
+                testing::UnorderedElementsAre("occlusion-texture", "clearcoat", "sheen",
                                               "anisotropy", "glass-approximated", "glass-shadow",
                                               "rough-glass"));
     for (const UnsupportedFeature& gap : scene.unsupported) {
         EXPECT_EQ(gap.first, "materials[0] 'all'");
         EXPECT_EQ(gap.count, 1u) << gap.id;
     }
+}
+
+TEST_F(LoadSurfaceTest, ClearCoatsThatAreLeftOutAreListed) {
+    const auto gaps = [&](Json material, const Json& coat) {
+        material["extensions"]["KHR_materials_clearcoat"] = coat;
+        return list_unsupported_feature_ids(load_surface_gltf(make_gltf_with_material(material)));
+    };
+    using testing::ElementsAre, testing::IsEmpty;
+    const Json full = {{"clearcoatFactor", 1}};
+    EXPECT_THAT(gaps(Json::object(), full), IsEmpty());
+    EXPECT_THAT(gaps({{"normalTexture", {{"index", 0}}}}, full), ElementsAre("clearcoat-texture"));
+    EXPECT_THAT(gaps(Json::object(),
+                     {{"clearcoatFactor", 1}, {"clearcoatRoughnessTexture", {{"index", 0}}}}),
+                ElementsAre("clearcoat-texture"));
+    const Json unlit = {{"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+    EXPECT_THAT(gaps(unlit, full), ElementsAre("clearcoat"));
+    EXPECT_THAT(gaps(unlit, {{"clearcoatFactor", 0}}), IsEmpty()) << "there is no coat";
+    EXPECT_THAT(gaps({{"extras", {{"catoptric", {{"reflectance", {1, 1, 1}}}}}}}, full),
+                ElementsAre("clearcoat"));
+    const Material metal = load_gltf_material(
+        {{"pbrMetallicRoughness", {{"metallicFactor", 1}, {"roughnessFactor", 0}}},
+         {"extensions", {{"KHR_materials_clearcoat", full}}}});
+    EXPECT_FALSE(metal.mirror) << "a mirror by its reflectance has no coat";
+    EXPECT_TRUE(has_clear_coat(metal));
 }
 
 TEST_F(LoadSurfaceTest, MetalWithTransmissionIsNoGlass) {
@@ -389,7 +413,12 @@ TEST_F(LoadSurfaceTest, MetalWithTransmissionIsNoGlass) {
     using testing::ElementsAre, testing::IsEmpty;
     EXPECT_THAT(gaps({{"metallicFactor", 1}}), IsEmpty());
     EXPECT_THAT(gaps(Json::object()), IsEmpty()) << "glTF's default is a metal";
-    EXPECT_THAT(gaps({{"metallicFactor", .5}}), ElementsAre("glass-as-diffuse"));
+    EXPECT_THAT(gaps({{"metallicFactor", .5}}), ElementsAre("partial-glass"));
+    EXPECT_EQ(
+        list_unsupported_feature_ids(load_surface_gltf(make_gltf_with_material(
+            {{"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+             {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", .25}}}}}}))),
+        std::vector<std::string>{"partial-glass"});
     EXPECT_THAT(gaps({{"metallicFactor", 0}}),
                 ElementsAre("glass-approximated", "glass-shadow", "rough-glass"))
         << "roughness is 1";
@@ -402,7 +431,7 @@ TEST_F(LoadSurfaceTest, MetalWithTransmissionIsNoGlass) {
     EXPECT_FALSE(clear.blended || has_alpha_mask(clear))
         << "light passes glass, whatever its alpha";
     EXPECT_THAT(gaps({{"metallicFactor", 1}, {"metallicRoughnessTexture", {{"index", 0}}}}),
-                ElementsAre("glass-as-diffuse"))
+                ElementsAre("partial-glass"))
         << "blue is below 1 in some texels";
 }
 

@@ -183,6 +183,19 @@ TEST_F(Load, AlphaOfBlendedSurfacesSurvivesBothFormats) {
     }
 }
 
+TEST_F(Load, ClearCoatSurvivesBothFormats) {
+    Scene scene = make_cornell_mirrors();
+    scene.materials[1].clearcoat = .75f, scene.materials[1].clearcoat_roughness = .2f;
+    save_glb(scene, folder / "x.glb");
+    save_obj(scene, folder / "x.obj");
+    for (const char* file : {"x.glb", "x.obj"}) {
+        const Scene found = load((folder / file).string());
+        EXPECT_EQ(found.materials[1].clearcoat, .75f) << file;
+        EXPECT_EQ(found.materials[1].clearcoat_roughness, .2f) << file;
+        EXPECT_EQ(found.materials[2].clearcoat, 0) << file;
+    }
+}
+
 TEST_F(Load, HiddenFrontWallSurvivesBothFormats) {
     const Scene wanted = make_closed_cornell_mirrors();
     save_glb(wanted, folder / "x.glb");

@@ -90,15 +90,15 @@ TEST(Stress, StressReportNamesTheMutationThatARowDetects) {
 TEST(Stress, StressJsonHasEveryCaseAndHtmlEscapesTexts) {
     StressResults stress;
     stress.rows = {make_stress_row({{"a", .25, .5}, {"b", std::nan(""), .5}, {"c", 1, .5, true}})};
-    const nlohmann::json json = nlohmann::json::parse(to_json(stress));
-    EXPECT_EQ(json["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"},
-                                                           {"measured", .25},
-                                                           {"threshold", .5},
-                                                           {"holds", true},
-                                                           {"quality", false}}));
-    EXPECT_TRUE(json["rows"][0]["measured"].is_null());
-    EXPECT_EQ(json["rows"][0]["cases"][1]["holds"], false);
-    EXPECT_EQ(json["rows"][0]["cases"][2]["quality"], true);
+    const nlohmann::json report = nlohmann::json::parse(to_json(stress));
+    EXPECT_EQ(report["rows"][0]["cases"][0], (nlohmann::json{{"what", "a"},
+                                                             {"measured", .25},
+                                                             {"threshold", .5},
+                                                             {"holds", true},
+                                                             {"quality", false}}));
+    EXPECT_TRUE(report["rows"][0]["measured"].is_null());
+    EXPECT_EQ(report["rows"][0]["cases"][1]["holds"], false);
+    EXPECT_EQ(report["rows"][0]["cases"][2]["quality"], true);
     EXPECT_THAT(to_html(stress), testing::HasSubstr("a &lt;stimulus&gt;"));
 }
 
