@@ -40,7 +40,7 @@ constexpr const char* kCompareExamples = R"(Examples:
   catoptric compare scene.glb -o out --techniques reuse parallax:face=512
   catoptric compare -o out --together --json > report.json
   catoptric compare -o out --views 30 --techniques secant march layered
-  catoptric compare cornell-rough -o out --axis rays=1,4,16,64 --techniques raytrace
+  catoptric compare roughness -o out --axis rays=4,16 --techniques raytrace
   catoptric compare cornell-mirrors room.glb -o out
   catoptric compare -o out --model both --techniques parallax hybrid
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax
