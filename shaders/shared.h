@@ -167,6 +167,16 @@ struct CaptureLookupTable {
     uint places[kMaxCapturedMirrors];
 };
 
+// The grid of light probes (lib/light_probes.glsl), scene units. Probe (x, y, z) has the number
+// x + counts.x (y + counts.y z), and lies at first + (x, y, z) step. There are at least two probes along each axis.
+struct LightProbeGrid {
+    vec3 first;
+    vec3 step;
+    uvec3 counts;
+};
+const uint kLightProbeFace = 16u; // edge of a light probe's capture, texels
+const float kLightProbeTexelAngle = 0.125f; // angle that a texel in the middle of a face covers, radians
+
 // A projection of the vector v = position - eye.
 // Perspective: clip = (dot(right, v), dot(down, v), near, dot(forward, v)). Depth is reversed and has no far plane:
 // depth = near / distance along forward.

@@ -58,6 +58,9 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
     if (settings.has_knob_named(kGlassRefractionModelKnob))
         knobs.refract = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kGlassRefractionModelKnob));
+    if (settings.has_knob_named(kLightProbesKnob) &&
+        is_second_knob_choice_selected(settings, kIndirectLightKnob))
+        knobs.light_probes = *find_knob_number(settings, kLightProbesKnob);
     knobs.capture = find_knob_number(settings, kCaptureContentCacheKnob);
     knobs.is_black_in_others = settings.has_knob_named(kCaptureContentCacheKnob) && !knobs.capture;
     return knobs;

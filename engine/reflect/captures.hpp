@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reflect/technique.hpp"
+#include "render/light_probes.hpp"
 #include "shared.h"
 
 #include <algorithm>
@@ -148,6 +149,21 @@ inline constexpr TechniqueKnob kGlassRefractionModelKnob{
     .value = shared::kRefractAuto,
     .choices = kGlassRefractionModelChoices};
 
+inline constexpr std::array<std::string_view, 2> kIndirectLightChoices{"ambient", "captures"};
+inline constexpr TechniqueKnob kIndirectLightKnob{
+    .name = "indirect",
+    .help = "light between surfaces: ambient (--ambient and the whole environment, the same "
+            "everywhere), or captures (light probes: small captures on a grid; judge it by --truth "
+            "paths)",
+    .high = 1,
+    .choices = kIndirectLightChoices};
+inline constexpr TechniqueKnob kLightProbesKnob{
+    .name = "probes",
+    .help = "light probes along the scene's longest side, for indirect=captures",
+    .low = 2,
+    .high = render::kMaxLightProbesPerAxis,
+    .value = 4};
+
 /// Knobs that every search has, in lists after the search's own knobs.
 inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,
                                                kCaptureColourKnob,
@@ -163,6 +179,8 @@ inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,
                                                kFilterTapsKnob,
                                                kRoughRaysKnob,
                                                kGlassRefractionModelKnob,
+                                               kIndirectLightKnob,
+                                               kLightProbesKnob,
                                                kShadowKnob,
                                                kShadowMapEdgeKnob};
 

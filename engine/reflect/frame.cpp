@@ -20,23 +20,27 @@ std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechnique
 /// Shadow maps by edge in texels. Each is added to the graph once.
 class ShadowMaps {
 public:
+    /// `probes`: added to the lighting of all passes.
     ShadowMaps(graph::Graph& graph, const render::FrameInputs& inputs,
-               const require::RequiredWorkModel& model)
-        : frame_graph_(graph), shadow_frame_inputs_(inputs), model_(model) {}
+               const require::RequiredWorkModel& model,
+               const std::optional<render::LightProbeImages>& probes)
+        : frame_graph_(graph), shadow_frame_inputs_(inputs), model_(model), probes_(probes) {}
 
     render::ShadingLights find_or_add_shadow_map(std::optional<std::uint32_t> edge) {
-        if (!edge) return {};
+        if (!edge) return {.probes = probes_};
         const auto found = made_.find(*edge);
         if (found != made_.end()) return found->second;
         const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
         return made_[*edge] = {render::add_shadow_passes(frame_graph_, shadow_frame_inputs_, *edge,
-                                                         model_, suffix)};
+                                                         model_, suffix),
+                               probes_};
     }
 
 private:
     graph::Graph& frame_graph_;
     const render::FrameInputs& shadow_frame_inputs_;
     const require::RequiredWorkModel& model_;
+    std::optional<render::LightProbeImages> probes_;
     std::map<std::uint32_t, render::ShadingLights> made_;
 };
 
@@ -138,14 +142,27 @@ struct MutualMirrorCaptures {
     RoughLevels levels;
 };
 
+/// Declares the frame's light probes if some technique asks for them; the finest grid wins.
+std::optional<render::LightProbes>
+declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInputs& inputs,
+                                   const std::vector<TechniqueChoice>& choices) {
+    std::uint32_t most = 0;
+    for (const TechniqueChoice& choice : choices) most = std::max(most, choice.shared.light_probes);
+    if (most == 0) return std::nullopt;
+    return render::declare_light_probes(graph, inputs, most);
+}
+
 /// Declares the captures of parts two and later of the report, which show mirrors by the captures
 /// of the frame before. Returns an empty update if no technique needs captures.
-MutualMirrorCaptures add_capture_passes_with_feedback(graph::Graph& graph,
-                                                      const render::FrameInputs& inputs,
-                                                      const TechniqueOfEachMirror& assignment,
-                                                      const PreviousCaptureHistory& keeping,
-                                                      ShadowMaps& maps,
-                                                      const render::ShadingLights& view_lighting) {
+MutualMirrorCaptures add_capture_passes_with_feedback(
+    graph::Graph& graph, const render::FrameInputs& inputs, const TechniqueOfEachMirror& assignment,
+    const PreviousCaptureHistory& keeping, ShadowMaps& maps,
+    const render::ShadingLights& view_lighting, const std::optional<render::LightProbes>& probes) {
+    const auto add_probes = [&](render::ShaderOfEachMirror looks) {
+        if (probes)
+            render::add_light_probe_passes(graph, inputs, *probes, view_lighting.shadow_map,
+                                           std::move(looks));
+    };
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, is_drawn_by_mirrored_views);
@@ -153,8 +170,10 @@ MutualMirrorCaptures add_capture_passes_with_feedback(graph::Graph& graph,
         return choice.technique->capture != nullptr;
     };
     if (assignment.of_mirror.empty() ||
-        !(has_views || std::ranges::any_of(assignment.choices, captures_any)))
+        !(has_views || std::ranges::any_of(assignment.choices, captures_any))) {
+        add_probes(render::use_same_shader_for_mirrors(inputs.scene, {}));
         return {{}, RoughLevels(graph, inputs, nullptr, {})};
+    }
     std::vector<render::CaptureOptions> options = choose_capture_options(inputs, assignment, maps,
                                                                          view_lighting);
     render::FrameCaptureUpdate feeding =
@@ -166,9 +185,10 @@ MutualMirrorCaptures add_capture_passes_with_feedback(graph::Graph& graph,
     for (const std::uint32_t choice : assignment.of_mirror)
         knobs.push_back(assignment.choices[choice].shared);
     RoughLevels levels(graph, inputs, feeding.captures, knobs);
-    render::add_capture_passes(
-        graph, inputs, *feeding.captures,
-        choose_mirror_shaders_in_captures(graph, feeding, assignment, levels), feeding.work);
+    render::ShaderOfEachMirror looks = choose_mirror_shaders_in_captures(graph, feeding, assignment,
+                                                                         levels);
+    add_probes(looks);
+    render::add_capture_passes(graph, inputs, *feeding.captures, std::move(looks), feeding.work);
     render::add_capture_comparison_pass(graph, inputs, feeding);
     levels.add_passes(graph);
     return {std::move(feeding), std::move(levels)};
@@ -208,10 +228,16 @@ choose_mirror_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
 
 TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs& inputs,
                                   const TechniqueOfEachMirror& assignment,
-                                  const PreviousCaptureHistory& keeping) {
+                                  const PreviousCaptureHistory& history) {
     const std::vector<TechniqueChoice>& choices = assignment.choices;
     const bool is_mixed = choices.size() > 1;
-    ShadowMaps maps(graph, inputs, keeping.model);
+    const std::optional<render::LightProbes> probes = declare_light_probes_of_techniques(
+        graph, inputs, choices);
+    // Light probes carry light over the whole scene, so no work can be left out.
+    const PreviousCaptureHistory everything{.model = kDrawEverythingModel};
+    const PreviousCaptureHistory& keeping = probes ? everything : history;
+    ShadowMaps maps(graph, inputs, keeping.model,
+                    probes ? std::optional(probes->images) : std::nullopt);
     const bool completes = is_view_drawn_by_tracer_after_raster(choices);
     const render::ShadingLights lighting = maps.find_or_add_shadow_map(
         choose_shadow_map_edge_for_view(choices, is_mixed || completes));
@@ -220,7 +246,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                                                   lighting);
     TechniqueOutputs outputs;
     const MutualMirrorCaptures feedback = add_capture_passes_with_feedback(
-        graph, inputs, assignment, keeping, maps, lighting);
+        graph, inputs, assignment, keeping, maps, lighting, probes);
     outputs.captures = feedback.update.captures;
     outputs.kept = feedback.update.kept;
     render::ShaderOfEachMirror looks{{}, assignment.of_mirror};
@@ -245,6 +271,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
             feedback.levels.add_rough_lookup_mirrors(graph, around.mirrors, choices[i].shared,
                                                      look.mirror);
         if (look.tracer) {
+            look.tracer->lighting.probes = lighting.probes;
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",
                                                static_cast<std::uint32_t>(tracers.size()));
@@ -253,6 +280,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         looks.looks.push_back(std::move(look.mirror));
     }
     if (outputs.captures) outputs.notes = outputs.captures->notes;
+    if (probes && !probes->note.empty()) outputs.notes.push_back(probes->note);
     if (std::ranges::any_of(choices, is_drawn_by_mirrored_views) && !assignment.of_mirror.empty())
         std::ranges::move(
             add_mirrored_views(graph, inputs, assignment, lighting,

@@ -14,9 +14,15 @@ constexpr TechniqueKnob kBouncesKnob{
     .low = 0,
     .high = 8,
     .value = 3};
-constexpr TechniqueKnob kNaiveKnobs[] = {
-    kBouncesKnob, kCaptureFaceKnob,   kCaptureColourKnob,      kGlassRefractionModelKnob,
-    kShadowKnob,  kShadowMapEdgeKnob, kCaptureContentCacheKnob};
+constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob,
+                                         kCaptureFaceKnob,
+                                         kCaptureColourKnob,
+                                         kGlassRefractionModelKnob,
+                                         kIndirectLightKnob,
+                                         kLightProbesKnob,
+                                         kShadowKnob,
+                                         kShadowMapEdgeKnob,
+                                         kCaptureContentCacheKnob};
 
 /// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
 /// technique, since only these look into it.

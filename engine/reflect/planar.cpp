@@ -23,8 +23,13 @@ constexpr TechniqueKnob kNonPlanarMirrorTechniqueKnob{
     .help = "technique of mirrors that are not flat",
     .high = kNonPlanarMirrorTechniqueChoices.size() - 1,
     .choices = kNonPlanarMirrorTechniqueChoices};
-constexpr TechniqueKnob kPlanarKnobs[] = {kBouncesKnob, kNonPlanarMirrorTechniqueKnob, kShadowKnob,
-                                          kShadowMapEdgeKnob, kCaptureContentCacheKnob};
+constexpr TechniqueKnob kPlanarKnobs[] = {kBouncesKnob,
+                                          kNonPlanarMirrorTechniqueKnob,
+                                          kIndirectLightKnob,
+                                          kLightProbesKnob,
+                                          kShadowKnob,
+                                          kShadowMapEdgeKnob,
+                                          kCaptureContentCacheKnob};
 
 std::string describe_why_mirror_is_not_planar(const scene::FlatFaces& flats, double tolerance) {
     if (!flats.misfit.empty()) return std::string(flats.misfit);

@@ -8,8 +8,8 @@ namespace {
 
 constexpr const char* kReuseShader = "reflect/naive.frag";
 constexpr TechniqueKnob kReuseKnobs[] = {
-    kCaptureFaceKnob, kCaptureColourKnob, kRoughMirrorMethodKnob,
-    kFilterTapsKnob,  kRoughRaysKnob,     kGlassRefractionModelKnob,
+    kCaptureFaceKnob, kCaptureColourKnob,        kRoughMirrorMethodKnob, kFilterTapsKnob,
+    kRoughRaysKnob,   kGlassRefractionModelKnob, kIndirectLightKnob,     kLightProbesKnob,
     kShadowKnob,      kShadowMapEdgeKnob};
 
 constexpr std::string_view kReuseDefaultRows[] = {"reuse"};

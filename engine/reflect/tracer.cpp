@@ -5,6 +5,7 @@
 #include "reflect/tracer.hpp"
 
 #include "core/content_hash.hpp"
+#include "render/draw.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,6 +73,7 @@ gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
         {{"max_depth", tracer.depth},
          {"shadow", static_cast<std::uint32_t>(tracer.shadow)},
          {"has_shadow_map", does_ray_tracer_read_shadow_map(tracer) ? 1u : 0u},
+         {"has_light_probes", tracer.lighting.probes ? 1u : 0u},
          {"exact_spheres", tracer.exact_spheres ? 1u : 0u},
          {"first_raster", tracer.first_raster ? 1u : 0u},
          {"traces_lobes", tracer.rays > 0 ? 1u : 0u},
@@ -87,9 +89,16 @@ void bind_tracer_resources(graph::PassCommands& commands, const render::GpuScene
                            const TracerSettings& tracer) {
     scene.bind(commands);
     scene.bind_ray_tracing_buffers(commands, sphere_mode_of_tracer(tracer));
-    if (does_ray_tracer_read_shadow_map(tracer))
-        commands.bind_resource("shadow_map", *tracer.lighting.shadow_map,
-                               graph::TextureFilter::compare);
+    render::ShadingLights read = tracer.lighting;
+    if (!does_ray_tracer_read_shadow_map(tracer)) read.shadow_map.reset();
+    render::bind_lighting_images(commands, read);
+}
+
+/// Declares the reads of the images that bind_tracer_resources binds.
+void declare_lighting_reads(graph::PassBuilder& pass, const TracerSettings& tracer) {
+    render::ShadingLights read = tracer.lighting;
+    if (!does_ray_tracer_read_shadow_map(tracer)) read.shadow_map.reset();
+    render::declare_shader_reads(pass, read, {});
 }
 
 /// Returns the seed of the lobes' directions. It depends on the number of rays, so that a row with
@@ -185,8 +194,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
         .record([=](graph::PassCommands& commands) { commands.fill_buffer(traced.counters, 0); });
     request_ray_tracing_data(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
-    if (does_ray_tracer_read_shadow_map(tracer))
-        pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
+    declare_lighting_reads(pass, tracer);
     pass.writes(traced.hdr, ResourceUse::storage_write)
         .writes(traced.counters, ResourceUse::storage)
         .record([=, &scene = inputs.scene, seed = inputs.seed](graph::PassCommands& commands) {
@@ -211,8 +219,7 @@ graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,
                                                                     tracer.first_raster, view);
     request_ray_tracing_data(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "trace" + suffix);
-    if (does_ray_tracer_read_shadow_map(tracer))
-        pass.reads(*tracer.lighting.shadow_map, ResourceUse::sampled);
+    declare_lighting_reads(pass, tracer);
     pass.reads(list.arguments, ResourceUse::indirect)
         .reads(list.pixels, ResourceUse::storage_read)
         .writes(list.counters, ResourceUse::storage)

@@ -107,6 +107,7 @@ gpu::ShaderConstantValues make_fragment_shader_constants(const GpuScene& scene,
     if (drawing.peeled) features.emplace_back("peels", 1u);
     if (scene.has_varying_colours()) features.emplace_back("lights_mirrors", 1u);
     if (drawing.lighting.shadow_map) features.emplace_back("has_shadow_map", 1u);
+    if (drawing.lighting.probes) features.emplace_back("has_light_probes", 1u);
     return features;
 }
 
@@ -176,6 +177,15 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
 
 } // namespace
 
+void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting) {
+    if (lighting.shadow_map)
+        commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
+    if (!lighting.probes) return;
+    commands.bind_resource("probe_grid", lighting.probes->grid);
+    commands.bind_resource("probe_light", lighting.probes->light, TextureFilter::linear);
+    commands.bind_resource("probe_distances", lighting.probes->distances, TextureFilter::linear);
+}
+
 void draw_objects(PassCommands& commands, const GpuScene& scene, gpu::RasterPipelineState state,
                   std::uint32_t first_view, std::uint32_t layers, std::uint32_t ablated,
                   const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
@@ -222,8 +232,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
     scene.bind(commands);
     if (std::ranges::any_of(looks->looks, &MirrorShader::ablated))
         scene.bind_ray_tracing_buffers(commands);
-    if (lighting.shadow_map)
-        commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
+    bind_lighting_images(commands, lighting);
     if (peeled) commands.bind_resource("first_layer", *peeled);
     gpu::RasterPipelineState diffuse{"", "diffuse.frag", store, gpu::TriangleWinding::none,
                                      features};
@@ -290,8 +299,7 @@ void draw_blended_surfaces(PassCommands& commands, const GpuScene& scene,
     if (!scene.has_blended_surfaces() || drawing.completing_tracer.number > 0 || drawing.peeled)
         return;
     scene.bind(commands);
-    if (drawing.lighting.shadow_map)
-        commands.bind_resource("shadow_map", *drawing.lighting.shadow_map, TextureFilter::compare);
+    bind_lighting_images(commands, drawing.lighting);
     draw_blended_objects(commands, scene,
                          {"", "diffuse.frag", drawing.store, gpu::TriangleWinding::none,
                           make_fragment_shader_constants(scene, drawing)},

@@ -8,6 +8,9 @@
 /// Functions that record the draws of scene objects into a raster pass.
 namespace catoptric::render {
 
+/// Binds the images of the lighting.
+void bind_lighting_images(graph::PassCommands& commands, const ShadingLights& lighting);
+
 /// Returns whether an object, given by its index, is drawn.
 using ObjectFilter = std::function<bool(std::size_t)>;
 

@@ -18,9 +18,17 @@ struct FrameInputs {
     bool with_lookup = false;
 };
 
-/// The lighting of captures and views. Without a shadow map, light casts no shadows.
+/// The images of light probes (shaders/lib/light_probes.glsl).
+struct LightProbeImages {
+    graph::ImageHandle grid, light, distances;
+    friend bool operator==(const LightProbeImages&, const LightProbeImages&) = default;
+};
+
+/// The lighting of captures and views. Without a shadow map, light casts no shadows. Without light
+/// probes, ambient light and the whole environment light all surfaces.
 struct ShadingLights {
     std::optional<graph::ImageHandle> shadow_map;
+    std::optional<LightProbeImages> probes = {};
     friend bool operator==(const ShadingLights&, const ShadingLights&) = default;
 };
 

@@ -42,6 +42,11 @@ void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lightin
                           const ShaderOfEachMirror& looks) {
     PassReadDeclarations reads{pass};
     if (lighting.shadow_map) reads.add_image(*lighting.shadow_map);
+    if (lighting.probes) {
+        reads.add_image(lighting.probes->grid);
+        reads.add_image(lighting.probes->light);
+        reads.add_image(lighting.probes->distances);
+    }
     for (const MirrorShader& look : looks.looks) {
         if (look.captures) reads.add_captures(*look.captures);
         for (const auto& [name, images] : look.images)

@@ -8,6 +8,7 @@
 #include "lib/bindings.glsl"
 #include "lib/environment.glsl"
 #include "lib/light_kinds.glsl"
+#include "lib/light_probes.glsl"
 #include "lib/material.glsl"
 
 // Returns the direction from the surface to the viewer in the tangent space of `normal`. An interpolated normal that
@@ -73,8 +74,13 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         }
         ++light;
     } while (one_light == 0u && light < count);
-    if (environment_kind != kNoEnvironment && traces_paths == 0u) direct += environment_irradiance(normal);
-    vec3 result = lambertian_radiance(surface.emission, surface.albedo, direct, traces_paths == 0u ? frame_ambient_light() : 0.0);
+    bool has_ambient = traces_paths == 0u && has_light_probes == 0u;
+    if (has_light_probes != 0u) {
+        if (surface.albedo != vec3(0)) direct += light_probe_irradiance(position, normal);
+    } else if (environment_kind != kNoEnvironment && traces_paths == 0u) {
+        direct += environment_irradiance(normal);
+    }
+    vec3 result = lambertian_radiance(surface.emission, surface.albedo, direct, has_ambient ? frame_ambient_light() : 0.0);
     if (has_lobes != 0u && is_rough) {
         result += specular_lobe.gain * highlights;
         if (!reflects)

@@ -16,6 +16,7 @@ layout(set = 0, binding = 11, scalar) readonly buffer Placements { Placement pla
 layout(set = 0, binding = 7, scalar) readonly buffer Traces { TraceParameters traces[2]; };
 layout(set = 0, binding = 8, scalar) readonly buffer AllCounters { Counters counters[2]; };
 layout(set = 0, binding = 10, scalar) readonly buffer Skies { Sky skies[2]; };
+layout(set = 0, binding = 12, scalar) readonly buffer Grids { LightProbeGrid grids[2]; };
 layout(set = 0, binding = 9, scalar) writeonly buffer Words { uint words[]; };
 
 uint next = 0u;
@@ -42,6 +43,8 @@ void main() {
     View v = views[1];
     append_result_word(v.eye), append_result_word(v.right), append_result_word(v.down), append_result_word(v.forward), append_result_word(v.near), append_result_word(v.eye_low),
         append_result_word(v.parallel), append_result_word(v.clip);
+    append_result_word(grids[1].first), append_result_word(grids[1].step);
+    append_result_word(grids[1].counts.x), append_result_word(grids[1].counts.y), append_result_word(grids[1].counts.z);
     Sky s = skies[1];
     append_result_word(s.size), append_result_word(s.scale), append_result_word(s.turn);
     for (int i = 0; i < 9; ++i) append_result_word(s.irradiance[i]);

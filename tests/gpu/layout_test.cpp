@@ -59,6 +59,9 @@ const std::vector<SharedStructMember> kSharedStructMembers{MEMBER(Vertex, positi
                                                            MEMBER(View, eye_low),
                                                            MEMBER(View, parallel),
                                                            MEMBER(View, clip),
+                                                           MEMBER(LightProbeGrid, first),
+                                                           MEMBER(LightProbeGrid, step),
+                                                           MEMBER(LightProbeGrid, counts),
                                                            MEMBER(Sky, size),
                                                            MEMBER(Sky, scale),
                                                            MEMBER(Sky, turn),
@@ -116,8 +119,9 @@ TEST(Layout, EveryMemberOfEveryStructureIsReadAtItsOffset) {
     graph.add_pass("layout")
         .writes(output, graph::ResourceUse::storage_write)
         .record([&](graph::PassCommands& commands) {
-            for (const char* name : {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies",
-                                     "Frames", "Draws", "Placements", "Traces", "AllCounters"})
+            for (const char* name :
+                 {"Vertices", "Surfaces", "Lights", "Probes", "Views", "Skies", "Frames", "Draws",
+                  "Placements", "Traces", "AllCounters", "Grids"})
                 commands.bind_resource(name, input);
             commands.bind_resource("Words", output);
             commands.bind_pipeline(gpu::ComputePipelineState{"tests/layout.comp", {}});
@@ -139,7 +143,7 @@ TEST(Layout, TestedMembersFillTheirStructures) {
         size[structure] = member.size_of_struct;
     }
     EXPECT_EQ(sum, size); // scalar layout has no padding, so the members add up to the structure
-    EXPECT_EQ(sum.size(), 11u);
+    EXPECT_EQ(sum.size(), 12u);
 }
 
 TEST(Layout, PushConstantsHaveTheSizeOfTheirStructure) {

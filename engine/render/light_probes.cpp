@@ -1,0 +1,160 @@
+#include "render/light_probes.hpp"
+
+#include "render/draw.hpp"
+#include "render/shown_faces.hpp"
+#include "render/sky.hpp"
+#include "render/views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace catoptric::render {
+
+namespace {
+
+using graph::ImageHandle;
+using graph::ResourceUse;
+
+/// Edge of a face of the irradiance of a probe, in texels. The irradiance is a polynomial of degree
+/// 2 in the normal, so few texels hold it.
+constexpr std::uint32_t kIrradianceFace = 8;
+
+std::size_t count_probes(const uvec3& counts) {
+    return std::size_t{counts.x} * counts.y * counts.z;
+}
+
+/// Returns whether the object lights others as a lamp.
+bool is_lamp(const ObjectDrawRange& range) { return !range.casts_shadow && !range.glass; }
+
+/// Declares the pass that draws the capture of one probe, from 0.
+void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
+                             const LightProbes& probes, std::uint32_t probe,
+                             const ShadingLights& lighting,
+                             const std::shared_ptr<const ShaderOfEachMirror>& looks) {
+    const uvec3 counts = probes.grid.counts,
+                place(probe % counts.x, probe / counts.x % counts.y, probe / (counts.x * counts.y));
+    std::uint32_t first_view = 0;
+    const std::vector<shared::View> views = make_cube_views(
+        probes.grid.first + vec3(place) * probes.grid.step, 0);
+    for (std::uint32_t face = 0; face < views.size(); ++face) {
+        const std::uint32_t view = inputs.scene.add_view(views[face]);
+        if (face == 0) first_view = view;
+    }
+    const std::string name = inputs.prefix + "probes/" + std::to_string(probe + 1);
+    const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f,
+                                               shared::kLightProbeFace, shared::kLightProbeFace, 6,
+                                               true});
+    graph::PassBuilder pass = graph.add_pass(name);
+    declare_shader_reads(pass, lighting, *looks);
+    const float nothing = std::numeric_limits<float>::infinity();
+    pass.writes(probes.colours.select_image_layers(6 * probe, 6), ResourceUse::colour,
+                kClearColourBlack)
+        .writes(probes.depths.select_image_layers(6 * probe, 6), ResourceUse::colour,
+                graph::ClearValue{nothing, 0, 0, 0})
+        .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+        .set_pass_layer_count(6)
+        .record(
+            [&scene = inputs.scene, drawing = SceneDrawSettings{
+                                        .first_view = first_view,
+                                        .layers = 6,
+                                        .lighting = lighting,
+                                        .looks = looks,
+                                        .store = {{"distance_scale", 1.0f},
+                                                  {"largest_colour", kLargestFiniteHalfFloatValue}},
+                                        .peeled = {}}](graph::PassCommands& commands) {
+                const auto is_wanted = [&](std::size_t object) {
+                    return !is_lamp(scene.list_draw_ranges()[object]);
+                };
+                const std::vector<std::uint8_t> shown = find_faces_showing_objects(
+                    std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
+                    {shared::kLightProbeFace,
+                     scene.scene_device().vulkan_limits().subPixelPrecisionBits},
+                    scene.list_draw_ranges(), {}, is_wanted);
+                const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
+                draw_scene(commands, scene, drawing, is_shown, shown);
+                draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+                draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
+            });
+}
+
+} // namespace
+
+shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::uint32_t most,
+                                             std::size_t most_probes, bool is_open) {
+    constexpr float kOpenMargin = .1f; // of the extent
+    const vec3 extent = bounds.empty() ? vec3(1) : bounds.extent(),
+               centre = bounds.empty() ? vec3(0) : bounds.centre();
+    const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
+    shared::LightProbeGrid grid{};
+    for (most = std::clamp(most, 2u, kMaxLightProbesPerAxis);; --most) {
+        const float step = longest / static_cast<float>(most);
+        for (int axis = 0; axis < 3; ++axis) {
+            const float wide = std::max(extent[axis], step);
+            const auto count = std::max(
+                2u, static_cast<std::uint32_t>(std::lround(extent[axis] / step)));
+            const auto cells = static_cast<float>(count - 1);
+            grid.counts[axis] = count;
+            grid.step[axis] = is_open ? (1 + 2 * kOpenMargin) * wide / cells
+                                      : wide / static_cast<float>(count);
+            grid.first[axis] = centre[axis] - .5f * cells * grid.step[axis];
+        }
+        if (most == 2 || count_probes(grid.counts) <= most_probes) return grid;
+    }
+}
+
+LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
+                                 std::uint32_t most_per_axis) {
+    Bounds<float> bounds;
+    for (const ObjectDrawRange& range : inputs.scene.list_draw_ranges()) bounds.add(range.bounds);
+    LightProbes probes;
+    probes.grid = make_light_probe_grid(bounds, most_per_axis, inputs.scene.max_cube_count(),
+                                        inputs.scene.has_sky());
+    const auto image = [&](const char* what, TexelFormat format, std::uint32_t edge) {
+        return graph.add_image(
+            {inputs.prefix + "probes." + what, format, edge, edge, 6 * probes.count(), true});
+    };
+    probes.colours = image("colour", TexelFormat::rgba16f, shared::kLightProbeFace);
+    probes.depths = image("depth", TexelFormat::r32f, shared::kLightProbeFace);
+    probes.images.distances = image("distances", TexelFormat::rgba16f, shared::kLightProbeFace);
+    probes.images.light = image("light", TexelFormat::rgba16f, kIrradianceFace);
+    probes.images.grid = graph.add_image(
+        {inputs.prefix + "probes.grid", TexelFormat::rgba32f, 3, 1});
+    if (probes.grid.counts !=
+        make_light_probe_grid(bounds, most_per_axis, ~std::size_t{0}, inputs.scene.has_sky())
+            .counts)
+        probes.note = "the grid has " + std::to_string(probes.count()) +
+                      " light probes, the most that fit into an array of captures of this device";
+    return probes;
+}
+
+void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
+                            const LightProbes& probes, std::optional<ImageHandle> shadow_map,
+                            ShaderOfEachMirror looks) {
+    const LightProbeImages& now = probes.images;
+    const ShadingLights lighting{shadow_map,
+                                 LightProbeImages{graph.previous_contents(now.grid),
+                                                  graph.previous_contents(now.light),
+                                                  graph.previous_contents(now.distances)}};
+    const auto shared_looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
+    for (std::uint32_t probe = 0; probe < probes.count(); ++probe)
+        add_light_probe_capture(graph, inputs, probes, probe, lighting, shared_looks);
+    graph.add_pass(inputs.prefix + "probes/light")
+        .reads(probes.colours, ResourceUse::sampled)
+        .reads(probes.depths, ResourceUse::sampled)
+        .writes(probes.images.grid, ResourceUse::storage_write)
+        .writes(probes.images.light, ResourceUse::storage_write)
+        .writes(probes.images.distances, ResourceUse::storage_write)
+        .record([probes](graph::PassCommands& commands) {
+            commands.bind_resource("captured", probes.colours);
+            commands.bind_resource("captured_distances", probes.depths);
+            commands.bind_resource("grid_texels", probes.images.grid);
+            commands.bind_resource("light", probes.images.light);
+            commands.bind_resource("distances", probes.images.distances);
+            commands.bind_pipeline(gpu::ComputePipelineState{"probes/light.comp", {}});
+            commands.push_constants(probes.grid);
+            commands.dispatch(probes.count(), 1);
+        });
+}
+
+} // namespace catoptric::render

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "render/passes.hpp"
+
+/// Light between surfaces by light probes: small captures at the points of a grid, each of which
+/// gives the irradiance at its place (shaders/lib/light_probes.glsl).
+namespace catoptric::render {
+
+/// Most light probes along an axis of the grid.
+inline constexpr std::uint32_t kMaxLightProbesPerAxis = 16;
+
+/// Returns a grid over the bounds (scene units) with `most` probes (2 to kMaxLightProbesPerAxis)
+/// along the longest axis, and about the same step along the others, but at least two. Each probe
+/// lies in the middle of a cell, so that none lies in an outer wall. In an open scene (`is_open`)
+/// the outermost probes lie a little outside the bounds instead, since light also meets the outer
+/// surfaces. Fewer if that exceeds `most_probes`, at least 8.
+shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::uint32_t most,
+                                             std::size_t most_probes, bool is_open);
+
+/// The light probes of a frame.
+struct LightProbes {
+    shared::LightProbeGrid grid;
+    graph::ImageHandle colours, depths; ///< of the captures: rgba16f, and distances as r32f
+    LightProbeImages images;
+    std::string note; ///< sentence that says how the grid differs from the request; else empty
+
+    std::uint32_t count() const { return grid.counts.x * grid.counts.y * grid.counts.z; }
+};
+
+/// Declares the images of the frame's light probes.
+LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
+                                 std::uint32_t most_per_axis);
+
+/// Declares a pass for each probe, which draws the scene around it without lamps, and one that
+/// computes LightProbes::images. The captures are lit by the shadow map and by the probes of the
+/// frame before, so frame k shows k reflections between diffuse surfaces; lamps would otherwise
+/// count twice, since they light surfaces as points. `looks`: shaders of mirrors. The captures have
+/// kLightProbeFace texels an edge. Costs O(probes * objects) on the host.
+void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
+                            const LightProbes& probes, std::optional<graph::ImageHandle> shadow_map,
+                            ShaderOfEachMirror looks);
+
+} // namespace catoptric::render

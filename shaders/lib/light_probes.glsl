@@ -1,0 +1,83 @@
+// Light between surfaces, looked up in light probes: small captures at the points of a grid, each of which gives the
+// irradiance at its place (Ramamoorthi and Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001).
+// A surface takes the mean of the eight probes around it, weighted by distance, by the side of the surface on which they
+// lie, and by whether they see it (Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
+// Fields", 2019). engine/render/light_probes.cpp draws the captures.
+#ifndef CATOPTRIC_LIGHT_PROBES_GLSL
+#define CATOPTRIC_LIGHT_PROBES_GLSL
+
+#include "lib/bindings.glsl"
+#include "lib/constants.glsl"
+
+// 1: light probes replace the ambient light and the environment's unoccluded light.
+layout(constant_id = HAS_LIGHT_PROBES_CONSTANT) const uint has_light_probes = 0u;
+// The grid, a LightProbeGrid. All is 0 in the first frame, in which no probe has been drawn yet.
+layout(set = 0, binding = 34) uniform sampler2D probe_grid;
+layout(set = 0, binding = 35) uniform samplerCubeArray probe_light;     // irradiance at each probe, by the surface's normal
+layout(set = 0, binding = 36) uniform samplerCubeArray probe_distances; // distance from each probe, scene units
+
+LightProbeGrid read_light_probe_grid() {
+    return LightProbeGrid(texelFetch(probe_grid, ivec2(0, 0), 0).xyz, texelFetch(probe_grid, ivec2(1, 0), 0).xyz,
+                          uvec3(texelFetch(probe_grid, ivec2(2, 0), 0).xyz));
+}
+
+uint light_probe_index(LightProbeGrid grid, uvec3 place) { return place.x + grid.counts.x * (place.y + grid.counts.y * place.z); }
+
+vec3 irradiance_at_light_probe(uint probe, vec3 normal) {
+    count_work_once(kWorkColourLookups);
+    return textureLod(probe_light, vec4(normal, float(probe)), 0.0).rgb;
+}
+
+// Returns the share to which the probe at `centre` sees the surface point, times the cosine between the normal and the
+// direction to the probe; 0 if the probe lies behind the surface.
+float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
+    vec3 to_point = position - centre;
+    float distance = length(to_point), cosine = -dot(to_point, normal) / max(distance, 1e-6);
+    if (!(cosine > 0.0)) return 0.0;
+    float captured = textureLod(probe_distances, vec4(to_point, float(probe)), 0.0).r;
+    // Error of interpolating the distance h / cos(angle) of a plane linearly between texels, and the rounding of texels.
+    float squared_tangent = 1.0 / max(cosine * cosine, 1e-3) - 1.0;
+    float slack = distance * (0.01 + kLightProbeTexelAngle * kLightProbeTexelAngle / 8.0 * (1.0 + 2.0 * squared_tangent));
+    return cosine * (1.0 - smoothstep(slack, 2.0 * slack, distance - captured));
+}
+
+// Returns the irradiance from other surfaces and the environment at a surface point with the unit normal `normal`. Where
+// none of the eight probes around the point sees it, all probes are asked, and nearer ones count more. Returns 0 where no
+// probe sees the point.
+vec3 light_probe_irradiance(vec3 position, vec3 normal) {
+    LightProbeGrid grid = read_light_probe_grid();
+    if (grid.counts.x == 0u) return vec3(0);
+    vec3 cell = (position - grid.first) / grid.step;
+    vec3 low = clamp(floor(cell), vec3(0), vec3(grid.counts) - 2.0);
+    vec3 within = clamp(cell - low, vec3(0), vec3(1));
+    vec3 sum = vec3(0);
+    float weights = 0.0;
+    uint corner = 0u;
+    do {
+        uvec3 offset = uvec3(corner & 1u, corner >> 1u & 1u, corner >> 2u);
+        uvec3 place = uvec3(low) + offset;
+        vec3 near = mix(1.0 - within, within, vec3(offset));
+        uint probe = light_probe_index(grid, place);
+        float weight = near.x * near.y * near.z;
+        if (weight > 0.0) weight *= light_probe_sight(probe, grid.first + vec3(place) * grid.step, position, normal);
+        if (weight > 0.0) {
+            sum += weight * irradiance_at_light_probe(probe, normal);
+            weights += weight;
+        }
+    } while (++corner < 8u);
+    const float kLeastWeight = 1e-3; // below it, rounding and single texels would decide
+    if (weights > kLeastWeight) return sum / weights;
+    uint probe = 0u, count = grid.counts.x * grid.counts.y * grid.counts.z;
+    do {
+        uvec3 place = uvec3(probe % grid.counts.x, probe / grid.counts.x % grid.counts.y, probe / (grid.counts.x * grid.counts.y));
+        vec3 centre = grid.first + vec3(place) * grid.step, away = (position - centre) / grid.step;
+        float weight = light_probe_sight(probe, centre, position, normal) / (1e-3 + dot(away, away) * dot(away, away));
+        if (weight > 0.0) {
+            sum += weight * irradiance_at_light_probe(probe, normal);
+            weights += weight;
+        }
+    } while (++probe < count);
+    return weights > 0.0 ? sum / weights : vec3(0);
+}
+
+#endif

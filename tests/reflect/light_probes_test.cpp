@@ -1,0 +1,182 @@
+// Tests of light between surfaces by light probes (knob `indirect=captures`), against closed forms,
+// path tracing, and rooms into which no light may leak.
+#include "render/light_probes.hpp"
+#include "scene/classify.hpp"
+#include "support/lit.hpp"
+#include "support/rendering.hpp"
+#include "support/smooth_environment.hpp"
+
+#include <iostream>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr int kProbeFrames = 8; // frame k shows k reflections between diffuse surfaces
+
+double mean_green(const measure::Picture& picture) {
+    double sum = 0;
+    for (const vec3& pixel : picture.pixels) sum += pixel.y;
+    return sum / double(picture.pixels.size());
+}
+
+double rms_difference(const measure::Picture& a, const measure::Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const dvec3 off = glm::clamp(dvec3(a.pixels[i]), 0.0, 1.0) -
+                          glm::clamp(dvec3(b.pixels[i]), 0.0, 1.0);
+        sum += glm::dot(off, off);
+    }
+    return std::sqrt(sum / double(3 * a.pixels.size()));
+}
+
+measure::Picture render_by_probes(const scene::Scene& scene, const char* technique, uvec2 size,
+                                  int frames = kProbeFrames) {
+    return test::render_without_ambient(scene, technique, size, frames).hdr;
+}
+
+/// Returns a white ball before an environment, without a floor.
+scene::Scene make_ball_in_environment(std::shared_ptr<scene::Environment> environment) {
+    scene::Scene scene{.name = "ball"};
+    test::add_ball(scene, "ball",
+                   test::add_material(scene, {.name = "plaster", .albedo = vec3(.5f)}), {0, 0, 0},
+                   1, 5);
+    scene.environment = std::move(environment);
+    scene.cameras.push_back({.eye = {0, .5, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 20});
+    return scene;
+}
+
+/// A convex body in a white environment reflects its albedo everywhere.
+TEST(LightProbes, ConvexBodyInAWhiteFurnaceReflectsItsAlbedo) {
+    auto white = std::make_shared<scene::Environment>();
+    white->size = {16, 8};
+    white->texels.assign(16 * 8, vec3(1));
+    const measure::Picture seen = render_by_probes(make_ball_in_environment(white),
+                                                   "reuse:indirect=captures", {24, 24}, 2);
+    for (const vec3& pixel : seen.pixels) EXPECT_NEAR(pixel.y, .5, .025);
+}
+
+/// Nothing hides the environment from a convex body, so captures of the environment give the light
+/// that its own coefficients give.
+TEST(LightProbes, ConvexBodyIsLitAsByTheWholeEnvironment) {
+    const scene::Scene scene = make_ball_in_environment(test::make_smooth_environment());
+    const measure::Picture ambient = render_by_probes(scene, "reuse", {24, 24}, 1),
+                           probes = render_by_probes(scene, "reuse:indirect=captures", {24, 24}, 2);
+    double least = 1e9, most = 0;
+    for (const vec3& pixel : ambient.pixels)
+        least = std::min<double>(least, pixel.y), most = std::max<double>(most, pixel.y);
+    ASSERT_GT(most, 1.3 * least) << "the environment must vary";
+    for (std::size_t i = 0; i < ambient.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            EXPECT_NEAR(probes.pixels[i][channel], ambient.pixels[i][channel],
+                        .06 * ambient.pixels[i][channel])
+                << i;
+}
+
+/// In a room of black walls no light passes between surfaces, and the lamp is not counted again.
+TEST(LightProbes, BlackRoomHasTheDirectLightOfItsLampAlone) {
+    scene::Scene room = test::make_lit_room(0, 1);
+    for (scene::Material& material : room.materials)
+        if (material.emission == vec3(0)) material.albedo = vec3(0);
+    const std::size_t grey = test::add_material(room, {.name = "grey", .albedo = vec3(.5f)});
+    test::add_quad(room, "table", grey, {-1, -1.5, 1}, {1, -1.5, 1}, {1, -1.5, -1}, {-1, -1.5, -1});
+    const measure::Picture direct = render_by_probes(room, "reuse", {32, 24}),
+                           probes = render_by_probes(room, "reuse:indirect=captures", {32, 24});
+    ASSERT_GT(mean_green(direct), .003);
+    EXPECT_LT(rms_difference(direct, probes), 1e-3);
+}
+
+/// A closed room with a mirror: probes are far nearer to a path tracer than any constant ambient
+/// light is, and so is their mean.
+TEST(LightProbes, ClosedRoomIsNearerToPathsThanWithAnyAmbientLight) {
+    scene::Scene room = test::make_lit_room(1, 1);
+    scene::find_mirrors(room);
+    const uvec2 size{48, 36};
+    const measure::Picture truth =
+        test::render_without_ambient(room, "raytrace:indirect=paths,rays=1024,depth=12", size).hdr;
+    double best = 1e9;
+    app::Request asked = test::make_test_request(room, {"secant"}, size);
+    asked.warmup = 3;
+    for (const double ambient : {0., .02, .04, .06, .08, .1, .14, .2, .3}) {
+        asked.ambient = ambient;
+        best = std::min(
+            best,
+            rms_difference(app::run(test::get_test_engine(), asked).parts.front().hdr, truth));
+    }
+    const measure::Picture probes = render_by_probes(room, "secant:indirect=captures", size);
+    const double found = rms_difference(probes, truth);
+    std::cout << "[ MEASURED ] rms to paths: best ambient " << best << ", probes " << found
+              << "; mean of paths " << mean_green(truth) << ", of probes " << mean_green(probes)
+              << '\n';
+    EXPECT_LT(found, .5 * best);
+    EXPECT_NEAR(mean_green(probes), mean_green(truth), .15 * mean_green(truth));
+}
+
+/// A wall .05 thick stands between a room with a lamp and a dark one.
+TEST(LightProbes, NoLightLeaksThroughAWall) {
+    scene::Scene scene = test::make_lit_room(0, 1); // x from -2 to 2
+    const std::size_t white = 0;
+    for (int face = 0; face < 6; ++face)
+        test::add_mesh(scene, scene::make_box_wall(face, {2.05, -2, -3}, {6, 2, 2}), white);
+    const auto look = [&](double x) {
+        scene::Scene seen = scene;
+        seen.cameras.front().eye = {x, .2, -2.9}, seen.cameras.front().target = {x, -.2, 0};
+        return render_by_probes(seen, "reuse:indirect=captures,probes=6", {48, 36});
+    };
+    const measure::Picture lit = look(0), dark = look(4);
+    double most = 0;
+    for (const vec3& pixel : dark.pixels) most = std::max<double>(most, pixel.y);
+    std::cout << "[ MEASURED ] lit room " << mean_green(lit) << ", brightest pixel of the dark one "
+              << most << '\n';
+    EXPECT_GT(mean_green(lit), .02);
+    EXPECT_LT(most, .02 * mean_green(lit));
+}
+
+/// Rays that complete a search light surfaces by the same probes.
+TEST(LightProbes, TracedPixelsAreLitByProbesToo) {
+    scene::Scene room = test::make_lit_room(1, 1);
+    scene::find_mirrors(room);
+    const uvec2 size{48, 36};
+    const measure::Picture searched = render_by_probes(room, "secant:indirect=captures,face=128",
+                                                       size),
+                           traced = render_by_probes(
+                               room, "hybrid:force=unknown,indirect=captures,face=128", size),
+                           without = render_by_probes(room, "hybrid:force=unknown", size);
+    std::cout << "[ MEASURED ] rms between searched and traced " << rms_difference(searched, traced)
+              << ", without probes " << rms_difference(searched, without) << '\n';
+    EXPECT_LT(rms_difference(searched, traced), .25 * rms_difference(searched, without));
+}
+
+TEST(LightProbes, RequiredWorkDrawsThePictureOfAllWork) {
+    scene::Scene room = test::make_lit_room(2, 1);
+    scene::find_mirrors(room);
+    app::Request asked = test::make_test_request(room, {"secant:indirect=captures,face=32"},
+                                                 {48, 36});
+    asked.warmup = 4;
+    asked.model = app::RenderedWork::everything;
+    const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
+    asked.model = app::RenderedWork::required;
+    EXPECT_TRUE(test::have_equal_pixel_bytes(
+        all, app::run(test::get_test_engine(), asked).parts.front().hdr));
+}
+
+TEST(LightProbeGrid, CoversTheBoundsWithEqualStepsOffTheWalls) {
+    const Bounds<float> room{{-2, 0, -1}, {6, 2, 3}}; // 8 x 2 x 4
+    const shared::LightProbeGrid grid = render::make_light_probe_grid(room, 8, 1000, false);
+    EXPECT_EQ(grid.counts, uvec3(8, 2, 4));
+    EXPECT_EQ(grid.step, vec3(1));
+    EXPECT_EQ(grid.first, vec3(-1.5f, .5f, -.5f)) << "in the middle of a cell";
+    const shared::LightProbeGrid open = render::make_light_probe_grid(room, 8, 1000, true);
+    EXPECT_EQ(open.counts, uvec3(8, 2, 4));
+    EXPECT_LT(open.first.x, room.lo.x) << "outside the bounds";
+    EXPECT_NEAR(open.first.x + 7 * open.step.x, room.hi.x + .8, 1e-5);
+    const shared::LightProbeGrid few = render::make_light_probe_grid(room, 8, 42, false);
+    EXPECT_LE(few.counts.x * few.counts.y * few.counts.z, 42u);
+    const shared::LightProbeGrid flat = render::make_light_probe_grid({{0, 0, 0}, {4, 0, 4}}, 4,
+                                                                      1000, false);
+    EXPECT_EQ(flat.counts, uvec3(4, 2, 4));
+    EXPECT_GT(flat.step.y, 0) << "probes on both sides of a flat scene";
+    EXPECT_EQ(render::make_light_probe_grid({}, 4, 1000, false).counts, uvec3(4));
+}
+
+} // namespace
