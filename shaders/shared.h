@@ -175,7 +175,6 @@ struct LightProbeGrid {
     uvec3 counts;
 };
 const uint kLightProbeFace = 16u; // edge of a light probe's capture, texels
-const float kLightProbeTexelAngle = 0.125f; // angle that a texel in the middle of a face covers, radians
 
 // A projection of the vector v = position - eye.
 // Perspective: clip = (dot(right, v), dot(down, v), near, dot(forward, v)). Depth is reversed and has no far plane:

@@ -159,10 +159,10 @@ inline constexpr TechniqueKnob kIndirectLightKnob{
     .choices = kIndirectLightChoices};
 inline constexpr TechniqueKnob kLightProbesKnob{
     .name = "probes",
-    .help = "light probes along the scene's longest side, for indirect=captures",
-    .low = 2,
-    .high = render::kMaxLightProbesPerAxis,
-    .value = 4};
+    .help = "most light probes of the grid, for indirect=captures",
+    .low = 8,
+    .high = 4096,
+    .value = 64};
 
 /// Knobs that every search has, in lists after the search's own knobs.
 inline constexpr std::array kCommonSearchKnobs{kCaptureFaceKnob,

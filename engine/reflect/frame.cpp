@@ -142,7 +142,7 @@ struct MutualMirrorCaptures {
     RoughLevels levels;
 };
 
-/// Declares the frame's light probes if some technique asks for them; the finest grid wins.
+/// Declares the frame's light probes if some technique asks for them; the most probes win.
 std::optional<render::LightProbes>
 declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const std::vector<TechniqueChoice>& choices) {

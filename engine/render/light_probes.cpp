@@ -80,15 +80,16 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
 
 } // namespace
 
-shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::uint32_t most,
-                                             std::size_t most_probes, bool is_open) {
+shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::size_t most,
+                                             bool is_open) {
+    constexpr std::uint32_t kMostAlongAnAxis = 64;
     constexpr float kOpenMargin = .1f; // of the extent
     const vec3 extent = bounds.empty() ? vec3(1) : bounds.extent(),
                centre = bounds.empty() ? vec3(0) : bounds.centre();
     const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
     shared::LightProbeGrid grid{};
-    for (most = std::clamp(most, 2u, kMaxLightProbesPerAxis);; --most) {
-        const float step = longest / static_cast<float>(most);
+    for (std::uint32_t along = kMostAlongAnAxis;; --along) {
+        const float step = longest / static_cast<float>(along);
         for (int axis = 0; axis < 3; ++axis) {
             const float wide = std::max(extent[axis], step);
             const auto count = std::max(
@@ -99,16 +100,17 @@ shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::u
                                       : wide / static_cast<float>(count);
             grid.first[axis] = centre[axis] - .5f * cells * grid.step[axis];
         }
-        if (most == 2 || count_probes(grid.counts) <= most_probes) return grid;
+        if (along == 2 || count_probes(grid.counts) <= most) return grid;
     }
 }
 
 LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
-                                 std::uint32_t most_per_axis) {
+                                 std::uint32_t most) {
     Bounds<float> bounds;
     for (const ObjectDrawRange& range : inputs.scene.list_draw_ranges()) bounds.add(range.bounds);
     LightProbes probes;
-    probes.grid = make_light_probe_grid(bounds, most_per_axis, inputs.scene.max_cube_count(),
+    const std::size_t limit = inputs.scene.max_cube_count();
+    probes.grid = make_light_probe_grid(bounds, std::min<std::size_t>(most, limit),
                                         inputs.scene.has_sky());
     const auto image = [&](const char* what, TexelFormat format, std::uint32_t edge) {
         return graph.add_image(
@@ -120,11 +122,9 @@ LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
     probes.images.light = image("light", TexelFormat::rgba16f, kIrradianceFace);
     probes.images.grid = graph.add_image(
         {inputs.prefix + "probes.grid", TexelFormat::rgba32f, 3, 1});
-    if (probes.grid.counts !=
-        make_light_probe_grid(bounds, most_per_axis, ~std::size_t{0}, inputs.scene.has_sky())
-            .counts)
-        probes.note = "the grid has " + std::to_string(probes.count()) +
-                      " light probes, the most that fit into an array of captures of this device";
+    if (most > limit)
+        probes.note = "of " + std::to_string(most) + " light probes, at most " +
+                      std::to_string(limit) + " fit into an array of captures of this device";
     return probes;
 }
 

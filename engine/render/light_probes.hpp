@@ -6,16 +6,12 @@
 /// gives the irradiance at its place (shaders/lib/light_probes.glsl).
 namespace catoptric::render {
 
-/// Most light probes along an axis of the grid.
-inline constexpr std::uint32_t kMaxLightProbesPerAxis = 16;
-
-/// Returns a grid over the bounds (scene units) with `most` probes (2 to kMaxLightProbesPerAxis)
-/// along the longest axis, and about the same step along the others, but at least two. Each probe
-/// lies in the middle of a cell, so that none lies in an outer wall. In an open scene (`is_open`)
-/// the outermost probes lie a little outside the bounds instead, since light also meets the outer
-/// surfaces. Fewer if that exceeds `most_probes`, at least 8.
-shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::uint32_t most,
-                                             std::size_t most_probes, bool is_open);
+/// Returns a grid over the bounds (scene units) of at most `most` probes, at least 8. All axes have
+/// about the same step, and at least two probes. Each probe lies in the middle of a cell, so that
+/// none lies in an outer wall. In an open scene (`is_open`) the outermost probes lie a little
+/// outside the bounds instead, since light also meets the outer surfaces.
+shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::size_t most,
+                                             bool is_open);
 
 /// The light probes of a frame.
 struct LightProbes {
@@ -27,9 +23,9 @@ struct LightProbes {
     std::uint32_t count() const { return grid.counts.x * grid.counts.y * grid.counts.z; }
 };
 
-/// Declares the images of the frame's light probes.
+/// Declares the images of at most `most` light probes.
 LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
-                                 std::uint32_t most_per_axis);
+                                 std::uint32_t most);
 
 /// Declares a pass for each probe, which draws the scene around it without lamps, and one that
 /// computes LightProbes::images. The captures are lit by the shadow map and by the probes of the

@@ -292,6 +292,17 @@ private:
     void judge_measured_row(std::size_t index, const TechniqueResult& part, int number) {
         row_warnings_[index] = judge_.fill_row_errors_and_picture(
             comparison_.rows[index], compare_request_.base.techniques[index], part, number);
+        const auto has_setting = [](const std::vector<Setting>& settings, std::string_view value) {
+            return std::ranges::any_of(settings, [&](const Setting& setting) {
+                return setting.name == "indirect" && setting.text == value;
+            });
+        };
+        if (has_setting(comparison_.rows[index].settings, "captures") &&
+            !has_setting(comparison_.reference_settings, "paths"))
+            row_warnings_[index].push_back(
+                "'" + comparison_.rows[index].label +
+                "': its light between surfaces counts as an error beside this reference; --truth "
+                "paths has that light");
     }
 
     void add_comparison_row(const std::string& text, const TechniqueResult& part) {

@@ -14,7 +14,7 @@ layout(constant_id = HAS_LIGHT_PROBES_CONSTANT) const uint has_light_probes = 0u
 // The grid, a LightProbeGrid. All is 0 in the first frame, in which no probe has been drawn yet.
 layout(set = 0, binding = 34) uniform sampler2D probe_grid;
 layout(set = 0, binding = 35) uniform samplerCubeArray probe_light;     // irradiance at each probe, by the surface's normal
-layout(set = 0, binding = 36) uniform samplerCubeArray probe_distances; // distance from each probe, scene units
+layout(set = 0, binding = 36) uniform samplerCubeArray probe_distances; // 1 / distance from each probe, scene units; 0: sky
 
 LightProbeGrid read_light_probe_grid() {
     return LightProbeGrid(texelFetch(probe_grid, ivec2(0, 0), 0).xyz, texelFetch(probe_grid, ivec2(1, 0), 0).xyz,
@@ -34,11 +34,11 @@ float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     vec3 to_point = position - centre;
     float distance = length(to_point), cosine = -dot(to_point, normal) / max(distance, 1e-6);
     if (!(cosine > 0.0)) return 0.0;
-    float captured = textureLod(probe_distances, vec4(to_point, float(probe)), 0.0).r;
-    // Error of interpolating the distance h / cos(angle) of a plane linearly between texels, and the rounding of texels.
-    float squared_tangent = 1.0 / max(cosine * cosine, 1e-3) - 1.0;
-    float slack = distance * (0.01 + kLightProbeTexelAngle * kLightProbeTexelAngle / 8.0 * (1.0 + 2.0 * squared_tangent));
-    return cosine * (1.0 - smoothstep(slack, 2.0 * slack, distance - captured));
+    // The inverse distance of a plane is the cosine of an angle, which is nearly linear between texels. At the outline of
+    // an object the mean of inverses is near the smaller distance, which keeps light out rather than in.
+    float nearness = distance * textureLod(probe_distances, vec4(to_point, float(probe)), 0.0).r;
+    const float kSlack = 0.02; // ten times the error of the interpolation, (texel angle)^2 / 8
+    return cosine * (1.0 - smoothstep(1.0 + kSlack, 1.0 + 2.0 * kSlack, nearness));
 }
 
 // Returns the irradiance from other surfaces and the environment at a surface point with the unit normal `normal`. Where

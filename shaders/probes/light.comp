@@ -1,5 +1,6 @@
 // Computes what light probes give to surfaces from their captures (lib/light_probes.glsl): the irradiance, from nine
-// coefficients of spherical harmonics, as a cube map over the normals, and distances that can be interpolated. One work group for each probe.
+// coefficients of spherical harmonics, as a cube map over the normals, and the inverse of distances, which can be
+// interpolated. One work group for each probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/bindings.glsl"
@@ -18,8 +19,6 @@ shared vec3 coefficients[9];
 
 // For each harmonic, its squared normalisation factor times the factor of its band in a cosine lobe: pi, 2 pi / 3, pi / 4.
 const float kFactors[9] = float[9](0.25, 0.5, 0.5, 0.5, 0.9375, 0.9375, 0.078125, 0.9375, 0.234375);
-// Scene units; what is farther away, such as the sky, hides nothing. A 16-bit float holds it.
-const float kFarthest = 1024.0;
 
 void main() {
     uint probe = gl_WorkGroupID.x, lane = gl_LocalInvocationID.x;
@@ -38,7 +37,7 @@ void main() {
         float of[9] = float[9](1.0, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3.0 * d.z * d.z - 1.0, d.x * d.z, d.x * d.x - d.y * d.y);
         for (int i = 0; i < 9; ++i) sum[i] += of[i] * radiance;
         whole += solid_angle;
-        imageStore(distances, at, vec4(min(texelFetch(captured_distances, at, 0).r, kFarthest), 0, 0, 0));
+        imageStore(distances, at, vec4(min(1.0 / texelFetch(captured_distances, at, 0).r, kLargestHalf), 0, 0, 0));
         texel += 32u;
     } while (texel < texels);
     for (int i = 0; i < 9; ++i) sums[lane][i] = sum[i];

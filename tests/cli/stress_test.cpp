@@ -28,7 +28,7 @@ TEST_F(CommandLineTest, StressReportsMeasuredValuesAndThresholds) {
 /// Every row of rough surfaces passes for another seed than the default, too.
 TEST_F(CommandLineTest, StressMeasuresRoughSurfaces) {
     const std::vector<std::string> ids{"S1", "S2", "S3", "S4", "S5"};
-    Words words{"stress", "--json", "--seed", "2", "--only"};
+    Words words{"stress", "--json", "--seed", "2", "--size", "32x32", "--only"};
     words.insert(words.end(), ids.begin(), ids.end());
     const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err << ended.out;

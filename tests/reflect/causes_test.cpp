@@ -171,7 +171,7 @@ TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
                                                    dvec4(0, 0, .4, 0), dvec4(.9, -.2, -.7, 1));
     glass.objects.back().mirror = true;
     const auto rest = [](const scene::Scene& scene) {
-        const ErrorCauseSplit found = split_error_by_causes(scene, "secant:face=256",
+        const ErrorCauseSplit found = split_error_by_causes(scene, "secant:face=128",
                                                             kSmallCausesPictureSize);
         expect_adds_up(found);
         return found.causes.rest_rmse / std::sqrt(found.causes.squared_error);

@@ -194,7 +194,7 @@ TEST(Refraction, TracerTakesGlassOver) {
     const scene::Scene scene = scene::load("glass");
     const uvec2 size{96, 72};
     const measure::Picture traced = test::render_technique(scene, "raytrace:depth=8", size).hdr,
-                           hybrid = test::render_technique(scene, "hybrid", size, 4).hdr;
+                           hybrid = test::render_technique(scene, "hybrid:face=64", size, 4).hdr;
     const std::vector<std::uint32_t> hits =
         test::render_technique(scene, "raytrace:depth=1", size).hits;
     int off = 0, glass = 0;
@@ -221,8 +221,8 @@ TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
                 sum += test::max_channel_difference(found.pixels[i], traced.hdr.pixels[i]);
         return sum;
     };
-    const double diffuse = error("secant:refract=none"), refracted = error("secant"),
-                 unbent = error("secant:refract=thin");
+    const double diffuse = error("secant:refract=none,face=64"),
+                 refracted = error("secant:face=64"), unbent = error("secant:refract=thin,face=64");
     std::cout << "[ MEASURED ] sum of errors: diffuse " << diffuse << ", unbent " << unbent
               << ", by the body " << refracted << '\n';
     EXPECT_LT(refracted, .4 * diffuse);
@@ -293,10 +293,10 @@ TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
     scene::Scene plaster = scene;
     plaster.materials.back() = {.name = "plaster", .albedo = vec3(.9f)};
     scene::find_mirrors(plaster);
-    const uvec2 size{96, 96};
+    const uvec2 size{64, 64};
     const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
     const measure::Mask shown = measure::mask_mirror_in_mirror(traced.hits);
-    EXPECT_GT(measure::count_mask_pixels(shown), 200u);
+    EXPECT_GT(measure::count_mask_pixels(shown), 80u);
     const auto error = [&](const scene::Scene& of, const std::string& technique) {
         return test::rmse_of_pictures(test::render_technique(of, technique, size, 5).hdr,
                                       traced.hdr, shown);

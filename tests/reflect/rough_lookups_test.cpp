@@ -101,7 +101,7 @@ double white_lobe_albedo_by_quadrature(double roughness, const dvec3& normal, co
 }
 
 TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
-    for (const float roughness : {.1f, .3f, .6f, 1.f}) {
+    for (const float roughness : {.1f, .6f, 1.f}) {
         const scene::Scene scene = make_ball_below_sky(roughness, true);
         test::RandomNumbers numbers(2);
         const std::vector<BallPixel> all_pixels = list_ball_pixels(scene, .1);
@@ -180,10 +180,10 @@ TEST(RoughLookups, SearchesAlongTheLobeFindWhatRaysFind) {
 TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
     const scene::Scene scene = scene::load("cornell-rough");
     const measure::Picture traced =
-        test::render_technique(scene, "raytrace:rays=512,depth=4", kBallPictureSize).hdr;
+        test::render_technique(scene, "raytrace:rays=256,depth=4", kBallPictureSize).hdr;
     const auto error = [&](const std::string& knobs) {
         return test::rmse_of_pictures(
-            test::render_technique(scene, "pyramid:face=128" + knobs, kBallPictureSize, 8).hdr,
+            test::render_technique(scene, "pyramid:face=64" + knobs, kBallPictureSize, 5).hdr,
             traced);
     };
     const double sharp = error(",rough=none"), boxes = error(",rough=mips"),

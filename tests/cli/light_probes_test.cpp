@@ -1,0 +1,39 @@
+// Tests of the knob `indirect=captures` on the command line.
+#include "cli/program.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+TEST_F(CommandLineTest, RowsWithLightProbesSayWhichReferenceHasTheirLight) {
+    for (const char* truth : {"centre", "paths"}) {
+        const auto run = run_cli({"compare", "cornell-mirrors-closed", "-o", "out", "--size",
+                                  "24x16", "--frames", "6", "--warmup", "1", "--truth", truth,
+                                  "--reference-seconds", "1", "--quiet", "--techniques",
+                                  "reuse:face=16", "reuse:face=16,indirect=captures,probes=8"});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        const nlohmann::json report = nlohmann::json::parse(read_output_file("out/report.json"));
+        std::string warnings;
+        for (const std::string text : report["warnings"]) warnings += text;
+        if (std::string_view(truth) == "centre")
+            EXPECT_THAT(warnings,
+                        testing::HasSubstr("'reuse:face=16,indirect=captures,probes=8': its light "
+                                           "between surfaces counts as an error beside this "
+                                           "reference; --truth paths has that light"));
+        else
+            EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("light between surfaces")));
+        EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("'reuse:face=16': its light")));
+        EXPECT_NE(report["rows"][0]["error_all"]["mae"], report["rows"][1]["error_all"]["mae"]);
+    }
+}
+
+TEST_F(CommandLineTest, MoreLightProbesThanADeviceHoldsAreReported) {
+    const auto run = run_cli({"compare", "cornell-mirrors", "-o", "out", "--size", "16x16",
+                              "--frames", "6", "--warmup", "1", "--quiet", "--techniques",
+                              "reuse:face=16,indirect=captures,probes=4096"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(read_output_file("out/report.json"),
+                testing::HasSubstr("of 4096 light probes, at most "));
+}
+
+} // namespace
