@@ -160,7 +160,7 @@ inline constexpr TechniqueKnob kIndirectLightKnob{
 inline constexpr TechniqueKnob kLightProbesKnob{
     .name = "probes",
     .help = "most light probes of the grid, for indirect=captures",
-    .low = 8,
+    .low = 27,
     .high = 4096,
     .value = 64};
 

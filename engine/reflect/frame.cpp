@@ -271,7 +271,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
             feedback.levels.add_rough_lookup_mirrors(graph, around.mirrors, choices[i].shared,
                                                      look.mirror);
         if (look.tracer) {
-            look.tracer->lighting.probes = lighting.probes;
+            if (!look.tracer->paths) look.tracer->lighting.probes = lighting.probes;
             tracers.push_back(*look.tracer);
             look.mirror.constants.emplace_back("tracer",
                                                static_cast<std::uint32_t>(tracers.size()));
@@ -280,7 +280,10 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         looks.looks.push_back(std::move(look.mirror));
     }
     if (outputs.captures) outputs.notes = outputs.captures->notes;
+    outputs.draws_everything = probes.has_value();
     if (probes && !probes->note.empty()) outputs.notes.push_back(probes->note);
+    if (probes && history.most > 0)
+        outputs.notes.push_back("light probes need all captures, so no budget limits them");
     if (std::ranges::any_of(choices, is_drawn_by_mirrored_views) && !assignment.of_mirror.empty())
         std::ranges::move(
             add_mirrored_views(graph, inputs, assignment, lighting,

@@ -78,11 +78,15 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
-/// Returns the technique of unfit mirrors, with the shadow settings of `choice`.
+/// Returns the technique of unfit mirrors, with the settings of `choice` for shadows and light.
 TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
     const TechniqueKnobSettings defaults(choice.technique->knobs);
-    for (const TechniqueKnob* const knob : {&kShadowKnob, &kShadowMapEdgeKnob}) {
+    for (const TechniqueKnob* const knob :
+         {&kShadowKnob, &kShadowMapEdgeKnob, &kIndirectLightKnob, &kLightProbesKnob}) {
+        if (!rest.settings.has_knob_named(*knob) ||
+            (knob == &kIndirectLightKnob && !rest.settings.has_knob_named(kLightProbesKnob)))
+            continue; // raytrace has other light
         const std::string value = choice.settings.format_current_knob_value(*knob);
         if (value == defaults.format_current_knob_value(*knob)) continue;
         rest.settings.set_knob_from_text(rest.technique->name, knob->name, value);

@@ -31,6 +31,7 @@ struct TechniqueOutputs {
     std::vector<std::string> notes; ///< differences from the request, one sentence each
     /// Captures for the next frame, if captures are kept.
     std::shared_ptr<render::CaptureCache> kept;
+    bool draws_everything = false; ///< whatever the model of required work says
 };
 
 /// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.

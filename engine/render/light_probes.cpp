@@ -1,6 +1,8 @@
 #include "render/light_probes.hpp"
 
+#include "core/half.hpp"
 #include "render/draw.hpp"
+#include "render/pass_faces.hpp"
 #include "render/shown_faces.hpp"
 #include "render/sky.hpp"
 #include "render/views.hpp"
@@ -24,8 +26,9 @@ std::size_t count_probes(const uvec3& counts) {
     return std::size_t{counts.x} * counts.y * counts.z;
 }
 
-/// Returns whether the object lights others as a lamp.
-bool is_lamp(const ObjectDrawRange& range) { return !range.casts_shadow && !range.glass; }
+/// Returns whether probes show the object. Lamps light surfaces as points already. Glass would hide
+/// what light reaches through it.
+bool is_shown_by_probes(const ObjectDrawRange& range) { return range.casts_shadow && !range.glass; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
 void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
@@ -45,7 +48,7 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
     const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f,
                                                shared::kLightProbeFace, shared::kLightProbeFace, 6,
                                                true});
-    graph::PassBuilder pass = graph.add_pass(name);
+    graph::PassBuilder pass = graph.add_pass(name, graph::PassPurpose::scene);
     declare_shader_reads(pass, lighting, *looks);
     const float nothing = std::numeric_limits<float>::infinity();
     pass.writes(probes.colours.select_image_layers(6 * probe, 6), ResourceUse::colour,
@@ -64,7 +67,7 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                                                   {"largest_colour", kLargestFiniteHalfFloatValue}},
                                         .peeled = {}}](graph::PassCommands& commands) {
                 const auto is_wanted = [&](std::size_t object) {
-                    return !is_lamp(scene.list_draw_ranges()[object]);
+                    return is_shown_by_probes(scene.list_draw_ranges()[object]);
                 };
                 const std::vector<std::uint8_t> shown = find_faces_showing_objects(
                     std::span(scene.list_views()).subspan(drawing.first_view, drawing.layers),
@@ -73,7 +76,9 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
                     scene.list_draw_ranges(), {}, is_wanted);
                 const auto is_shown = [&](std::size_t object) { return shown[object] != 0; };
                 draw_scene(commands, scene, drawing, is_shown, shown);
-                draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+                gpu::ShaderConstantValues of_sky = drawing.store;
+                of_sky.emplace_back("blurs_sky", 1u);
+                draw_sky(commands, scene, drawing.first_view, drawing.layers, of_sky);
                 draw_blended_surfaces(commands, scene, drawing, is_shown, shown);
             });
 }
@@ -83,24 +88,22 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
 shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::size_t most,
                                              bool is_open) {
     constexpr std::uint32_t kMostAlongAnAxis = 64;
-    constexpr float kOpenMargin = .1f; // of the extent
     const vec3 extent = bounds.empty() ? vec3(1) : bounds.extent(),
                centre = bounds.empty() ? vec3(0) : bounds.centre();
     const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
+    const std::uint32_t fewest_inside = is_open ? 1 : 2, outside = is_open ? 2 : 0;
     shared::LightProbeGrid grid{};
     for (std::uint32_t along = kMostAlongAnAxis;; --along) {
         const float step = longest / static_cast<float>(along);
         for (int axis = 0; axis < 3; ++axis) {
-            const float wide = std::max(extent[axis], step);
-            const auto count = std::max(
-                2u, static_cast<std::uint32_t>(std::lround(extent[axis] / step)));
-            const auto cells = static_cast<float>(count - 1);
-            grid.counts[axis] = count;
-            grid.step[axis] = is_open ? (1 + 2 * kOpenMargin) * wide / cells
-                                      : wide / static_cast<float>(count);
-            grid.first[axis] = centre[axis] - .5f * cells * grid.step[axis];
+            const auto inside = std::max(
+                fewest_inside, static_cast<std::uint32_t>(std::lround(extent[axis] / step)));
+            grid.counts[axis] = inside + outside;
+            grid.step[axis] = std::max(extent[axis], step) / static_cast<float>(inside);
+            grid.first[axis] = centre[axis] -
+                               .5f * grid.step[axis] * static_cast<float>(grid.counts[axis] - 1);
         }
-        if (along == 2 || count_probes(grid.counts) <= most) return grid;
+        if (along == fewest_inside || count_probes(grid.counts) <= most) return grid;
     }
 }
 

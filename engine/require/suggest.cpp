@@ -236,7 +236,6 @@ PlanCandidate make_plan_candidate(const MirrorCostInputs& known, bool planes) {
     return candidate;
 }
 
-/// Returns whether glass is all that is to be seen of the mirrors.
 /// Returns whether all seen mirrors are of smooth glass, which rays draw right with one ray for
 /// each pixel.
 bool are_all_seen_mirrors_smooth_glass(const RequiredWorkModelInput& question,

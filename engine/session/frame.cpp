@@ -64,7 +64,8 @@ TechniqueResult Frame::read(std::size_t part) const {
                                                  part, impl_->session->mirrors,
                                                  *impl_->session->resident, impl_->spec);
     read.model = impl_->spec.model;
-    read.left_out = impl_->model->left_out;
+    if (!impl_->technique_part_at_index(part).outputs.draws_everything)
+        read.left_out = impl_->model->left_out;
     read.slices = slices(part);
     return read;
 }

@@ -188,8 +188,17 @@ void check_reference_is_default(const std::string& reference) {
           ", whose rays tell causes apart, found '", reference, "'");
 }
 
+/// Ablation compares with rays that lack light between surfaces.
+void check_light_is_ambient(const CompareRequest& request) {
+    for (const std::string& text : request.base.techniques)
+        check(text.find("indirect=captures") == std::string::npos, Failure::usage,
+              "--causes: wanted rows without light probes, found '", text,
+              "'; causes of error in their light are not known");
+}
+
 /// Ablation knows perfect mirrors alone.
 void check_mirrors_are_sharp(const CompareRequest& request, int, report::Comparison&) {
+    check_light_is_ambient(request);
     const scene::Scene& scene = request.base.scene;
     for (const std::size_t i : scene::mirrors(scene))
         check(!scene::may_reflect_by_lobe(scene, scene.objects[i]), Failure::usage,

@@ -297,10 +297,15 @@ private:
                 return setting.name == "indirect" && setting.text == value;
             });
         };
-        if (has_setting(comparison_.rows[index].settings, "captures") &&
-            !has_setting(comparison_.reference_settings, "paths"))
+        const report::Row& row = comparison_.rows[index];
+        const bool has_probes = row.plan.empty()
+                                    ? has_setting(row.settings, "captures")
+                                    : std::ranges::any_of(row.plan, [&](const PlanEntry& entry) {
+                                          return has_setting(entry.settings, "captures");
+                                      });
+        if (has_probes && !has_setting(comparison_.reference_settings, "paths"))
             row_warnings_[index].push_back(
-                "'" + comparison_.rows[index].label +
+                "'" + row.label +
                 "': its light between surfaces counts as an error beside this reference; --truth "
                 "paths has that light");
     }

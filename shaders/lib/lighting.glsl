@@ -22,7 +22,7 @@ vec3 to_viewer_in_tangent_space(vec3 normal, vec3 tangent, vec3 bitangent, vec3 
 // Returns the mean light of the environment and the ambient light that arrives in a lobe of that roughness. Objects do not
 // occlude this light (split sum: Karis, "Real Shading in Unreal Engine 4", 2013).
 vec3 mean_environment_light_in_lobe(float roughness, vec3 normal, vec3 to_viewer) {
-    vec3 light = vec3(frame_ambient_light());
+    vec3 light = vec3(has_light_probes != 0u ? 0.0 : frame_ambient_light());
     if (environment_kind != kNoEnvironment) light += environment_lobe_radiance(reflect(-to_viewer, normal), roughness);
     return light;
 }
@@ -75,7 +75,7 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
         ++light;
     } while (one_light == 0u && light < count);
     bool has_ambient = traces_paths == 0u && has_light_probes == 0u;
-    if (has_light_probes != 0u) {
+    if (has_light_probes != 0u && traces_paths == 0u) {
         if (surface.albedo != vec3(0)) direct += light_probe_irradiance(position, normal);
     } else if (environment_kind != kNoEnvironment && traces_paths == 0u) {
         direct += environment_irradiance(normal);

@@ -10,14 +10,14 @@ TEST_F(CommandLineTest, RowsWithLightProbesSayWhichReferenceHasTheirLight) {
         const auto run = run_cli({"compare", "cornell-mirrors-closed", "-o", "out", "--size",
                                   "24x16", "--frames", "6", "--warmup", "1", "--truth", truth,
                                   "--reference-seconds", "1", "--quiet", "--techniques",
-                                  "reuse:face=16", "reuse:face=16,indirect=captures,probes=8"});
+                                  "reuse:face=16", "reuse:face=16,indirect=captures,probes=27"});
         ASSERT_EQ(run.exit_code, 0) << run.err;
         const nlohmann::json report = nlohmann::json::parse(read_output_file("out/report.json"));
         std::string warnings;
         for (const std::string text : report["warnings"]) warnings += text;
         if (std::string_view(truth) == "centre")
             EXPECT_THAT(warnings,
-                        testing::HasSubstr("'reuse:face=16,indirect=captures,probes=8': its light "
+                        testing::HasSubstr("'reuse:face=16,indirect=captures,probes=27': its light "
                                            "between surfaces counts as an error beside this "
                                            "reference; --truth paths has that light"));
         else
@@ -28,12 +28,14 @@ TEST_F(CommandLineTest, RowsWithLightProbesSayWhichReferenceHasTheirLight) {
 }
 
 TEST_F(CommandLineTest, MoreLightProbesThanADeviceHoldsAreReported) {
-    const auto run = run_cli({"compare", "cornell-mirrors", "-o", "out", "--size", "16x16",
-                              "--frames", "6", "--warmup", "1", "--quiet", "--techniques",
-                              "reuse:face=16,indirect=captures,probes=4096"});
+    const auto run = run_cli({"render", "cornell-mirrors", "--size", "16x16", "--frames", "1",
+                              "--warmup", "0", "--technique",
+                              "reuse:face=16,indirect=captures,probes=4096", "-o", "x.png"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(read_output_file("out/report.json"),
-                testing::HasSubstr("of 4096 light probes, at most "));
+    EXPECT_THAT(run.err, testing::HasSubstr("of 4096 light probes, at most "));
+    expect_usage_refused({"compare", "cornell-mirrors", "-o", "out", "--causes", "--techniques",
+                          "reuse:indirect=captures"},
+                         2, {"--causes: wanted rows without light probes"});
 }
 
 } // namespace

@@ -129,7 +129,7 @@ TEST(LightProbes, NoLightLeaksThroughAWall) {
     std::cout << "[ MEASURED ] lit room " << mean_green(lit) << ", dark room " << mean_green(dark)
               << ", " << lit_pixels << " of its pixels above 1 %\n";
     EXPECT_GT(mean_green(lit), .02);
-    EXPECT_LE(lit_pixels, 1) << "but for a pixel in the crack between two walls";
+    EXPECT_LE(lit_pixels, 4) << "but for pixels in the crack between two walls";
     EXPECT_LT(mean_green(dark), .005 * mean_green(lit));
 }
 
@@ -161,6 +161,67 @@ TEST(LightProbes, RequiredWorkDrawsThePictureOfAllWork) {
         all, app::run(test::get_test_engine(), asked).parts.front().hdr));
 }
 
+/// A room below a sky has probes inside, although others lie around it.
+TEST(LightProbes, RoomBelowASkyHasLightBetweenSurfaces) {
+    scene::Scene room = test::make_lit_room(0, 1);
+    auto black = std::make_shared<scene::Environment>();
+    black->size = {2, 1};
+    black->texels.assign(2, vec3(0));
+    const measure::Picture indoors = render_by_probes(room, "reuse:indirect=captures", {24, 18});
+    room.environment = black;
+    const measure::Picture under_sky = render_by_probes(room, "reuse:indirect=captures", {24, 18});
+    EXPECT_NEAR(mean_green(under_sky), mean_green(indoors), .1 * mean_green(indoors));
+}
+
+/// Ambient light is what probes replace, also in the lobes of rough metal.
+TEST(LightProbes, AmbientLightIsNotAdded) {
+    scene::Scene room = test::make_lit_room(1, 1);
+    room.materials[room.objects.back().material] = {
+        .name = "rough", .albedo = {.9f, .7f, .5f}, .metallic = 1, .roughness = .9f};
+    app::Request asked = test::make_test_request(room, {"reuse:indirect=captures"}, {24, 18});
+    asked.warmup = 3;
+    std::vector<measure::Picture> pictures;
+    for (const double ambient : {0., .5}) {
+        asked.ambient = ambient;
+        pictures.push_back(app::run(test::get_test_engine(), asked).parts.front().hdr);
+    }
+    EXPECT_TRUE(test::have_equal_pixel_bytes(pictures[0], pictures[1]));
+}
+
+/// Light passes a pane of glass to probes behind it and back.
+TEST(LightProbes, GlassDoesNotHideSurfacesFromProbes) {
+    scene::Scene room = test::make_lit_room(0, 1);
+    const measure::Picture open = render_by_probes(room, "secant:indirect=captures,face=32",
+                                                   {24, 18});
+    const std::size_t glass = test::add_material(room, {.name = "glass",
+                                                        .albedo = vec3(1),
+                                                        .roughness = 0,
+                                                        .dielectric_f0 = vec3(.04f),
+                                                        .dielectric_f90 = vec3(1),
+                                                        .transmission = 1});
+    for (int face = 0; face < 6; ++face) // a case around everything that the camera sees
+        test::add_mesh(room, scene::make_box_wall(face, {-1.9, -1.9, -2.8}, {1.9, 1.9, 1.9}),
+                       glass);
+    scene::find_mirrors(room);
+    const measure::Picture cased = render_by_probes(
+        room, "secant:indirect=captures,refract=thin,face=32", {24, 18});
+    EXPECT_GT(mean_green(cased), .6 * mean_green(open));
+}
+
+/// Paths that leave diffuse surfaces find the light between surfaces themselves.
+TEST(LightProbes, PathsInAPlanDoNotCountProbesToo) {
+    scene::Scene room = test::make_lit_room(1, 1);
+    scene::find_mirrors(room);
+    scene::Scene two = room;
+    test::add_ball(two, "other", two.objects.back().material, {9, 0, 0}, .1, 2);
+    scene::find_mirrors(two);
+    const measure::Picture mixed = render_by_probes(
+        two, "1=raytrace:indirect=paths,rays=64 *=secant:indirect=captures", {32, 24}, 4);
+    const measure::Picture by_paths =
+        test::render_without_ambient(room, "raytrace:indirect=paths,rays=64", {32, 24}).hdr;
+    EXPECT_NEAR(mean_green(mixed), mean_green(by_paths), .12 * mean_green(by_paths));
+}
+
 TEST(LightProbeGrid, CoversTheBoundsWithEqualStepsOffTheWalls) {
     const Bounds<float> room{{-2, 0, -1}, {6, 2, 3}}; // 8 x 2 x 4
     const shared::LightProbeGrid grid = render::make_light_probe_grid(room, 64, false);
@@ -168,9 +229,12 @@ TEST(LightProbeGrid, CoversTheBoundsWithEqualStepsOffTheWalls) {
     EXPECT_EQ(grid.step, vec3(1));
     EXPECT_EQ(grid.first, vec3(-1.5f, .5f, -.5f)) << "in the middle of a cell";
     const shared::LightProbeGrid open = render::make_light_probe_grid(room, 64, true);
-    EXPECT_EQ(open.counts, uvec3(8, 2, 4));
-    EXPECT_LT(open.first.x, room.lo.x) << "outside the bounds";
-    EXPECT_NEAR(open.first.x + 7 * open.step.x, room.hi.x + .8, 1e-5);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_GE(open.counts[axis], 3u);
+        EXPECT_LT(open.first[axis], room.lo[axis]) << "a layer outside the bounds";
+        EXPECT_GT(open.first[axis] + open.step[axis], room.lo[axis]) << "and one inside";
+    }
+    EXPECT_LE(open.counts.x * open.counts.y * open.counts.z, 64u);
     for (const std::size_t most : {8u, 9u, 42u, 63u, 341u, 4096u}) {
         const shared::LightProbeGrid some = render::make_light_probe_grid(room, most, false);
         EXPECT_LE(some.counts.x * some.counts.y * some.counts.z, most);
