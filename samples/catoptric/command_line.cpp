@@ -244,6 +244,23 @@ void CommandLine::check_command_verb_is_known(const std::string& word) const {
          suggest_nearest_name(word, word.starts_with('-') ? flags : names));
 }
 
+std::vector<CompletionVerb> CommandLine::list_completion_verbs() const {
+    std::vector<CompletionVerb> verbs;
+    for (const CLI::App* app : command_line_parser_->get_subcommands(nullptr)) {
+        CompletionVerb verb{app->get_name(), app->get_description(), {}};
+        for (const CLI::Option* option : app->get_options()) {
+            const std::vector<std::string>&longs = option->get_lnames(),
+                  &shorts = option->get_snames();
+            if (longs.empty() && shorts.empty()) continue; // an argument
+            verb.options.push_back({longs.empty() ? "-" + shorts.front() : "--" + longs.front(),
+                                    option->get_description(),
+                                    option->get_items_expected_max() > 0});
+        }
+        verbs.push_back(std::move(verb));
+    }
+    return verbs;
+}
+
 std::function<int()> CommandLine::parse(std::vector<std::string> words) {
     if (words.empty() && !is_whole_) {
         std::cerr << remove_repeated_empty_lines(command_line_parser_->help()) << std::flush;

@@ -59,6 +59,19 @@ private:
     std::function<int()> run_;
 };
 
+/// An option as a shell completes it.
+struct CompletionOption {
+    std::string name; ///< "--size", or "-h" if there is no long name
+    std::string help;
+    bool takes_value = false;
+};
+
+/// A verb as a shell completes it.
+struct CompletionVerb {
+    std::string name, summary;
+    std::vector<CompletionOption> options;
+};
+
 /// Heading of the options that most users need. Options added before any other heading belong to
 /// it.
 inline constexpr const char* kCommonOptions = "Common options";
@@ -82,6 +95,9 @@ public:
     /// it prints help to stderr and returns the exit code of `usage`. Throws `usage` for an unknown
     /// verb, option or argument, with the nearest name.
     std::function<int()> parse(std::vector<std::string> words);
+
+    /// Returns all verbs added so far with their options, in the order of the help.
+    std::vector<CompletionVerb> list_completion_verbs() const;
 
 private:
     void check_command_verb_is_known(const std::string& word) const;

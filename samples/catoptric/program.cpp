@@ -44,6 +44,7 @@ int run_program_and_check_streams(int argc, char** argv) {
     add_list_verb(program);
     add_info_verb(program);
     add_views_verb(program);
+    add_completion_verb(program);
     return program.parse({words.begin() + std::min(argc, 1), words.end()})();
 }
 
