@@ -118,7 +118,9 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
             look.constants.emplace_back("refract_model", choice.shared.refract);
             look.blank = !feeding.was_there[i];
             const auto mirror = static_cast<std::uint32_t>(i);
-            if (!look.blank)
+            // Asked for even if it is blank, because only what a frame asks for is there in the
+            // next frame. Images of kept captures stay without that.
+            if (!look.blank || !is_kept)
                 levels.add_rough_lookup_mirrors(graph, std::span(&mirror, 1), choice.shared, look,
                                                 true);
         }

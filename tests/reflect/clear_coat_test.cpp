@@ -251,26 +251,31 @@ TEST(ClearCoat, TexturedMirrorShowsItsCoatWhereTheMetalIsTooRough) {
 }
 
 /// Reflections of a rough coat are looked up in blurred levels, which must be those of the drawn
-/// mirror, even if the path goes on to a second mirror. Compared when all bounces have arrived.
+/// mirror, even if the path goes on to a second mirror. Also for rough metal, from the first frame.
 TEST(ClearCoat, RequiredWorkDrawsThePictureOfAllWork) {
     scene::Scene room = test::make_lit_room(2, 1);
-    room.materials[room.objects.back().material] = {.name = "coated",
-                                                    .albedo = {.9f, .7f, .5f},
-                                                    .metallic = 1,
-                                                    .roughness = 0,
-                                                    .clearcoat = 1,
-                                                    .clearcoat_roughness = .3f};
-    scene::find_mirrors(room);
-    ASSERT_EQ(scene::mirrors(room).size(), 2u);
-    for (const char* technique : {"secant:face=32", "hybrid:face=32,rough=mips"}) {
-        app::Request asked = test::make_test_request(room, {technique}, {64, 48});
-        asked.warmup = 9;
-        asked.model = app::RenderedWork::everything;
-        const measure::Picture all = app::run(test::get_test_engine(), asked).parts.front().hdr;
-        asked.model = app::RenderedWork::required;
-        EXPECT_TRUE(test::have_equal_pixel_bytes(
-            all, app::run(test::get_test_engine(), asked).parts.front().hdr))
-            << technique;
+    scene::Material& metal = room.materials[room.objects.back().material];
+    for (const float coat : {0.f, 1.f}) {
+        metal = {.name = "coated",
+                 .albedo = {.9f, .7f, .5f},
+                 .metallic = 1,
+                 .roughness = coat > 0 ? 0 : .3f,
+                 .clearcoat = coat,
+                 .clearcoat_roughness = .3f};
+        scene::find_mirrors(room);
+        ASSERT_EQ(scene::mirrors(room).size(), 2u);
+        for (const char* technique : {"secant:face=32", "hybrid:face=32,rough=mips"})
+            for (const int warmup : {1, 2, 4}) {
+                app::Request asked = test::make_test_request(room, {technique}, {48, 36});
+                asked.warmup = warmup;
+                asked.model = app::RenderedWork::everything;
+                const measure::Picture all =
+                    app::run(test::get_test_engine(), asked).parts.front().hdr;
+                asked.model = app::RenderedWork::required;
+                EXPECT_TRUE(test::have_equal_pixel_bytes(
+                    all, app::run(test::get_test_engine(), asked).parts.front().hdr))
+                    << technique << ", coat " << coat << ", frame " << warmup + 1;
+            }
     }
 }
 
