@@ -89,8 +89,12 @@ bool has_abandoned_device() { return gpu::has_abandoned_device(); }
 
 std::filesystem::path find_cache_folder() { return find_user_folder("XDG_CACHE_HOME", ".cache"); }
 
+std::filesystem::path find_config_folder() {
+    return find_user_folder("XDG_CONFIG_HOME", ".config");
+}
+
 std::filesystem::path find_profile_folder() {
-    const std::filesystem::path folder = find_user_folder("XDG_CONFIG_HOME", ".config");
+    const std::filesystem::path folder = find_config_folder();
     return folder.empty() ? folder : folder / "devices";
 }
 

@@ -8,6 +8,9 @@ namespace catoptric::app {
 /// Returns XDG_CACHE_HOME/catoptric, or HOME/.cache/catoptric; empty if neither is an absolute
 /// path.
 std::filesystem::path find_cache_folder();
+/// Returns XDG_CONFIG_HOME/catoptric, or HOME/.config/catoptric; empty if neither is an absolute
+/// path.
+std::filesystem::path find_config_folder();
 /// Returns XDG_CONFIG_HOME/catoptric/devices, or HOME/.config/catoptric/devices; empty if neither
 /// is an absolute path.
 std::filesystem::path find_profile_folder();

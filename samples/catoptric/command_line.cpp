@@ -252,9 +252,11 @@ std::vector<CompletionVerb> CommandLine::list_completion_verbs() const {
             const std::vector<std::string>&longs = option->get_lnames(),
                   &shorts = option->get_snames();
             if (longs.empty() && shorts.empty()) continue; // an argument
-            verb.options.push_back({longs.empty() ? "-" + shorts.front() : "--" + longs.front(),
-                                    option->get_description(),
-                                    option->get_items_expected_max() > 0});
+            verb.options.push_back(
+                {.name = longs.empty() ? "-" + shorts.front() : "--" + longs.front(),
+                 .short_name = longs.empty() || shorts.empty() ? "" : "-" + shorts.front(),
+                 .help = option->get_description(),
+                 .takes_value = option->get_items_expected_max() > 0});
         }
         verbs.push_back(std::move(verb));
     }

@@ -61,7 +61,8 @@ private:
 
 /// An option as a shell completes it.
 struct CompletionOption {
-    std::string name; ///< "--size", or "-h" if there is no long name
+    std::string name;            ///< "--size", or "-h" if there is no long name
+    std::string short_name = {}; ///< "-o" beside a long name, else empty
     std::string help;
     bool takes_value = false;
 };

@@ -2,6 +2,7 @@
 // codes.
 #include "program.hpp"
 
+#include "config_file.hpp"
 #include "core/error.hpp"
 #include "output.hpp"
 #include "session/engine.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 #include <new>
 
 namespace catoptric::cli {
@@ -21,6 +23,9 @@ constexpr const char* kProgramExamples = R"(Examples:
   catoptric diff a.exr b.exr --max-flip 0.01
   catoptric help VERB                          options of a verb
 
+Defaults of options: ~/.config/catoptric/config.json, such as {"size": "256x256",
+"compare": {"techniques": ["reuse", "secant"]}}; --no-config leaves it out.
+
 Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 69 no Vulkan device;
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
 76 device lost; 129, 130, 143 stopped by a signal (finished rows are kept, also after 75 and 76))";
@@ -29,23 +34,37 @@ void print_failure(const std::string& name, const std::string& message) {
     if (!message.empty()) print_message(name + ": " + message);
 }
 
-int run_program_and_check_streams(int argc, char** argv) {
-    const std::vector<std::string> words(argv, argv + argc);
-    CommandLine program(
-        "catoptric", "Measures the cost and the error of each way of rendering reflections.",
-        "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
-    add_compare_verb(program, words);
-    add_choose_verb(program, words);
+/// Adds all verbs. `command` is the whole command line, which reports record.
+void add_all_verbs(CommandLine& program, const std::vector<std::string>& command) {
+    add_compare_verb(program, command);
+    add_choose_verb(program, command);
     add_render_verb(program);
-    add_stress_verb(program, words);
-    add_bench_verb(program, words);
+    add_stress_verb(program, command);
+    add_bench_verb(program, command);
     add_diff_verb(program);
     add_graph_verb(program);
     add_list_verb(program);
     add_info_verb(program);
     add_views_verb(program);
     add_completion_verb(program);
-    return program.parse({words.begin() + std::min(argc, 1), words.end()})();
+}
+
+int run_program_and_check_streams(int argc, char** argv) {
+    std::vector<std::string> command(argv, argv + argc);
+    const auto make_program = [] {
+        return std::make_unique<CommandLine>(
+            "catoptric", "Measures the cost and the error of each way of rendering reflections.",
+            "catoptric " + app::version() + " (" + app::commit() + ")", kProgramExamples);
+    };
+    const std::unique_ptr<CommandLine> known = make_program();
+    add_all_verbs(*known, command);
+    std::vector<std::string> words = add_options_of_config_file(
+        {command.begin() + std::min(argc, 1), command.end()}, known->list_completion_verbs());
+    command.resize(static_cast<std::size_t>(std::min(argc, 1)));
+    command.insert(command.end(), words.begin(), words.end());
+    const std::unique_ptr<CommandLine> program = make_program();
+    add_all_verbs(*program, command);
+    return program->parse(std::move(words))();
 }
 
 /// Runs the work, and prints errors to stderr. Returns the exit code.
