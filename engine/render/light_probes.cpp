@@ -26,9 +26,9 @@ std::size_t count_probes(const uvec3& counts) {
     return std::size_t{counts.x} * counts.y * counts.z;
 }
 
-/// Returns whether probes show the object. Lamps light surfaces as points already. Glass would hide
-/// what light reaches through it.
-bool is_shown_by_probes(const ObjectDrawRange& range) { return range.casts_shadow && !range.glass; }
+/// Returns whether probes show the object: all but lamps, which light surfaces as points already,
+/// and glass, which would hide what light reaches through it.
+bool is_shown_by_probes(const ObjectDrawRange& range) { return range.casts_shadow; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
 void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
