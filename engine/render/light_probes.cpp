@@ -48,7 +48,9 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
     const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f,
                                                shared::kLightProbeFace, shared::kLightProbeFace, 6,
                                                true});
-    graph::PassBuilder pass = graph.add_pass(name, graph::PassPurpose::scene);
+    // Not a scene pass: R of the seed report counts passes by mirrors and lights
+    // (Technique::scene_passes).
+    graph::PassBuilder pass = graph.add_pass(name);
     declare_shader_reads(pass, lighting, *looks);
     const float nothing = std::numeric_limits<float>::infinity();
     pass.writes(probes.colours.select_image_layers(6 * probe, 6), ResourceUse::colour,

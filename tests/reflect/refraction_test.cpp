@@ -293,10 +293,10 @@ TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
     scene::Scene plaster = scene;
     plaster.materials.back() = {.name = "plaster", .albedo = vec3(.9f)};
     scene::find_mirrors(plaster);
-    const uvec2 size{64, 64};
+    const uvec2 size{96, 96};
     const app::TechniqueResult traced = test::render_technique(scene, "raytrace:depth=8", size);
     const measure::Mask shown = measure::mask_mirror_in_mirror(traced.hits);
-    EXPECT_GT(measure::count_mask_pixels(shown), 80u);
+    EXPECT_GT(measure::count_mask_pixels(shown), 200u);
     const auto error = [&](const scene::Scene& of, const std::string& technique) {
         return test::rmse_of_pictures(test::render_technique(of, technique, size, 5).hdr,
                                       traced.hdr, shown);
