@@ -20,7 +20,7 @@ using namespace test::fuzzed;
 constexpr std::uint64_t kMutationSeed = 20261124;
 constexpr std::uint64_t kMaxMemoryBytes = 1ULL << 30;
 constexpr std::uint64_t kMaxProcessorSeconds = 10;
-constexpr int kDefaultFilesPerReader = 12; ///< files per reader if CATOPTRIC_FUZZED is not set
+constexpr int kDefaultFilesPerReader = 24; ///< files per reader if CATOPTRIC_FUZZED is not set
 
 int count_files_per_reader() {
     const char* asked = std::getenv("CATOPTRIC_FUZZED");
