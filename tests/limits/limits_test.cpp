@@ -77,7 +77,7 @@ TEST_F(SmallDeviceLimitsTest, BlendedSurfacesAreCutAtHalf) {
                       veil = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl veil\nf 5 6 7 8\n";
     write_input_file("m.mtl", "newmtl white\nKd .8 .7 .6\nnewmtl veil\nKd .9 .1 .1\nd .3\n");
     write_input_file("veil.obj", wall + veil), write_input_file("wall.obj", wall);
-    for (const std::string technique : {"naive:bounces=0", "raytrace:first=raster"}) {
+    for (const std::string technique : {"naive:bounces=0", "raytrace", "raytrace:first=raster"}) {
         const auto make_words = [&](const char* file, const char* picture) {
             return with_small_quick_frame({"render", file, "--technique", technique, "--camera",
                                            "0,0,4:0,0,0:40", "--validate", "-o", picture});

@@ -101,7 +101,7 @@ double white_lobe_albedo_by_quadrature(double roughness, const dvec3& normal, co
 }
 
 TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
-    for (const float roughness : {.1f, .6f, 1.f}) {
+    for (const float roughness : {.1f, .3f, .6f, 1.f}) {
         const scene::Scene scene = make_ball_below_sky(roughness, true);
         test::RandomNumbers numbers(2);
         const std::vector<BallPixel> all_pixels = list_ball_pixels(scene, .1);
