@@ -119,6 +119,11 @@ bool TechniquePlan::is_same_plan_as(const TechniquePlan& other) const {
         });
 }
 
+bool TechniquePlan::uses_light_probes() const {
+    return std::ranges::any_of(
+        rules, [](const TechniquePlanRule& rule) { return rule.choice.shared.light_probes > 0; });
+}
+
 TechniquePlan parse_plan(std::string_view text) {
     if (text == kAutoPlanName)
         return {.label = std::string(text), .rules = {}, .is_auto = true, .reasons = {}};

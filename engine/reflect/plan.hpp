@@ -31,6 +31,8 @@ struct TechniquePlan {
     /// Returns whether both plans have the same patterns with the same techniques and settings. The
     /// spelling of the labels does not matter.
     bool is_same_plan_as(const TechniquePlan& other) const;
+    /// Returns whether some technique of the plan takes light between surfaces from light probes.
+    bool uses_light_probes() const;
 };
 
 /// Name of the technique `auto`, which chooses a plan for each scene

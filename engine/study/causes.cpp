@@ -191,7 +191,7 @@ void check_reference_is_default(const std::string& reference) {
 /// Ablation compares with rays that lack light between surfaces.
 void check_light_is_ambient(const CompareRequest& request) {
     for (const std::string& text : request.base.techniques)
-        check(text.find("indirect=captures") == std::string::npos, Failure::usage,
+        check(!read_technique_plan(text).uses_light_probes(), Failure::usage,
               "--causes: wanted rows without light probes, found '", text,
               "'; causes of error in their light are not known");
 }

@@ -12,6 +12,7 @@
 #include "session/access.hpp"
 #include "session/device_facts.hpp"
 #include "session/exposure.hpp"
+#include "session/plan_file.hpp"
 #include "session/processor.hpp"
 #include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
@@ -292,18 +293,13 @@ private:
     void judge_measured_row(std::size_t index, const TechniqueResult& part, int number) {
         row_warnings_[index] = judge_.fill_row_errors_and_picture(
             comparison_.rows[index], compare_request_.base.techniques[index], part, number);
-        const auto has_setting = [](const std::vector<Setting>& settings, std::string_view value) {
-            return std::ranges::any_of(settings, [&](const Setting& setting) {
-                return setting.name == "indirect" && setting.text == value;
-            });
-        };
         const report::Row& row = comparison_.rows[index];
-        const bool has_probes = row.plan.empty()
-                                    ? has_setting(row.settings, "captures")
-                                    : std::ranges::any_of(row.plan, [&](const PlanEntry& entry) {
-                                          return has_setting(entry.settings, "captures");
-                                      });
-        if (has_probes && !has_setting(comparison_.reference_settings, "paths"))
+        const bool has_paths = std::ranges::any_of(
+            comparison_.reference_settings, [](const Setting& setting) {
+                return setting.name == "indirect" && setting.text == "paths";
+            });
+        if (!has_paths &&
+            read_technique_plan(compare_request_.base.techniques[index]).uses_light_probes())
             row_warnings_[index].push_back(
                 "'" + row.label +
                 "': its light between surfaces counts as an error beside this reference; --truth "
