@@ -32,8 +32,9 @@ vec3 irradiance_at_light_probe(uint probe, vec3 normal) {
 // direction to the probe; 0 if the probe lies behind the surface.
 float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     vec3 to_point = position - centre;
-    float distance = length(to_point), cosine = -dot(to_point, normal) / max(distance, 1e-6);
-    if (!(cosine > 0.0)) return 0.0;
+    float height = -dot(to_point, normal), distance = length(to_point);
+    if (!(height > 0.0)) return 0.0; // so the distance is above 0, too
+    float cosine = height / distance;
     // The inverse distance of a plane is the cosine of an angle, which is nearly linear between texels. At the outline of
     // an object the mean of inverses is near the smaller distance, which keeps light out rather than in.
     float nearness = distance * textureLod(probe_distances, vec4(to_point, float(probe)), 0.0).r;
@@ -65,14 +66,17 @@ vec3 light_probe_irradiance(vec3 position, vec3 normal) {
             weights += weight;
         }
     } while (++corner < 8u);
-    const float kLeastWeight = 1e-3; // below it, rounding and single texels would decide
+    // Share of the weights that all eight probes have if they see the surface head-on. Below it, single texels at the
+    // outlines of objects would decide.
+    const float kLeastWeight = 1e-3;
     if (weights > kLeastWeight) return sum / weights;
     uint probe = 0u, count = grid.counts.x * grid.counts.y * grid.counts.z;
     do {
         uvec3 place = uvec3(probe % grid.counts.x, probe / grid.counts.x % grid.counts.y, probe / (grid.counts.x * grid.counts.y));
         vec3 centre = grid.first + vec3(place) * grid.step, away = (position - centre) / grid.step;
-        float weight = light_probe_sight(probe, centre, position, normal) / (1e-3 + dot(away, away) * dot(away, away));
+        float weight = light_probe_sight(probe, centre, position, normal);
         if (weight > 0.0) {
+            weight /= dot(away, away) * dot(away, away);
             sum += weight * irradiance_at_light_probe(probe, normal);
             weights += weight;
         }
