@@ -216,7 +216,8 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
 
 PipelineStore::PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants,
                              const std::filesystem::path& cache)
-    : pipeline_device_(device), variants_(std::move(variants)), cache_(device, cache) {}
+    : pipeline_device_(device), variants_(std::move(variants)), cache_(device, cache),
+      shaders_(cache_.is_stored_in_file() ? cache / "shaders" : std::filesystem::path()) {}
 
 PipelineStore::~PipelineStore() = default;
 
@@ -230,8 +231,8 @@ const ShaderStage& PipelineStore::find_or_make_shader_stage(const std::string& s
     std::pair key(name, find_constant_bits(pipeline_device_, whole, constants, features));
     const auto found = stages_.find(key);
     if (found != stages_.end()) return *found->second;
-    auto stage = std::make_unique<ShaderStage>(pipeline_device_, name, bit, std::move(whole),
-                                               key.second);
+    auto stage = std::make_unique<ShaderStage>(pipeline_device_, shaders_, name, bit,
+                                               std::move(whole), key.second);
     return *stages_.emplace(std::move(key), std::move(stage)).first->second;
 }
 

@@ -3,6 +3,7 @@
 #include "gpu/device.hpp"
 #include "gpu/pipeline_cache.hpp"
 #include "gpu/shader.hpp"
+#include "gpu/shader_cache.hpp"
 
 #include <map>
 #include <memory>
@@ -67,7 +68,7 @@ class PipelineStore {
 public:
     /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
     /// for benchmarks that compare two builds of one shader.
-    /// `cache`: folder for compiled pipelines; empty: none.
+    /// `cache`: folder for compiled pipelines and specialised shaders; empty: none.
     explicit PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants = {},
                            const std::filesystem::path& cache = {});
     ~PipelineStore();
@@ -98,6 +99,7 @@ private:
     GpuDevice& pipeline_device_;
     std::map<std::string, std::string> variants_;
     PipelineCache cache_;
+    SpecialisedShaderCache shaders_;
     /// Pipelines that differ in attachments or fixed functions share stages. Keyed by the shader's
     /// name and the bits of its constants by constant_id.
     std::map<std::pair<std::string, std::map<std::uint32_t, std::uint32_t>>,

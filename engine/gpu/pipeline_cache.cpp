@@ -1,10 +1,10 @@
 #include "gpu/pipeline_cache.hpp"
 
 #include "core/file.hpp"
+#include "gpu/cache_file.hpp"
 
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <system_error>
 #include <vector>
 
@@ -15,31 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kCacheFileSignature = "catoptric pipelines 1\n";
-
-/// Returns the 64-bit FNV-1a checksum. Drivers do not check cache data, so a truncated file must
-/// not reach them.
-std::uint64_t fnv1a_checksum(std::string_view data) {
-    std::uint64_t sum = 0xcbf29ce484222325;
-    for (const char byte : data) sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-    return sum;
-}
-
-std::string add_cache_file_header(const std::string& data) {
-    const std::uint64_t sum = fnv1a_checksum(data);
-    std::string file(kCacheFileSignature);
-    file.append(reinterpret_cast<const char*>(&sum), sizeof sum);
-    return file + data;
-}
-
-/// Returns the data of a cache file; empty if the file is not complete.
-std::string strip_cache_file_header(const std::string& file) {
-    std::uint64_t sum = 0;
-    const std::size_t head = kCacheFileSignature.size() + sizeof sum;
-    if (file.size() < head || !file.starts_with(kCacheFileSignature)) return {};
-    std::memcpy(&sum, file.data() + kCacheFileSignature.size(), sizeof sum);
-    const std::string data = file.substr(head);
-    return fnv1a_checksum(data) == sum ? data : std::string();
-}
 
 /// Returns a file name for device, driver and driver build. Vulkan does not define pipeline data of
 /// one to be valid for another.
@@ -90,12 +65,12 @@ std::string PipelineCache::loaded() {
     const bool is_there = fs::exists(file_, error);
     try {
         if (!is_there) {
-            write_file(file_, add_cache_file_header({}));
+            write_file(file_, add_cache_file_header(kCacheFileSignature, {}));
             return {};
         }
         const std::string file = read_file(file_);
-        std::string data = strip_cache_file_header(file);
-        if (data.empty() && file != add_cache_file_header({}))
+        std::string data = strip_cache_file_header(kCacheFileSignature, file);
+        if (data.empty() && file != add_cache_file_header(kCacheFileSignature, {}))
             warning_ = file_.string() +
                        ": wanted a whole pipeline cache, found something else; a new one is made";
         return data;
@@ -117,7 +92,7 @@ void PipelineCache::save() const {
         VK_SUCCESS)
         return;
     data.resize(size);
-    if (data != known_) write_file(file_, add_cache_file_header(data));
+    if (data != known_) write_file(file_, add_cache_file_header(kCacheFileSignature, data));
 }
 
 } // namespace catoptric::gpu

@@ -1,7 +1,5 @@
 #include "gpu/stage.hpp"
 
-#include "gpu/specialise.hpp"
-
 namespace catoptric::gpu {
 
 namespace {
@@ -31,9 +29,9 @@ ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderRefle
     return bits;
 }
 
-ShaderStage::ShaderStage(const GpuDevice& device, const std::string& name,
-                         VkShaderStageFlagBits stage, ShaderReflection whole,
-                         const ShaderConstantBits& constants)
+ShaderStage::ShaderStage(const GpuDevice& device, SpecialisedShaderCache& shaders,
+                         const std::string& name, VkShaderStageFlagBits stage,
+                         ShaderReflection whole, const ShaderConstantBits& constants)
     : bit(stage), reflection(std::move(whole)) {
     check(!reflection.doubles || device.supports_double_precision_shaders(), Failure::no_device,
           "shader '", name, "' computes with doubles, which device '",
@@ -42,8 +40,8 @@ ShaderStage::ShaderStage(const GpuDevice& device, const std::string& name,
           Failure::no_device, "shader '", name, "' reads the number of a triangle, which device '",
           device.device_properties().name,
           "' does not give; the technique raytrace with first=ray needs none");
-    const std::vector<std::uint32_t> words = specialise_shader(name, find_shader(name).words,
-                                                               constants);
+    const std::vector<std::uint32_t> words = shaders.find_or_specialise(
+        name, find_shader(name).words, constants);
     // Only the bindings that are still used with these constants.
     reflection.bindings = reflect_spirv(name, words).bindings;
     VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};

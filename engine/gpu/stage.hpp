@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gpu/pipeline.hpp"
+#include "gpu/shader_cache.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -25,8 +26,9 @@ ShaderConstantBits find_constant_bits(const GpuDevice& device, const ShaderRefle
 /// One stage of a pipeline. Its module must outlive the call that creates the pipeline.
 struct ShaderStage {
     /// `whole`: what the shader declares before its constants are set.
-    ShaderStage(const GpuDevice& device, const std::string& name, VkShaderStageFlagBits stage,
-                ShaderReflection whole, const ShaderConstantBits& constants);
+    ShaderStage(const GpuDevice& device, SpecialisedShaderCache& shaders, const std::string& name,
+                VkShaderStageFlagBits stage, ShaderReflection whole,
+                const ShaderConstantBits& constants);
     VkPipelineShaderStageCreateInfo make_shader_stage_create_info() const {
         VkPipelineShaderStageCreateInfo stage{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
         stage.stage = bit;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace {
 
@@ -22,9 +23,11 @@ protected:
         return test::run_process(asked);
     }
     std::string read_rendered_picture() const { return read_output_file("a.png"); }
+    /// Returns the regular files of the folder, without those of folders in it.
     static std::vector<fs::path> list_files_in_folder(const fs::path& where) {
         std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(where)) files.push_back(entry.path());
+        for (const auto& entry : fs::directory_iterator(where))
+            if (entry.is_regular_file()) files.push_back(entry.path());
         return files;
     }
 };
@@ -74,6 +77,26 @@ TEST_F(Cache, BrokenCacheFileGivesOneWarningAndIsReplaced) {
         EXPECT_EQ(read_rendered_picture(), wanted);
         EXPECT_EQ(render_with_cache_home(folder.string()).err, "") << "a new one was made";
     }
+}
+
+TEST_F(Cache, SpecialisedShadersAreReadAgain) {
+    ASSERT_EQ(render_with_cache_home(folder.string()).exit_code, 0);
+    const std::string wanted = read_rendered_picture();
+    const std::vector<fs::path> files = list_files_in_folder(folder / "catoptric" / "shaders");
+    ASSERT_GT(files.size(), 2u);
+    std::map<fs::path, std::string> contents;
+    for (const fs::path& file : files) contents[file] = read_file_at_path(file);
+    // Two broken files are made again, and no other file is written.
+    std::ofstream(files[0], std::ios::binary) << contents[files[0]].substr(0, 40);
+    std::ofstream(files[1], std::ios::binary) << contents[files[1]] + "x";
+    const fs::file_time_type before = fs::last_write_time(files[2]);
+    const test::ProcessResult said = render_with_cache_home(folder.string());
+    EXPECT_EQ(said.exit_code, 0);
+    EXPECT_EQ(said.err, "");
+    EXPECT_EQ(read_rendered_picture(), wanted);
+    for (const fs::path& file : files) EXPECT_EQ(read_file_at_path(file), contents[file]);
+    EXPECT_EQ(fs::last_write_time(files[2]), before);
+    EXPECT_EQ(list_files_in_folder(folder / "catoptric" / "shaders").size(), files.size());
 }
 
 TEST_F(Cache, UnwritableCacheFolderOnlyGivesAWarning) {

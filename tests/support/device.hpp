@@ -2,6 +2,7 @@
 
 #include "graph/graph_runner.hpp"
 #include "session/access.hpp"
+#include "session/folders.hpp"
 #include "session/run.hpp"
 #include "support/refusal.hpp"
 #include "support/wanted_device.hpp"
@@ -85,7 +86,10 @@ inline app::Engine& get_test_engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
         made.reset(new app::Engine(app::Access::make_engine(
-            {.device = read_wanted_device_name(), .validate = true}, {.layered = layered})));
+            {.device = read_wanted_device_name(),
+             .validate = true,
+             .cache = app::find_cache_folder()}, // specialised shaders, for all test programs
+            {.layered = layered})));
     return *made;
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace catoptric::gpu {
+
+/// Specialised shaders (specialise_shader), stored in files from one process to the next. A file
+/// is found by the contents of the shader, its constants and the version of SPIRV-Tools. Files
+/// that are incomplete are made again. A folder that cannot be written to has no effect.
+class SpecialisedShaderCache {
+public:
+    /// `folder` is created when the first file is written; empty: nothing is stored.
+    /// `largest_bytes`: if the files that this object leaves take more, the files that were
+    /// written first are removed until half of it remains.
+    explicit SpecialisedShaderCache(std::filesystem::path folder,
+                                    std::uintmax_t largest_bytes = std::uintmax_t{128} << 20);
+    ~SpecialisedShaderCache();
+    SpecialisedShaderCache(const SpecialisedShaderCache&) = delete;
+    SpecialisedShaderCache& operator=(const SpecialisedShaderCache&) = delete;
+
+    /// Returns what specialise_shader returns. Takes less than a millisecond if the file exists.
+    std::vector<std::uint32_t>
+    find_or_specialise(std::string_view name, std::span<const std::uint32_t> words,
+                       const std::map<std::uint32_t, std::uint32_t>& constants);
+    std::size_t count_loaded() const { return loaded_; } ///< shaders read from files
+    std::size_t count_stored() const { return stored_; } ///< shaders written to files
+
+private:
+    void remove_oldest_files() const;
+
+    std::filesystem::path folder_;
+    std::uintmax_t largest_bytes_;
+    std::size_t loaded_ = 0, stored_ = 0;
+};
+
+} // namespace catoptric::gpu
