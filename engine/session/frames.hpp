@@ -31,7 +31,10 @@ public:
               FrameHistoryState history = FrameHistoryState::none);
 
     /// Renders the next frame. Returns false after the last.
-    bool render_next();
+    bool render_next() { return render_next(request_.camera); }
+    /// As above, with this camera in place of the request's. A run that ends when the picture
+    /// settles needs the same camera in each frame.
+    bool render_next(const scene::Camera& camera);
     /// Frees the session for other frames until the next call of `render_next`. That call continues
     /// the sequence as if no other frames had been rendered. Results of the last frame that were
     /// not read by then are lost.

@@ -21,12 +21,13 @@ FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks&
     if (history == FrameHistoryState::none) session.forget();
 }
 
-bool FrameLoop::render_next() {
+bool FrameLoop::render_next(const scene::Camera& camera) {
     if (settled_ || number_ >= max_frame_count()) return false;
     if (aside_) Access::resume_frame_sequence(loop_session_, std::move(*aside_));
     aside_.reset();
     ++number_;
     FrameSpec spec = request_;
+    spec.camera = camera;
     spec.time = request_.instant(number_);
     const double used_before = read_process_seconds();
     frame_ = Access::render_frame(loop_session_, spec, hooks_);

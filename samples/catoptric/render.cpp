@@ -1,4 +1,5 @@
 // catoptric render: renders one picture, or a sequence.
+#include "camera_path.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_module.hpp"
@@ -35,12 +36,15 @@ constexpr const char* kRenderExamples = R"(Examples:
   catoptric render scene.glb --technique raytrace:samples=16 -o truth.exr
   catoptric render --technique reuse --frames 60 --trace frame.json -o last.png
   catoptric render --technique reuse --animate --frames 60 -o 'frame-{n:3}.png'
+  catoptric render --technique secant --camera-path path.json -o 'frame-{n:4}.png'
   catoptric render --technique naive:bounces=2 -o - | display
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still picture takes one frame, or with last frame's captures as many frames as change a pixel, at most 28.
 With --budget-ms it takes at most 28 rounds of all mirrors; the picture does not depend on the budget.
-With --animate, --frames, --warmup, --profile or --trace, frames are counted and timed as in compare.
+The camera of --camera-path moves from the first measured frame on, 1/60 s a frame, to the end of the path or
+for --frames. The file is {"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"time": 2, "camera": "..."}]}.
+With --animate, --camera-path, --frames, --warmup, --profile or --trace, frames are counted and timed as in compare.
 The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its name, one picture per measured
 frame is written, numbered from 1.
 EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.)";
@@ -52,6 +56,7 @@ struct RenderOptions {
     std::string output;
     std::string trace;
     std::string profile;
+    std::string camera_path; ///< file; empty: the camera stands still
 };
 
 bool writes_to_stdout(const RenderOptions& options) { return options.output == "-"; }
@@ -63,20 +68,20 @@ constexpr int kMaxSequencePictures = 100'000; ///< limit of a sequence
 bool wants_only_picture(const RenderOptions& options) {
     const CommonOptions& common = options.common;
     return !common.animate && !common.frames && !common.warmup && options.trace.empty() &&
-           options.profile.empty();
+           options.profile.empty() && options.camera_path.empty();
 }
 
-/// Returns the files that pictures are written to; none if the picture goes to stdout.
-std::vector<std::string> list_output_files(const RenderOptions& options) {
+/// Returns the files that the pictures of so many measured frames are written to; none if the
+/// picture goes to stdout.
+std::vector<std::string> list_output_files(const RenderOptions& options, int frames) {
     if (writes_to_stdout(options)) return {};
     const std::optional<PictureFileSequence> sequence = PictureFileSequence::parse_file_sequence(
         options.output);
     if (!sequence) return {options.output};
-    const int frames = options.common.frames.value_or(app::Request().frames);
     check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
-          ": wanted --frames or --animate with a sequence of pictures, found neither");
+          ": wanted --frames, --animate or --camera-path with a sequence of pictures, found none");
     check(frames <= kMaxSequencePictures, Failure::usage, "-o ", options.output,
-          ": wanted at most ", kMaxSequencePictures, " pictures, found --frames ", frames);
+          ": wanted at most ", kMaxSequencePictures, " pictures, found ", frames, " frames");
     std::vector<std::string> files;
     for (int number = 1; number <= frames; ++number) files.push_back(sequence->file(number));
     return files;
@@ -86,12 +91,14 @@ void check_output_options(const RenderOptions& options) {
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a picture has one");
     check_budget_option(options.common);
+    check(options.camera_path.empty() || !options.common.overrides.camera, Failure::usage,
+          "--camera-path: wanted it without --camera, found both");
     throw_unless_option_given(!options.output.empty(), "render", "-o OUT",
                               "a name ending in .exr or .png, or - for stdout");
     check(!writes_to_stdout(options) || !options.common.manners.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
     if (!writes_to_stdout(options)) {
-        check_file_can_be_made(list_output_files(options).front());
+        check_file_can_be_made(list_output_files(options, 1).front());
         check(writes_exr(options) || options.output.ends_with(".png"), Failure::usage,
               "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
     }
@@ -99,10 +106,11 @@ void check_output_options(const RenderOptions& options) {
         if (!file.empty()) check_file_can_be_made(file);
 }
 
-void check_picture_places(const RenderOptions& options, const scene::Scene& scene) {
+void check_picture_places(const RenderOptions& options, const scene::Scene& scene,
+                          const std::vector<std::string>& pictures) {
     std::vector<std::filesystem::path> outputs;
     if (writes_to_stdout(options) || options.common.manners.json) outputs.push_back(kStdoutPath);
-    for (const std::string& file : list_output_files(options)) outputs.emplace_back(file);
+    for (const std::string& file : pictures) outputs.emplace_back(file);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
     check_outputs_differ_from_inputs(outputs, scene.files);
@@ -124,11 +132,35 @@ void write_picture(const app::TechniqueResult& part, const std::string& file) {
     measure::write_png(part.display, file);
 }
 
+/// Reads the path and sets the number of frames to that of the whole path, unless --frames is
+/// given.
+std::optional<CameraPath> read_camera_path_of_request(const RenderOptions& options,
+                                                      app::Request& request) {
+    if (options.camera_path.empty()) return std::nullopt;
+    CameraPath path = read_camera_path(options.camera_path, request.scene);
+    const double whole = std::round(path.duration() * kFramesPerSecond) + 1;
+    check(options.common.frames || whole <= kMaxSequencePictures, Failure::usage, "--camera-path ",
+          options.camera_path, ": wanted --frames or a path of at most ", kMaxSequencePictures,
+          " frames, found ", whole);
+    if (!options.common.frames) request.frames = static_cast<int>(whole);
+    path.check_frames(std::min(request.frames, static_cast<int>(std::min(whole, 1e9))),
+                      options.camera_path);
+    request.camera = path.camera_after(0);
+    request.camera.name = options.camera_path;
+    return path;
+}
+
 /// Renders all frames. In a sequence, each measured frame is written to its file.
-void render_all_frames(app::FrameLoop& frames, const std::vector<std::string>& files, int warmup,
+void render_all_frames(app::FrameLoop& frames, const app::Request& request,
+                       const std::optional<CameraPath>& path, const std::vector<std::string>& files,
                        const app::Watcher& watcher) {
+    const int warmup = request.warmup;
+    const auto find_camera = [&] {
+        const int next = frames.rendered_frame_count() + 1 - warmup; // from 1: measured
+        return path ? path->camera_after((next - 1) / kFramesPerSecond) : request.camera;
+    };
     throw_if_stopped(watcher);
-    while (frames.render_next()) {
+    while (frames.render_next(find_camera())) {
         const int measured = frames.rendered_frame_count() - warmup;
         if (files.size() > 1 && measured > 0)
             write_picture(frames.current_frame().read(),
@@ -179,7 +211,9 @@ int run_render(const RenderOptions& options) {
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output_options(options);
     app::Request request = make_render_request(options);
-    check_picture_places(options, request.scene);
+    const std::optional<CameraPath> path = read_camera_path_of_request(options, request);
+    const std::vector<std::string> files = list_output_files(options, request.frames);
+    check_picture_places(options, request.scene, files);
     if (writes_exr(options)) get_image_codecs(); // fail before rendering if the codecs are missing
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);
@@ -192,8 +226,7 @@ int run_render(const RenderOptions& options) {
     app::Session session(engine, std::move(scene));
     app::resolve_auto_exposure(session, request);
     app::FrameLoop frames(session, request);
-    const std::vector<std::string> files = list_output_files(options);
-    render_all_frames(frames, files, request.warmup, watcher);
+    render_all_frames(frames, request, path, files, watcher);
     const app::RunResult result = frames.result();
     progress.clear();
 
@@ -225,6 +258,9 @@ void add_render_verb(CommandLine& program) {
         "picture file OUT.exr or OUT.png, frame-{n:4}.png for one per frame, or - for a PNG on "
         "stdout; required",
         options->output);
+    verb.option("--camera-path", "FILE",
+                "file with a motion of the camera, in place of --camera; see the notes below",
+                options->camera_path);
     verb.heading(kMeasuringOptions);
     verb.option("--trace", "T.json",
                 "file for the times of the last frame's passes, for chrome://tracing or Perfetto",

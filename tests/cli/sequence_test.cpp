@@ -32,7 +32,7 @@ TEST_F(CommandLineTest, InvalidSequenceNameIsRefused) {
         expect_usage_refused({"render", "--technique", "reuse", "--frames", "2", "-o", name}, 2,
                              {"-o", name});
     expect_usage_refused({"render", "--technique", "reuse", "-o", "{n}.png"}, 2,
-                         {"--frames or --animate", "{n}.png"});
+                         {"--frames, --animate or --camera-path", "{n}.png"});
 }
 
 TEST_F(CommandLineTest, RenderOfASequenceWritesOnePicturePerFrame) {
