@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kNonPlanarMirrorTechniqueChoices{
     "reuse", "parallax", "proxy", "secant", "pyramid", "march", "layered", "hybrid", "raytrace"};
-constexpr TechniqueKnob kBouncesKnob{
+constexpr TechniqueKnob kPlanarBouncesKnob{
     .name = "bounces",
     .help = "depth of views: number of flat mirrors in a row that a mirrored view shows; 0: black",
     .low = 0,
@@ -23,7 +23,7 @@ constexpr TechniqueKnob kNonPlanarMirrorTechniqueKnob{
     .help = "technique of mirrors that are not flat",
     .high = kNonPlanarMirrorTechniqueChoices.size() - 1,
     .choices = kNonPlanarMirrorTechniqueChoices};
-constexpr TechniqueKnob kPlanarKnobs[] = {kBouncesKnob,
+constexpr TechniqueKnob kPlanarKnobs[] = {kPlanarBouncesKnob,
                                           kNonPlanarMirrorTechniqueKnob,
                                           kIndirectLightKnob,
                                           kLightProbesKnob,
@@ -57,7 +57,7 @@ constexpr Technique kPlanarTechnique{
                const MirrorShadingInputs&) { return MirrorShadingSetup{}; },
     .mirrored_bounces =
         [](const TechniqueKnobSettings& settings) {
-            return settings.knob_value_as_integer(kBouncesKnob);
+            return settings.knob_value_as_integer(kPlanarBouncesKnob);
         },
     .unfit = describe_why_mirror_is_not_planar,
     .rest = &kNonPlanarMirrorTechniqueKnob};

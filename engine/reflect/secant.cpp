@@ -6,18 +6,18 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr TechniqueKnob kSearchStepsKnob{
+constexpr TechniqueKnob kSecantStepsKnob{
     .name = "steps",
     .help = "number of secant steps after the first; 0 equals parallax",
     .low = 0,
     .high = 8,
     .value = 2};
-constexpr auto kSecantKnobs = list_search_knobs(std::array{kSearchStepsKnob});
+constexpr auto kSecantKnobs = list_search_knobs(std::array{kSecantStepsKnob});
 
 MirrorShadingSetup make_secant_shading(graph::Graph&, const render::FrameInputs&,
                                        const TechniqueKnobSettings& settings,
                                        const MirrorShadingInputs& around) {
-    const int steps = settings.knob_value_as_integer(kSearchStepsKnob);
+    const int steps = settings.knob_value_as_integer(kSecantStepsKnob);
     if (steps == 0) { // without the knobs of a search, which `parallax` does not have
         MirrorShadingSetup look{
             make_capture_shader(around, "reflect/parallax.frag", TechniqueKnobSettings({})), {}};
