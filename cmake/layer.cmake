@@ -2,8 +2,7 @@
 # makes it part of the library. A layer in samples/ is part of programs only. USES lists the
 # layers whose headers the sources may include. Any other include stops the build (cmake/check_arrows.cmake). With
 # CATOPTRIC_UNITY up to 32 sources of a layer are compiled at a time, which takes a tenth of the time. Names in unnamed
-# namespaces must then differ within the layer. A source that registers a row of a table (technique, metric, property)
-# compiles alone, so that rows may use equal names. Headers are in a file set, so that CMake checks that each header
+# namespaces must then differ within the layer. Headers are in a file set, so that CMake checks that each header
 # compiles alone.
 include(CMakeParseArguments)
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <string>
 #include <system_error>
 
@@ -61,7 +62,10 @@ SpecialisedShaderCache::SpecialisedShaderCache(fs::path folder, std::uintmax_t l
     : folder_(std::move(folder)), largest_bytes_(largest_bytes) {}
 
 SpecialisedShaderCache::~SpecialisedShaderCache() {
-    if (stored_ > 0) remove_oldest_files();
+    try {
+        if (stored_ > 0) remove_oldest_files();
+    } catch (const std::exception&) { // ignored: it is only a cache
+    }
 }
 
 std::vector<std::uint32_t> SpecialisedShaderCache::find_or_specialise(
@@ -75,6 +79,7 @@ std::vector<std::uint32_t> SpecialisedShaderCache::find_or_specialise(
         return result;
     }
     result = specialise_shader(name, words, constants);
+    if (!can_write_) return result;
     try {
         std::error_code error;
         fs::create_directories(folder_, error);
@@ -82,8 +87,8 @@ std::vector<std::uint32_t> SpecialisedShaderCache::find_or_specialise(
                                     result.size() * sizeof(std::uint32_t));
         write_file(file, add_cache_file_header(kShaderFileSignature, data));
         ++stored_;
-    } catch (const Error&) { // ignored: it is only a cache
-        folder_.clear();
+    } catch (const std::exception&) { // ignored: it is only a cache
+        can_write_ = false;
     }
     return result;
 }

@@ -16,8 +16,8 @@ namespace catoptric::gpu {
 class SpecialisedShaderCache {
 public:
     /// `folder` is created when the first file is written; empty: nothing is stored.
-    /// `largest_bytes`: if the files that this object leaves take more, the files that were
-    /// written first are removed until half of it remains.
+    /// `largest_bytes`: if all files take more when this object ends, the files that were written
+    /// first are removed until they take half of it.
     explicit SpecialisedShaderCache(std::filesystem::path folder,
                                     std::uintmax_t largest_bytes = std::uintmax_t{128} << 20);
     ~SpecialisedShaderCache();
@@ -36,6 +36,7 @@ private:
 
     std::filesystem::path folder_;
     std::uintmax_t largest_bytes_;
+    bool can_write_ = true; ///< false after a write has failed
     std::size_t loaded_ = 0, stored_ = 0;
 };
 

@@ -27,7 +27,7 @@ struct EngineOptions {
     std::filesystem::path profiles = {};
     /// Variants to use instead of a profile.
     VariantNames variants = {};
-    /// Folder that keeps compiled pipelines and specialised shaders (at most 128 MiB) from process
+    /// Folder that keeps compiled pipelines and specialised shaders (about 128 MiB) from process
     /// to process. Empty: they are not kept on disk.
     std::filesystem::path cache = {};
 };

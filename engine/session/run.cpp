@@ -23,6 +23,8 @@ FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks&
 
 bool FrameLoop::render_next(const scene::Camera& camera) {
     if (settled_ || number_ >= max_frame_count()) return false;
+    check(!request_.until_settled || camera == request_.camera, Failure::usage,
+          "a run until the picture settles: wanted one camera, found two");
     if (aside_) Access::resume_frame_sequence(loop_session_, std::move(*aside_));
     aside_.reset();
     ++number_;

@@ -37,6 +37,8 @@ CameraKey read_camera_key(const PathJson& key, const std::string& place,
     check(camera.is_string(), Failure::bad_data, place,
           ".camera: wanted the text of a camera as in --camera, found ",
           describe_path_value(camera));
+    check(camera != "seeded", Failure::bad_data, place,
+          ".camera: wanted a camera of the scene or numbers, found 'seeded'");
     CameraKey result{time.get<double>(),
                      scene::find_camera_by_name(camera.get<std::string>(), scene,
                                                 {place + ".camera", Failure::bad_data})};
@@ -58,6 +60,7 @@ Value find_tangent(const std::vector<CameraKey>& keys, std::size_t i,
 } // namespace
 
 scene::Camera CameraPath::camera_after(double seconds) const {
+    if (seconds >= duration()) return keys_.back().camera; // without rounding
     const double time = keys_.front().seconds + std::clamp(seconds, 0.0, duration());
     const auto next = std::ranges::upper_bound(keys_, time, {}, &CameraKey::seconds);
     const std::size_t to = std::min<std::size_t>(static_cast<std::size_t>(next - keys_.begin()),

@@ -26,7 +26,7 @@ public:
     /// Returns the camera `seconds` after the first key; after the last key, that of the last key.
     /// Eye, target, up and angle of view are cubic Hermite splines through the keys, with the
     /// tangents of Catmull and Rom for keys at unequal distances in time. Two keys give a straight
-    /// line.
+    /// line. Angle of view and orthographic height stay between those of the two keys around.
     scene::Camera camera_after(double seconds) const;
     /// Throws `bad_data`, with `file` as the place, if the camera stands at its target or looks
     /// along its up vector in one of so many frames of 1/60 s.

@@ -36,7 +36,7 @@ constexpr const char* kRenderExamples = R"(Examples:
   catoptric render scene.glb --technique raytrace:samples=16 -o truth.exr
   catoptric render --technique reuse --frames 60 --trace frame.json -o last.png
   catoptric render --technique reuse --animate --frames 60 -o 'frame-{n:3}.png'
-  catoptric render --technique secant --camera-path path.json -o 'frame-{n:4}.png'
+  catoptric render --technique secant --camera-path path.json -o 'p-{n:4}.png'
   catoptric render --technique naive:bounces=2 -o - | display
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
@@ -114,6 +114,9 @@ void check_picture_places(const RenderOptions& options, const scene::Scene& scen
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) outputs.push_back(file);
     check_outputs_differ_from_inputs(outputs, scene.files);
+    if (!options.camera_path.empty())
+        check_outputs_differ_from_inputs(outputs, {resolve_real_path(options.camera_path)},
+                                         ", which the camera's path is read from");
 }
 
 app::Request make_render_request(const RenderOptions& options) {
@@ -138,7 +141,8 @@ std::optional<CameraPath> read_camera_path_of_request(const RenderOptions& optio
                                                       app::Request& request) {
     if (options.camera_path.empty()) return std::nullopt;
     CameraPath path = read_camera_path(options.camera_path, request.scene);
-    const double whole = std::round(path.duration() * kFramesPerSecond) + 1;
+    // Up to the frame that shows the last key; seconds in decimals may be a little too long.
+    const double whole = std::ceil(path.duration() * kFramesPerSecond - 1e-6) + 1;
     check(options.common.frames || whole <= kMaxSequencePictures, Failure::usage, "--camera-path ",
           options.camera_path, ": wanted --frames or a path of at most ", kMaxSequencePictures,
           " frames, found ", whole);
@@ -156,7 +160,8 @@ void render_all_frames(app::FrameLoop& frames, const app::Request& request,
                        const app::Watcher& watcher) {
     const int warmup = request.warmup;
     const auto find_camera = [&] {
-        const int next = frames.rendered_frame_count() + 1 - warmup; // from 1: measured
+        const int next = frames.rendered_frame_count() + 1 -
+                         warmup; // number from 1; below 1: warm-up
         return path ? path->camera_after((next - 1) / kFramesPerSecond) : request.camera;
     };
     throw_if_stopped(watcher);

@@ -31,6 +31,9 @@ TEST(CameraPathSpline, PassesThroughTheKeysAndStopsAtTheLast) {
     }
     EXPECT_EQ(path.camera_after(100).eye, keys[2].camera.eye);
     EXPECT_EQ(path.camera_after(-1).eye, keys[0].camera.eye);
+    const CameraPath decimal(
+        {make_camera_key(.1, {0, 0, 4}, {0, 1, 0}), make_camera_key(.7, {.3, .1, 2}, {0, 0, 0})});
+    EXPECT_EQ(decimal.camera_after(decimal.duration()).eye, dvec3(.3, .1, 2));
 }
 
 TEST(CameraPathSpline, TwoKeysGiveAStraightLineOfConstantSpeed) {
@@ -43,7 +46,7 @@ TEST(CameraPathSpline, TwoKeysGiveAStraightLineOfConstantSpeed) {
     }
 }
 
-/// With tangents by central differences a spline repeats straight motion through keys at unequal
+/// With tangents by central differences a spline reproduces straight motion through keys at unequal
 /// distances in time. Tangents of the uniform spline do not.
 TEST(CameraPathSpline, UnevenKeysOnALineKeepTheSpeed) {
     const auto eye = [](double t) { return dvec3(3 * t, -t, 4 + 2 * t); };
@@ -120,7 +123,33 @@ TEST_F(CameraPathCliTest, FramesAfterThePathStandAtItsEnd) {
     EXPECT_NE(read_output_file("p2.png"), read_output_file("p3.png"));
 }
 
+TEST_F(CameraPathCliTest, LastFrameOfAPathShowsItsLastKey) {
+    write_input_file("path.json", R"({"keys": [{"time": 0, "camera": "0,1,3:0,1,0:40"},)"
+                                  R"({"time": 0.02, "camera": "0.5,1.5,3:0,1,0:40"}]})");
+    const test::ProcessResult ended = run_cli({"render", "--technique", "raytrace:depth=1",
+                                               "--size", "32x24", "--exposure", "0",
+                                               "--camera-path", "path.json", "-o", "last.png"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(read_output_file("last.png"), render_still("0.5,1.5,3:0,1,0:40"));
+}
+
+TEST_F(CameraPathCliTest, FileOfThePathIsNotOverwritten) {
+    const std::string path = R"({"keys": [{"time": 0, "camera": "0,1,3:0,1,0:40"},)"
+                             R"({"time": 1, "camera": "0.5,1.5,3:0,1,0:40"}]})";
+    write_input_file("path.json", path);
+    const test::ProcessResult ended = run_cli({"render", "--technique", "raytrace:depth=0",
+                                               "--size", "16x16", "--camera-path", "path.json",
+                                               "--profile", "path.json", "-o", "p.png"});
+    EXPECT_NE(ended.exit_code, 0);
+    EXPECT_THAT(ended.err, HasSubstr("path.json"));
+    EXPECT_EQ(read_output_file("path.json"), path);
+}
+
 TEST_F(CameraPathCliTest, InvalidPathIsRefusedWithItsPlace) {
+    const test::ProcessResult missing = run_cli({"render", "--technique", "raytrace:depth=0",
+                                                 "--camera-path", "none.json", "-o", "p{n}.png"});
+    EXPECT_EQ(missing.exit_code, 66);
+    EXPECT_THAT(missing.err, HasSubstr("none.json"));
     expect_path_refused("{", {"path.json"});
     expect_path_refused("[]", {"path.json: wanted an object with at least two 'keys'", "a list"});
     const std::string first = R"({"time": 0, "camera": "0,1,3:0,1,0:40"})";
@@ -134,6 +163,8 @@ TEST_F(CameraPathCliTest, InvalidPathIsRefusedWithItsPlace) {
                         {"keys[1].camera: wanted the text of a camera", "nothing"});
     expect_path_refused(R"({"keys": [)" + first + R"(, {"time": 1, "camera": "none"}]})",
                         {"keys[1].camera", "no camera 'none'"});
+    expect_path_refused(R"({"keys": [)" + first + R"(, {"time": 1, "camera": "seeded"}]})",
+                        {"keys[1].camera", "found 'seeded'"});
     expect_path_refused(R"({"keys": [)" + first + R"(, {"time": 1, "eye": 0}]})",
                         {"keys[1]: wanted time and camera, found 'eye'"});
     expect_path_refused(R"({"keys": [)" + first + R"(, {"time": 1, "camera": "0,1,3:0,1,0:h=2"}]})",

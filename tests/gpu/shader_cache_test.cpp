@@ -66,7 +66,7 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
     EXPECT_EQ(find_in(next, off), without);
     EXPECT_EQ(next.count_loaded(), 2u);
     EXPECT_EQ(next.count_stored(), 0u);
-    // Another shader with the same constants, here one without debug names, has its own file.
+    // Another shader with the same constants has its own file.
     ShaderWords other(parallax_words().begin(), parallax_words().end());
     other[2] ^= 1; // number of the generator (SPIR-V specification, 2.3)
     const ShaderWords of_other = next.find_or_specialise("other", other, on);
