@@ -1,9 +1,11 @@
 #include "core/json.hpp"
 
+#include "core/file.hpp"
 #include "core/text.hpp"
 
 #include <algorithm>
 #include <array>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -127,6 +129,18 @@ void check_json_syntax(const std::string& file, std::string_view text,
                        const JsonMemoryUseCallback& spends) {
     JsonLimitChecker reader(file, text, spends);
     Json::sax_parse(text, &reader);
+}
+
+std::string read_json_text(const std::filesystem::path& file, const std::string& what,
+                           std::uintmax_t max_bytes) {
+    std::error_code error;
+    check(!std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error),
+          Failure::bad_data, file.string(), ": wanted a file with ", what,
+          ", found something else");
+    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+    check(error || bytes <= max_bytes, Failure::bad_data, file.string(), ": wanted ", what,
+          " of at most ", max_bytes, " bytes, found ", bytes);
+    return read_file(file);
 }
 
 } // namespace catoptric

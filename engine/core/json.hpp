@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,12 @@ using JsonMemoryUseCallback = std::function<void(std::uint64_t bytes)>;
 /// and what was found.
 void check_json_syntax(const std::string& file, std::string_view text,
                        const JsonMemoryUseCallback& spends = {});
+
+/// Returns the text of a JSON file. Users may name any file, so its type and size are checked
+/// first. `what` is the content for messages, such as "a plan". Throws `bad_data` for a folder, a
+/// device or more than `max_bytes`, and as read_file does.
+std::string read_json_text(const std::filesystem::path& file, const std::string& what,
+                           std::uintmax_t max_bytes);
 
 /// Returns the values of `text`. Throws like `check_json_syntax`. `Json` is a type of nlohmann's
 /// library.

@@ -1,7 +1,6 @@
 #include "report/costs.hpp"
 
 #include "core/error.hpp"
-#include "core/file.hpp"
 #include "core/json.hpp"
 #include "core/knob.hpp"
 #include "core/text.hpp"
@@ -118,11 +117,8 @@ void check_json_schema(const CostJsonValue& document, const char* wanted, const 
 }
 
 Json read_costs_json(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    check(error || bytes <= kMaxCostFileBytes, Failure::bad_data, file.string(),
-          ": wanted a file of at most ", kMaxCostFileBytes, " bytes, found ", bytes);
-    return parse_json<Json>(file.string(), read_file(file));
+    return parse_json<Json>(file.string(),
+                            read_json_text(file, "costs of a device", kMaxCostFileBytes));
 }
 
 measure::DeviceCosts read_costs_document(const Json& json, const std::string& file) {

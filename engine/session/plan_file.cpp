@@ -1,10 +1,7 @@
 #include "session/plan_file.hpp"
 
 #include "core/error.hpp"
-#include "core/file.hpp"
 #include "core/json.hpp"
-
-#include <filesystem>
 
 #include <nlohmann/json.hpp>
 
@@ -81,13 +78,8 @@ reflect::TechniquePlanRule read_plan_rule(const PlanJson& rule, const std::strin
 reflect::TechniquePlan read_technique_plan(const std::string& text) {
     if (!text.starts_with(kPlanFilePrefix)) return reflect::parse_plan(text);
     const std::string file = text.substr(kPlanFilePrefix.size());
-    std::error_code error;
-    check(!std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error),
-          Failure::bad_data, file, ": wanted a file with a plan, found something else");
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    check(error || bytes <= kMaxPlanFileBytes, Failure::bad_data, file,
-          ": wanted a plan of at most ", kMaxPlanFileBytes, " bytes, found ", bytes);
-    const PlanJson document = parse_json<PlanJson>(file, read_file(file));
+    const PlanJson document = parse_json<PlanJson>(
+        file, read_json_text(file, "a plan", kMaxPlanFileBytes));
     reflect::TechniquePlan plan{text, {}};
     const PlanJson& rules = find_plan_rules(document, file);
     if (is_auto_for_all_mirrors(rules)) {

@@ -1,7 +1,6 @@
 #include "session/profile.hpp"
 
 #include "core/error.hpp"
-#include "core/file.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "report/json.hpp"
@@ -50,19 +49,9 @@ Json make_device_json(const DeviceInfo& device) {
     return {{"name", device.name}, {"driver", device.driver}, {"id", device.id}};
 }
 
-/// Reads a small file. Users may name any file, so its type and size are checked first.
-std::string read_small_file(const fs::path& file) {
-    std::error_code error;
-    check(!fs::exists(file, error) || fs::is_regular_file(file, error), Failure::bad_data,
-          file.string(), ": wanted a file with a device profile, found something else");
-    const std::uintmax_t bytes = fs::file_size(file, error);
-    check(error || bytes <= kMaxProfileBytes, Failure::bad_data, file.string(),
-          ": wanted a device profile of at most ", kMaxProfileBytes, " bytes, found ", bytes);
-    return read_file(file);
-}
-
 gpu::ShaderVariantChoices read_profile_if_usable(const fs::path& file, const DeviceInfo& device) {
-    return parse_device_profile(read_small_file(file), file.string(), device);
+    return parse_device_profile(read_json_text(file, "a device profile", kMaxProfileBytes),
+                                file.string(), device);
 }
 
 /// Returns the choices of the folder's profile, or the defaults if there is no usable profile.

@@ -1,42 +1,34 @@
 #include "camera_path.hpp"
 
 #include "core/error.hpp"
-#include "core/file.hpp"
 #include "core/json.hpp"
+#include "report/json.hpp"
 #include "scene/camera_named.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
-#include <filesystem>
+#include <cstdint>
 
 namespace catoptric::cli {
 
 namespace {
 
-using PathJson = nlohmann::json;
+using PathJson = report::Json;
 
 constexpr std::uintmax_t kMaxPathFileBytes = 16U << 20U;
-
-std::string describe_path_value(const PathJson& value) {
-    if (value.is_null()) return "nothing";
-    if (value.is_structured()) return value.is_array() ? "a list" : "an object";
-    return value.dump(-1, ' ', true, PathJson::error_handler_t::replace).substr(0, 60);
-}
 
 CameraKey read_camera_key(const PathJson& key, const std::string& place,
                           const scene::Scene& scene) {
     check(key.is_object(), Failure::bad_data, place, ": wanted an object, found ",
-          describe_path_value(key));
+          report::describe_json_value(key));
     for (const auto& [name, value] : key.items())
         check(name == "time" || name == "camera", Failure::bad_data, place,
               ": wanted time and camera, found '", name, "'");
     const PathJson time = key.value("time", PathJson()), camera = key.value("camera", PathJson());
     check(time.is_number() && time >= 0 && time <= 1e6, Failure::bad_data, place,
-          ".time: wanted seconds from 0 to 1e6, found ", describe_path_value(time));
+          ".time: wanted seconds from 0 to 1e6, found ", report::describe_json_value(time));
     check(camera.is_string(), Failure::bad_data, place,
           ".camera: wanted the text of a camera as in --camera, found ",
-          describe_path_value(camera));
+          report::describe_json_value(camera));
     check(camera != "seeded", Failure::bad_data, place,
           ".camera: wanted a camera of the scene or numbers, found 'seeded'");
     CameraKey result{time.get<double>(),
@@ -107,18 +99,13 @@ void CameraPath::check_frames(int frames, const std::string& file) const {
 }
 
 CameraPath read_camera_path(const std::string& file, const scene::Scene& scene) {
-    std::error_code error;
-    check(!std::filesystem::exists(file, error) || std::filesystem::is_regular_file(file, error),
-          Failure::bad_data, file, ": wanted a file with a camera path, found something else");
-    const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-    check(error || bytes <= kMaxPathFileBytes, Failure::bad_data, file,
-          ": wanted a camera path of at most ", kMaxPathFileBytes, " bytes, found ", bytes);
-    const auto document = parse_json<PathJson>(file, read_file(file));
+    const auto document = parse_json<PathJson>(
+        file, read_json_text(file, "a camera path", kMaxPathFileBytes));
     const PathJson list = document.is_object() ? document.value("keys", PathJson()) : PathJson();
     check(list.is_array() && list.size() >= 2, Failure::bad_data, file,
           ": wanted an object with at least two 'keys', found ",
           list.is_array() ? std::to_string(list.size())
-                          : describe_path_value(document.is_object() ? list : document));
+                          : report::describe_json_value(document.is_object() ? list : document));
     for (const auto& [name, value] : document.items())
         check(name == "keys", Failure::bad_data, file, ": wanted only 'keys', found '", name, "'");
     std::vector<CameraKey> keys;

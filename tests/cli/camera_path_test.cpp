@@ -150,6 +150,10 @@ TEST_F(CameraPathCliTest, InvalidPathIsRefusedWithItsPlace) {
                                                  "--camera-path", "none.json", "-o", "p{n}.png"});
     EXPECT_EQ(missing.exit_code, 66);
     EXPECT_THAT(missing.err, HasSubstr("none.json"));
+    const test::ProcessResult of_folder = run_cli(
+        {"render", "--technique", "raytrace:depth=0", "--camera-path", ".", "-o", "p{n}.png"});
+    EXPECT_EQ(of_folder.exit_code, 65);
+    EXPECT_THAT(of_folder.err, HasSubstr(".: wanted a file with a camera path"));
     expect_path_refused("{", {"path.json"});
     expect_path_refused("[]", {"path.json: wanted an object with at least two 'keys'", "a list"});
     const std::string first = R"({"time": 0, "camera": "0,1,3:0,1,0:40"})";

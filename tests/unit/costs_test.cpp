@@ -166,6 +166,11 @@ std::string costs_error_text(const std::string& text) {
                                   [&] { report::read_device_costs(text, "c.json"); });
 }
 
+TEST(Costs, FolderInPlaceOfAFileIsRefused) {
+    EXPECT_EQ(test::catch_error_text(Failure::bad_data, [] { report::read_costs_file("."); }),
+              ".: wanted a file with costs of a device, found something else");
+}
+
 TEST(Costs, FileIsRefusedWithPlaceWantedAndFound) {
     const std::string head = R"({"schema": "catoptric/costs/1", "device": "d", "origin": "given")";
     EXPECT_EQ(
