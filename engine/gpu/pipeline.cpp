@@ -215,9 +215,10 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
 } // namespace
 
 PipelineStore::PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants,
-                             const std::filesystem::path& cache)
+                             const std::filesystem::path& cache,
+                             const std::filesystem::path& shaders)
     : pipeline_device_(device), variants_(std::move(variants)), cache_(device, cache),
-      shaders_(cache_.is_stored_in_file() ? cache / "shaders" : std::filesystem::path()) {}
+      shaders_(shaders) {}
 
 PipelineStore::~PipelineStore() = default;
 

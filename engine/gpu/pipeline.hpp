@@ -68,9 +68,11 @@ class PipelineStore {
 public:
     /// `variants`: shaders to use in place of others ("raytrace.comp" -> "raytrace.comp#naive"),
     /// for benchmarks that compare two builds of one shader.
-    /// `cache`: folder for compiled pipelines and specialised shaders; empty: none.
+    /// `cache`: folder for compiled pipelines; empty: none. `shaders`: folder for specialised
+    /// shaders; empty: none.
     explicit PipelineStore(GpuDevice& device, std::map<std::string, std::string> variants = {},
-                           const std::filesystem::path& cache = {});
+                           const std::filesystem::path& cache = {},
+                           const std::filesystem::path& shaders = {});
     ~PipelineStore();
     const Pipeline& find_or_make_raster_pipeline(const RasterPipelineState& state,
                                                  const AttachmentFormats& attachments);

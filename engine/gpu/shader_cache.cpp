@@ -21,13 +21,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Increase the number when specialise_shader gives other words for the same arguments.
+/// Increase the number when specialise_shader gives other words for the same arguments by the same
+/// passes.
 constexpr std::string_view kShaderFileSignature = "catoptric shader 1\n";
 
 /// Returns a file name of 128 bits of hash, which includes everything that the result depends on.
 std::string make_shader_file_name(std::span<const std::uint32_t> words,
                                   const std::map<std::uint32_t, std::uint32_t>& constants) {
-    const std::string_view tools = spvSoftwareVersionDetailsString();
+    const std::string tools = spvSoftwareVersionDetailsString() + list_specialisation_passes();
     std::string name;
     for (const std::uint64_t seed : {1u, 2u}) {
         ContentHash hash(seed);

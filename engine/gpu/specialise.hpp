@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,5 +16,8 @@ namespace catoptric::gpu {
 std::vector<std::uint32_t>
 specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
                   const std::map<std::uint32_t, std::uint32_t>& constants);
+
+/// Returns the names of the passes that specialise_shader runs, in their order.
+std::string list_specialisation_passes();
 
 } // namespace catoptric::gpu

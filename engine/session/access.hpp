@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -50,6 +51,8 @@ struct EngineHooks {
     std::function<std::uint64_t(void* instance)> make_surface = {};
     const gpu::ExternalDeviceHandles* given =
         nullptr; ///< device of an embedding program; null: none
+    /// Folder for specialised shaders if EngineOptions::cache is empty, for tests; empty: none.
+    std::filesystem::path shader_cache = {};
 };
 
 /// Options of a frame that other programs do not have.

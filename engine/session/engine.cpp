@@ -53,9 +53,19 @@ std::filesystem::path find_user_folder(const char* variable, const char* in_home
 
 } // namespace
 
+namespace {
+
+std::filesystem::path find_shader_cache_folder(const EngineOptions& options,
+                                               const EngineHooks& hooks) {
+    return options.cache.empty() ? hooks.shader_cache : options.cache / "shaders";
+}
+
+} // namespace
+
 Engine::Impl::Impl(const EngineOptions& options, const EngineHooks& hooks)
     : device(to_device_options(options, hooks)),
-      pipelines(device, hooks.shader_variants, options.cache),
+      pipelines(device, hooks.shader_variants, options.cache,
+                find_shader_cache_folder(options, hooks)),
       info(to_public_device_info(device.device_properties())) {
     device.set_active_shader_variant_choices(choose_shader_variants(options, info));
 }

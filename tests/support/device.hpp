@@ -2,13 +2,14 @@
 
 #include "graph/graph_runner.hpp"
 #include "session/access.hpp"
-#include "session/folders.hpp"
 #include "session/run.hpp"
 #include "support/refusal.hpp"
 #include "support/wanted_device.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -80,16 +81,21 @@ inline TestDevice& get_test_device(bool staged = false) {
     return *made;
 }
 
+/// Returns the folder in which all test programs keep specialised shaders. CTest gives it. Empty:
+/// none.
+inline std::filesystem::path find_shader_cache_of_tests() {
+    const char* folder = std::getenv("CATOPTRIC_TEST_SHADERS");
+    return folder ? folder : "";
+}
+
 /// Returns the engine of the test program and creates it at first use. Without `layered`, the
 /// engine draws captures face by face.
 inline app::Engine& get_test_engine(bool layered = true) {
     auto& made = detail::devices.engines[layered];
     if (!made)
         made.reset(new app::Engine(app::Access::make_engine(
-            {.device = read_wanted_device_name(),
-             .validate = true,
-             .cache = app::find_cache_folder()}, // specialised shaders, for all test programs
-            {.layered = layered})));
+            {.device = read_wanted_device_name(), .validate = true},
+            {.layered = layered, .shader_cache = find_shader_cache_of_tests()})));
     return *made;
 }
 
