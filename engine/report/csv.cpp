@@ -1,6 +1,5 @@
 // Writes rows.csv by RFC 4180, so lines end in CR LF. A missing value is an empty field.
 #include "core/mirror_id.hpp"
-#include "core/text.hpp"
 #include "measure/judge.hpp"
 #include "measure/metric.hpp"
 #include "measure/views.hpp"
@@ -16,30 +15,6 @@
 namespace catoptric::report {
 
 namespace {
-
-/// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
-/// these characters. Numbers may begin with them.
-bool is_spreadsheet_formula(const std::string& text) {
-    constexpr std::string_view kCsvNumberCharacters = "0123456789.eE+- ";
-    return text.find_first_of("=+-@") == 0 &&
-           text.find_first_not_of(kCsvNumberCharacters) != text.npos;
-}
-
-/// Returns a cell with escaped text from any source. All text enters the table through this
-/// function.
-std::string escape_csv_field(const std::string& field) {
-    std::string shown = escape_control_characters(field, "\n");
-    if (is_spreadsheet_formula(shown)) shown.insert(0, "'");
-    if (shown.find_first_of("\",\n") == std::string::npos) return shown;
-    std::string result = "\"";
-    for (const char c : shown) result += c == '"' ? "\"\"" : std::string(1, c);
-    return result + "\"";
-}
-
-/// Returns the shortest text that reads back as the same number.
-std::string format_csv_number(double value) {
-    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
-}
 
 /// Field of a row and the name of its column.
 struct CsvField {

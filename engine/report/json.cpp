@@ -119,17 +119,6 @@ Json make_budget_json(const Comparison& comparison) {
             {"text", describe_budget_answer(comparison)}};
 }
 
-void add_error_fields_json(Json& json, const Row& row) {
-    for (const measure::RowPixelMask& mask : measure::list_row_masks())
-        json[std::string(mask.field)] = add_difference_metrics_json({{"mask", mask.name}},
-                                                                    row.*mask.error);
-    Json& list = json["error_per_mirror"] = Json::array();
-    for (std::size_t i = 0; i < row.error_per_mirror.size(); ++i)
-        list.push_back(add_difference_metrics_json(
-            {{"mirror", MirrorId::mirror_id_from_list_index(i).mirror_number()}},
-            row.error_per_mirror[i]));
-}
-
 /// Adds a metric to an object of metrics. The object is null as long as none of its metrics has a
 /// value.
 void add_metric_to_object(Json& json, const measure::Metric& quantity,
@@ -283,6 +272,17 @@ Json make_report_json(const Comparison& comparison) {
     if (measure::has_time_or_flip_budget(comparison)) json["budget"] = make_budget_json(comparison);
     if (comparison.lag) json["lag"] = to_json(*comparison.lag);
     return json;
+}
+
+void add_error_fields_json(Json& json, const measure::Errors& errors) {
+    for (const measure::RowPixelMask& mask : measure::list_row_masks())
+        json[std::string(mask.field)] = add_difference_metrics_json({{"mask", mask.name}},
+                                                                    errors.*mask.error);
+    Json& list = json["error_per_mirror"] = Json::array();
+    for (std::size_t i = 0; i < errors.error_per_mirror.size(); ++i)
+        list.push_back(add_difference_metrics_json(
+            {{"mirror", MirrorId::mirror_id_from_list_index(i).mirror_number()}},
+            errors.error_per_mirror[i]));
 }
 
 std::string serialise_json(const Json& document) {

@@ -38,6 +38,8 @@ std::string describe_json_value(const Json& value);
 Json make_device_json(const DeviceFacts& device);
 /// Returns all fields of a row with the unit milliseconds, as in report.json.
 Json make_row_times_json(const Row& row);
+/// Adds a field for each mask of pixels with all metrics of a difference, and "error_per_mirror".
+void add_error_fields_json(Json& json, const measure::Errors& errors);
 /// Returns the value of a metric as JSON, or null if the metric has no value.
 Json make_metric_value_json(const measure::MetricValue& value);
 /// Returns the field "lag".

@@ -1,4 +1,5 @@
 #include "report/text.hpp"
+#include "core/text.hpp"
 #include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "measure/lag.hpp"
@@ -18,7 +19,28 @@ int choose_decimals(double value) {
     return std::clamp(2 - static_cast<int>(std::floor(std::log10(value))), 0, 4);
 }
 
+/// Returns whether a cell is a formula. Spreadsheet programs execute a cell that begins with one of
+/// these characters. Numbers may begin with them.
+bool is_spreadsheet_formula(const std::string& text) {
+    constexpr std::string_view kCsvNumberCharacters = "0123456789.eE+- ";
+    return text.find_first_of("=+-@") == 0 &&
+           text.find_first_not_of(kCsvNumberCharacters) != text.npos;
+}
+
 } // namespace
+
+std::string escape_csv_field(const std::string& field) {
+    std::string shown = escape_control_characters(field, "\n");
+    if (is_spreadsheet_formula(shown)) shown.insert(0, "'");
+    if (shown.find_first_of("\",\n") == std::string::npos) return shown;
+    std::string result = "\"";
+    for (const char c : shown) result += c == '"' ? "\"\"" : std::string(1, c);
+    return result + "\"";
+}
+
+std::string format_csv_number(double value) {
+    return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
 
 std::string format_fixed(double value, int decimals) {
     if (!std::isfinite(value)) return std::string(kEmptyCellText);

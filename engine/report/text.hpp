@@ -13,6 +13,11 @@ inline constexpr std::string_view kEmptyCellText = "–";
 /// Words for an error that the noise of the reference hides (measure/halves.hpp).
 inline constexpr std::string_view kBelowNoiseText = "below the noise";
 
+/// Returns a cell of a CSV file with escaped text from any source, quoted where RFC 4180 needs it.
+/// Text that a spreadsheet program would execute begins with an apostrophe.
+std::string escape_csv_field(const std::string& field);
+/// Returns the shortest text that reads back as the same number; empty if it is not finite.
+std::string format_csv_number(double value);
 /// Returns the value with this many decimals, or "–" for NaN and infinities.
 std::string format_fixed(double value, int decimals);
 /// Returns an error in 0..1 with four decimals, "0" for exactly 0, or a power of ten below 0.0001.

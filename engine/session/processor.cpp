@@ -57,6 +57,16 @@ cpu_set_t read_allowed_processors() {
 
 } // namespace
 
+std::string read_processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        if (!line.starts_with("model name")) continue;
+        const std::size_t begin = line.find_first_not_of(" \t:", line.find(':'));
+        if (begin != std::string::npos) return line.substr(begin);
+    }
+    return "unknown";
+}
+
 double read_process_seconds() {
     timespec used{};
     if (::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used) != 0)

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 /// Measures the processor time of this process, and whether the process had to wait for processors.
@@ -10,6 +11,9 @@ namespace catoptric::app {
 
 /// Returns the seconds of processor time that all threads of this process have used.
 double read_process_seconds();
+
+/// Returns the model name of the machine's processor; "unknown" if the system does not report it.
+std::string read_processor_name();
 
 /// Returns the number of runnable threads of the whole machine, a mean over about the last minute.
 /// NaN if the system does not report it.
