@@ -3,6 +3,7 @@
 
 #include "axis_option.hpp"
 #include "baseline.hpp"
+#include "compare_words.hpp"
 #include "core/error.hpp"
 #include "core/image_module.hpp"
 #include "core/text.hpp"
@@ -335,14 +336,8 @@ void add_study_options(CommandVerb& verb, CompareOptions& options, StudyOptionKi
     }
 }
 
-} // namespace
-
-void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
-    const auto options = std::make_shared<CompareOptions>();
-    options->command = std::move(command);
-    CommandVerb& verb = program.add_command_verb(
-        "compare", "compare techniques with the reference: time and error in one table");
-    verb.examples(kCompareExamples);
+/// Adds the arguments and options of `compare`. `options` must outlive the parsing.
+void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions>& options) {
     verb.arguments(
         "SCENE",
         "built-in scenes (see 'list scenes') or .glb, .gltf or .obj files (cornell-mirrors)",
@@ -419,7 +414,32 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
                     const bool all = parse_choice_index("--csv", text, {"table", "all"}) == 1;
                     options->csv = all ? report::CsvColumnSet::all : report::CsvColumnSet::table;
                 });
+}
+
+} // namespace
+
+void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
+    const auto options = std::make_shared<CompareOptions>();
+    options->command = std::move(command);
+    CommandVerb& verb = program.add_command_verb(
+        "compare", "compare techniques with the reference: time and error in one table");
+    verb.examples(kCompareExamples);
+    add_compare_options(verb, options);
     verb.set_verb_action([options] { return run_compare(*options); });
+}
+
+CompareWords parse_compare_words(std::vector<std::string> words) {
+    const auto options = std::make_shared<CompareOptions>();
+    CommandLine program("catoptric compare", "", "", "");
+    CommandVerb& verb = program.only_command_verb();
+    add_compare_options(verb, options);
+    verb.set_verb_action([] { return 0; });
+    program.parse(std::move(words))();
+    std::vector<app::CompareRequest> requests = make_compare_requests(*options);
+    check(requests.size() == 1, Failure::usage, "wanted one scene, found ", requests.size());
+    CompareWords parsed{std::move(requests.front()), options->common.device};
+    parsed.request.base.techniques = list_requested_rows(parsed.request);
+    return parsed;
 }
 
 } // namespace catoptric::cli

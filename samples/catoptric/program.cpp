@@ -46,6 +46,7 @@ void add_all_verbs(CommandLine& program, const std::vector<std::string>& command
     add_list_verb(program);
     add_info_verb(program);
     add_views_verb(program);
+    add_sweep_verb(program);
     add_completion_verb(program);
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "compare.hpp"
+#include "options.hpp"
+
+#include <string>
+#include <vector>
+
+namespace catoptric::cli {
+
+struct CompareWords {
+    app::CompareRequest request; ///< names its rows, also if the words name none
+    DeviceOptions device;
+};
+
+/// Returns what `catoptric compare` makes of these words, which are a scene and options, and loads
+/// the scene. Throws as `compare` does. Throws `usage` for several scenes.
+CompareWords parse_compare_words(std::vector<std::string> words);
+
+} // namespace catoptric::cli

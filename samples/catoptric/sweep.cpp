@@ -1,0 +1,182 @@
+// catoptric sweep: plans, runs and merges many comparisons.
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "options.hpp"
+#include "parse.hpp"
+#include "report.hpp"
+#include "report/json.hpp"
+#include "sweep_merge.hpp"
+#include "sweep_plan.hpp"
+#include "sweep_run.hpp"
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSweepExamples = R"(Examples:
+  catoptric sweep plan sweep.json -o sweep
+  catoptric sweep run sweep            again after any interruption
+  catoptric sweep check sweep
+  catoptric sweep merge sweep -o merged
+
+sweep.json names scenes, techniques, axes and views, such as
+{"scenes": ["room", "car.glb"], "techniques": ["parallax", "secant"],
+"axes": {"size": ["128x128", "256x256"]}, "views": {"count": 30}}.
+'plan' cuts the sweep into pieces. 'run' runs those that have no result, in as many processes and on as many machines
+as share the folder. 'check' names what is missing, and 'merge' writes one table of all results.)";
+
+struct SweepOptions {
+    std::string action, path, output;
+    SweepRunOptions run;
+    bool across_identities = false;
+};
+
+void run_plan_action(const SweepOptions& options) {
+    throw_unless_option_given(!options.output.empty(), "sweep plan", "-o DIR",
+                              "the folder for the plan and its results");
+    const fs::path folder = options.output;
+    check_folder_can_be_made(folder);
+    const SweepPlan plan = make_sweep_plan(options.path, folder);
+    report::create_folder(folder);
+    write_sweep_plan(plan, folder);
+    const auto timings = static_cast<std::size_t>(
+        std::ranges::count_if(plan.pieces, &SweepPiece::is_timing));
+    print_note_unless_quiet(options.run.manners,
+                            fmt::format("written: {}: {} picture pieces, {} timing pieces; run "
+                                        "them with 'catoptric sweep run {}'",
+                                        (folder / "plan.json").string(),
+                                        plan.pieces.size() - timings, timings, folder.string()));
+}
+
+void run_run_action(const SweepOptions& options) {
+    const fs::path folder = options.path;
+    const SweepPlan plan = read_sweep_plan(folder);
+    const SweepRunCounts counts = run_sweep_pieces(folder, plan, options.run);
+    std::string text = fmt::format("{} pieces run, {} were finished before", counts.run,
+                                   counts.finished_before);
+    if (counts.elsewhere > 0)
+        text += fmt::format(", {} are in work in other processes", counts.elsewhere);
+    print_note_unless_quiet(options.run.manners, text);
+}
+
+report::Json make_state_json(const SweepState& state) {
+    report::Json json{{"schema", "catoptric/sweep-state/1"},
+                      {"pieces", state.pieces},
+                      {"finished", state.finished},
+                      {"missing", state.missing},
+                      {"in_work", state.in_work}};
+    json["broken"] = report::make_list_json(state.broken, [](const auto& piece) {
+        return report::Json{{"id", piece.first}, {"why", piece.second}};
+    });
+    json["unknown"] = state.unknown;
+    json["identities"] = state.identities;
+    return json;
+}
+
+/// Returns a line for each of the first ids, and one for the others.
+std::string list_first_pieces(const std::vector<std::string>& ids, const std::string& what,
+                              bool all) {
+    constexpr std::size_t kMaxListedPieces = 10;
+    const std::size_t shown = all ? ids.size() : std::min(ids.size(), kMaxListedPieces);
+    std::string text;
+    for (std::size_t i = 0; i < shown; ++i) text += what + ": " + ids[i] + "\n";
+    if (shown < ids.size())
+        text += fmt::format("{}: {} more (-v lists all)\n", what, ids.size() - shown);
+    return text;
+}
+
+int run_check_action(const SweepOptions& options) {
+    const SweepState state = check_sweep(options.path, read_sweep_plan(options.path));
+    const OutputOptions& manners = options.run.manners;
+    if (manners.json) {
+        print_result(report::serialise_json(make_state_json(state)));
+        return state.is_complete() ? 0 : 1;
+    }
+    std::string text = fmt::format("{} of {} pieces have a result, {} are in work\n",
+                                   state.finished, state.pieces, state.in_work.size());
+    text += list_first_pieces(state.missing, "missing", manners.verbose);
+    for (const auto& [id, why] : state.broken) text += "broken: " + why + "\n";
+    text += list_first_pieces(state.unknown, "belongs to no piece", manners.verbose);
+    if (state.identities.size() > 1)
+        text += fmt::format("results come from {} kinds of machines\n", state.identities.size());
+    print_result(text);
+    return state.is_complete() ? 0 : 1;
+}
+
+void run_merge_action(const SweepOptions& options) {
+    throw_unless_option_given(!options.output.empty(), "sweep merge", "-o DIR",
+                              "the folder for the merged results");
+    const fs::path out = options.output;
+    check_folder_can_be_made(out);
+    const MergedSweep merged = merge_sweep(options.path, read_sweep_plan(options.path),
+                                           options.across_identities ? AcrossIdentities::allowed
+                                                                     : AcrossIdentities::refused);
+    report::create_folder(out);
+    for (const auto& [name, content] : merged.files) write_file(out / name, content);
+    if (merged.identities.size() > 1)
+        print_note_unless_quiet(
+            options.run.manners,
+            fmt::format("results of {} kinds of machines: {:.3g} % of {} pixels of their common "
+                        "pictures differ by more than 1/255",
+                        merged.identities.size(), 100 * merged.difference.share(),
+                        merged.difference.pixels));
+    print_note_unless_quiet(options.run.manners, "written: " + out.string());
+}
+
+int run_sweep(const SweepOptions& options) {
+    const std::size_t action = parse_choice_index("sweep", options.action,
+                                                  {"plan", "run", "merge", "check"});
+    const bool writes = action == 0 || action == 2;
+    check(writes || options.output.empty(), Failure::usage, "'sweep ", options.action,
+          "' has no option '--output'");
+    check(action == 1 || options.run.pieces.empty(), Failure::usage, "'sweep ", options.action,
+          "' has no option '--piece'");
+    check(action == 2 || !options.across_identities, Failure::usage, "'sweep ", options.action,
+          "' has no option '--across-identities'");
+    switch (action) {
+    case 0: run_plan_action(options); break;
+    case 1: run_run_action(options); break;
+    case 2: run_merge_action(options); break;
+    default: return run_check_action(options);
+    }
+    return 0;
+}
+
+} // namespace
+
+void add_sweep_verb(CommandLine& program) {
+    const auto options = std::make_shared<SweepOptions>();
+    CommandVerb& verb = program.add_command_verb(
+        "sweep", "compare many scenes, techniques and views, in pieces on many machines");
+    verb.examples(kSweepExamples);
+    verb.argument("ACTION", "plan, run, check or merge", options->action,
+                  CommandVerb::VerbArgumentNeed::required);
+    verb.argument("PATH", "plan: the sweep's file; otherwise the folder of the plan", options->path,
+                  CommandVerb::VerbArgumentNeed::required);
+    verb.option("-o,--output", "DIR",
+                "plan: folder for the plan and its results; merge: folder for the tables",
+                options->output);
+    verb.repeated("--piece", "ID",
+                  "run only this piece, and wait if another process works on it; may be repeated",
+                  [options](const std::string& text) { options->run.pieces.push_back(text); });
+    verb.option("--kind", "KIND", "run only pieces of this kind: all, pictures or timings (all)",
+                [options](const std::string& text) {
+                    options->run.kinds = static_cast<SweepRunOptions::PieceKinds>(
+                        parse_choice_index("--kind", text, {"all", "pictures", "timings"}));
+                });
+    verb.flag("--across-identities",
+              "merge pictures of different programs, drivers or processors, and say how much they "
+              "differ",
+              options->across_identities);
+    add_output_options(verb, options->run.manners);
+    verb.set_verb_action([options] { return run_sweep(*options); });
+}
+
+} // namespace catoptric::cli

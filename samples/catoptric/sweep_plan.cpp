@@ -1,0 +1,414 @@
+#include "sweep_plan.hpp"
+
+#include "axis_option.hpp"
+#include "compare_words.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
+#include "core/text.hpp"
+#include "report/json.hpp"
+#include "scene/built_in.hpp"
+#include "scene/hash.hpp"
+#include "study/compare_checks.hpp"
+#include "study/study.hpp"
+#include "study/views.hpp"
+
+#include <fmt/format.h>
+#include <nettle/sha2.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string_view>
+
+namespace catoptric::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMaxSweepFileBytes = 1U << 20U;
+constexpr std::uintmax_t kMaxPlanBytes = 1U << 30U;
+constexpr std::uintmax_t kMaxResultBytes = 64U << 20U;
+constexpr std::size_t kMaxPieceCount = 1'000'000;
+constexpr std::int64_t kMaxViewCount = 10'000, kMaxRepeatCount = 1'000, kMaxSeed = 1'000'000'000;
+
+/// Options whose value is a file or a folder, relative to the sweep's file.
+constexpr std::array<std::string_view, 3> kPathOptions{"root", "environment", "device-profile"};
+/// Words that such an option takes in place of a file.
+constexpr std::array<std::string_view, 2> kPathOptionWords{"studio", "none"};
+/// Options of compare that the sweep decides itself, or that write files of their own. The options
+/// of studies count, too.
+constexpr std::array<std::string_view, 19> kRefusedOptions{"output",        "techniques",
+                                                           "axis",          "row",
+                                                           "together",      "max-ms",
+                                                           "max-flip",      "baseline",
+                                                           "max-flip-rise", "max-time-ratio",
+                                                           "summary",       "junit",
+                                                           "csv",           "json",
+                                                           "quiet",         "verbose",
+                                                           "progress",      "reference-seconds",
+                                                           "help"};
+
+std::string describe(const SweepJson& value) { return report::describe_json_value(value); }
+
+/// A place in a sweep's file, for messages.
+struct SweepPlace {
+    std::string text;
+
+    SweepPlace member(std::string_view name) const { return {text + "." + std::string(name)}; }
+    template <typename... Parts>
+    void check(bool ok, const Parts&... parts) const {
+        catoptric::check(ok, Failure::bad_data, text, ": ", parts...);
+    }
+};
+
+std::int64_t read_whole_number(const SweepJson& value, std::int64_t low, std::int64_t high,
+                               const SweepPlace& place) {
+    place.check(value.is_number_integer() && value >= low && value <= high,
+                "wanted a whole number from ", low, " to ", high, ", found ", describe(value));
+    return value.get<std::int64_t>();
+}
+
+const SweepJson& read_list(const SweepJson& object, const char* member, const SweepPlace& place) {
+    const SweepPlace at = place.member(member);
+    at.check(object.contains(member), "wanted a list, found nothing");
+    const SweepJson& list = object[member];
+    at.check(list.is_array() && !list.empty(), "wanted a list that is not empty, found ",
+             describe(list));
+    return list;
+}
+
+std::vector<std::string> read_texts(const SweepJson& list, const SweepPlace& place) {
+    std::vector<std::string> texts;
+    for (const SweepJson& value : list) {
+        place.check(value.is_string() && !value.get_ref<const std::string&>().empty(),
+                    "wanted texts, found ", describe(value));
+        texts.push_back(value.get<std::string>());
+    }
+    return texts;
+}
+
+void check_members(const SweepJson& object, std::initializer_list<std::string_view> names,
+                   const SweepPlace& place) {
+    place.check(object.is_object(), "wanted an object, found ", describe(object));
+    for (const auto& [name, value] : object.items())
+        place.check(std::ranges::find(names, name) != names.end(), "wanted ",
+                    fmt::format("{}", fmt::join(names, ", ")), ", found ",
+                    quote_text_with_escapes(name));
+}
+
+/// Returns a value of an option as text: "true" for a flag. Throws for values of other types.
+std::string make_option_text(const SweepJson& value, const SweepPlace& place) {
+    place.check(value.is_string() || value.is_number() || value.is_boolean(),
+                "wanted text, a number or true, found ", describe(value));
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// Returns a path of the sweep's file as seen from the folder of the plan.
+std::string make_path_from_plan(const std::string& path, const fs::path& file,
+                                const fs::path& folder) {
+    if (fs::path(path).is_absolute()) return path;
+    const fs::path whole = resolve_real_path(resolve_real_path(file).parent_path() / path);
+    return whole.lexically_relative(resolve_real_path(folder)).string();
+}
+
+/// Returns such a path as seen from the working folder.
+std::string make_path_from_here(const std::string& path, const fs::path& folder) {
+    if (fs::path(path).is_absolute()) return path;
+    return (resolve_real_path(folder) / path)
+        .lexically_normal()
+        .lexically_proximate(resolve_real_path("."))
+        .string();
+}
+
+bool is_path_option(const std::string& name, const std::string& value) {
+    return std::ranges::find(kPathOptions, name) != kPathOptions.end() &&
+           std::ranges::find(kPathOptionWords, value) == kPathOptionWords.end();
+}
+
+bool is_built_in_scene(const std::string& name) {
+    return std::ranges::find(scene::list_built_in_scenes(), name, &scene::BuiltInScene::name) !=
+           scene::list_built_in_scenes().end();
+}
+
+/// What a sweep's file asks for, after its members were checked.
+struct SweepRequest {
+    std::vector<std::string> scenes, techniques;
+    std::vector<KnobAxis> knobs;
+    SweepJson options = SweepJson::object();
+    std::vector<std::pair<std::string, SweepJson>> axes; ///< option and its values
+    std::int64_t view_count = 1, view_seed = 1, cameras_per_instant = 1;
+    std::int64_t timing_repeats = 1;
+};
+
+/// Returns the value of an option, in which each path is seen from the folder of the plan.
+SweepJson read_option(const std::string& name, const SweepJson& value, const fs::path& file,
+                      const fs::path& folder, const SweepPlace& place) {
+    const bool known = std::ranges::find(kRefusedOptions, name) == kRefusedOptions.end() &&
+                       std::ranges::find(app::list_studies(), name, &app::Study::name) ==
+                           app::list_studies().end();
+    place.check(known, "a sweep cannot set this option of compare",
+                name == "reference-seconds"
+                    ? ": the reference has as many rays as its knob 'rays', so that results repeat"
+                    : "");
+    place.check(name != "reference" || !value.is_string() ||
+                    !value.get_ref<const std::string&>().ends_with(".exr"),
+                "wanted a technique, found a file");
+    SweepJson list = value.is_array() ? value : SweepJson::array({value});
+    for (SweepJson& entry : list) {
+        std::string text = make_option_text(entry, place);
+        if (is_path_option(name, text)) text = make_path_from_plan(text, file, folder);
+        entry = text;
+    }
+    return list.size() == 1 ? list.front() : list;
+}
+
+SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
+                                const fs::path& folder) {
+    const SweepPlace place{file.string()};
+    check_members(document,
+                  {"schema", "scenes", "techniques", "knobs", "options", "axes", "views", "timing"},
+                  place);
+    SweepRequest sweep;
+    for (std::string& scene :
+         read_texts(read_list(document, "scenes", place), place.member("scenes")))
+        sweep.scenes.push_back(is_built_in_scene(scene) ? scene
+                                                        : make_path_from_plan(scene, file, folder));
+    if (document.contains("techniques"))
+        sweep.techniques = read_texts(read_list(document, "techniques", place),
+                                      place.member("techniques"));
+    const auto object = [&](const char* member) {
+        SweepJson value = document.value(member, SweepJson::object());
+        place.member(member).check(value.is_object(), "wanted an object, found ", describe(value));
+        return value;
+    };
+    const SweepJson knobs = object("knobs"), options = object("options"), axes = object("axes");
+    for (const auto& [name, values] : knobs.items()) {
+        KnobAxis axis{name, {}};
+        for (const SweepJson& value : read_list(knobs, name.c_str(), place.member("knobs")))
+            axis.values.push_back(make_option_text(value, place.member("knobs." + name)));
+        sweep.knobs.push_back(std::move(axis));
+    }
+    for (const auto& [name, value] : options.items())
+        sweep.options[name] = read_option(name, value, file, folder,
+                                          place.member("options." + name));
+    for (const auto& [name, values] : axes.items()) {
+        const SweepPlace at = place.member("axes." + name);
+        at.check(!sweep.options.contains(name), "wanted an option that 'options' does not set");
+        SweepJson list = SweepJson::array();
+        for (const SweepJson& value : read_list(axes, name.c_str(), place.member("axes")))
+            list.push_back(read_option(name, value, file, folder, at));
+        at.check(std::set<SweepJson>(list.begin(), list.end()).size() == list.size(),
+                 "wanted different values, found one twice");
+        sweep.axes.emplace_back(name, std::move(list));
+    }
+    const SweepJson views = object("views"), timing = object("timing");
+    check_members(views, {"count", "seed", "cameras-per-instant"}, place.member("views"));
+    check_members(timing, {"repeats"}, place.member("timing"));
+    sweep.view_count = read_whole_number(views.value("count", SweepJson(1)), 1, kMaxViewCount,
+                                         place.member("views.count"));
+    sweep.view_seed = read_whole_number(views.value("seed", SweepJson(1)), 0, kMaxSeed,
+                                        place.member("views.seed"));
+    sweep.cameras_per_instant = read_whole_number(views.value("cameras-per-instant", SweepJson(1)),
+                                                  1, kMaxViewCount,
+                                                  place.member("views.cameras-per-instant"));
+    sweep.timing_repeats = read_whole_number(timing.value("repeats", SweepJson(1)), 0,
+                                             kMaxRepeatCount, place.member("timing.repeats"));
+    const bool seeded = sweep.view_count > 1 &&
+                        (sweep.options.contains("seed") || axes.contains("seed"));
+    place.check(!seeded, "the option 'seed' and 'views': wanted the seed as views.seed");
+    return sweep;
+}
+
+/// Returns all combinations of the axes' values, each with the options that are the same for all.
+/// The last axis varies fastest.
+std::vector<SweepJson> list_option_sets(const SweepRequest& sweep) {
+    std::vector<SweepJson> sets{sweep.options};
+    for (const auto& [name, values] : sweep.axes) {
+        std::vector<SweepJson> more;
+        for (const SweepJson& set : sets)
+            for (const SweepJson& value : values) {
+                more.push_back(set);
+                more.back()[name] = value;
+            }
+        sets = std::move(more);
+    }
+    return sets;
+}
+
+SweepPiece make_piece(SweepJson content) {
+    std::string id = compute_sha256(content.dump());
+    return {std::move(id), std::move(content)};
+}
+
+/// Adds the pieces of one scene with one set of options.
+void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
+                         const SweepJson& options, const fs::path& folder,
+                         std::vector<SweepPiece>& pieces) {
+    SweepJson content{{"kind", "picture"}, {"scene", scene}, {"options", options}};
+    content["techniques"] = sweep.techniques;
+    app::CompareRequest request =
+        parse_compare_words(make_compare_words_of_piece(content, folder)).request;
+    if (!sweep.knobs.empty())
+        request.base.techniques = expand_techniques_along_axes(request.base.techniques,
+                                                               sweep.knobs);
+    app::check_row_techniques(request.base.techniques);
+    app::check_compare_request(request);
+    content["techniques"] = request.base.techniques;
+    content["scene_hash"] = scene::hash_scene(request.base.scene);
+    content["view"] = nullptr;
+    SweepJson timing = content;
+    if (sweep.view_count == 1) {
+        pieces.push_back(make_piece(content));
+    } else {
+        request.base.seed = static_cast<std::uint64_t>(sweep.view_seed);
+        std::size_t index = 0;
+        for (const measure::View& view :
+             app::draw_random_views(request.base, static_cast<int>(sweep.view_count),
+                                    static_cast<int>(sweep.cameras_per_instant))) {
+            content["view"] = {{"index", ++index}, {"seed", view.seed}, {"time", view.time}};
+            pieces.push_back(make_piece(content));
+        }
+    }
+    timing.erase("view");
+    timing["kind"] = "timing";
+    for (std::int64_t repeat = 1; repeat <= sweep.timing_repeats; ++repeat) {
+        timing["repeat"] = repeat;
+        pieces.push_back(make_piece(timing));
+    }
+    catoptric::check(pieces.size() <= kMaxPieceCount, Failure::bad_data,
+                     "wanted a sweep of at most ", kMaxPieceCount, " pieces");
+}
+
+/// Returns the first picture piece of each scene.
+std::vector<std::size_t> list_common_pieces(const std::vector<SweepPiece>& pieces) {
+    std::vector<std::size_t> common;
+    std::set<std::string> scenes;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (!pieces[i].is_timing() && scenes.insert(pieces[i].content["scene"]).second)
+            common.push_back(i);
+    return common;
+}
+
+fs::path find_plan_file(const fs::path& folder) { return folder / "plan.json"; }
+
+} // namespace
+
+std::string compute_sha256(const std::string& text) {
+    sha256_ctx state;
+    sha256_init(&state);
+    sha256_update(&state, text.size(), reinterpret_cast<const std::uint8_t*>(text.data()));
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+    sha256_digest(&state, digest.size(), digest.data());
+    return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
+                                                     const fs::path& folder) {
+    const auto scene = content.at("scene").get<std::string>();
+    std::vector<std::string> words{
+        is_built_in_scene(scene) ? scene : make_path_from_here(scene, folder), "--quiet"};
+    for (const auto& [name, value] : content.at("options").items()) {
+        const SweepJson list = value.is_array() ? value : SweepJson::array({value});
+        for (const SweepJson& entry : list) {
+            auto text = entry.get<std::string>();
+            if (text == "true" || text == "false") {
+                if (text == "true") words.push_back("--" + name);
+                continue;
+            }
+            if (is_path_option(name, text)) text = make_path_from_here(text, folder);
+            words.push_back(fmt::format("--{}={}", name, text));
+        }
+    }
+    if (content.at("techniques").empty()) return words;
+    words.emplace_back("--techniques");
+    for (const SweepJson& technique : content.at("techniques"))
+        words.push_back(technique.get<std::string>());
+    return words;
+}
+
+SweepPlan make_sweep_plan(const fs::path& file, const fs::path& folder) {
+    const std::string text = read_json_text(file, "a sweep", kMaxSweepFileBytes);
+    const SweepRequest sweep = read_sweep_request(parse_json<SweepJson>(file.string(), text), file,
+                                                  folder);
+    SweepPlan plan{nlohmann::ordered_json::parse(text), {}, {}};
+    const std::vector<SweepJson> option_sets = list_option_sets(sweep);
+    for (const std::string& scene : sweep.scenes)
+        for (const SweepJson& options : option_sets) try {
+                add_pieces_of_scene(sweep, scene, options, folder, plan.pieces);
+            } catch (const Error& error) {
+                throw_error(error.failure, file.string() + ": scene " +
+                                               quote_text_with_escapes(scene) + ", options " +
+                                               options.dump() + ": " + error.what());
+            }
+    std::set<std::string> ids;
+    for (const SweepPiece& piece : plan.pieces)
+        check(ids.insert(piece.id).second, Failure::bad_data, file.string(),
+              ": wanted different scenes, found ",
+              quote_text_with_escapes(piece.content["scene"].get<std::string>()), " twice");
+    plan.common = list_common_pieces(plan.pieces);
+    return plan;
+}
+
+void write_sweep_plan(const SweepPlan& plan, const fs::path& folder) {
+    nlohmann::ordered_json document{{"schema", "catoptric/sweep-plan/1"}, {"sweep", plan.sweep}};
+    document["common"] = plan.common;
+    document["pieces"] = nlohmann::ordered_json::array();
+    for (const SweepPiece& piece : plan.pieces)
+        document["pieces"].push_back({{"id", piece.id}, {"piece", piece.content}});
+    const fs::path file = find_plan_file(folder);
+    const std::string text = document.dump(1) + "\n";
+    std::error_code ignored;
+    check(!fs::exists(file, ignored) || read_file(file) == text, Failure::usage, file.string(),
+          ": wanted a folder without a plan, found the plan of another sweep");
+    write_file(file, text);
+}
+
+SweepPlan read_sweep_plan(const fs::path& folder) {
+    const fs::path file = find_plan_file(folder);
+    const std::string text = read_json_text(file, "the plan of a sweep", kMaxPlanBytes);
+    const auto document = parse_json<nlohmann::ordered_json>(file.string(), text);
+    check(document.is_object() &&
+              document.value("schema", nlohmann::ordered_json()) == "catoptric/sweep-plan/1",
+          Failure::bad_data, file.string(), ": wanted the schema catoptric/sweep-plan/1");
+    SweepPlan plan;
+    try {
+        plan.sweep = document.at("sweep");
+        plan.common = document.at("common").get<std::vector<std::size_t>>();
+        for (const auto& entry : document.at("pieces")) {
+            plan.pieces.push_back(make_piece(entry.at("piece").get<SweepJson>()));
+            check(plan.pieces.back().id == entry.at("id"), Failure::bad_data, file.string(),
+                  ": piece ", entry.at("id").dump(), " was changed: its content has the id ",
+                  plan.pieces.back().id);
+        }
+        for (const std::size_t index : plan.common) plan.pieces.at(index);
+    } catch (const std::logic_error& error) {
+        fail(Failure::bad_data, file.string(), ": ", error.what());
+    } catch (const SweepJson::exception& error) {
+        fail(Failure::bad_data, file.string(), ": ", error.what());
+    }
+    return plan;
+}
+
+fs::path find_sweep_result_file(const fs::path& folder, const std::string& id) {
+    return folder / "results" / (id + ".json");
+}
+
+std::optional<SweepJson> read_sweep_result(const fs::path& folder, const SweepPiece& piece) {
+    const fs::path file = find_sweep_result_file(folder, piece.id);
+    std::error_code ignored;
+    if (!fs::exists(file, ignored)) return std::nullopt;
+    auto result = parse_json<SweepJson>(
+        file.string(), read_json_text(file, "the result of a piece", kMaxResultBytes));
+    const bool fits = result.is_object() && result.value("piece", SweepJson()) == piece.content &&
+                      result.value("identity", SweepJson()).is_object() &&
+                      result.value("rows", SweepJson()).is_array() &&
+                      result["rows"].size() == piece.content["techniques"].size();
+    check(fits, Failure::bad_data, file.string(), ": wanted the result of piece ", piece.id,
+          ", found another document");
+    return result;
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+// The plan of a sweep: many comparisons, cut into pieces that machines can run in any order.
+namespace catoptric::cli {
+
+/// JSON whose members are sorted by name, so that equal values have equal text.
+using SweepJson = nlohmann::json;
+
+/// A piece of a sweep. A picture piece holds the errors of all rows in one view. A timing piece
+/// holds the times of all rows.
+struct SweepPiece {
+    /// SHA-256 of `content`, in hexadecimal. The hashed text is JSON without white space, with
+    /// sorted names.
+    std::string id;
+    /// "kind" ("picture" or "timing"), "scene", "scene_hash", "options" (of compare), "techniques",
+    /// and "view" of a picture piece or "repeat" of a timing piece.
+    SweepJson content;
+
+    bool is_timing() const { return content.at("kind") == "timing"; }
+};
+
+struct SweepPlan {
+    nlohmann::ordered_json sweep;   ///< content of the sweep's file
+    std::vector<SweepPiece> pieces; ///< in the order of scenes, axes and views
+    /// Places in `pieces` of the picture pieces that each kind of machine renders, so that `merge`
+    /// can compare pictures of different machines. One for each scene.
+    std::vector<std::size_t> common;
+};
+
+/// Returns the plan of a sweep's file (docs/sweeps.md). Loads each scene once for each value of the
+/// axes. `folder` is the plan's folder, to which files of scenes are relative. Throws `bad_data`
+/// with the file and the member, and as `compare` does for its options.
+SweepPlan make_sweep_plan(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// Writes plan.json into the folder. Throws `usage` if the folder has the plan of another sweep.
+void write_sweep_plan(const SweepPlan& plan, const std::filesystem::path& folder);
+/// Reads plan.json of the folder. Throws `missing_input` without a plan, and `bad_data` for a piece
+/// whose content does not have its id.
+SweepPlan read_sweep_plan(const std::filesystem::path& folder);
+
+/// Returns the words of `catoptric compare` for a piece, without its view.
+std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
+                                                     const std::filesystem::path& folder);
+
+/// Returns the file that holds the result of a piece.
+std::filesystem::path find_sweep_result_file(const std::filesystem::path& folder,
+                                             const std::string& id);
+/// Returns the result of a piece, or none if its file does not exist. Throws `bad_data` if the file
+/// is not the result of this piece.
+std::optional<SweepJson> read_sweep_result(const std::filesystem::path& folder,
+                                           const SweepPiece& piece);
+
+/// Returns the SHA-256 of a text, in hexadecimal.
+std::string compute_sha256(const std::string& text);
+
+} // namespace catoptric::cli

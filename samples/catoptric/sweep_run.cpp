@@ -1,0 +1,342 @@
+#include "sweep_run.hpp"
+
+#include "compare_words.hpp"
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "progress.hpp"
+#include "report/json.hpp"
+#include "report/writer.hpp"
+#include "scene/hash.hpp"
+#include "session/device_facts.hpp"
+#include "session/exposure.hpp"
+#include "session/processor.hpp"
+#include "session/scene_facts.hpp"
+#include "session/seeded_camera.hpp"
+#include "session/watcher.hpp"
+#include "signals.hpp"
+#include "study/views.hpp"
+#include "sweep_locks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include <unistd.h>
+
+namespace catoptric::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_host_name() {
+    char name[256] = {};
+    return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
+/// Returns what decides the bits of a picture: program, driver and processor.
+SweepJson make_identity(const app::Engine& engine) {
+    const measure::DeviceFacts device = app::make_device_facts(engine);
+    SweepJson variants = SweepJson::object();
+    for (const auto& [name, choice] : device.variants) variants[name] = choice;
+    const bool on_processor = device.type == "cpu";
+    return {{"version", app::version()},
+            {"commit", app::commit()},
+            {"device", device.name},
+            {"driver", device.driver},
+            {"lanes", device.lanes},
+            {"variants", variants},
+            {"processor", on_processor ? SweepJson(app::read_processor_name()) : SweepJson()}};
+}
+
+/// Converts the report's JSON, which keeps the order of its members.
+SweepJson sort_members(const report::Json& json) { return SweepJson::parse(json.dump()); }
+
+std::string describe_piece(const SweepPiece& piece) {
+    const SweepJson& content = piece.content;
+    const auto scene = content["scene"].get<std::string>();
+    const std::string id = piece.id.substr(0, 12);
+    if (piece.is_timing())
+        return fmt::format("piece {}: times of {}, repeat {}", id, scene,
+                           content["repeat"].get<int>());
+    return content["view"].is_null() ? fmt::format("piece {}: {}", id, scene)
+                                     : fmt::format("piece {}: {}, view {}", id, scene,
+                                                   content["view"]["index"].get<int>());
+}
+
+/// The scene and the session of the last picture piece. Pieces of one scene with the same options
+/// follow each other and share them.
+struct SweepScene {
+    SweepJson key; ///< content of a piece that does not depend on its view
+    app::CompareRequest request;
+    std::unique_ptr<app::Session> session;
+};
+
+class SweepRunner {
+public:
+    SweepRunner(const fs::path& folder, const SweepPlan& plan, const SweepRunOptions& options)
+        : folder_(folder), plan_(plan), options_(options), locks_(folder / "locks"),
+          progress_(options.manners, ProgressPrinter::ProgressOffTerminal::tenths) {
+        watcher_.stop = &stop_on_signals();
+    }
+
+    SweepRunCounts run_all() {
+        const std::vector<std::size_t> places = list_pieces_to_run();
+        SweepRunCounts counts;
+        std::optional<Error> first_failure;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const SweepPiece& piece = plan_.pieces[places[i]];
+            throw_if_stopped(watcher_);
+            try {
+                run_one(piece, places[i], i, places.size(), counts);
+            } catch (const Error& error) {
+                const std::string what = describe_piece(piece) + ": " + error.what();
+                if (is_failure_by_stop_signal(error.failure) ||
+                    error.failure == Failure::device_lost || places.size() == 1)
+                    throw_error(error.failure, what);
+                progress_.clear();
+                print_message(what);
+                if (!first_failure) first_failure = Error(error.failure, what);
+            }
+        }
+        progress_.clear();
+        if (first_failure)
+            throw_error(first_failure->failure,
+                        std::string("pieces failed; the first: ") + first_failure->what());
+        return counts;
+    }
+
+private:
+    /// Returns the places of the pieces to run: pictures before times, in the order of the plan.
+    std::vector<std::size_t> list_pieces_to_run() const {
+        using PieceKinds = SweepRunOptions::PieceKinds;
+        std::vector<std::size_t> places;
+        for (const bool timing : {false, true}) {
+            if (options_.kinds == (timing ? PieceKinds::pictures : PieceKinds::timings)) continue;
+            for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
+                if (plan_.pieces[i].is_timing() == timing &&
+                    (options_.pieces.empty() ||
+                     std::ranges::find(options_.pieces, plan_.pieces[i].id) !=
+                         options_.pieces.end()))
+                    places.push_back(i);
+        }
+        for (const std::string& id : options_.pieces)
+            check(std::ranges::find(plan_.pieces, id, &SweepPiece::id) != plan_.pieces.end(),
+                  Failure::usage, "--piece: wanted the id of a piece in ",
+                  (folder_ / "plan.json").string(), ", found '", id, "'");
+        return places;
+    }
+
+    void run_one(const SweepPiece& piece, std::size_t place, std::size_t number, std::size_t count,
+                 SweepRunCounts& counts) {
+        if (read_sweep_result(folder_, piece)) {
+            ++counts.finished_before;
+            return;
+        }
+        while (!locks_.try_lock(place)) {
+            if (options_.pieces.empty()) {
+                ++counts.elsewhere;
+                return;
+            }
+            wait_for_other_process();
+        }
+        try {
+            if (read_sweep_result(folder_, piece)) { // finished while this process waited
+                ++counts.finished_before;
+            } else {
+                progress_.row(describe_piece(piece), number, count);
+                print_detail_if_verbose(options_.manners, "begun: " + piece.id);
+                write_result(piece,
+                             piece.is_timing() ? measure_times(piece) : measure_errors(piece));
+                ++counts.run;
+            }
+        } catch (...) {
+            locks_.unlock(place);
+            throw;
+        }
+        locks_.unlock(place);
+    }
+
+    void wait_for_other_process() const {
+        throw_if_stopped(watcher_);
+        constexpr useconds_t kPollMicroseconds = 50'000;
+        ::usleep(kPollMicroseconds);
+    }
+
+    void write_result(const SweepPiece& piece, SweepJson result) const {
+        result["schema"] = "catoptric/sweep-result/1";
+        result["piece"] = piece.content;
+        result["identity"] = identity_;
+        write_file(find_sweep_result_file(folder_, piece.id), result.dump(1) + "\n");
+    }
+
+    /// Makes the engine for a piece's device, unless it is that of the last piece.
+    app::Engine& prepare_engine(const DeviceOptions& device) {
+        const SweepJson key{device.name, device.profile, device.validate};
+        if (engine_ && key == engine_key_) return *engine_;
+        scene_ = {};
+        engine_.reset();
+        engine_ = std::make_unique<app::Engine>(make_engine_options(device));
+        engine_key_ = key;
+        print_device_and_warnings(*engine_, options_.manners);
+        identity_ = make_identity(*engine_);
+        has_common_pictures_ = false;
+        return *engine_;
+    }
+
+    static void check_scene_unchanged(const SweepPiece& piece, const scene::Scene& scene) {
+        const std::string hash = scene::hash_scene(scene);
+        check(hash == piece.content["scene_hash"], Failure::bad_data,
+              "the scene was changed after the sweep was planned: wanted the hash ",
+              piece.content["scene_hash"].get<std::string>(), ", found ", hash);
+    }
+
+    SweepScene& open_scene(const SweepPiece& piece) {
+        SweepJson key = piece.content;
+        key.erase("view");
+        if (scene_.session && scene_.key == key) return scene_;
+        CompareWords words = parse_compare_words(make_compare_words_of_piece(key, folder_));
+        check_scene_unchanged(piece, words.request.base.scene);
+        app::Engine& engine = prepare_engine(words.device);
+        scene_.session.reset();
+        scene_.request = std::move(words.request);
+        scene_.session = std::make_unique<app::Session>(engine, scene_.request.base.scene);
+        app::resolve_auto_exposure(*scene_.session, scene_.request.base);
+        scene_.key = key;
+        return scene_;
+    }
+
+    /// Returns the view of a piece: drawn from its seed, or that of the options.
+    static measure::View make_view(const SweepJson& view, const app::Request& base) {
+        if (view.is_null()) return {app::make_camera_facts(base.camera), base.time, base.seed};
+        const auto seed = view["seed"].get<std::uint64_t>();
+        const auto time = view["time"].get<double>();
+        return {app::make_camera_facts(app::make_seeded_camera(base.scene, time, seed)), time,
+                seed};
+    }
+
+    /// Returns a row for each technique with its errors in the piece's view. Writes the pictures of
+    /// a common piece.
+    report::Comparison judge_rows(const SweepPiece& piece) {
+        SweepScene& scene = open_scene(piece);
+        report::Comparison comparison;
+        comparison.views = {make_view(piece.content["view"], scene.request.base)};
+        for (const std::string& text : scene.request.base.techniques)
+            comparison.rows.emplace_back().label = text;
+        app::measure_views(*scene.session,
+                           {.base = scene.request.base,
+                            .reference = scene.request.reference,
+                            .watcher = {.stop = watcher_.stop}},
+                           comparison);
+        if (is_common(piece)) write_common_pictures(piece, comparison);
+        return comparison;
+    }
+
+    /// Draws the common pieces whose pictures this kind of machine has not drawn yet. Any result
+    /// then has such pictures beside it.
+    void draw_common_pictures() {
+        if (has_common_pictures_) return;
+        has_common_pictures_ = true;
+        for (const std::size_t place : plan_.common) {
+            const SweepPiece& piece = plan_.pieces[place];
+            std::error_code ignored;
+            if (fs::exists(find_common_picture_folder(folder_, identity_, piece.id), ignored))
+                continue;
+            try {
+                judge_rows(piece);
+            } catch (const Error& error) {
+                if (is_failure_by_stop_signal(error.failure) ||
+                    error.failure == Failure::device_lost)
+                    throw;
+                print_detail_if_verbose(options_.manners,
+                                        describe_piece(piece) +
+                                            ": no common pictures: " + error.what());
+            }
+        }
+    }
+
+    SweepJson measure_errors(const SweepPiece& piece) {
+        const MachineLock lock(MachineLock::Use::shared, *watcher_.stop);
+        open_scene(piece);
+        if (!is_common(piece)) draw_common_pictures();
+        const report::Comparison comparison = judge_rows(piece);
+        report::Json rows = report::Json::array();
+        for (const report::Row& row : comparison.rows) {
+            report::Json json{{"label", row.label}};
+            report::add_error_fields_json(json, row.views.front());
+            rows.push_back(json);
+        }
+        return {{"rows", sort_members(rows)}};
+    }
+
+    SweepJson measure_times(const SweepPiece& piece) {
+        const MachineLock lock(MachineLock::Use::alone, *watcher_.stop);
+        CompareWords words = parse_compare_words(
+            make_compare_words_of_piece(piece.content, folder_));
+        check_scene_unchanged(piece, words.request.base.scene);
+        app::Engine& engine = prepare_engine(words.device);
+        words.request.watcher = {.stop = watcher_.stop};
+        words.request.reference_seconds = 0;
+        const report::Comparison comparison = app::compare(engine, words.request);
+        if (comparison.stopped)
+            throw_error(comparison.stopped->failure, comparison.stopped->what());
+        report::Json rows = report::Json::array();
+        for (const report::Row& row : comparison.rows) {
+            const measure::SampleSummary& times = row.time_ms();
+            rows.push_back({{"label", row.label},
+                            {"ms", report::make_number_json(times.median)},
+                            {"ci95", report::make_interval_json(times.ci95)},
+                            {"rounds", report::make_number_list_json(times.rounds)},
+                            {"waited", report::make_number_json(row.waited)},
+                            {"noisy", row.noisy}});
+        }
+        return {{"rows", sort_members(rows)},
+                {"machine", read_host_name()},
+                {"load", sort_members(report::make_number_list_json(
+                             {comparison.load_start, comparison.load_end}))}};
+    }
+
+    bool is_common(const SweepPiece& piece) const {
+        return std::ranges::any_of(
+            plan_.common, [&](std::size_t place) { return plan_.pieces[place].id == piece.id; });
+    }
+
+    void write_common_pictures(const SweepPiece& piece,
+                               const report::Comparison& comparison) const {
+        const fs::path folder = find_common_picture_folder(folder_, identity_, piece.id);
+        report::create_folder(folder);
+        for (std::size_t i = 0; i < comparison.rows.size(); ++i)
+            if (const auto& worst = comparison.rows[i].worst)
+                measure::write_png(worst->display, folder / fmt::format("{}.png", i));
+        write_file(folder.parent_path() / "identity.json", identity_.dump(1) + "\n");
+    }
+
+    fs::path folder_;
+    const SweepPlan& plan_;
+    const SweepRunOptions& options_;
+    PieceLockFile locks_;
+    ProgressPrinter progress_;
+    app::Watcher watcher_;
+    std::unique_ptr<app::Engine> engine_;
+    SweepJson engine_key_;
+    SweepJson identity_;               ///< of the engine
+    bool has_common_pictures_ = false; ///< whether the engine has drawn them
+    SweepScene scene_;                 ///< destroyed before the engine
+};
+
+} // namespace
+
+fs::path find_common_picture_folder(const fs::path& folder, const SweepJson& identity,
+                                    const std::string& piece_id) {
+    return folder / "common" / compute_sha256(identity.dump()).substr(0, 12) / piece_id;
+}
+
+SweepRunCounts run_sweep_pieces(const fs::path& folder, const SweepPlan& plan,
+                                const SweepRunOptions& options) {
+    report::create_folder(folder / "results");
+    return SweepRunner(folder, plan, options).run_all();
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,346 @@
+// Tests of `catoptric sweep`: results must equal those of `compare`, in one process or in several
+// that are killed, and every other result must be refused.
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+#include <thread>
+
+namespace {
+
+using nlohmann::json;
+
+class Sweep : public CommandLineTest {
+protected:
+    static json make_small_sweep() {
+        return {{"scenes", {"cornell-mirrors", "room"}},
+                {"techniques", {"naive:bounces=0", "parallax:face=16,shadow=none"}},
+                {"options", {{"size", "32x32"}, {"frames", 2}, {"warmup", 1}}},
+                {"views", {{"count", 6}, {"seed", 3}}},
+                {"timing", {{"repeats", 0}}}};
+    }
+    test::ProcessResult plan_sweep(const json& sweep, const std::string& folder_name) const {
+        write_input_file("sweep.json", sweep.dump(1));
+        return run_cli({"sweep", "plan", "sweep.json", "-o", folder_name});
+    }
+    void expect_success(const Words& words) const {
+        const test::ProcessResult ended = run_cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    }
+    void plan_run_and_merge(const json& sweep, const std::string& folder_name,
+                            const std::string& merged_name) const {
+        const test::ProcessResult planned = plan_sweep(sweep, folder_name);
+        ASSERT_EQ(planned.exit_code, 0) << planned.err;
+        expect_success({"sweep", "run", folder_name, "--quiet"});
+        expect_success({"sweep", "merge", folder_name, "-o", merged_name, "--quiet"});
+    }
+    json read_output_json(const std::string& name) const {
+        return json::parse(read_output_file(name));
+    }
+    /// Returns the ids of the pieces in plan.json.
+    std::vector<std::string> list_piece_ids(const std::string& folder_name) const {
+        std::vector<std::string> ids;
+        const json plan = read_output_json(folder_name + "/plan.json");
+        for (const json& piece : plan["pieces"]) ids.push_back(piece["id"]);
+        return ids;
+    }
+    /// Expects that planning refuses the sweep with these words.
+    void expect_plan_refused(const json& sweep, int exit_code, const Words& parts) const {
+        expect_exit_code(plan_sweep(sweep, "refused"), exit_code, parts);
+        EXPECT_FALSE(std::filesystem::exists(folder / "refused"));
+    }
+};
+
+TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
+    plan_run_and_merge(make_small_sweep(), "sweep", "merged");
+    const json merged = read_output_json("merged/sweep.json");
+    ASSERT_EQ(merged["groups"].size(), 2u);
+    for (const json& group : merged["groups"]) {
+        const test::ProcessResult ended = run_cli(
+            {"compare", group["scene"], "-o", "out", "--size", "32x32", "--frames", "2", "--warmup",
+             "1", "--views", "6", "--seed", "3", "--json", "--techniques", "naive:bounces=0",
+             "parallax:face=16,shadow=none"});
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+        const json compared = json::parse(ended.out);
+        EXPECT_EQ(group["views"], 6);
+        for (std::size_t row = 0; row < 2; ++row)
+            for (const char* metric : {"flip", "rmse", "mae", "off", "p99"}) {
+                const json& found = group["rows"][row]["error"][metric];
+                const json& wanted = compared["rows"][row]["views"]["error"][metric];
+                EXPECT_EQ(found["median"], wanted["median"]) << metric;
+                EXPECT_EQ(found["ci95"], wanted["ci95"]) << metric;
+                double sum = 0, largest = 0;
+                for (const json& value : wanted["values"]) {
+                    sum += value.get<double>();
+                    largest = std::max(largest, value.get<double>());
+                }
+                EXPECT_NEAR(found["mean"].get<double>(), sum / 6, 1e-12) << metric;
+                EXPECT_EQ(found["largest"].get<double>(), largest) << metric;
+            }
+    }
+    const std::string table = read_output_file("merged/errors.csv");
+    EXPECT_EQ(std::ranges::count(table, '\n'), 1 + 2 * 6 * 2);
+    EXPECT_THAT(table, testing::HasSubstr("scene,view,seed,time,label,"));
+}
+
+// The id of a piece can be computed by any program, from its content alone.
+TEST_F(Sweep, PieceIdsAreTheSha256OfTheirContent) {
+    ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
+    const json pieces = read_output_json("sweep/plan.json")["pieces"];
+    ASSERT_EQ(pieces.size(), 12u);
+    for (const std::size_t index : {0u, 7u}) {
+        write_input_file("piece.json", pieces[index]["piece"].dump());
+        const test::ProcessResult sum = test::run_process(
+            {.command = {"/usr/bin/sha256sum", (folder / "piece.json").string()}});
+        EXPECT_EQ(sum.out.substr(0, 64), pieces[index]["id"].get<std::string>());
+    }
+}
+
+TEST_F(Sweep, AxesMultiplyAndReachThePictures) {
+    json sweep = make_small_sweep();
+    sweep["scenes"] = {"cornell-mirrors"};
+    sweep["techniques"] = {"parallax:shadow=none"};
+    sweep["knobs"] = {{"face", {16, 64}}};
+    sweep["axes"] = {{"mirror", {"ball*=.9", json::array({"ball*=.9,roughness=.3"})}},
+                     {"size", {"24x24", "32x32"}}};
+    sweep["options"].erase("size");
+    sweep["options"]["reference"] = "raytrace:depth=4,rays=16";
+    sweep.erase("views");
+    plan_run_and_merge(sweep, "sweep", "merged");
+    const json groups = read_output_json("merged/sweep.json")["groups"];
+    ASSERT_EQ(groups.size(), 4u);
+    std::set<double> errors;
+    for (const json& group : groups) {
+        EXPECT_EQ(group["views"], 1);
+        ASSERT_EQ(group["rows"].size(), 2u);
+        for (const json& row : group["rows"]) {
+            EXPECT_THAT(row["label"].get<std::string>(), testing::HasSubstr("face="));
+            errors.insert(row["error"]["rmse"]["mean"].get<double>());
+        }
+    }
+    EXPECT_EQ(errors.size(), 8u) << "each value of each axis changes the error";
+    EXPECT_THAT(read_output_file("merged/summary.csv"), testing::StartsWith("scene,mirror,size,"));
+}
+
+/// Workers that are killed again and again must leave what one undisturbed process writes. Each
+/// kill may cost at most the piece in work.
+TEST_F(Sweep, KilledWorkersLoseAtMostThePieceInWork) {
+    json sweep = make_small_sweep();
+    sweep["views"]["count"] = 12;
+    plan_run_and_merge(sweep, "whole", "merged-whole");
+    ASSERT_EQ(plan_sweep(sweep, "shared").exit_code, 0);
+    constexpr int kKillsOfEachWorker = 3;
+    std::string begun[2];
+    const auto work = [&](int worker) {
+        for (int kill = 0; kill < kKillsOfEachWorker; ++kill) {
+            test::ProcessStartOptions start = make_process_start({"sweep", "run", "shared", "-v"});
+            start.signal = SIGKILL, start.signal_at = "begun: ";
+            start.signal_after = std::chrono::milliseconds(40 + 130 * kill + 70 * worker);
+            begun[worker] += test::run_process(start).err;
+        }
+        const test::ProcessResult ended = run_cli({"sweep", "run", "shared", "-v"});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        begun[worker] += ended.err;
+    };
+    std::thread other(work, 1);
+    work(0);
+    other.join();
+    // The last worker may have left a piece to the other before that was killed.
+    expect_success({"sweep", "run", "shared", "--quiet"});
+    std::map<std::string, int> starts;
+    for (const std::string& text : begun) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);)
+            if (const std::size_t at = line.find("begun: "); at != std::string::npos)
+                ++starts[line.substr(at + 7)];
+    }
+    std::size_t started = 0;
+    for (const auto& [id, times] : starts) started += static_cast<std::size_t>(times);
+    EXPECT_EQ(starts.size(), 24u);
+    EXPECT_LE(started, 24u + 2 * kKillsOfEachWorker);
+    expect_success({"sweep", "check", "shared"});
+    expect_success({"sweep", "merge", "shared", "-o", "merged-shared", "--quiet"});
+    for (const char* name : {"sweep.json", "errors.csv", "summary.csv"})
+        EXPECT_EQ(read_output_file(std::string("merged-shared/") + name),
+                  read_output_file(std::string("merged-whole/") + name))
+            << name;
+}
+
+TEST_F(Sweep, CheckNamesMissingBrokenAndUnknownResults) {
+    ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
+    const std::vector<std::string> ids = list_piece_ids("sweep");
+    expect_success({"sweep", "run", "sweep", "--quiet", "--piece", ids[0], "--piece", ids[1],
+                    "--piece", ids[2]});
+    const auto result_file = [](const std::string& id) { return "sweep/results/" + id + ".json"; };
+    write_input_file(result_file(ids[1]), read_output_file(result_file(ids[0])));
+    write_input_file(result_file(ids[2]), "{\"rows\": [");
+    write_input_file("sweep/results/mine.json", "{}");
+    const test::ProcessResult ended = run_cli({"sweep", "check", "sweep", "--json"});
+    EXPECT_EQ(ended.exit_code, 1) << ended.err;
+    const json state = json::parse(ended.out);
+    EXPECT_EQ(state["pieces"], 12);
+    EXPECT_EQ(state["finished"], 1);
+    EXPECT_EQ(state["missing"].get<std::vector<std::string>>(),
+              std::vector<std::string>(ids.begin() + 3, ids.end()));
+    ASSERT_EQ(state["broken"].size(), 2u);
+    EXPECT_EQ(state["broken"][0]["id"], ids[1]);
+    EXPECT_EQ(state["broken"][1]["id"], ids[2]);
+    EXPECT_EQ(state["unknown"], json::array({"mine.json"}));
+    EXPECT_THAT(run_cli({"sweep", "check", "sweep"}).out,
+                testing::AllOf(testing::HasSubstr("1 of 12 pieces have a result"),
+                               testing::HasSubstr("missing: " + ids[3]),
+                               testing::HasSubstr("found another document")));
+    expect_usage_refused({"sweep", "merge", "sweep", "-o", "merged"}, 65,
+                         {"wanted the results of 12 pieces, found 1", "sweep check"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "merged"));
+    // A broken result is not replaced in silence: someone may have to look at it.
+    expect_usage_refused({"sweep", "run", "sweep", "--piece", ids[1]}, 65, {"another document"});
+    std::filesystem::remove(folder / result_file(ids[1]));
+    expect_success({"sweep", "run", "sweep", "--quiet", "--piece", ids[1]});
+}
+
+TEST_F(Sweep, FinishedPieceEndsAtOnceWithoutADevice) {
+    ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
+    const std::vector<std::string> ids = list_piece_ids("sweep");
+    expect_success({"sweep", "run", "sweep", "--quiet", "--piece", ids[0]});
+    const auto run_without_driver = [&](const std::string& id) {
+        test::ProcessStartOptions start = make_process_start(
+            {"sweep", "run", "sweep", "--piece", id});
+        start.environment = {{"VK_DRIVER_FILES", "/nonexistent"},
+                             {"VK_ICD_FILENAMES", "/nonexistent"}};
+        return test::run_process(start);
+    };
+    EXPECT_EQ(run_without_driver(ids[0]).exit_code, 0);
+    EXPECT_EQ(run_without_driver(ids[1]).exit_code, 69);
+}
+
+// Drivers with another vector width round otherwise, so their results are not mixed in silence.
+TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
+    const json sweep = make_small_sweep();
+    ASSERT_EQ(plan_sweep(sweep, "sweep").exit_code, 0);
+    const std::vector<std::string> ids = list_piece_ids("sweep");
+    for (const auto& [width, begin] : std::map<std::string, std::size_t>{{"128", 0}, {"256", 6}}) {
+        test::ProcessStartOptions start = make_process_start({"sweep", "run", "sweep", "--quiet"});
+        for (std::size_t i = begin; i < begin + 6; ++i) {
+            start.command.emplace_back("--piece");
+            start.command.push_back(ids[i]);
+        }
+        // The driver's disk cache does not distinguish widths.
+        start.environment = {{"LP_NATIVE_VECTOR_WIDTH", width},
+                             {"MESA_SHADER_CACHE_DIR", (folder / ("cache" + width)).string()}};
+        const test::ProcessResult ended = test::run_process(start);
+        ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    }
+    expect_usage_refused({"sweep", "merge", "sweep", "-o", "merged"}, 65,
+                         {"2 kinds of machines", "lanes: '4', '8'", "--across-identities"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "merged"));
+    const test::ProcessResult ended = run_cli(
+        {"sweep", "merge", "sweep", "-o", "merged", "--across-identities"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::HasSubstr("differ by more than 1/255"));
+    const json merged = read_output_json("merged/sweep.json");
+    EXPECT_EQ(merged["identities"].size(), 2u);
+    const json& difference = merged["identity_difference"];
+    EXPECT_EQ(difference["pixels"], 2 * 2 * 2 * 32 * 32) << "two scenes, rows and references";
+    EXPECT_LE(difference["share"].get<double>(), .005);
+    // A picture that was changed must be found.
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "sweep/common"))
+        if (entry.path().filename() == "0.png") {
+            expect_success({"render", "room", "--size", "68x32", "-o", entry.path().string(),
+                            "--quiet", "--technique", "raytrace"});
+            break;
+        }
+    expect_success({"sweep", "merge", "sweep", "-o", "changed", "--across-identities"});
+    EXPECT_GT(read_output_json("changed/sweep.json")["identity_difference"]["share"].get<double>(),
+              .1);
+}
+
+TEST_F(Sweep, TimesAreMergedByMachineAndLeaveOtherFilesAsTheyAre) {
+    json sweep = make_small_sweep();
+    sweep["scenes"] = {"cornell-mirrors"};
+    sweep.erase("views");
+    plan_run_and_merge(sweep, "pictures", "merged-pictures");
+    sweep["timing"]["repeats"] = 2;
+    sweep["options"]["frames"] = 6;
+    plan_run_and_merge(sweep, "both", "merged-both");
+    EXPECT_EQ(read_output_file("merged-both/summary.csv"),
+              read_output_file("merged-pictures/summary.csv"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "merged-pictures/times.json"));
+    const json times = read_output_json("merged-both/times.json")["times"];
+    ASSERT_EQ(times.size(), 2u);
+    for (const json& row : times) {
+        ASSERT_EQ(row["rounds"].size(), 12u) << "six rounds of two repeats";
+        std::vector<double> rounds = row["rounds"];
+        std::ranges::sort(rounds);
+        EXPECT_DOUBLE_EQ(row["ms"].get<double>(), (rounds[5] + rounds[6]) / 2);
+        EXPECT_GE(row["ci95"][0].get<double>(), rounds.front());
+        EXPECT_LE(row["ci95"][1].get<double>(), rounds.back());
+        EXPECT_GT(rounds.front(), 0);
+    }
+    EXPECT_THAT(read_output_file("merged-both/times.csv"),
+                testing::HasSubstr("scene,label,machine,device,ms,"));
+}
+
+TEST_F(Sweep, ChangedSceneAndChangedPlanAreRefused) {
+    write_input_file("scene.obj",
+                     "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    write_input_file("scene.mtl", "newmtl m\nKd 0 0 0\nKs 1 1 1\nillum 3\nNs 1000000\n");
+    json sweep = make_small_sweep();
+    sweep["scenes"] = {"scene.obj"};
+    sweep.erase("views");
+    ASSERT_EQ(plan_sweep(sweep, "sweep").exit_code, 0);
+    write_input_file("scene.obj",
+                     "mtllib scene.mtl\nv 0 0 0\nv 2 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+    expect_usage_refused({"sweep", "run", "sweep", "--quiet"}, 65,
+                         {"scene.obj", "the scene was changed after the sweep was planned"});
+    std::string plan = read_output_file("sweep/plan.json");
+    plan.replace(plan.rfind("naive:bounces=0"), 15, "naive:bounces=1");
+    write_input_file("sweep/plan.json", plan);
+    expect_usage_refused({"sweep", "run", "sweep"}, 65, {"plan.json: piece", "was changed"});
+    sweep["techniques"] = {"parallax"};
+    const test::ProcessResult again = plan_sweep(sweep, "sweep");
+    expect_exit_code(again, 2, {"plan.json: wanted a folder without a plan"});
+}
+
+TEST_F(Sweep, RefusalsNameTheMember) {
+    const auto refuse = [&](const std::function<void(json&)>& change, int exit_code,
+                            const Words& parts) {
+        json sweep = make_small_sweep();
+        change(sweep);
+        expect_plan_refused(sweep, exit_code, parts);
+    };
+    refuse([](json& s) { s["colour"] = 1; }, 65, {"sweep.json", "wanted schema", "'colour'"});
+    refuse([](json& s) { s.erase("scenes"); }, 65, {"sweep.json.scenes", "found nothing"});
+    refuse([](json& s) { s["scenes"] = {3}; }, 65, {"sweep.json.scenes: wanted texts, found '3'"});
+    refuse([](json& s) { s["scenes"] = {"room", "room"}; }, 65, {"wanted different scenes"});
+    refuse([](json& s) { s["scenes"] = {"none.glb"}; }, 66, {"none.glb"});
+    refuse([](json& s) { s["techniques"] = {"mirrored"}; }, 2, {"mirrored"});
+    refuse([](json& s) { s["knobs"] = {{"hue", {1, 2}}}; }, 2, {"hue"});
+    refuse([](json& s) { s["options"]["siez"] = "1x1"; }, 2, {"--siez", "--size"});
+    refuse([](json& s) { s["options"]["output"] = "x"; }, 65,
+           {"sweep.json.options.output", "cannot set this option"});
+    refuse([](json& s) { s["options"]["views"] = 6; }, 65, {"options.views"});
+    refuse([](json& s) { s["options"]["reference-seconds"] = 6; }, 65, {"its knob 'rays'"});
+    refuse([](json& s) { s["options"]["reference"] = "x.exr"; }, 65, {"wanted a technique"});
+    refuse([](json& s) { s["options"]["seed"] = 6; }, 65, {"views.seed"});
+    refuse([](json& s) { s["options"]["size"] = nullptr; }, 65, {"options.size", "nothing"});
+    refuse([](json& s) { s["axes"] = {{"size", {"8x8", "9x9"}}}; }, 65, {"axes.size", "'options'"});
+    refuse([](json& s) { s["axes"] = {{"time", {1, 1}}}; }, 65, {"axes.time", "twice"});
+    refuse([](json& s) { s["views"] = {{"count", 0}}; }, 65, {"views.count", "from 1"});
+    refuse([](json& s) { s["views"] = {{"count", 3}}; }, 2, {"wanted 1 or at least 6", "found 3"});
+    refuse([](json& s) { s["timing"] = {{"repeats", -1}}; }, 65, {"timing.repeats"});
+    write_input_file("sweep.json", "{\"scenes\": [\"room\"");
+    expect_usage_refused({"sweep", "plan", "sweep.json", "-o", "refused"}, 65,
+                         {"sweep.json: JSON: line 1"});
+    expect_usage_refused({"sweep", "plan", "sweep.json"}, 2, {"-o DIR"});
+    expect_usage_refused({"sweep", "run", "nowhere"}, 66, {"plan.json"});
+    expect_usage_refused({"sweep", "walk", "nowhere"}, 2, {"plan", "walk"});
+    ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
+    expect_usage_refused({"sweep", "run", "sweep", "--piece", "0123"}, 2, {"--piece", "'0123'"});
+    expect_usage_refused({"sweep", "check", "sweep", "--piece", "0123"}, 2, {"--piece"});
+}
+
+} // namespace
