@@ -26,7 +26,7 @@ endforeach()
 set(CATOPTRIC_SHADER_DESTINATION ${CMAKE_INSTALL_DATADIR}/catoptric/shaders)
 install(DIRECTORY shaders/lib DESTINATION ${CATOPTRIC_SHADER_DESTINATION})
 install(FILES shaders/shared.h DESTINATION ${CATOPTRIC_SHADER_DESTINATION})
-install(DIRECTORY samples/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/catoptric)
+install(DIRECTORY samples/scenes samples/sweep DESTINATION ${CMAKE_INSTALL_DATADIR}/catoptric)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/catoptric)
 install(EXPORT catoptricTargets NAMESPACE catoptric:: DESTINATION ${package_folder})

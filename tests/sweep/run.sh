@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# run.sh CATOPTRIC SNAKEFILE WORK: runs a small sweep by Snakemake with two jobs, kills one of its processes, and expects
+# the tables that a single process writes.
+set -euo pipefail
+catoptric=$1 snakefile=$2 work=$3
+die() { echo "sweep: $*" >&2; exit 1; }
+command -v snakemake >/dev/null || die "wanted snakemake; ./dev test --label sweep installs it"
+rm -rf "$work"; mkdir -p "$work"; cd "$work"
+cat >sweep.json <<'END'
+{"scenes": ["cornell-mirrors", "flat"], "techniques": ["reuse:face=32", "secant:face=32"],
+ "options": {"size": "48x48", "frames": 6, "warmup": 1}, "views": {"count": 20, "seed": 5}, "timing": {"repeats": 1}}
+END
+"$catoptric" sweep plan sweep.json -o single --quiet
+"$catoptric" sweep run single --quiet
+"$catoptric" sweep merge single -o single-merged --quiet
+
+"$catoptric" sweep plan sweep.json -o shared --quiet
+run() { # run OPTION...
+    snakemake -s "$snakefile" --cores 2 --resources machine=1 --nolock "$@" \
+        --config sweep=shared out=shared-merged catoptric="$catoptric" batch=4
+}
+run >first.log 2>&1 & snakemake=$!
+for ((i = 0; i < 600; ++i)); do # kill one of the programs as soon as a result is there
+    ls shared/results/*.json >/dev/null 2>&1 && break
+    sleep .1
+done
+killed=$(pgrep -f "^$catoptric sweep run shared" | head -n 1) || die "found no program to kill: $(cat first.log)"
+kill -KILL "$killed"
+! wait "$snakemake" || die "wanted a failure of the job that was killed"
+[[ ! -e shared-merged/sweep.json ]] || die "merged although a job was killed"
+run --rerun-incomplete >second.log 2>&1 || die "the second run failed: $(cat second.log)"
+for file in sweep.json errors.csv summary.csv; do
+    cmp "single-merged/$file" "shared-merged/$file" || die "$file differs from that of a single process"
+done
+[[ -s shared-merged/times.csv ]] || die "found no times"
+run >third.log 2>&1 || die "the third run failed"
+grep -q 'Nothing to be done' third.log || die "a third run had work to do: $(cat third.log)"
+echo "sweep: 42 pieces by Snakemake, one job killed: same bytes as a single process"
