@@ -47,6 +47,7 @@ void add_all_verbs(CommandLine& program, const std::vector<std::string>& command
     add_info_verb(program);
     add_views_verb(program);
     add_sweep_verb(program);
+    add_results_verb(program);
     add_completion_verb(program);
 }
 

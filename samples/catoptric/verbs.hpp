@@ -20,6 +20,7 @@ void add_list_verb(CommandLine& program);
 void add_info_verb(CommandLine& program);
 void add_views_verb(CommandLine& program);
 void add_sweep_verb(CommandLine& program);
+void add_results_verb(CommandLine& program);
 /// Add this verb last: it completes the verbs that are there.
 void add_completion_verb(CommandLine& program);
 

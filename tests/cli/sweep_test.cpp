@@ -16,7 +16,7 @@ using nlohmann::json;
 class Sweep : public CommandLineTest {
 protected:
     static json make_small_sweep() {
-        return {{"scenes", {"cornell-mirrors", "room"}},
+        return {{"scenes", {"cornell-mirrors"}},
                 {"techniques", {"naive:bounces=0", "parallax:face=16,shadow=none"}},
                 {"options", {{"size", "32x32"}, {"frames", 2}, {"warmup", 1}}},
                 {"views", {{"count", 6}, {"seed", 3}}},

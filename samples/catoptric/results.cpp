@@ -1,0 +1,64 @@
+// catoptric results: a site of static pages on many reports.
+#include "core/error.hpp"
+#include "options.hpp"
+#include "output_checks.hpp"
+#include "parse.hpp"
+#include "results_site.hpp"
+#include "verbs.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr const char* kResultsExamples = R"(Examples:
+  catoptric results add out/report.json site
+  catoptric results build site
+
+'add' checks a report of compare and puts it into SITE/reports. 'build' writes index.html and a page for each scene:
+the front of each device, from its latest report, and the history of each row by commit.)";
+
+struct ResultsOptions {
+    std::vector<std::string> words;
+    OutputOptions manners;
+};
+
+int run_results(const ResultsOptions& options) {
+    const std::vector<std::string>& words = options.words;
+    check(!words.empty(), Failure::usage, "'results' needs an action: add or build");
+    const bool adds = parse_choice_index("results", words.front(), {"add", "build"}) == 0;
+    check(words.size() == (adds ? 3 : 2), Failure::usage, "'results ", words.front(), "': wanted ",
+          adds ? "REPORT.json SITE" : "SITE", ", found ", words.size() - 1, " arguments");
+    if (adds) {
+        check_folder_can_be_made(words[2]);
+        const AddedReport added = add_report_to_site(words[1], words[2]);
+        print_note_unless_quiet(options.manners,
+                                added.is_known
+                                    ? "the site has this report: " + added.name
+                                    : fmt::format("added: {}, {} {}", added.name, added.scenes,
+                                                  added.scenes == 1 ? "scene" : "scenes"));
+        return 0;
+    }
+    const BuiltSite built = build_site(words[1]);
+    print_note_unless_quiet(options.manners, fmt::format("written: {}/index.html, {} pages from {} "
+                                                         "reports",
+                                                         words[1], built.pages, built.reports));
+    return 0;
+}
+
+} // namespace
+
+void add_results_verb(CommandLine& program) {
+    const auto options = std::make_shared<ResultsOptions>();
+    CommandVerb& verb = program.add_command_verb(
+        "results", "collect reports, and write a site with a page for each scene");
+    verb.examples(kResultsExamples);
+    verb.arguments("ACTION", "add REPORT.json SITE, or build SITE", options->words);
+    add_output_options(verb, options->manners);
+    verb.set_verb_action([options] { return run_results(*options); });
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,444 @@
+#include "results_site.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
+#include "core/text.hpp"
+#include "report.hpp"
+#include "report/html.hpp"
+#include "report/json.hpp"
+#include "report/text.hpp"
+#include "sweep_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace catoptric::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using report::escape_html;
+using SiteJson = nlohmann::ordered_json;
+
+constexpr std::uintmax_t kMaxReportBytes = 256U << 20U;
+constexpr std::size_t kMaxHistoryColumns = 12; // the latest reports
+constexpr std::size_t kIdCharacters = 12;
+constexpr std::string_view kPagePrefix = "scene-";
+
+/// A row of a report.
+struct SiteRow {
+    std::string label;
+    double ms = NAN, ms_low = NAN, ms_high = NAN; ///< device time of a frame, and its 95 % interval
+    double flip = NAN, rmse = NAN;                ///< over the mirrors
+    bool is_reference = false, on_front = false;
+};
+
+/// A comparison of one scene on one device.
+struct SiteComparison {
+    std::string scene, hash, device, driver, commit, date, version;
+    std::string setting; ///< camera, instant, size and reference, as text
+    std::vector<SiteRow> rows;
+};
+
+/// A place in a report, for messages.
+class ReportPlace {
+public:
+    ReportPlace(std::string file, std::string member = {})
+        : file_(std::move(file)), member_(std::move(member)) {}
+
+    ReportPlace at(const std::string& member) const {
+        return {file_, member_.empty() ? member : member_ + "." + member};
+    }
+    template <typename... Parts>
+    void check(bool ok, const Parts&... parts) const {
+        catoptric::check(ok, Failure::bad_data, file_, ": ", member_, member_.empty() ? "" : ": ",
+                         parts...);
+    }
+
+private:
+    std::string file_, member_;
+};
+
+SiteJson find_member(const SiteJson& object, const std::string& name, const ReportPlace& place) {
+    place.check(object.is_object(), "wanted an object, found ",
+                report::describe_json_value(object));
+    return object.value(name, SiteJson());
+}
+
+std::string read_text_of(const SiteJson& object, const std::string& name,
+                         const ReportPlace& place) {
+    const SiteJson value = find_member(object, name, place);
+    place.at(name).check(value.is_string(), "wanted text, found ",
+                         report::describe_json_value(value));
+    return value.get<std::string>();
+}
+
+/// Returns a number; NaN for null.
+double read_number_of(const SiteJson& object, const std::string& name, const ReportPlace& place) {
+    const SiteJson value = find_member(object, name, place);
+    place.at(name).check(value.is_number() || value.is_null(), "wanted a number, found ",
+                         report::describe_json_value(value));
+    return value.is_number() ? value.get<double>() : NAN;
+}
+
+SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
+    SiteRow row;
+    row.label = read_text_of(json, "label", place);
+    if (const SiteJson model = find_member(json, "model", place); model == "required")
+        row.label += ", model=required";
+    const SiteJson times = find_member(json, "gpu_ms", place);
+    if (!times.is_null()) { // null: a row of pictures from a file
+        row.ms = read_number_of(times, "median", place.at("gpu_ms"));
+        const SiteJson interval = find_member(times, "ci95", place.at("gpu_ms"));
+        const bool has_interval = interval.is_array() && interval.size() == 2 &&
+                                  interval[0].is_number() && interval[1].is_number();
+        if (has_interval) row.ms_low = interval[0], row.ms_high = interval[1];
+    }
+    const SiteJson error = find_member(json, "error", place);
+    row.flip = read_number_of(error, "flip", place.at("error"));
+    row.rmse = read_number_of(error, "rmse", place.at("error"));
+    row.is_reference = find_member(json, "is_reference", place) == true;
+    return row;
+}
+
+/// Returns what must be equal for two comparisons to be beside each other.
+std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
+    const SiteJson size = find_member(json, "size", place);
+    place.at("size").check(size.is_array() && size.size() == 2 && size[0].is_number_unsigned() &&
+                               size[1].is_number_unsigned(),
+                           "wanted two numbers of pixels, found ",
+                           report::describe_json_value(size));
+    const SiteJson scene = find_member(json, "scene", place);
+    const SiteJson camera = find_member(scene, "camera", place.at("scene"));
+    const std::string name = read_text_of(camera, "name", place.at("scene.camera"));
+    std::string eye;
+    for (const char* point : {"eye", "target"}) {
+        const SiteJson value = find_member(camera, point, place.at("scene.camera"));
+        place.at(std::string("scene.camera.") + point)
+            .check(value.is_array() && value.size() == 3 && value[0].is_number() &&
+                       value[1].is_number() && value[2].is_number(),
+                   "wanted three numbers, found ", report::describe_json_value(value));
+        eye += fmt::format("{}{:.4g} {:.4g} {:.4g}", eye.empty() ? "from " : " to ",
+                           value[0].get<double>(), value[1].get<double>(), value[2].get<double>());
+    }
+    return fmt::format(
+        "{}x{}, {} s, camera {}{}, reference {}", size[0].get<unsigned>(), size[1].get<unsigned>(),
+        read_number_of(json, "time", place),
+        name.empty() ? "" : quote_text_with_escapes(name) + " ", eye,
+        read_text_of(find_member(json, "reference", place), "label", place.at("reference")));
+}
+
+SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& place) {
+    place.check(find_member(json, "schema", place) == "catoptric/compare/1",
+                "wanted the schema catoptric/compare/1, found ",
+                report::describe_json_value(find_member(json, "schema", place)));
+    place.check(find_member(json, "complete", place) == true,
+                "wanted a complete report; this run was stopped");
+    SiteComparison found;
+    const SiteJson scene = find_member(json, "scene", place),
+                   device = find_member(json, "device", place);
+    found.scene = read_text_of(scene, "name", place.at("scene"));
+    found.hash = read_text_of(scene, "hash", place.at("scene"));
+    found.device = read_text_of(device, "name", place.at("device"));
+    found.driver = read_text_of(device, "driver", place.at("device"));
+    found.commit = read_text_of(json, "commit", place);
+    found.version = read_text_of(json, "version", place);
+    found.date = read_text_of(json, "date", place);
+    found.setting = describe_setting(json, place);
+    const SiteJson rows = find_member(json, "rows", place);
+    place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
+                           report::describe_json_value(rows));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        found.rows.push_back(read_site_row(rows[i], place.at(fmt::format("rows[{}]", i))));
+    const SiteJson front = find_member(json, "pareto", place);
+    place.at("pareto").check(front.is_array(), "wanted a list, found ",
+                             report::describe_json_value(front));
+    for (const SiteJson& index : front) {
+        place.at("pareto").check(
+            index.is_number_unsigned() && index.get<std::size_t>() < found.rows.size(),
+            "wanted numbers of rows, found ", report::describe_json_value(index));
+        found.rows[index.get<std::size_t>()].on_front = true;
+    }
+    return found;
+}
+
+/// Returns the comparisons of a report on one scene or several.
+std::vector<SiteComparison> read_report(const fs::path& file, const std::string& text) {
+    const auto json = parse_json<SiteJson>(file.string(), text);
+    const ReportPlace place(file.string());
+    std::vector<SiteComparison> list;
+    if (find_member(json, "schema", place) != "catoptric/compare-scenes/1") {
+        list.push_back(read_site_comparison(json, place));
+        return list;
+    }
+    const SiteJson scenes = find_member(json, "scenes", place);
+    place.at("scenes").check(scenes.is_array() && !scenes.empty(), "wanted a list, found ",
+                             report::describe_json_value(scenes));
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+        list.push_back(read_site_comparison(scenes[i], place.at(fmt::format("scenes[{}]", i))));
+    return list;
+}
+
+/// Comparisons of one scene with one setting, by device: the oldest first.
+struct SitePage {
+    std::string scene, setting, file;
+    std::map<std::string, std::vector<SiteComparison>> devices;
+};
+
+std::vector<SitePage> group_by_page(const std::vector<SiteComparison>& comparisons) {
+    std::map<std::string, SitePage> pages; // sorted by scene and setting
+    for (const SiteComparison& one : comparisons) {
+        const std::string key = one.scene + "\n" + one.hash + "\n" + one.setting;
+        SitePage& page = pages[key];
+        page.scene = one.scene, page.setting = one.setting;
+        page.file = std::string(kPagePrefix) + compute_sha256(key).substr(0, kIdCharacters) +
+                    ".html";
+        page.devices[one.device + ", " + one.driver].push_back(one);
+    }
+    std::vector<SitePage> list;
+    for (auto& [key, page] : pages) {
+        for (auto& [device, runs] : page.devices)
+            std::ranges::stable_sort(runs, {}, [](const SiteComparison& run) {
+                return std::pair(run.date, run.commit);
+            });
+        list.push_back(std::move(page));
+    }
+    return list;
+}
+
+std::string format_cell(double value, int decimals) {
+    return report::format_fixed(value, decimals);
+}
+
+/// Returns the head of a table whose first columns hold text, and the others numbers.
+std::string make_table_head(std::span<const std::string> titles, std::size_t text_columns = 1) {
+    std::string html = "<thead><tr>";
+    for (std::size_t i = 0; i < titles.size(); ++i)
+        html += std::string("<th scope=\"col\"") + (i < text_columns ? " class=\"text\">" : ">") +
+                escape_html(titles[i]) + "</th>";
+    return html + "</tr></thead>";
+}
+
+/// Returns a plot of time (logarithmic) against FLIP. Points of the front are filled and joined.
+std::string make_front_plot(const SiteComparison& run) {
+    constexpr double kWidth = 720, kHeight = 320, kLeft = 56, kRight = 150, kTop = 16, kBottom = 44;
+    double low = INFINITY, high = 0, most = 0;
+    for (const SiteRow& row : run.rows)
+        if (row.ms > 0 && std::isfinite(row.flip)) {
+            low = std::min(low, row.ms), high = std::max(high, row.ms);
+            most = std::max(most, row.flip);
+        }
+    if (!(high > 0)) return "";
+    low = std::log10(low / 1.2), high = std::log10(high * 1.2), most = std::max(most * 1.1, 1e-6);
+    const auto x = [&](double ms) {
+        return kLeft + (std::log10(ms) - low) / (high - low) * (kWidth - kLeft - kRight);
+    };
+    const auto y = [&](double flip) {
+        return kHeight - kBottom - flip / most * (kHeight - kTop - kBottom);
+    };
+    std::string svg = fmt::format(
+        "<figure class=\"plot scroll\" tabindex=\"0\"><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Time and FLIP "
+        "of each row\" font-size=\"11\" fill=\"currentColor\"><g stroke=\"currentColor\" "
+        "stroke-opacity=\".25\"><path d=\"M{} {}V{}H{}\" fill=\"none\"/></g>",
+        kWidth, kHeight, kLeft, kTop, kHeight - kBottom, kWidth - kRight);
+    for (int power = static_cast<int>(std::ceil(low)); power <= std::floor(high); ++power)
+        svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>",
+                           x(std::pow(10, power)), kHeight - kBottom + 16, std::pow(10, power));
+    for (const double share : {0.0, .5, 1.0})
+        svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3g}</text>",
+                           kLeft - 6, y(share * most / 1.1) + 4, share * most / 1.1);
+    svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">device time of a frame, ms "
+                       "(logarithmic)</text><text x=\"{}\" y=\"{}\">FLIP over the mirrors</text>",
+                       (kLeft + kWidth - kRight) / 2, kHeight - 8, kLeft + 6, kTop + 4);
+    std::vector<const SiteRow*> front;
+    for (const SiteRow& row : run.rows)
+        if (row.on_front && row.ms > 0 && std::isfinite(row.flip)) front.push_back(&row);
+    std::ranges::sort(front, {}, [](const SiteRow* row) { return row->ms; });
+    std::string path;
+    for (const SiteRow* row : front)
+        path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(row->ms), y(row->flip));
+    svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\"/>";
+    for (const SiteRow& row : run.rows) {
+        if (!(row.ms > 0) || !std::isfinite(row.flip)) continue;
+        const std::string says = fmt::format("{}: {} ms, FLIP {}", row.label,
+                                             format_cell(row.ms, 3),
+                                             report::format_picture_error(row.flip));
+        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\" "
+                           "stroke=\"var(--accent)\"><title>{}</title></circle>",
+                           x(row.ms), y(row.flip), row.on_front ? "var(--accent)" : "var(--card)",
+                           escape_html(says));
+        if (row.on_front)
+            svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x(row.ms) + 8,
+                               y(row.flip) - 6, escape_html(row.label));
+    }
+    return svg + "</svg></figure>";
+}
+
+std::string make_latest_table(const SiteComparison& run) {
+    std::vector<const SiteRow*> rows;
+    for (const SiteRow& row : run.rows) rows.push_back(&row);
+    std::ranges::stable_sort(rows, [](const SiteRow* a, const SiteRow* b) {
+        return (std::isfinite(a->ms) ? a->ms : INFINITY) <
+               (std::isfinite(b->ms) ? b->ms : INFINITY);
+    });
+    static const std::vector<std::string> kTitles{"Row",  "ms",   "95 % interval",
+                                                  "FLIP", "RMSE", "Front"};
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(kTitles) +
+                       "<tbody>";
+    for (const SiteRow* row : rows)
+        html += fmt::format(
+            "<tr{}><th scope=\"row\" class=\"text\">{}</th><td>{}</td><td>{}</td><td>{}</td>"
+            "<td>{}</td><td>{}</td></tr>",
+            row->on_front ? " class=\"front\"" : "", escape_html(row->label),
+            format_cell(row->ms, 3),
+            std::isfinite(row->ms_low)
+                ? format_cell(row->ms_low, 3) + " to " + format_cell(row->ms_high, 3)
+                : std::string(report::kEmptyCellText),
+            report::format_picture_error(row->flip), report::format_picture_error(row->rmse),
+            row->on_front       ? "on the front"
+            : row->is_reference ? "reference"
+                                : "");
+    return html + "</tbody></table></div>";
+}
+
+/// Returns a table of each row's time and FLIP by report, the oldest of the latest first.
+std::string make_history_table(const std::vector<SiteComparison>& runs) {
+    if (runs.size() < 2) return "";
+    const std::span<const SiteComparison> shown(
+        runs.end() - static_cast<std::ptrdiff_t>(std::min(runs.size(), kMaxHistoryColumns)),
+        runs.end());
+    std::vector<std::string> titles{"ms / FLIP"}, labels;
+    for (const SiteComparison& run : shown) {
+        titles.push_back(run.commit + ", " + run.date.substr(0, std::string("2026-11-24").size()));
+        for (const SiteRow& row : run.rows)
+            if (std::ranges::find(labels, row.label) == labels.end()) labels.push_back(row.label);
+    }
+    std::string html = fmt::format("<h3>History: the latest {} of {} reports</h3>", shown.size(),
+                                   runs.size()) +
+                       "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
+                       "<tbody>";
+    for (const std::string& label : labels) {
+        html += "<tr><th scope=\"row\" class=\"text\">" + escape_html(label) + "</th>";
+        for (const SiteComparison& run : shown) {
+            const auto row = std::ranges::find(run.rows, label, &SiteRow::label);
+            html += row == run.rows.end() ? "<td>" + std::string(report::kEmptyCellText) + "</td>"
+                                          : "<td>" + format_cell(row->ms, 3) + " / " +
+                                                report::format_picture_error(row->flip) + "</td>";
+        }
+        html += "</tr>";
+    }
+    return html + "</tbody></table></div>";
+}
+
+std::string make_scene_page(const SitePage& page) {
+    std::string html = "<header><p class=\"kicker\"><a href=\"index.html\">All scenes</a></p><h1>" +
+                       escape_html(page.scene) + "</h1><p class=\"lede\">" +
+                       escape_html(page.setting) + "</p></header><main>";
+    for (const auto& [device, runs] : page.devices) {
+        const SiteComparison& latest = runs.back();
+        html += report::make_html_titled_section(
+            escape_html(device),
+            "<p>" +
+                escape_html(fmt::format("Latest report: {}, commit {}, version {}.", latest.date,
+                                        latest.commit, latest.version)) +
+                "</p>" + make_front_plot(latest) + make_latest_table(latest) +
+                make_history_table(runs));
+    }
+    return report::make_html_page(page.scene, html + "</main>");
+}
+
+/// Hides the lines of the table that lack a word of the search field.
+constexpr const char* kSearchScript = R"(<script>
+document.getElementById('search').addEventListener('input', event => {
+  const words = event.target.value.toLowerCase().split(/\s+/);
+  for (const line of document.querySelectorAll('tbody tr'))
+    line.hidden = !words.every(word => line.textContent.toLowerCase().includes(word));
+});
+</script>)";
+
+std::string list_front(const SiteComparison& run) {
+    std::vector<const SiteRow*> front;
+    for (const SiteRow& row : run.rows)
+        if (row.on_front) front.push_back(&row);
+    std::ranges::sort(front, {}, [](const SiteRow* row) { return row->ms; });
+    std::string text;
+    for (const SiteRow* row : front) text += (text.empty() ? "" : ", ") + row->label;
+    return text.empty() ? std::string(report::kEmptyCellText) : text;
+}
+
+std::string make_index_page(const std::vector<SitePage>& pages, std::size_t reports) {
+    std::string html = fmt::format(
+        "<header><h1>Reflections compared</h1><p class=\"lede\">{} reports on {} scenes and "
+        "settings.</p><p><label>Search <input id=\"search\" type=\"search\"></label></p></header>"
+        "<main><div class=\"scroll\" tabindex=\"0\"><table class=\"words\">",
+        reports, pages.size());
+    static const std::vector<std::string> kTitles{
+        "Scene", "Setting", "Device", "Front of the latest report, fastest first", "Reports"};
+    html += make_table_head(kTitles, kTitles.size() - 1) + "<tbody>";
+    for (const SitePage& page : pages)
+        for (const auto& [device, runs] : page.devices)
+            html += fmt::format(
+                "<tr><th scope=\"row\" class=\"text\"><a href=\"{}\">{}</a></th><td "
+                "class=\"text\">{}</td><td class=\"text\">{}</td><td "
+                "class=\"text\">{}</td><td>{}</td></tr>",
+                page.file, escape_html(page.scene), escape_html(page.setting), escape_html(device),
+                escape_html(list_front(runs.back())), runs.size());
+    return report::make_html_page("all scenes",
+                                  html + "</tbody></table></div></main>" + kSearchScript);
+}
+
+/// Removes pages of scenes whose reports were removed.
+void remove_other_pages(const fs::path& site, const std::vector<SitePage>& pages) {
+    std::vector<fs::path> removed;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(site, error)) {
+        const std::string name = entry.path().filename().string();
+        const bool is_page = name.starts_with(kPagePrefix) && name.ends_with(".html") &&
+                             name.size() == kPagePrefix.size() + kIdCharacters + 5;
+        if (is_page && std::ranges::find(pages, name, &SitePage::file) == pages.end())
+            removed.push_back(entry.path());
+    }
+    for (const fs::path& page : removed) fs::remove(page, error);
+}
+
+} // namespace
+
+AddedReport add_report_to_site(const fs::path& file, const fs::path& site) {
+    const std::string text = read_json_text(file, "a report", kMaxReportBytes);
+    const std::size_t scenes = read_report(file, text).size();
+    report::create_folder(site / "reports");
+    AddedReport added{compute_sha256(text) + ".json", scenes, false};
+    const fs::path place = site / "reports" / added.name;
+    std::error_code ignored;
+    added.is_known = fs::exists(place, ignored);
+    if (!added.is_known) write_file(place, text);
+    return added;
+}
+
+BuiltSite build_site(const fs::path& site) {
+    std::set<fs::path> files;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(site / "reports", error))
+        if (entry.path().extension() == ".json") files.insert(entry.path());
+    check(!files.empty(), Failure::missing_input, (site / "reports").string(),
+          ": wanted reports, found none; 'catoptric results add' adds one");
+    std::vector<SiteComparison> comparisons;
+    for (const fs::path& file : files)
+        for (SiteComparison& one :
+             read_report(file, read_json_text(file, "a report", kMaxReportBytes)))
+            comparisons.push_back(std::move(one));
+    const std::vector<SitePage> pages = group_by_page(comparisons);
+    remove_other_pages(site, pages);
+    for (const SitePage& page : pages) write_file(site / page.file, make_scene_page(page));
+    write_file(site / "index.html", make_index_page(pages, files.size()));
+    return {files.size(), pages.size() + 1};
+}
+
+} // namespace catoptric::cli

@@ -1,0 +1,157 @@
+// Tests of `catoptric results`: pages must show the figures of the reports, and depend on nothing
+// else.
+#include "cli/program.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
+namespace {
+
+using nlohmann::json;
+
+class ResultsSite : public CommandLineTest {
+protected:
+    /// Compares two rows on two scenes, once for all tests.
+    const json& report_of_two_scenes() const {
+        static const json report = [&] {
+            Words words = with_small_quick_frame({"compare", "cornell-mirrors", "flat", "-o", "out",
+                                                  "--json", "--techniques", "raytrace",
+                                                  "reuse:face=16"});
+            const test::ProcessResult ended = run_cli(words);
+            EXPECT_EQ(ended.exit_code, 0) << ended.err;
+            return json::parse(ended.out);
+        }();
+        return report;
+    }
+    json report_of_one_scene() const { return report_of_two_scenes()["scenes"][0]; }
+
+    std::string add_to_site(const json& report, const std::string& site) const {
+        write_input_file("report.json", report.dump());
+        const test::ProcessResult ended = run_cli({"results", "add", "report.json", site});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return ended.err;
+    }
+    void build(const std::string& site) const {
+        const test::ProcessResult ended = run_cli({"results", "build", site, "--quiet"});
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    }
+    /// Returns the pages of a site by name.
+    std::map<std::string, std::string> read_pages(const std::string& site) const {
+        std::map<std::string, std::string> pages;
+        for (const auto& entry : std::filesystem::directory_iterator(folder / site))
+            if (entry.path().extension() == ".html")
+                pages[entry.path().filename().string()] = read_file_at_path(entry.path());
+        return pages;
+    }
+    /// Returns the page with this text in its title.
+    std::string find_page(const std::string& site, const std::string& title) const {
+        for (const auto& [name, text] : read_pages(site))
+            if (text.find("<title>Reflections compared: " + title) != std::string::npos)
+                return text;
+        ADD_FAILURE() << "no page " << title;
+        return "";
+    }
+};
+
+TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
+    EXPECT_THAT(add_to_site(report_of_two_scenes(), "site"), testing::HasSubstr("2 scenes"));
+    EXPECT_THAT(add_to_site(report_of_two_scenes(), "site"), testing::HasSubstr("has this report"));
+    build("site");
+    EXPECT_EQ(read_pages("site").size(), 3u);
+    for (const json& one : report_of_two_scenes()["scenes"]) {
+        const std::string page = find_page("site", one["scene"]["name"]);
+        for (const json& row : one["rows"]) {
+            EXPECT_THAT(page, testing::HasSubstr(
+                                  row["label"].get<std::string>() + "</th><td>" +
+                                  fmt::format("{:.3f}", row["gpu_ms"]["median"].get<double>())));
+            const double flip = row["error"]["flip"];
+            const std::string cell = flip == 0 ? "<td>0</td>"
+                                               : fmt::format("<td>{:.4f}</td>", flip);
+            EXPECT_THAT(page, testing::HasSubstr(cell));
+        }
+        EXPECT_THAT(page, testing::HasSubstr("32x32, 0 s, camera"));
+        EXPECT_THAT(page, testing::HasSubstr(one["device"]["driver"].get<std::string>()));
+        EXPECT_THAT(page, testing::Not(testing::HasSubstr("History")));
+        const std::size_t front = one["pareto"][0];
+        EXPECT_THAT(page,
+                    testing::HasSubstr("<tr class=\"front\"><th scope=\"row\" class=\"text\">" +
+                                       one["rows"][front]["label"].get<std::string>()));
+    }
+}
+
+TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
+    json old = report_of_one_scene(), late = old;
+    old["date"] = "2026-01-02T00:00:00Z", old["commit"] = "0ldc0de";
+    late["date"] = "2026-02-03T00:00:00Z", late["commit"] = "1a7ec0de";
+    old["rows"][1]["gpu_ms"]["median"] = 111.5;
+    late["rows"][1]["gpu_ms"]["median"] = 222.25;
+    for (const auto& [site, order] :
+         std::map<std::string, std::vector<json>>{{"a", {old, late}}, {"b", {late, old}}}) {
+        for (const json& report : order) add_to_site(report, site);
+        build(site);
+    }
+    EXPECT_EQ(read_pages("a"), read_pages("b"));
+    const std::string page = find_page("a", "cornell-mirrors");
+    EXPECT_THAT(page, testing::HasSubstr("Latest report: 2026-02-03T00:00:00Z, commit 1a7ec0de"));
+    EXPECT_THAT(page, testing::HasSubstr("the latest 2 of 2 reports"));
+    EXPECT_LT(page.find("0ldc0de, 2026-01-02"), page.find("1a7ec0de, 2026-02-03"));
+    EXPECT_LT(page.find("111.500 / "), page.find("222.250 / "));
+    // Another size is another setting, with a page of its own.
+    late["size"] = {64, 32};
+    add_to_site(late, "a");
+    build("a");
+    EXPECT_EQ(read_pages("a").size(), 3u);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "a/reports"))
+        if (read_file_at_path(entry.path()).find("[64,32]") != std::string::npos)
+            std::filesystem::remove(entry.path());
+    build("a");
+    EXPECT_EQ(read_pages("a"), read_pages("b")) << "pages of removed reports are removed";
+}
+
+TEST_F(ResultsSite, TextOfReportsCannotBecomeMarkup) {
+    json report = report_of_one_scene();
+    report["scene"]["name"] = "<script>alert(1)</script>";
+    report["device"]["name"] = "\"><img src=x onerror=alert(2)>";
+    report["rows"][0]["label"] = "</title><b onclick='alert(3)'>";
+    report["commit"] = "<i>";
+    add_to_site(report, "site");
+    build("site");
+    for (const auto& [name, page] : read_pages("site"))
+        for (const char* markup : {"<script>alert", "<img", "<b onclick", "<i>"})
+            EXPECT_THAT(page, testing::Not(testing::HasSubstr(markup))) << name;
+}
+
+TEST_F(ResultsSite, RefusalsNameTheMember) {
+    const auto refuse = [&](const std::function<void(json&)>& change, const Words& parts) {
+        json report = report_of_one_scene();
+        change(report);
+        write_input_file("report.json", report.dump());
+        expect_usage_refused({"results", "add", "report.json", "refused"}, 65, parts);
+        EXPECT_FALSE(std::filesystem::exists(folder / "refused"));
+    };
+    refuse([](json& r) { r = 3; }, {"report.json: wanted an object, found '3'"});
+    refuse([](json& r) { r["schema"] = "x"; }, {"wanted the schema catoptric/compare/1"});
+    refuse([](json& r) { r["complete"] = false; }, {"wanted a complete report"});
+    refuse([](json& r) { r["rows"] = json::array(); }, {"report.json: rows: wanted a list"});
+    refuse([](json& r) { r["rows"][1].erase("label"); }, {"rows[1].label: wanted text"});
+    refuse([](json& r) { r["rows"][0]["gpu_ms"]["median"] = "fast"; },
+           {"rows[0].gpu_ms.median: wanted a number, found '\"fast\"'"});
+    refuse([](json& r) { r["rows"][0]["error"] = 4; }, {"rows[0].error: wanted an object"});
+    refuse([](json& r) { r["pareto"] = {9}; }, {"pareto: wanted numbers of rows, found '9'"});
+    refuse([](json& r) { r["size"] = {1, -1}; }, {"size: wanted two numbers"});
+    refuse([](json& r) { r["scene"]["camera"]["eye"] = {1, 2}; }, {"scene.camera.eye"});
+    refuse([](json& r) { r.erase("device"); }, {"device: wanted an object, found nothing"});
+    expect_usage_refused({"results", "add", "none.json", "site"}, 66, {"none.json"});
+    expect_usage_refused({"results", "build", "site"}, 66, {"wanted reports, found none"});
+    expect_usage_refused({"results"}, 2, {"add or build"});
+    expect_usage_refused({"results", "ad", "x"}, 2, {"'ad'", "add"});
+    expect_usage_refused({"results", "build"}, 2, {"wanted SITE"});
+    add_to_site(report_of_one_scene(), "site");
+    write_input_file("site/reports/broken.json", "{");
+    expect_usage_refused({"results", "build", "site"}, 65, {"broken.json"});
+    EXPECT_FALSE(std::filesystem::exists(folder / "site/index.html"));
+}
+
+} // namespace
