@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 install(TARGETS catoptric catoptric_cli EXPORT catoptricTargets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS catoptric_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/catoptric)
+install(TARGETS catoptric_images catoptric_draco LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/catoptric)
 if(TARGET catoptric_view) # for users; programs that link the library do not need it
     install(TARGETS catoptric_view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

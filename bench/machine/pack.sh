@@ -9,7 +9,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
-build=$(cd "$1" && pwd) modules=(catoptric-images.so)
+build=$(cd "$1" && pwd) modules=(catoptric-images.so catoptric-draco.so)
 if [[ ${2:-} == --small ]]; then modules=(); shift; fi
 archive=${2:-catoptric-kit.tar.gz}
 

@@ -20,18 +20,17 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 /// Extensions that a file may require, besides KHR_materials_*. They are read, or the scene can be
 /// shown without them.
 constexpr std::string_view kIgnoredRequiredExtensions[] = {
-    "KHR_mesh_quantization", "KHR_lights_punctual",  "KHR_texture_transform", "EXT_texture_webp",
-    "KHR_xmp_json_ld",       "KHR_techniques_webgl", "KHR_technique_webgl"};
-/// Extensions that store geometry or images in a form that is not read. A file that requires one is
+    "KHR_mesh_quantization",   "KHR_lights_punctual",
+    "KHR_texture_transform",   "EXT_texture_webp",
+    "KHR_xmp_json_ld",         "KHR_techniques_webgl",
+    "KHR_technique_webgl",     "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
+/// Extensions that store images in a form that is not read. A file that requires one is
 /// refused, because its scene would be incomplete.
 struct UnsupportedCompression {
     std::string_view extension, sentence;
 };
 constexpr UnsupportedCompression kUnsupportedCompressions[] = {
-    {"KHR_draco_mesh_compression", ": meshes compressed by Draco are not read: wanted a file "
-                                   "without it (gltf-transform copy, or export without Draco)"},
-    {"EXT_meshopt_compression", ": buffers compressed by meshopt are not read: wanted a file "
-                                "without it (gltf-transform copy, or export without meshopt)"},
     {"KHR_texture_basisu", ": textures compressed by Basis Universal are not read: wanted PNG, "
                            "JPEG or WebP (gltf-transform ktxdecompress, or export without KTX2)"},
     {"EXT_texture_avif", ": AVIF textures are not read: wanted PNG, JPEG or WebP "
@@ -112,6 +111,11 @@ public:
         : gltf_container_(container), files_(files), binary_(binary) {}
 
     void add_buffer(const JsonObject& buffer) {
+        if (is_empty_fallback(buffer)) {
+            // Its compressed views hold the data. Other views do not fit into this byte.
+            gltf_container_.buffers.push_back({store_file_bytes({0}), 1});
+            return;
+        }
         const std::size_t file = find_file_of_buffer(buffer);
         const std::uint64_t length = buffer.whole("byteLength", 0),
                             size = gltf_container_.files[file].size();
@@ -121,6 +125,13 @@ public:
     }
 
 private:
+    /// Returns whether the buffer only stands for what compressed views decode to.
+    bool is_empty_fallback(const JsonObject& buffer) const {
+        const std::optional<JsonObject> extensions = buffer.read_object_member("extensions");
+        const auto meshopt = extensions ? extensions->read_object_member(kMeshoptExtension)
+                                        : std::nullopt;
+        return meshopt && meshopt->flag("fallback", false) && !buffer.has_member("uri");
+    }
     std::size_t find_file_of_buffer(const JsonObject& buffer) {
         if (!buffer.has_member("uri")) {
             buffer.require_condition(

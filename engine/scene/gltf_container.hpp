@@ -13,6 +13,8 @@ namespace catoptric::scene::gltf {
 
 using ByteList = std::vector<unsigned char>;
 
+inline constexpr std::string_view kMeshoptExtension = "EXT_meshopt_compression";
+
 /// The first `length` bytes, at least 1, of one of the container's files.
 struct GltfBuffer {
     std::size_t file = 0; ///< index into `GltfContainer::files`
@@ -40,6 +42,18 @@ GltfContainer read_gltf_container(const std::string& file, SceneFileOpener& file
 /// gltf_sparse.cpp.
 void expand_sparse_accessors(GltfContainer& container, const std::string& file,
                              SceneLoadBudgetUsage& account);
+/// Decodes buffer views with EXT_meshopt_compression and primitives with
+/// KHR_draco_mesh_compression. They then name new buffers, views and accessors, and lose these
+/// extensions. The types of the document's members must have been checked, but not the bounds of
+/// views. Throws `bad_data` for bytes that do not decode, or for more than the budget. Defined in
+/// gltf_compressed.cpp.
+void decode_compressed_geometry(GltfContainer& container, const std::string& file,
+                                SceneLoadBudgetUsage& account);
+/// Gives each node with EXT_mesh_gpu_instancing a child node for each instance. Each child has the
+/// node's mesh, and the node itself loses its mesh and the extension. Accessors must be dense and
+/// checked. Throws `bad_data`. Defined in gltf_instances.cpp.
+void expand_instances(GltfContainer& container, const std::string& file,
+                      SceneLoadBudgetUsage& account);
 /// Returns the size in bytes of one element of a checked accessor.
 std::size_t accessor_element_bytes(const JsonObject& accessor);
 

@@ -102,10 +102,13 @@ GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
                                 std::vector<UnsupportedFeature>& unsupported) {
     GltfContainer container = read_gltf_container(file, files, account, notes);
     GltfDocument document{.file = file};
+    check_known_members(JsonObject(container.document, file), account, notes);
+    decode_compressed_geometry(container, file, account);
+    check_view_bounds(JsonObject(container.document, file), container.buffers);
+    expand_sparse_accessors(container, file, account);
+    expand_instances(container, file, account);
     {
         const JsonObject root(container.document, file);
-        check_known_members(root, account, notes);
-        check_view_bounds(root, container.buffers);
         check_cross_references(root, files, notes);
         document.marks = read_all_node_extras(root);
         document.exposure = read_exposure(root);
@@ -117,7 +120,6 @@ GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
         document.lights = read_lights(source);
         document.repeats = read_animation_repeats(root);
     }
-    expand_sparse_accessors(container, file, account);
     document.model = parse_gltf(file, container);
     return document;
 }

@@ -11,10 +11,11 @@ constexpr std::size_t kMaxAttributeNameLength =
     1024; // attribute name in bytes; messages quote it in full
 /// Extensions that are read, or that only change how other members are stored.
 constexpr std::string_view kSupportedGltfExtensions[] = {
-    kEmissiveStrengthExtension, "KHR_lights_punctual",   "KHR_materials_ior",
-    "KHR_materials_specular",   "KHR_materials_unlit",   "KHR_materials_pbrSpecularGlossiness",
-    "KHR_texture_transform",    "KHR_mesh_quantization", "EXT_texture_webp",
-    "KHR_materials_volume"};
+    kEmissiveStrengthExtension,  "KHR_lights_punctual",     "KHR_materials_ior",
+    "KHR_materials_specular",    "KHR_materials_unlit",     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_texture_transform",     "KHR_mesh_quantization",   "EXT_texture_webp",
+    "KHR_materials_volume",      "EXT_mesh_gpu_instancing", kMeshoptExtension,
+    "KHR_draco_mesh_compression"};
 
 bool is_read_extension(std::string_view extension) {
     return std::ranges::find(kSupportedGltfExtensions, extension) !=

@@ -15,17 +15,19 @@ compile() { # compile SOURCE: compiles a file; ccache skips unchanged files
         -DCATOPTRIC_MODULES_FROM_PROGRAMS='"."' -c "$1" -o "$folder/objects/${1//\//_}.o"
 }
 export -f compile
-module=engine/images/images.cpp
+modules=(engine/images/images.cpp engine/draco/draco.cpp)
 sources=(engine/core/*.cpp engine/scene/*.cpp "tests/fuzz/$target.cpp")
 {
     flock 9 # targets share the engine's object files, so only one target builds at a time
-    printf '%s\0' $module "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile "$1"' compile
+    printf '%s\0' "${modules[@]}" "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" bash -c 'compile "$1"' compile
     objects=("${sources[@]//\//_}")
     objects=("${objects[@]/#/$folder/objects/}")
     clang++-16 -fsanitize=address,undefined,fuzzer "${objects[@]/%/.o}" -o "$folder/$target/$target" \
-        -ltinygltf -ltinyobjloader -lpng
-    clang++-16 -shared -fsanitize=address,undefined "$folder/objects/${module//\//_}.o" \
+        -ltinygltf -ltinyobjloader -lmeshoptimizer -lpng
+    clang++-16 -shared -fsanitize=address,undefined "$folder/objects/engine_images_images.cpp.o" \
         -o "$folder/$target/catoptric-images.so" -lOpenImageIO -lOpenImageIO_Util
+    clang++-16 -shared -fsanitize=address,undefined "$folder/objects/engine_draco_draco.cpp.o" \
+        -o "$folder/$target/catoptric-draco.so" -ldraco
 } 9>"$folder/lock"
 # leaks.txt suppresses leaks of OpenImageIO's own tables.
 LSAN_OPTIONS=suppressions=tests/fuzz/leaks.txt:print_suppressions=0 \

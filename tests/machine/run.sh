@@ -19,6 +19,7 @@ stub catoptric_bench 'sleep 30'
 stub gpu_test 'echo "gpu $* on ${CATOPTRIC_TEST_DEVICE:-any}"; exit 3'
 stub drivers_test 'kill -SEGV $$'
 stub catoptric-images.so ''
+stub catoptric-draco.so ''
 
 if "$source/bench/machine/pack.sh" build kit.tar.gz 2>refused.txt; then fail "packed a build without reflect_test"; fi
 expect 'reflect_test: wanted a finished build' refused.txt

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+// The interface between this library and the module that links Draco (engine/draco).
+namespace catoptric {
+
+/// Type of the components in which the values of an attribute are wanted.
+enum class DracoComponentType : std::uint8_t { int8, uint8, int16, uint16, uint32, float32 };
+
+/// An attribute to read from Draco's data.
+struct DracoAttribute {
+    std::uint32_t id = 0; ///< unique id within the data
+    DracoComponentType type = DracoComponentType::float32;
+    std::size_t width = 3;             ///< components of each value, 1 to 4
+    std::vector<unsigned char> values; ///< filled: the values of all points, tightly packed
+};
+
+/// Numbers that the data claim, before anything is decoded.
+struct DracoCounts {
+    std::uint32_t triangles = 0, points = 0;
+};
+
+/// The functions of the module. They throw no exceptions, and refer to no argument after a call.
+struct DracoCodec {
+    /// Reads the counts of a triangle mesh in bitstream 2.2. Returns what is wrong; empty: nothing.
+    std::string (*read_counts)(std::span<const unsigned char> bytes, DracoCounts& counts) noexcept;
+    /// Decodes the attributes, and three points for each triangle. Needs memory for the counts that
+    /// `read_counts` returns. Returns what is wrong; empty: nothing.
+    std::string (*decode)(std::span<const unsigned char> bytes,
+                          std::vector<DracoAttribute>& attributes,
+                          std::vector<std::uint32_t>& corners) noexcept;
+};
+
+/// The only symbol that the module exports: a function that returns its `DracoCodec`. Its number
+/// rises with every change of the interface above.
+constexpr const char* kDracoCodecSymbol = "catoptric_draco_codec_1";
+using DracoCodecFunction = const DracoCodec* (*)();
+
+/// Returns the module's functions. The first call loads the module. Throws as load_module_symbol
+/// does (core/module.hpp).
+const DracoCodec& get_draco_codec();
+
+} // namespace catoptric
