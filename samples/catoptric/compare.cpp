@@ -428,13 +428,24 @@ void add_compare_verb(CommandLine& program, std::vector<std::string> command) {
     verb.set_verb_action([options] { return run_compare(*options); });
 }
 
+std::vector<CompletionOption> list_compare_options() {
+    CommandLine program("catoptric", "", "", "");
+    add_compare_verb(program, {});
+    return program.list_completion_verbs().front().options;
+}
+
 CompareWords parse_compare_words(std::vector<std::string> words) {
     const auto options = std::make_shared<CompareOptions>();
     CommandLine program("catoptric compare", "", "", "");
     CommandVerb& verb = program.only_command_verb();
     add_compare_options(verb, options);
-    verb.set_verb_action([] { return 0; });
+    bool is_comparison = false;
+    verb.set_verb_action([&] {
+        is_comparison = true;
+        return 0;
+    });
     program.parse(std::move(words))();
+    check(is_comparison, Failure::usage, "wanted a comparison, found --help or --version");
     std::vector<app::CompareRequest> requests = make_compare_requests(*options);
     check(requests.size() == 1, Failure::usage, "wanted one scene, found ", requests.size());
     CompareWords parsed{std::move(requests.front()), options->common.device};

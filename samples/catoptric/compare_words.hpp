@@ -14,7 +14,11 @@ struct CompareWords {
 };
 
 /// Returns what `catoptric compare` makes of these words, which are a scene and options, and loads
-/// the scene. Throws as `compare` does. Throws `usage` for several scenes.
+/// the scene. Throws as `compare` does. Throws `usage` for several scenes, and for options such as
+/// --help that end the program.
 CompareWords parse_compare_words(std::vector<std::string> words);
+
+/// Returns the options of `compare`.
+std::vector<CompletionOption> list_compare_options();
 
 } // namespace catoptric::cli

@@ -53,6 +53,10 @@ void run_plan_action(const SweepOptions& options) {
                                         "them with 'catoptric sweep run {}'",
                                         (folder / "plan.json").string(),
                                         plan.pieces.size() - timings, timings, folder.string()));
+    if (options.run.manners.json)
+        print_result(report::serialise_json({{"schema", "catoptric/sweep-planned/1"},
+                                             {"pictures", plan.pieces.size() - timings},
+                                             {"timings", timings}}));
 }
 
 void run_run_action(const SweepOptions& options) {
@@ -64,6 +68,11 @@ void run_run_action(const SweepOptions& options) {
     if (counts.elsewhere > 0)
         text += fmt::format(", {} are in work in other processes", counts.elsewhere);
     print_note_unless_quiet(options.run.manners, text);
+    if (options.run.manners.json)
+        print_result(report::serialise_json({{"schema", "catoptric/sweep-run/1"},
+                                             {"run", counts.run},
+                                             {"finished_before", counts.finished_before},
+                                             {"elsewhere", counts.elsewhere}}));
 }
 
 report::Json make_state_json(const SweepState& state) {
@@ -101,11 +110,13 @@ int run_check_action(const SweepOptions& options) {
     }
     std::string text = fmt::format("{} of {} pieces have a result, {} are in work\n",
                                    state.finished, state.pieces, state.in_work.size());
+    text += list_first_pieces(state.in_work, "in work", manners.verbose);
     text += list_first_pieces(state.missing, "missing", manners.verbose);
-    for (const auto& [id, why] : state.broken) text += "broken: " + why + "\n";
+    for (const auto& [id, why] : state.broken)
+        text += "broken: " + why + "; delete this file and run the piece again\n";
     text += list_first_pieces(state.unknown, "belongs to no piece", manners.verbose);
     if (state.identities.size() > 1)
-        text += fmt::format("results come from {} kinds of machines\n", state.identities.size());
+        text += fmt::format("results come from {} identities\n", state.identities.size());
     print_result(text);
     return state.is_complete() ? 0 : 1;
 }
@@ -120,26 +131,30 @@ void run_merge_action(const SweepOptions& options) {
                                                                      : AcrossIdentities::refused);
     report::create_folder(out);
     for (const auto& [name, content] : merged.files) write_file(out / name, content);
-    if (merged.identities.size() > 1)
+    if (merged.is_mixed)
         print_note_unless_quiet(
             options.run.manners,
-            fmt::format("results of {} kinds of machines: {:.3g} % of {} pixels of their common "
-                        "pictures differ by more than 1/255",
+            fmt::format("results of {} identities: {:.3g} % of {} pixels of their common pictures "
+                        "differ by more than 1/255",
                         merged.identities.size(), 100 * merged.difference.share(),
                         merged.difference.pixels));
+    if (options.run.manners.json) print_result(merged.files.back().second); // merged.json
     print_note_unless_quiet(options.run.manners, "written: " + out.string());
 }
 
 int run_sweep(const SweepOptions& options) {
     const std::size_t action = parse_choice_index("sweep", options.action,
                                                   {"plan", "run", "merge", "check"});
-    const bool writes = action == 0 || action == 2;
-    check(writes || options.output.empty(), Failure::usage, "'sweep ", options.action,
-          "' has no option '--output'");
-    check(action == 1 || options.run.pieces.empty(), Failure::usage, "'sweep ", options.action,
-          "' has no option '--piece'");
-    check(action == 2 || !options.across_identities, Failure::usage, "'sweep ", options.action,
-          "' has no option '--across-identities'");
+    const auto refuse = [&](bool is_given, const char* option) {
+        check(!is_given, Failure::usage, "'sweep ", options.action, "' has no option '", option,
+              "'");
+    };
+    // --output may come from the user's file of defaults, so the other actions ignore it.
+    refuse(action != 1 && !options.run.pieces.empty(), "--piece");
+    refuse(action != 1 && options.run.kinds != SweepRunOptions::PieceKinds::all, "--kind");
+    refuse(action != 2 && options.across_identities, "--across-identities");
+    check(options.run.pieces.empty() || options.run.kinds == SweepRunOptions::PieceKinds::all,
+          Failure::usage, "--piece names pieces of one kind; wanted no --kind beside it");
     switch (action) {
     case 0: run_plan_action(options); break;
     case 1: run_run_action(options); break;

@@ -19,12 +19,18 @@ namespace {
 
 constexpr std::chrono::milliseconds kLockPollInterval{50};
 
-int open_lock_file(const std::filesystem::path& file) {
-    const int opened = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+int open_lock_file(const std::filesystem::path& file, int flags) {
+    const int opened = ::open(file.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666);
     const int error = errno;
     check(opened >= 0, Failure::cannot_create, file.string(),
           ": cannot be opened: ", std::generic_category().message(error));
     return opened;
+}
+
+/// Returns a folder of this machine that does not depend on the environment.
+std::filesystem::path find_machine_folder() {
+    std::error_code ignored;
+    return std::filesystem::is_directory("/dev/shm", ignored) ? "/dev/shm" : "/tmp";
 }
 
 /// Returns a lock of one byte. Locks of an open file belong to it, and not to the whole process.
@@ -38,13 +44,13 @@ struct flock make_byte_lock(short type, std::size_t index) {
 }
 
 std::filesystem::path find_machine_lock_file() {
-    return std::filesystem::temp_directory_path() /
-           ("catoptric-sweep-" + std::to_string(::getuid()) + ".lock");
+    return find_machine_folder() / ("catoptric-sweep-" + std::to_string(::getuid()) + ".lock");
 }
 
 } // namespace
 
-PieceLockFile::PieceLockFile(const std::filesystem::path& file) : file_(open_lock_file(file)) {}
+PieceLockFile::PieceLockFile(const std::filesystem::path& file, Access access)
+    : file_(open_lock_file(file, access == Access::look ? O_RDONLY : O_RDWR | O_CREAT)) {}
 PieceLockFile::~PieceLockFile() { ::close(file_); }
 
 bool PieceLockFile::try_lock(std::size_t index) const {
@@ -67,10 +73,14 @@ bool PieceLockFile::is_locked_elsewhere(std::size_t index) const {
 }
 
 MachineLock::MachineLock(Use use, const std::atomic<int>& stop)
-    : file_(open_lock_file(find_machine_lock_file())) {
+    : file_(open_lock_file(find_machine_lock_file(), O_RDWR | O_CREAT)) {
     const int operation = (use == Use::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
     try {
         while (::flock(file_, operation) != 0) {
+            const int error = errno;
+            check(error == EWOULDBLOCK || error == EINTR, Failure::io,
+                  find_machine_lock_file().string(),
+                  ": cannot be locked: ", std::generic_category().message(error));
             app::throw_if_stopped({.stop = &stop});
             std::this_thread::sleep_for(kLockPollInterval);
         }

@@ -10,8 +10,9 @@ namespace catoptric::cli {
 /// A file of which each byte can be locked by one process.
 class PieceLockFile {
 public:
-    /// Opens the file, and makes it if it is missing. Throws `cannot_create`.
-    explicit PieceLockFile(const std::filesystem::path& file);
+    enum class Access { lock, look };
+    /// Opens the file. To lock bytes, it is made if it is missing. Throws `cannot_create`.
+    explicit PieceLockFile(const std::filesystem::path& file, Access access = Access::lock);
     ~PieceLockFile();
     PieceLockFile(const PieceLockFile&) = delete;
     PieceLockFile& operator=(const PieceLockFile&) = delete;

@@ -1,6 +1,7 @@
 #include "sweep_merge.hpp"
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "measure/interval.hpp"
 #include "measure/metric.hpp"
 #include "measure/picture.hpp"
@@ -48,7 +49,7 @@ std::string describe_identity_differences(const std::vector<SweepJson>& identiti
     for (const std::string& name : names) {
         std::set<std::string> values;
         for (const SweepJson& identity : identities)
-            values.insert(report::describe_json_value(identity.value(name, SweepJson())));
+            values.insert(identity.value(name, SweepJson()).dump());
         if (values.size() > 1)
             text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name,
                                 fmt::join(values, ", "));
@@ -56,52 +57,69 @@ std::string describe_identity_differences(const std::vector<SweepJson>& identiti
     return text;
 }
 
+/// Which columns of a common picture are compared: those of the row, or also those of the reference
+/// beside it.
+enum class ComparedColumns { row, row_and_reference };
+
 /// Counts the pixels of which a channel differs by more than 1/255.
-IdentityDifference compare_pictures(const measure::Picture& a, const measure::Picture& b,
-                                    const fs::path& file) {
-    check(a.width == b.width && a.height == b.height, Failure::bad_data, file.string(),
+IdentityDifference compare_pictures(const fs::path& a_file, const fs::path& b_file,
+                                    ComparedColumns columns) {
+    const measure::Picture a = measure::to_display(measure::read_picture(a_file)),
+                           b = measure::to_display(measure::read_picture(b_file));
+    check(a.width == b.width && a.height == b.height, Failure::bad_data, b_file.string(),
           ": wanted a picture of ", a.width, "x", a.height, ", found ", b.width, "x", b.height);
-    const measure::Picture shown_a = measure::to_display(a), shown_b = measure::to_display(b);
     constexpr float kMoreThanOneStep = 1.5F / 255; // values are multiples of 1/255
-    const int gap = (a.width - kPictureGapColumns) / 2;
+    const int width = (a.width - kPictureGapColumns) / 2;
     IdentityDifference difference;
     for (int y = 0; y < a.height; ++y)
-        for (int x = 0; x < a.width; ++x) {
-            if (x >= gap && x < gap + kPictureGapColumns) continue;
-            const vec3 apart = glm::abs(shown_a.at(x, y) - shown_b.at(x, y));
+        for (int x = 0; x < (columns == ComparedColumns::row ? width : a.width); ++x) {
+            if (x >= width && x < width + kPictureGapColumns) continue;
+            const vec3 apart = glm::abs(a.at(x, y) - b.at(x, y));
             difference.pixels += 1;
             difference.apart += std::max({apart.x, apart.y, apart.z}) > kMoreThanOneStep;
         }
     return difference;
 }
 
-/// Compares the common pictures of each pair of identities. Throws `bad_data` if two have none.
-IdentityDifference compare_identities(const fs::path& folder, const SweepPlan& plan,
-                                      const std::vector<SweepJson>& identities) {
-    IdentityDifference whole;
-    for (std::size_t i = 0; i < identities.size(); ++i)
-        for (std::size_t k = i + 1; k < identities.size(); ++k) {
-            const std::size_t before = whole.pixels;
-            for (const std::size_t place : plan.common) {
-                const SweepPiece& piece = plan.pieces[place];
-                for (std::size_t row = 0; row < piece.content["techniques"].size(); ++row) {
-                    const std::string name = fmt::format("{}.png", row);
-                    const fs::path a = find_common_picture_folder(folder, identities[i], piece.id) /
-                                       name,
-                                   b = find_common_picture_folder(folder, identities[k], piece.id) /
-                                       name;
-                    std::error_code ignored;
-                    if (!fs::exists(a, ignored) || !fs::exists(b, ignored)) continue;
-                    const IdentityDifference found = compare_pictures(measure::read_picture(a),
-                                                                      measure::read_picture(b), b);
-                    whole.pixels += found.pixels, whole.apart += found.apart;
-                }
-            }
-            check(whole.pixels > before, Failure::bad_data, folder.string(),
-                  ": two kinds of machines have no common picture: ",
-                  describe_identity_differences({identities[i], identities[k]}));
+/// Returns the names of the pictures that an identity drew for a common piece; empty: none yet.
+std::vector<std::string> list_common_pictures(const fs::path& folder) {
+    std::error_code ignored;
+    const fs::path file = folder / kCommonPicturesListFile;
+    if (!fs::exists(file, ignored)) return {};
+    constexpr std::uintmax_t kMaxListBytes = 1U << 20U;
+    const auto names = parse_json<SweepJson>(
+        file.string(), read_json_text(file, "a list of pictures", kMaxListBytes));
+    check(names.is_array() &&
+              std::ranges::all_of(names, [](const SweepJson& name) { return name.is_string(); }),
+          Failure::bad_data, file.string(), ": wanted a list of file names");
+    return names.get<std::vector<std::string>>();
+}
+
+/// Adds the differences of the common pictures of two identities of one device. Throws `bad_data`
+/// if they have none.
+void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
+                                  const SweepJson& device, const SweepJson& a, const SweepJson& b,
+                                  IdentityDifference& whole) {
+    const std::size_t before = whole.pixels;
+    for (const std::size_t place : plan.common) {
+        const SweepPiece& piece = plan.pieces[place];
+        if (find_device_options(piece.content) != device) continue;
+        const fs::path a_folder = find_common_picture_folder(folder, a, piece.id),
+                       b_folder = find_common_picture_folder(folder, b, piece.id);
+        const std::vector<std::string> names = list_common_pictures(a_folder),
+                                       other_names = list_common_pictures(b_folder);
+        for (const std::string& name : names) {
+            if (std::ranges::find(other_names, name) == other_names.end()) continue;
+            const bool is_first = name == names.front();
+            const IdentityDifference found = compare_pictures(
+                a_folder / name, b_folder / name,
+                is_first ? ComparedColumns::row_and_reference : ComparedColumns::row);
+            whole.pixels += found.pixels, whole.apart += found.apart;
         }
-    return whole;
+    }
+    check(whole.pixels > before, Failure::bad_data, folder.string(),
+          ": two identities have no common picture: ", describe_identity_differences({a, b}),
+          "; 'catoptric sweep run' on each of these machines draws them with its next piece");
 }
 
 std::vector<SweepGroup> group_results(const fs::path& folder, const SweepPlan& plan) {
@@ -119,17 +137,6 @@ std::vector<SweepGroup> group_results(const fs::path& folder, const SweepPlan& p
             .push_back(read_sweep_result(folder, piece).value());
     }
     return groups;
-}
-
-/// Metrics of a difference that are one number.
-std::vector<std::string> list_scalar_metric_names() {
-    std::vector<std::string> names;
-    for (const measure::Metric& metric : measure::list_difference_metrics())
-        if (std::holds_alternative<double>(
-                measure::metric_value_of_difference(metric, measure::Difference())) ||
-            metric.name == "flip")
-            names.emplace_back(metric.name);
-    return names;
 }
 
 /// Returns the metric of a row over its mirrors in each view; NaN where it has no value.
@@ -176,13 +183,45 @@ OrderedJson make_summary_json(const SweepSummary& summary) {
             {"largest", report::make_number_json(summary.largest)}};
 }
 
-/// Returns how many different instants the views of a group have.
+double find_instant(const SweepPiece& piece) {
+    const SweepJson& view = piece.content["view"];
+    return view.is_null() ? 0.0 : view["time"].get<double>();
+}
+
 std::size_t count_instants(const SweepGroup& group) {
     std::set<double> instants;
-    for (const SweepPiece* piece : group.picture_pieces)
-        instants.insert(
-            piece->content["view"].is_null() ? 0.0 : piece->content["view"]["time"].get<double>());
+    for (const SweepPiece* piece : group.picture_pieces) instants.insert(find_instant(*piece));
     return instants.size();
+}
+
+/// Returns whether views share an instant because the sweep asked for it. Views without a motion
+/// share one, too, but are independent.
+bool has_dependent_views(const SweepGroup& group) {
+    const std::size_t instants = count_instants(group);
+    return instants > 1 && instants < group.pictures.size();
+}
+
+/// Returns the mean over the views of each instant, because views of one instant resemble each
+/// other.
+std::vector<double> average_by_instant(const SweepGroup& group, const std::vector<double>& values) {
+    std::map<double, std::vector<double>> instants;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isnan(values[i]))
+            instants[find_instant(*group.picture_pieces[i])].push_back(values[i]);
+    std::vector<double> means;
+    for (const auto& [instant, list] : instants)
+        means.push_back(std::accumulate(list.begin(), list.end(), 0.0) /
+                        static_cast<double>(list.size()));
+    return means;
+}
+
+/// Returns the summary of a metric of a row over the views of its group. The interval counts views,
+/// or instants if views share them.
+SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values) {
+    SweepSummary summary = summarise(values);
+    if (has_dependent_views(group))
+        summary.ci95 = measure::median_confidence_interval(average_by_instant(group, values));
+    return summary;
 }
 
 OrderedJson make_group_json(const SweepGroup& group, const std::vector<std::string>& metrics) {
@@ -190,11 +229,13 @@ OrderedJson make_group_json(const SweepGroup& group, const std::vector<std::stri
                      {"options", group.options},
                      {"views", group.pictures.size()},
                      {"instants", count_instants(group)},
+                     {"interval_over", has_dependent_views(group) ? "instants" : "views"},
                      {"rows", OrderedJson::array()}};
     for (std::size_t row = 0; row < group.labels.size(); ++row) {
         OrderedJson errors = OrderedJson::object();
         for (const std::string& metric : metrics)
-            errors[metric] = make_summary_json(summarise(list_metric_values(group, row, metric)));
+            errors[metric] = make_summary_json(
+                summarise_metric(group, list_metric_values(group, row, metric)));
         json["rows"].push_back({{"label", group.labels[row]}, {"error", errors}});
     }
     return json;
@@ -239,7 +280,7 @@ std::vector<std::string> make_group_fields(const SweepGroup& group,
 std::vector<std::string> make_header(const std::vector<std::string>& axes,
                                      std::initializer_list<const char*> names) {
     std::vector<std::string> fields{"scene"};
-    fields.insert(fields.end(), axes.begin(), axes.end());
+    for (const std::string& axis : axes) fields.push_back("option_" + axis);
     fields.insert(fields.end(), names.begin(), names.end());
     return fields;
 }
@@ -251,7 +292,12 @@ std::string make_errors_csv(const std::vector<SweepGroup>& groups,
     header.insert(header.end(), metrics.begin(), metrics.end());
     CsvTable table;
     table.add_line(header);
-    for (const SweepGroup& group : groups)
+    for (const SweepGroup& group : groups) {
+        std::vector<std::vector<std::vector<double>>> values(
+            group.labels.size()); // by metric, view
+        for (std::size_t row = 0; row < values.size(); ++row)
+            for (const std::string& metric : metrics)
+                values[row].push_back(list_metric_values(group, row, metric));
         for (std::size_t i = 0; i < group.pictures.size(); ++i)
             for (std::size_t row = 0; row < group.labels.size(); ++row) {
                 const SweepJson& view = group.picture_pieces[i]->content["view"];
@@ -259,11 +305,11 @@ std::string make_errors_csv(const std::vector<SweepGroup>& groups,
                 for (const char* name : {"index", "seed", "time"})
                     fields.push_back(view.is_null() ? "" : view[name].dump());
                 fields.push_back(group.labels[row]);
-                for (const std::string& metric : metrics)
-                    fields.push_back(
-                        report::format_csv_number(list_metric_values(group, row, metric)[i]));
+                for (const std::vector<double>& list : values[row])
+                    fields.push_back(report::format_csv_number(list[i]));
                 table.add_line(fields);
             }
+    }
     return table.text();
 }
 
@@ -280,9 +326,11 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
         for (std::size_t row = 0; row < group.labels.size(); ++row) {
             std::vector<std::string> fields = make_group_fields(group, axes);
             fields.push_back(group.labels[row]);
-            fields.push_back(std::to_string(group.pictures.size()));
+            const std::vector<double> flip = list_metric_values(group, row, "flip");
+            fields.push_back(std::to_string(summarise(flip).views));
             for (const std::string& metric : metrics) {
-                const SweepSummary summary = summarise(list_metric_values(group, row, metric));
+                const SweepSummary summary = summarise_metric(
+                    group, list_metric_values(group, row, metric));
                 for (const double value : {summary.mean, summary.median, summary.ci95.low,
                                            summary.ci95.high, summary.largest})
                     fields.push_back(report::format_csv_number(value));
@@ -296,9 +344,22 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
 struct SweepTime {
     SweepJson machine, identity;
     std::string label;
-    std::vector<double> rounds;
+    std::vector<double> rounds; ///< of all pieces
+    std::vector<double> pieces; ///< the median of each piece
     bool noisy = false;
+
+    /// Returns the median, with its interval over pieces if they are enough, else over rounds.
+    SweepSummary summary() const {
+        const bool has_pieces = pieces.size() >= measure::kMinIntervalSamples;
+        return summarise(has_pieces ? pieces : rounds);
+    }
 };
+
+/// Returns a member of an identity; empty if it is no text.
+std::string get_text(const SweepJson& identity, const char* member) {
+    const SweepJson value = identity.value(member, SweepJson());
+    return value.is_string() ? value.get<std::string>() : "";
+}
 
 std::vector<SweepTime> list_times(const SweepGroup& group) {
     std::vector<SweepTime> times;
@@ -313,8 +374,9 @@ std::vector<SweepTime> list_times(const SweepGroup& group) {
             time.label = label, time.machine = result["machine"];
             time.identity = result["identity"];
             time.noisy = time.noisy || row.at("noisy").get<bool>();
-            for (const SweepJson& round : row.at("rounds"))
-                time.rounds.push_back(round.get<double>());
+            std::vector<double> rounds = row.at("rounds");
+            time.rounds.insert(time.rounds.end(), rounds.begin(), rounds.end());
+            time.pieces.push_back(summarise(std::move(rounds)).median);
         }
     return times;
 }
@@ -323,16 +385,20 @@ OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
     OrderedJson list = OrderedJson::array();
     for (const SweepGroup& group : groups)
         for (const SweepTime& time : list_times(group)) {
-            const SweepSummary summary = summarise(time.rounds);
-            list.push_back({{"scene", group.scene},
-                            {"options", group.options},
-                            {"label", time.label},
-                            {"machine", time.machine},
-                            {"identity", time.identity},
-                            {"ms", report::make_number_json(summary.median)},
-                            {"ci95", report::make_interval_json(summary.ci95)},
-                            {"rounds", time.rounds},
-                            {"noisy", time.noisy}});
+            const SweepSummary summary = time.summary();
+            list.push_back(
+                {{"scene", group.scene},
+                 {"options", group.options},
+                 {"label", time.label},
+                 {"machine", time.machine},
+                 {"identity", time.identity},
+                 {"ms", report::make_number_json(summary.median)},
+                 {"ci95", report::make_interval_json(summary.ci95)},
+                 {"rounds", time.rounds},
+                 {"pieces", time.pieces},
+                 {"interval_over",
+                  time.pieces.size() >= measure::kMinIntervalSamples ? "pieces" : "rounds"},
+                 {"noisy", time.noisy}});
         }
     return {{"schema", "catoptric/sweep-times/1"}, {"times", list}};
 }
@@ -340,18 +406,21 @@ OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
 std::string make_times_csv(const std::vector<SweepGroup>& groups) {
     const std::vector<std::string> axes = list_axis_names(groups);
     CsvTable table;
-    table.add_line(make_header(
-        axes, {"label", "machine", "device", "ms", "ms_low", "ms_high", "rounds", "noisy"}));
+    table.add_line(make_header(axes, {"label", "machine", "device", "driver", "commit", "ms",
+                                      "ms_low", "ms_high", "pieces", "rounds", "noisy"}));
     for (const SweepGroup& group : groups)
         for (const SweepTime& time : list_times(group)) {
-            const SweepSummary summary = summarise(time.rounds);
+            const SweepSummary summary = time.summary();
             std::vector<std::string> fields = make_group_fields(group, axes);
-            fields.insert(fields.end(), {time.label, time.machine.get<std::string>(),
-                                         time.identity.value("device", std::string())});
+            fields.insert(fields.end(),
+                          {time.label, time.machine.get<std::string>(),
+                           get_text(time.identity, "device"), get_text(time.identity, "driver"),
+                           get_text(time.identity, "commit")});
             for (const double value : {summary.median, summary.ci95.low, summary.ci95.high})
                 fields.push_back(report::format_csv_number(value));
             fields.insert(fields.end(),
-                          {std::to_string(time.rounds.size()), time.noisy ? "true" : "false"});
+                          {std::to_string(time.pieces.size()), std::to_string(time.rounds.size()),
+                           time.noisy ? "true" : "false"});
             table.add_line(fields);
         }
     return table.text();
@@ -363,7 +432,8 @@ SweepState check_sweep(const fs::path& folder, const SweepPlan& plan) {
     SweepState state{.pieces = plan.pieces.size()};
     std::error_code ignored;
     std::optional<PieceLockFile> locks;
-    if (fs::exists(folder / "locks", ignored)) locks.emplace(folder / "locks");
+    if (fs::exists(folder / "locks", ignored))
+        locks.emplace(folder / "locks", PieceLockFile::Access::look);
     std::set<std::string> known;
     for (std::size_t i = 0; i < plan.pieces.size(); ++i) {
         const SweepPiece& piece = plan.pieces[i];
@@ -374,14 +444,15 @@ SweepState check_sweep(const fs::path& folder, const SweepPlan& plan) {
                 add_identity(state.identities, (*result)["identity"]);
                 continue;
             }
-            if (locks && locks->is_locked_elsewhere(i)) state.in_work.push_back(piece.id);
-            state.missing.push_back(piece.id);
+            const bool is_in_work = locks && locks->is_locked_elsewhere(i);
+            (is_in_work ? state.in_work : state.missing).push_back(piece.id);
         } catch (const Error& error) {
             state.broken.emplace_back(piece.id, error.what());
         }
     }
     for (const auto& entry : fs::directory_iterator(folder / "results", ignored))
-        if (!known.contains(entry.path().filename().string()))
+        if (const std::string name = entry.path().filename().string();
+            !known.contains(name) && name.find(".partial-") == std::string::npos)
             state.unknown.push_back(entry.path().filename().string());
     std::ranges::sort(state.unknown);
     return state;
@@ -394,22 +465,30 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
           folder.string(), "' names the others");
     const std::vector<SweepGroup> groups = group_results(folder, plan);
     MergedSweep merged;
+    std::map<SweepJson, std::vector<SweepJson>> devices; // identities by the options for the device
     for (const SweepGroup& group : groups)
         for (const SweepJson& result : group.pictures)
-            add_identity(merged.identities, result["identity"]);
-    std::ranges::sort(merged.identities);
-    const bool differ = merged.identities.size() > 1;
-    check(!differ || across == AcrossIdentities::allowed, Failure::bad_data, folder.string(),
-          ": the pictures come from ", merged.identities.size(), " kinds of machines (",
-          describe_identity_differences(merged.identities),
-          "); --across-identities merges them and says how much their pictures differ");
-    if (differ) merged.difference = compare_identities(folder, plan, merged.identities);
+            add_identity(devices[find_device_options(result["piece"])], result["identity"]);
+    for (auto& [device, identities] : devices) {
+        std::ranges::sort(identities);
+        merged.is_mixed = merged.is_mixed || identities.size() > 1;
+        check(identities.size() == 1 || across == AcrossIdentities::allowed, Failure::bad_data,
+              folder.string(), ": the pictures come from ", identities.size(), " identities (",
+              describe_identity_differences(identities),
+              "); --across-identities merges them and says how much their pictures differ");
+        for (std::size_t i = 0; i < identities.size(); ++i) {
+            for (std::size_t k = i + 1; k < identities.size(); ++k)
+                add_difference_of_identities(folder, plan, device, identities[i], identities[k],
+                                             merged.difference);
+            add_identity(merged.identities, identities[i]);
+        }
+    }
 
-    const std::vector<std::string> metrics = list_scalar_metric_names();
+    const std::vector<std::string> metrics = list_sweep_metrics();
     OrderedJson document{{"schema", "catoptric/sweep-merged/1"}, {"sweep", plan.sweep}};
     document["identities"] = merged.identities;
     document["identity_difference"] = nullptr;
-    if (differ)
+    if (merged.is_mixed)
         document["identity_difference"] = {{"pixels", merged.difference.pixels},
                                            {"share", merged.difference.share()}};
     document["groups"] = report::make_list_json(
@@ -422,7 +501,7 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
         merged.files.emplace_back("times.json", report::serialise_json(make_times_json(groups)));
         merged.files.emplace_back("times.csv", make_times_csv(groups));
     }
-    merged.files.emplace_back("sweep.json", report::serialise_json(document));
+    merged.files.emplace_back("merged.json", report::serialise_json(document));
     return merged;
 }
 

@@ -6,6 +6,8 @@
 #include "core/file.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "measure/metric.hpp"
+#include "measure/views.hpp"
 #include "report/json.hpp"
 #include "scene/built_in.hpp"
 #include "scene/hash.hpp"
@@ -31,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMaxSweepFileBytes = 1U << 20U;
 constexpr std::uintmax_t kMaxPlanBytes = 1U << 30U;
 constexpr std::uintmax_t kMaxResultBytes = 64U << 20U;
-constexpr std::size_t kMaxPieceCount = 1'000'000;
+constexpr std::uint64_t kMaxPieceCount = 1'000'000;
 constexpr std::int64_t kMaxViewCount = 10'000, kMaxRepeatCount = 1'000, kMaxSeed = 1'000'000'000;
 
 /// Options whose value is a file or a folder, relative to the sweep's file.
@@ -40,7 +42,7 @@ constexpr std::array<std::string_view, 3> kPathOptions{"root", "environment", "d
 constexpr std::array<std::string_view, 2> kPathOptionWords{"studio", "none"};
 /// Options of compare that the sweep decides itself, or that write files of their own. The options
 /// of studies count, too.
-constexpr std::array<std::string_view, 19> kRefusedOptions{"output",        "techniques",
+constexpr std::array<std::string_view, 20> kRefusedOptions{"output",        "techniques",
                                                            "axis",          "row",
                                                            "together",      "max-ms",
                                                            "max-flip",      "baseline",
@@ -49,7 +51,7 @@ constexpr std::array<std::string_view, 19> kRefusedOptions{"output",        "tec
                                                            "csv",           "json",
                                                            "quiet",         "verbose",
                                                            "progress",      "reference-seconds",
-                                                           "help"};
+                                                           "help",          "version"};
 
 std::string describe(const SweepJson& value) { return report::describe_json_value(value); }
 
@@ -99,10 +101,10 @@ void check_members(const SweepJson& object, std::initializer_list<std::string_vi
                     quote_text_with_escapes(name));
 }
 
-/// Returns a value of an option as text: "true" for a flag. Throws for values of other types.
-std::string make_option_text(const SweepJson& value, const SweepPlace& place) {
-    place.check(value.is_string() || value.is_number() || value.is_boolean(),
-                "wanted text, a number or true, found ", describe(value));
+/// Returns the value of a knob or an option as text.
+std::string make_value_text(const SweepJson& value, const SweepPlace& place) {
+    place.check(value.is_string() || value.is_number(), "wanted text or a number, found ",
+                describe(value));
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
@@ -143,26 +145,83 @@ struct SweepRequest {
     std::int64_t timing_repeats = 1;
 };
 
-/// Returns the value of an option, in which each path is seen from the folder of the plan.
-SweepJson read_option(const std::string& name, const SweepJson& value, const fs::path& file,
-                      const fs::path& folder, const SweepPlace& place) {
-    const bool known = std::ranges::find(kRefusedOptions, name) == kRefusedOptions.end() &&
-                       std::ranges::find(app::list_studies(), name, &app::Study::name) ==
-                           app::list_studies().end();
-    place.check(known, "a sweep cannot set this option of compare",
+void check_option_name(const std::string& name, const CompletionOption*& option,
+                       const std::vector<CompletionOption>& known, const SweepPlace& place) {
+    const auto found = std::ranges::find(known, "--" + name, &CompletionOption::name);
+    place.check(found != known.end(), "'compare' has no option '--", name, "'");
+    const bool is_refused = std::ranges::find(kRefusedOptions, name) != kRefusedOptions.end() ||
+                            std::ranges::find(app::list_studies(), name, &app::Study::name) !=
+                                app::list_studies().end();
+    place.check(!is_refused, "a sweep cannot set this option of compare",
                 name == "reference-seconds"
                     ? ": the reference has as many rays as its knob 'rays', so that results repeat"
                     : "");
-    place.check(name != "reference" || !value.is_string() ||
-                    !value.get_ref<const std::string&>().ends_with(".exr"),
-                "wanted a technique, found a file");
+    option = &*found;
+}
+
+/// Returns the value of an option: true for an option without a value, else text or a list of
+/// texts. Each path is seen from the folder of the plan.
+SweepJson read_option(const std::string& name, const SweepJson& value, const fs::path& file,
+                      const fs::path& folder, const SweepPlace& place) {
+    static const std::vector<CompletionOption> kOptions = list_compare_options();
+    const CompletionOption* option = nullptr;
+    check_option_name(name, option, kOptions, place);
+    if (!option->takes_value) {
+        place.check(value == true, "wanted true, because the option has no value, found ",
+                    describe(value));
+        return true;
+    }
     SweepJson list = value.is_array() ? value : SweepJson::array({value});
+    place.check(!list.empty(), "wanted at least one value, found an empty list");
     for (SweepJson& entry : list) {
-        std::string text = make_option_text(entry, place);
+        std::string text = make_value_text(entry, place);
+        place.check(name != "reference" || !text.ends_with(".exr"),
+                    "wanted a technique, found a file");
+        place.check(name != "model" || text != "both", "wanted everything or required, found both");
         if (is_path_option(name, text)) text = make_path_from_plan(text, file, folder);
         entry = text;
     }
     return list.size() == 1 ? list.front() : list;
+}
+
+/// Returns the scenes, in which each path is seen from the folder of the plan.
+std::vector<std::string> read_scenes(const SweepJson& document, const fs::path& file,
+                                     const fs::path& folder, const SweepPlace& place) {
+    std::vector<std::string> scenes;
+    for (const std::string& scene :
+         read_texts(read_list(document, "scenes", place), place.member("scenes"))) {
+        place.member("scenes").check(!scene.starts_with('-'), "wanted a scene, found ",
+                                     quote_text_with_escapes(scene));
+        scenes.push_back(is_built_in_scene(scene) ? scene
+                                                  : make_path_from_plan(scene, file, folder));
+    }
+    return scenes;
+}
+
+std::vector<std::string> read_techniques(const SweepJson& document, const SweepPlace& place) {
+    if (!document.contains("techniques")) return {};
+    const SweepPlace at = place.member("techniques");
+    std::vector<std::string> rows = read_texts(read_list(document, "techniques", place), at);
+    for (const std::string& row : rows) {
+        at.check(!row.starts_with('-'), "wanted a technique, found ", quote_text_with_escapes(row));
+        at.check(!row.starts_with("plan:"),
+                 "wanted the rules of a plan as text, because its file "
+                 "may change, found ",
+                 quote_text_with_escapes(row));
+    }
+    return rows;
+}
+
+/// Throws for more pieces than a plan may have, before any is made.
+void check_piece_count(const SweepRequest& sweep, const SweepPlace& place) {
+    std::uint64_t count = sweep.scenes.size();
+    const auto multiply = [&](std::uint64_t factor) {
+        count = count > kMaxPieceCount ? count : count * factor;
+    };
+    for (const auto& [name, values] : sweep.axes) multiply(values.size());
+    multiply(static_cast<std::uint64_t>(sweep.view_count + sweep.timing_repeats));
+    place.member("axes").check(count <= kMaxPieceCount, "wanted a sweep of at most ",
+                               kMaxPieceCount, " pieces, found more");
 }
 
 SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
@@ -171,14 +230,12 @@ SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
     check_members(document,
                   {"schema", "scenes", "techniques", "knobs", "options", "axes", "views", "timing"},
                   place);
+    place.member("schema").check(
+        !document.contains("schema") || document["schema"] == "catoptric/sweep/1",
+        "wanted catoptric/sweep/1, found ", describe(document.value("schema", SweepJson())));
     SweepRequest sweep;
-    for (std::string& scene :
-         read_texts(read_list(document, "scenes", place), place.member("scenes")))
-        sweep.scenes.push_back(is_built_in_scene(scene) ? scene
-                                                        : make_path_from_plan(scene, file, folder));
-    if (document.contains("techniques"))
-        sweep.techniques = read_texts(read_list(document, "techniques", place),
-                                      place.member("techniques"));
+    sweep.scenes = read_scenes(document, file, folder, place);
+    sweep.techniques = read_techniques(document, place);
     const auto object = [&](const char* member) {
         SweepJson value = document.value(member, SweepJson::object());
         place.member(member).check(value.is_object(), "wanted an object, found ", describe(value));
@@ -188,7 +245,7 @@ SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
     for (const auto& [name, values] : knobs.items()) {
         KnobAxis axis{name, {}};
         for (const SweepJson& value : read_list(knobs, name.c_str(), place.member("knobs")))
-            axis.values.push_back(make_option_text(value, place.member("knobs." + name)));
+            axis.values.push_back(make_value_text(value, place.member("knobs." + name)));
         sweep.knobs.push_back(std::move(axis));
     }
     for (const auto& [name, value] : options.items())
@@ -216,9 +273,15 @@ SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
                                                   place.member("views.cameras-per-instant"));
     sweep.timing_repeats = read_whole_number(timing.value("repeats", SweepJson(1)), 0,
                                              kMaxRepeatCount, place.member("timing.repeats"));
-    const bool seeded = sweep.view_count > 1 &&
-                        (sweep.options.contains("seed") || axes.contains("seed"));
-    place.check(!seeded, "the option 'seed' and 'views': wanted the seed as views.seed");
+    place.member("views").check(sweep.view_count > 1 || views.empty() ||
+                                    (views.size() == 1 && views.contains("count")),
+                                "wanted a count of at least 6 beside other members");
+    if (sweep.view_count > 1) {
+        place.check(!sweep.options.contains("seed") && !axes.contains("seed"),
+                    "the option 'seed' and 'views': wanted the seed as views.seed");
+        sweep.options["seed"] = std::to_string(sweep.view_seed);
+    }
+    check_piece_count(sweep, place);
     return sweep;
 }
 
@@ -263,7 +326,6 @@ void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
     if (sweep.view_count == 1) {
         pieces.push_back(make_piece(content));
     } else {
-        request.base.seed = static_cast<std::uint64_t>(sweep.view_seed);
         std::size_t index = 0;
         for (const measure::View& view :
              app::draw_random_views(request.base, static_cast<int>(sweep.view_count),
@@ -278,18 +340,45 @@ void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
         timing["repeat"] = repeat;
         pieces.push_back(make_piece(timing));
     }
-    catoptric::check(pieces.size() <= kMaxPieceCount, Failure::bad_data,
-                     "wanted a sweep of at most ", kMaxPieceCount, " pieces");
 }
 
-/// Returns the first picture piece of each scene.
+/// Returns the first picture piece of each scene on each device that the options name.
 std::vector<std::size_t> list_common_pieces(const std::vector<SweepPiece>& pieces) {
     std::vector<std::size_t> common;
-    std::set<std::string> scenes;
+    std::set<SweepJson> known;
     for (std::size_t i = 0; i < pieces.size(); ++i)
-        if (!pieces[i].is_timing() && scenes.insert(pieces[i].content["scene"]).second)
+        if (!pieces[i].is_timing() &&
+            known
+                .insert(SweepJson::array(
+                    {pieces[i].content["scene"], find_device_options(pieces[i].content)}))
+                .second)
             common.push_back(i);
     return common;
+}
+
+/// Throws `std::logic_error`, or an exception of the JSON library, unless a piece has all members.
+void check_piece_members(const SweepJson& content) {
+    const auto require = [](bool ok, const char* what) {
+        if (!ok) throw std::logic_error(std::string("a piece without ") + what);
+    };
+    const bool is_timing = content.at("kind") == "timing";
+    require(is_timing || content.at("kind") == "picture", "the kind picture or timing");
+    require(content.at("scene").is_string() && content.at("scene_hash").is_string(), "a scene");
+    const auto is_text = [](const SweepJson& value) { return value.is_string(); };
+    require(content.at("techniques").is_array() && !content["techniques"].empty() &&
+                std::ranges::all_of(content["techniques"], is_text),
+            "techniques");
+    require(content.at("options").is_object(), "options");
+    for (const auto& [name, value] : content["options"].items())
+        require(value == true || value.is_string() ||
+                    (value.is_array() && std::ranges::all_of(value, is_text)),
+                "valid options");
+    if (is_timing)
+        return require(content.at("repeat").is_number_unsigned(), "the number of a repeat");
+    const SweepJson& view = content.at("view");
+    require(view.is_null() || (view.at("index").is_number_unsigned() &&
+                               view.at("seed").is_number_unsigned() && view.at("time").is_number()),
+            "a view");
 }
 
 fs::path find_plan_file(const fs::path& folder) { return folder / "plan.json"; }
@@ -305,6 +394,12 @@ std::string compute_sha256(const std::string& text) {
     return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
+SweepJson find_device_options(const SweepJson& content) {
+    const SweepJson& options = content.at("options");
+    return SweepJson::array(
+        {options.value("device", SweepJson()), options.value("device-profile", SweepJson())});
+}
+
 std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                                                      const fs::path& folder) {
     const auto scene = content.at("scene").get<std::string>();
@@ -313,11 +408,11 @@ std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
     for (const auto& [name, value] : content.at("options").items()) {
         const SweepJson list = value.is_array() ? value : SweepJson::array({value});
         for (const SweepJson& entry : list) {
-            auto text = entry.get<std::string>();
-            if (text == "true" || text == "false") {
-                if (text == "true") words.push_back("--" + name);
+            if (entry.is_boolean()) {
+                words.push_back("--" + name);
                 continue;
             }
+            auto text = entry.get<std::string>();
             if (is_path_option(name, text)) text = make_path_from_here(text, folder);
             words.push_back(fmt::format("--{}={}", name, text));
         }
@@ -379,11 +474,15 @@ SweepPlan read_sweep_plan(const fs::path& folder) {
         plan.common = document.at("common").get<std::vector<std::size_t>>();
         for (const auto& entry : document.at("pieces")) {
             plan.pieces.push_back(make_piece(entry.at("piece").get<SweepJson>()));
+            check_piece_members(plan.pieces.back().content);
             check(plan.pieces.back().id == entry.at("id"), Failure::bad_data, file.string(),
                   ": piece ", entry.at("id").dump(), " was changed: its content has the id ",
                   plan.pieces.back().id);
         }
-        for (const std::size_t index : plan.common) plan.pieces.at(index);
+        for (const std::size_t index : plan.common)
+            if (plan.pieces.at(index).is_timing())
+                throw std::logic_error("a common piece that is no picture piece");
+        if (plan.pieces.empty()) throw std::logic_error("a plan without pieces");
     } catch (const std::logic_error& error) {
         fail(Failure::bad_data, file.string(), ": ", error.what());
     } catch (const SweepJson::exception& error) {
@@ -396,18 +495,67 @@ fs::path find_sweep_result_file(const fs::path& folder, const std::string& id) {
     return folder / "results" / (id + ".json");
 }
 
+void check_sweep_result(const SweepJson& result, const SweepPiece& piece,
+                        const std::string& place) {
+    const auto require = [&](bool ok, const std::string& what) {
+        check(ok, Failure::bad_data, place, ": wanted the result of piece ", piece.id, " with ",
+              what, ", found another document");
+    };
+    const auto is_number = [](const SweepJson& value) {
+        return value.is_number() || value.is_null();
+    };
+    require(result.is_object() && result.value("schema", SweepJson()) == kResultSchema,
+            "the schema " + std::string(kResultSchema));
+    require(result.value("piece", SweepJson()) == piece.content, "its content");
+    const SweepJson identity = result.value("identity", SweepJson()),
+                    rows = result.value("rows", SweepJson());
+    require(identity.is_object() && identity.value("device", SweepJson()).is_string(),
+            "an identity");
+    require(rows.is_array() && rows.size() == piece.content["techniques"].size(),
+            "a row for each technique");
+    require(!piece.is_timing() || result.value("machine", SweepJson()).is_string(), "a machine");
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SweepJson& row = rows[i];
+        const std::string what = "rows[" + std::to_string(i) + "]: ";
+        require(row.is_object() &&
+                    row.value("label", SweepJson()) == piece.content["techniques"][i],
+                what + "the label of its technique");
+        if (piece.is_timing()) {
+            const SweepJson rounds = row.value("rounds", SweepJson());
+            require(rounds.is_array() && !rounds.empty() &&
+                        std::ranges::all_of(
+                            rounds, [](const SweepJson& round) { return round.is_number(); }) &&
+                        is_number(row.value("ms", SweepJson("none"))) &&
+                        row.value("noisy", SweepJson()).is_boolean(),
+                    what + "times");
+            continue;
+        }
+        const SweepJson error = row.value("error", SweepJson());
+        require(error.is_object(), what + "errors");
+        for (const std::string& metric : list_sweep_metrics())
+            require(error.contains(metric) && is_number(error[metric]),
+                    what + "a number or null as " + metric);
+    }
+}
+
+std::vector<std::string> list_sweep_metrics() {
+    std::vector<std::string> names;
+    for (const measure::Metric& metric : measure::list_difference_metrics()) {
+        const bool is_count = metric.name == "pixels" || metric.name == "nonfinite";
+        // The signal-to-noise ratio is infinite without an error, and follows from the RMSE.
+        if (!is_count && metric.name != "psnr" && measure::is_scalar_metric(metric))
+            names.emplace_back(metric.name);
+    }
+    return names;
+}
+
 std::optional<SweepJson> read_sweep_result(const fs::path& folder, const SweepPiece& piece) {
     const fs::path file = find_sweep_result_file(folder, piece.id);
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return std::nullopt;
     auto result = parse_json<SweepJson>(
         file.string(), read_json_text(file, "the result of a piece", kMaxResultBytes));
-    const bool fits = result.is_object() && result.value("piece", SweepJson()) == piece.content &&
-                      result.value("identity", SweepJson()).is_object() &&
-                      result.value("rows", SweepJson()).is_array() &&
-                      result["rows"].size() == piece.content["techniques"].size();
-    check(fits, Failure::bad_data, file.string(), ": wanted the result of piece ", piece.id,
-          ", found another document");
+    check_sweep_result(result, piece, file.string());
     return result;
 }
 

@@ -29,8 +29,8 @@ struct SweepPiece {
 struct SweepPlan {
     nlohmann::ordered_json sweep;   ///< content of the sweep's file
     std::vector<SweepPiece> pieces; ///< in the order of scenes, axes and views
-    /// Places in `pieces` of the picture pieces that each kind of machine renders, so that `merge`
-    /// can compare pictures of different machines. One for each scene.
+    /// Places in `pieces` of the picture pieces that each identity renders, so that `merge` can
+    /// compare their pictures. One for each scene on each device that the options name.
     std::vector<std::size_t> common;
 };
 
@@ -45,6 +45,8 @@ void write_sweep_plan(const SweepPlan& plan, const std::filesystem::path& folder
 /// whose content does not have its id.
 SweepPlan read_sweep_plan(const std::filesystem::path& folder);
 
+/// Returns the options of a piece that choose its device and the device's profile.
+SweepJson find_device_options(const SweepJson& content);
 /// Returns the words of `catoptric compare` for a piece, without its view.
 std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                                                      const std::filesystem::path& folder);
@@ -56,6 +58,13 @@ std::filesystem::path find_sweep_result_file(const std::filesystem::path& folder
 /// is not the result of this piece.
 std::optional<SweepJson> read_sweep_result(const std::filesystem::path& folder,
                                            const SweepPiece& piece);
+
+inline constexpr const char* kResultSchema = "catoptric/sweep-result/1";
+/// Throws `bad_data`, beginning with `place`, unless the document is a result of this piece with
+/// all members that are merged.
+void check_sweep_result(const SweepJson& result, const SweepPiece& piece, const std::string& place);
+/// Returns the metrics of a row over its mirrors that results must have and that are merged.
+std::vector<std::string> list_sweep_metrics();
 
 /// Returns the SHA-256 of a text, in hexadecimal.
 std::string compute_sha256(const std::string& text);

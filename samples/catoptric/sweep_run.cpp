@@ -3,6 +3,7 @@
 #include "compare_words.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
+#include "core/text.hpp"
 #include "progress.hpp"
 #include "report/json.hpp"
 #include "report/writer.hpp"
@@ -31,6 +32,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kShortIdCharacters = 12; // of ids in messages
+
 std::string read_host_name() {
     char name[256] = {};
     return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
@@ -39,15 +42,12 @@ std::string read_host_name() {
 /// Returns what decides the bits of a picture: program, driver and processor.
 SweepJson make_identity(const app::Engine& engine) {
     const measure::DeviceFacts device = app::make_device_facts(engine);
-    SweepJson variants = SweepJson::object();
-    for (const auto& [name, choice] : device.variants) variants[name] = choice;
     const bool on_processor = device.type == "cpu";
     return {{"version", app::version()},
             {"commit", app::commit()},
             {"device", device.name},
             {"driver", device.driver},
             {"lanes", device.lanes},
-            {"variants", variants},
             {"processor", on_processor ? SweepJson(app::read_processor_name()) : SweepJson()}};
 }
 
@@ -57,7 +57,7 @@ SweepJson sort_members(const report::Json& json) { return SweepJson::parse(json.
 std::string describe_piece(const SweepPiece& piece) {
     const SweepJson& content = piece.content;
     const auto scene = content["scene"].get<std::string>();
-    const std::string id = piece.id.substr(0, 12);
+    const std::string id = piece.id.substr(0, kShortIdCharacters);
     if (piece.is_timing())
         return fmt::format("piece {}: times of {}, repeat {}", id, scene,
                            content["repeat"].get<int>());
@@ -86,50 +86,74 @@ public:
         const std::vector<std::size_t> places = list_pieces_to_run();
         SweepRunCounts counts;
         std::optional<Error> first_failure;
+        std::size_t failures = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const SweepPiece& piece = plan_.pieces[places[i]];
             throw_if_stopped(watcher_);
             try {
-                run_one(piece, places[i], i, places.size(), counts);
+                run_one(piece, places[i], places.size() - i, counts);
             } catch (const Error& error) {
                 const std::string what = describe_piece(piece) + ": " + error.what();
-                if (is_failure_by_stop_signal(error.failure) ||
-                    error.failure == Failure::device_lost || places.size() == 1)
+                if (ends_all_pieces(error.failure) || places.size() == 1)
                     throw_error(error.failure, what);
                 progress_.clear();
                 print_message(what);
                 if (!first_failure) first_failure = Error(error.failure, what);
+                ++failures;
             }
         }
         progress_.clear();
+        if (engine_ && is_validated_) engine_->check_validation();
         if (first_failure)
             throw_error(first_failure->failure,
-                        std::string("pieces failed; the first: ") + first_failure->what());
+                        fmt::format("{} of {} pieces failed; the first: {}", failures,
+                                    places.size(), first_failure->what()));
         return counts;
     }
 
 private:
+    /// Returns whether the pieces that follow would fail as well.
+    static bool ends_all_pieces(Failure failure) {
+        return is_failure_by_stop_signal(failure) || failure == Failure::device_lost ||
+               failure == Failure::no_device || failure == Failure::cannot_create ||
+               failure == Failure::io || failure == Failure::internal;
+    }
+
     /// Returns the places of the pieces to run: pictures before times, in the order of the plan.
     std::vector<std::size_t> list_pieces_to_run() const {
         using PieceKinds = SweepRunOptions::PieceKinds;
+        const std::vector<std::string> ids = find_whole_ids();
         std::vector<std::size_t> places;
         for (const bool timing : {false, true}) {
             if (options_.kinds == (timing ? PieceKinds::pictures : PieceKinds::timings)) continue;
             for (std::size_t i = 0; i < plan_.pieces.size(); ++i)
                 if (plan_.pieces[i].is_timing() == timing &&
-                    (options_.pieces.empty() ||
-                     std::ranges::find(options_.pieces, plan_.pieces[i].id) !=
-                         options_.pieces.end()))
+                    (ids.empty() || std::ranges::find(ids, plan_.pieces[i].id) != ids.end()))
                     places.push_back(i);
         }
-        for (const std::string& id : options_.pieces)
-            check(std::ranges::find(plan_.pieces, id, &SweepPiece::id) != plan_.pieces.end(),
-                  Failure::usage, "--piece: wanted the id of a piece in ",
-                  (folder_ / "plan.json").string(), ", found '", id, "'");
         return places;
     }
 
-    void run_one(const SweepPiece& piece, std::size_t place, std::size_t number, std::size_t count,
+    /// Returns the ids of the named pieces. A name may be the beginning of an id, as messages give
+    /// it.
+    std::vector<std::string> find_whole_ids() const {
+        std::vector<std::string> ids;
+        for (const std::string& name : options_.pieces) {
+            std::size_t found = 0;
+            for (const SweepPiece& piece : plan_.pieces)
+                if (name.size() >= kShortIdCharacters && piece.id.starts_with(name)) {
+                    ids.push_back(piece.id);
+                    ++found;
+                }
+            check(found == 1, Failure::usage, "--piece: wanted the id of a piece in ",
+                  (folder_ / "plan.json").string(), ", or its first ", kShortIdCharacters,
+                  " characters, found ", quote_text_with_escapes(name));
+        }
+        return ids;
+    }
+
+    /// `left`: number of pieces from this one on, of which some may be finished.
+    void run_one(const SweepPiece& piece, std::size_t place, std::size_t left,
                  SweepRunCounts& counts) {
         if (read_sweep_result(folder_, piece)) {
             ++counts.finished_before;
@@ -146,7 +170,8 @@ private:
             if (read_sweep_result(folder_, piece)) { // finished while this process waited
                 ++counts.finished_before;
             } else {
-                progress_.row(describe_piece(piece), number, count);
+                progress_.row(describe_piece(piece), counts.run, counts.run + left);
+                progress_.frame(0, 1);
                 print_detail_if_verbose(options_.manners, "begun: " + piece.id);
                 write_result(piece,
                              piece.is_timing() ? measure_times(piece) : measure_errors(piece));
@@ -166,9 +191,10 @@ private:
     }
 
     void write_result(const SweepPiece& piece, SweepJson result) const {
-        result["schema"] = "catoptric/sweep-result/1";
+        result["schema"] = kResultSchema;
         result["piece"] = piece.content;
         result["identity"] = identity_;
+        check_sweep_result(result, piece, "this program");
         write_file(find_sweep_result_file(folder_, piece.id), result.dump(1) + "\n");
     }
 
@@ -177,12 +203,14 @@ private:
         const SweepJson key{device.name, device.profile, device.validate};
         if (engine_ && key == engine_key_) return *engine_;
         scene_ = {};
+        if (engine_ && is_validated_) engine_->check_validation();
         engine_.reset();
         engine_ = std::make_unique<app::Engine>(make_engine_options(device));
         engine_key_ = key;
+        is_validated_ = device.validate;
         print_device_and_warnings(*engine_, options_.manners);
         identity_ = make_identity(*engine_);
-        has_common_pictures_ = false;
+        has_drawn_common_pictures_ = false;
         return *engine_;
     }
 
@@ -200,11 +228,11 @@ private:
         CompareWords words = parse_compare_words(make_compare_words_of_piece(key, folder_));
         check_scene_unchanged(piece, words.request.base.scene);
         app::Engine& engine = prepare_engine(words.device);
-        scene_.session.reset();
-        scene_.request = std::move(words.request);
-        scene_.session = std::make_unique<app::Session>(engine, scene_.request.base.scene);
-        app::resolve_auto_exposure(*scene_.session, scene_.request.base);
-        scene_.key = key;
+        scene_ = {}; // frees the memory of the last scene, and stays empty if this one fails
+        SweepScene scene{key, std::move(words.request), nullptr};
+        scene.session = std::make_unique<app::Session>(engine, scene.request.base.scene);
+        app::resolve_auto_exposure(*scene.session, scene.request.base);
+        scene_ = std::move(scene);
         return scene_;
     }
 
@@ -237,19 +265,17 @@ private:
     /// Draws the common pieces whose pictures this kind of machine has not drawn yet. Any result
     /// then has such pictures beside it.
     void draw_common_pictures() {
-        if (has_common_pictures_) return;
-        has_common_pictures_ = true;
+        if (has_drawn_common_pictures_) return;
+        has_drawn_common_pictures_ = true;
+        const SweepJson device = find_device_options(scene_.key);
         for (const std::size_t place : plan_.common) {
             const SweepPiece& piece = plan_.pieces[place];
-            std::error_code ignored;
-            if (fs::exists(find_common_picture_folder(folder_, identity_, piece.id), ignored))
+            if (has_common_pictures(piece) || find_device_options(piece.content) != device)
                 continue;
             try {
                 judge_rows(piece);
             } catch (const Error& error) {
-                if (is_failure_by_stop_signal(error.failure) ||
-                    error.failure == Failure::device_lost)
-                    throw;
+                if (ends_all_pieces(error.failure)) throw;
                 print_detail_if_verbose(options_.manners,
                                         describe_piece(piece) +
                                             ": no common pictures: " + error.what());
@@ -303,14 +329,42 @@ private:
             plan_.common, [&](std::size_t place) { return plan_.pieces[place].id == piece.id; });
     }
 
+    bool has_common_pictures(const SweepPiece& piece) const {
+        std::error_code ignored;
+        return fs::exists(find_common_picture_folder(folder_, identity_, piece.id) /
+                              kCommonPicturesListFile,
+                          ignored);
+    }
+
+    /// Writes a picture for each row that has one, and last the list of them. Processes of one
+    /// identity would write the same files, so only one of them writes at a time.
     void write_common_pictures(const SweepPiece& piece,
                                const report::Comparison& comparison) const {
+        const std::size_t place = plan_.pieces.size() +
+                                  static_cast<std::size_t>(&piece - plan_.pieces.data());
+        while (!locks_.try_lock(place)) wait_for_other_process();
+        try {
+            if (!has_common_pictures(piece)) write_common_picture_files(piece, comparison);
+        } catch (...) {
+            locks_.unlock(place);
+            throw;
+        }
+        locks_.unlock(place);
+    }
+
+    void write_common_picture_files(const SweepPiece& piece,
+                                    const report::Comparison& comparison) const {
         const fs::path folder = find_common_picture_folder(folder_, identity_, piece.id);
         report::create_folder(folder);
-        for (std::size_t i = 0; i < comparison.rows.size(); ++i)
-            if (const auto& worst = comparison.rows[i].worst)
-                measure::write_png(worst->display, folder / fmt::format("{}.png", i));
         write_file(folder.parent_path() / "identity.json", identity_.dump(1) + "\n");
+        SweepJson names = SweepJson::array();
+        for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+            const auto& worst = comparison.rows[i].worst;
+            if (!worst) continue; // the view shows no mirror
+            names.push_back(fmt::format("{}.png", i));
+            measure::write_png(worst->display, folder / names.back().get<std::string>());
+        }
+        write_file(folder / kCommonPicturesListFile, names.dump() + "\n");
     }
 
     fs::path folder_;
@@ -321,9 +375,10 @@ private:
     app::Watcher watcher_;
     std::unique_ptr<app::Engine> engine_;
     SweepJson engine_key_;
-    SweepJson identity_;               ///< of the engine
-    bool has_common_pictures_ = false; ///< whether the engine has drawn them
-    SweepScene scene_;                 ///< destroyed before the engine
+    SweepJson identity_;                     ///< of the engine
+    bool has_drawn_common_pictures_ = false; ///< whether the engine has tried
+    bool is_validated_ = false;              ///< whether the engine reports validation messages
+    SweepScene scene_;                       ///< destroyed before the engine
 };
 
 } // namespace

@@ -27,12 +27,15 @@ struct SweepRunCounts {
 /// processes may share a folder. A process that is killed loses the piece in work. Times are
 /// measured by one process of this user and machine at a time, while no other draws pictures. With
 /// named pieces the function waits for pieces in work elsewhere; otherwise it leaves them out. A
-/// piece that fails is reported, and the others are run before its error is thrown. Throws `usage`
-/// for an unknown id, and `bad_data` for a scene that changed after planning.
+/// piece that fails is reported, and the others are run before its error is thrown, unless they
+/// would fail as well (no device, no place to write). Throws `usage` for an unknown id, and
+/// `bad_data` for a scene that changed after planning.
 SweepRunCounts run_sweep_pieces(const std::filesystem::path& folder, const SweepPlan& plan,
                                 const SweepRunOptions& options);
 
-/// Returns the folder with the pictures that a kind of machine drew for a common piece.
+/// File that lists the pictures of a common piece. It is written last.
+inline constexpr const char* kCommonPicturesListFile = "pictures.json";
+/// Returns the folder with the pictures that an identity drew for a common piece.
 std::filesystem::path find_common_picture_folder(const std::filesystem::path& folder,
                                                  const SweepJson& identity,
                                                  const std::string& piece_id);

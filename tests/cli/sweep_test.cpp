@@ -58,7 +58,7 @@ TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
     json sweep = make_small_sweep();
     sweep["scenes"] = {"cornell-mirrors", "room"};
     plan_run_and_merge(sweep, "sweep", "merged");
-    const json merged = read_output_json("merged/sweep.json");
+    const json merged = read_output_json("merged/merged.json");
     ASSERT_EQ(merged["groups"].size(), 2u);
     for (const json& group : merged["groups"]) {
         const test::ProcessResult ended = run_cli(
@@ -88,6 +88,44 @@ TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
     EXPECT_THAT(table, testing::HasSubstr("scene,view,seed,time,label,"));
 }
 
+// The seed of views is also that of the patterns of rays, as by compare.
+TEST_F(Sweep, ErrorsOfRowsWithNoiseEqualThoseOfCompare) {
+    json sweep = make_small_sweep();
+    const std::string mirror = "ball*=.9,roughness=.3", row = "raytrace:rays=2,first=raster",
+                      reference = "raytrace:depth=4,rays=4";
+    sweep["techniques"] = {row};
+    sweep["options"]["mirror"] = mirror, sweep["options"]["reference"] = reference;
+    plan_run_and_merge(sweep, "sweep", "merged");
+    const test::ProcessResult ended = run_cli({"compare",
+                                               "-o",
+                                               "out",
+                                               "--size",
+                                               "32x32",
+                                               "--frames",
+                                               "2",
+                                               "--warmup",
+                                               "1",
+                                               "--views",
+                                               "6",
+                                               "--seed",
+                                               "3",
+                                               "--reference-seconds",
+                                               "0",
+                                               "--mirror",
+                                               mirror,
+                                               "--reference",
+                                               reference,
+                                               "--json",
+                                               "--techniques",
+                                               row});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json compared = json::parse(ended.out), merged = read_output_json("merged/merged.json");
+    EXPECT_EQ(merged["groups"][0]["rows"][0]["error"]["flip"]["median"],
+              compared["rows"][0]["views"]["error"]["flip"]["median"]);
+    EXPECT_EQ(merged["groups"][0]["rows"][0]["error"]["mae"]["median"],
+              compared["rows"][0]["views"]["error"]["mae"]["median"]);
+}
+
 // The id of a piece can be computed by any program, from its content alone.
 TEST_F(Sweep, PieceIdsAreTheSha256OfTheirContent) {
     ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
@@ -111,7 +149,7 @@ TEST_F(Sweep, AxesMultiplyAndReachThePictures) {
     sweep["options"]["reference"] = "raytrace:depth=4,rays=16";
     sweep.erase("views");
     plan_run_and_merge(sweep, "sweep", "merged");
-    const json groups = read_output_json("merged/sweep.json")["groups"];
+    const json groups = read_output_json("merged/merged.json")["groups"];
     ASSERT_EQ(groups.size(), 4u);
     std::set<double> errors;
     for (const json& group : groups) {
@@ -123,7 +161,8 @@ TEST_F(Sweep, AxesMultiplyAndReachThePictures) {
         }
     }
     EXPECT_EQ(errors.size(), 8u) << "each value of each axis changes the error";
-    EXPECT_THAT(read_output_file("merged/summary.csv"), testing::StartsWith("scene,mirror,size,"));
+    EXPECT_THAT(read_output_file("merged/summary.csv"),
+                testing::StartsWith("scene,option_mirror,option_size,"));
 }
 
 /// Workers that are killed again and again must leave what one undisturbed process writes. Each
@@ -164,7 +203,7 @@ TEST_F(Sweep, KilledWorkersLoseAtMostThePieceInWork) {
     EXPECT_LE(started, 12u + 2 * kKillsOfEachWorker);
     expect_success({"sweep", "check", "shared"});
     expect_success({"sweep", "merge", "shared", "-o", "merged-shared", "--quiet"});
-    for (const char* name : {"sweep.json", "errors.csv", "summary.csv"})
+    for (const char* name : {"merged.json", "errors.csv", "summary.csv"})
         EXPECT_EQ(read_output_file(std::string("merged-shared/") + name),
                   read_output_file(std::string("merged-whole/") + name))
             << name;
@@ -203,6 +242,69 @@ TEST_F(Sweep, CheckNamesMissingBrokenAndUnknownResults) {
     expect_success({"sweep", "run", "sweep", "--quiet", "--piece", ids[1]});
 }
 
+/// Documents of the right kind with a wrong member must be named by file, and never be merged.
+TEST_F(Sweep, ResultsWithWrongMembersAreBroken) {
+    json sweep = make_small_sweep();
+    sweep.erase("views");
+    sweep["timing"]["repeats"] = 1, sweep["options"]["frames"] = 6;
+    plan_run_and_merge(sweep, "sweep", "merged");
+    const std::vector<std::string> ids = list_piece_ids("sweep");
+    ASSERT_EQ(ids.size(), 2u);
+    const auto refuse = [&](std::size_t piece, const std::function<void(json&)>& change,
+                            const std::string& part) {
+        const std::string file = "sweep/results/" + ids[piece] + ".json",
+                          good = read_output_file(file);
+        json result = json::parse(good);
+        change(result);
+        write_input_file(file, result.dump());
+        expect_usage_refused({"sweep", "merge", "sweep", "-o", "x"}, 65, {"2 pieces, found 1"});
+        EXPECT_THAT(run_cli({"sweep", "check", "sweep"}).out,
+                    testing::AllOf(testing::HasSubstr(ids[piece] + ".json"),
+                                   testing::HasSubstr(part), testing::HasSubstr("delete")));
+        write_input_file(file, good);
+    };
+    refuse(
+        0, [](json& r) { r = 3; }, "wanted the result of piece");
+    refuse(
+        0, [](json& r) { r["schema"] = "x"; }, "sweep-result/1");
+    refuse(
+        0, [](json& r) { r["rows"][0] = 3; }, "rows[0]: the label");
+    refuse(
+        0, [](json& r) { std::swap(r["rows"][0], r["rows"][1]); }, "rows[0]: the label");
+    refuse(
+        0, [](json& r) { r["rows"][1].erase("error"); }, "rows[1]: errors");
+    refuse(
+        0, [](json& r) { r["rows"][1]["error"]["flip"] = "none"; }, "a number or null as flip");
+    refuse(
+        0, [](json& r) { r["rows"][1]["error"].erase("mae"); }, "a number or null as mae");
+    refuse(
+        0, [](json& r) { r["identity"]["device"] = 5; }, "an identity");
+    refuse(
+        1, [](json& r) { r["machine"] = 5; }, "a machine");
+    refuse(
+        1, [](json& r) { r["rows"][0]["rounds"] = nullptr; }, "rows[0]: times");
+    refuse(
+        1, [](json& r) { r["rows"][0]["noisy"] = 1; }, "rows[0]: times");
+    expect_success({"sweep", "merge", "sweep", "-o", "again", "--quiet"});
+    EXPECT_EQ(read_output_file("again/merged.json"), read_output_file("merged/merged.json"));
+    // A plan whose pieces lack a member, or that has none.
+    const json plan = read_output_json("sweep/plan.json");
+    json empty = plan;
+    empty["pieces"] = json::array(), empty["common"] = json::array();
+    write_input_file("sweep/plan.json", empty.dump());
+    expect_usage_refused({"sweep", "merge", "sweep", "-o", "x"}, 65, {"plan without pieces"});
+    for (const char* member : {"kind", "scene", "scene_hash", "options", "techniques", "view"}) {
+        json changed = plan;
+        changed["pieces"][0]["piece"].erase(member);
+        write_input_file("piece.json", changed["pieces"][0]["piece"].dump());
+        changed["pieces"][0]["id"] =
+            test::run_process({.command = {"/usr/bin/sha256sum", (folder / "piece.json").string()}})
+                .out.substr(0, 64);
+        write_input_file("sweep/plan.json", changed.dump());
+        expect_usage_refused({"sweep", "check", "sweep"}, 65, {"plan.json", member});
+    }
+}
+
 TEST_F(Sweep, FinishedPieceEndsAtOnceWithoutADevice) {
     ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
     const std::vector<std::string> ids = list_piece_ids("sweep");
@@ -236,17 +338,27 @@ TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
     expect_usage_refused({"sweep", "merge", "sweep", "-o", "merged"}, 65,
-                         {"2 kinds of machines", "lanes: '4', '8'", "--across-identities"});
+                         {"2 identities", "lanes: 4, 8", "--across-identities"});
     EXPECT_FALSE(std::filesystem::exists(folder / "merged"));
     const test::ProcessResult ended = run_cli(
         {"sweep", "merge", "sweep", "-o", "merged", "--across-identities"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("differ by more than 1/255"));
-    const json merged = read_output_json("merged/sweep.json");
+    const json merged = read_output_json("merged/merged.json");
     EXPECT_EQ(merged["identities"].size(), 2u);
     const json& difference = merged["identity_difference"];
-    EXPECT_EQ(difference["pixels"], 2 * 2 * 32 * 32) << "two rows and their references";
+    EXPECT_EQ(difference["pixels"], 3 * 32 * 32) << "two rows and the reference";
     EXPECT_LE(difference["share"].get<double>(), .005);
+    // Pictures count only if their list is there, which is written last.
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "sweep/common"))
+        if (entry.path().filename() == "pictures.json") {
+            const std::string list = read_file_at_path(entry.path());
+            std::filesystem::remove(entry.path());
+            expect_usage_refused({"sweep", "merge", "sweep", "-o", "x", "--across-identities"}, 65,
+                                 {"no common picture", "lanes: 4, 8"});
+            std::ofstream(entry.path()) << list;
+            break;
+        }
     // A picture that was changed must be found.
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "sweep/common"))
         if (entry.path().filename() == "0.png") {
@@ -255,7 +367,7 @@ TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
             break;
         }
     expect_success({"sweep", "merge", "sweep", "-o", "changed", "--across-identities"});
-    EXPECT_GT(read_output_json("changed/sweep.json")["identity_difference"]["share"].get<double>(),
+    EXPECT_GT(read_output_json("changed/merged.json")["identity_difference"]["share"].get<double>(),
               .1);
 }
 
@@ -281,7 +393,7 @@ TEST_F(Sweep, TimesAreMergedByMachineAndLeaveOtherFilesAsTheyAre) {
         EXPECT_GT(rounds.front(), 0);
     }
     EXPECT_THAT(read_output_file("merged-both/times.csv"),
-                testing::HasSubstr("scene,label,machine,device,ms,"));
+                testing::HasSubstr("scene,label,machine,device,driver,commit,ms,"));
 }
 
 TEST_F(Sweep, ChangedSceneAndChangedPlanAreRefused) {
@@ -319,7 +431,25 @@ TEST_F(Sweep, RefusalsNameTheMember) {
     refuse([](json& s) { s["scenes"] = {"none.glb"}; }, 66, {"none.glb"});
     refuse([](json& s) { s["techniques"] = {"mirrored"}; }, 2, {"mirrored"});
     refuse([](json& s) { s["knobs"] = {{"hue", {1, 2}}}; }, 2, {"hue"});
-    refuse([](json& s) { s["options"]["siez"] = "1x1"; }, 2, {"--siez", "--size"});
+    refuse([](json& s) { s["techniques"] = {"--"}; }, 65, {"wanted a technique, found '--'"});
+    refuse([](json& s) { s["techniques"] = {"plan:p.json"}; }, 65, {"rules of a plan as text"});
+    refuse([](json& s) { s["scenes"] = {"--version"}; }, 65, {"wanted a scene"});
+    refuse([](json& s) { s["schema"] = 5; }, 65, {"schema", "catoptric/sweep/1, found '5'"});
+    refuse([](json& s) { s["options"]["siez"] = "1x1"; }, 65,
+           {"options.siez", "'compare' has no option '--siez'"});
+    refuse([](json& s) { s["options"]["version"] = true; }, 65, {"options.version"});
+    refuse([](json& s) { s["options"]["size"] = false; }, 65, {"text or a number, found 'false'"});
+    refuse([](json& s) { s["options"]["animate"] = false; }, 65, {"wanted true", "'false'"});
+    refuse([](json& s) { s["options"]["mirror"] = json::array(); }, 65, {"an empty list"});
+    refuse([](json& s) { s["options"]["model"] = "both"; }, 65, {"found both"});
+    refuse([](json& s) { s["options"]["reference"] = {"x.exr"}; }, 65, {"found a file"});
+    refuse([](json& s) { s["views"] = {{"seed", 7}}; }, 65, {"views", "count of at least 6"});
+    refuse(
+        [](json& s) {
+            for (const char* name : {"exposure", "ambient", "time", "environment-scale"})
+                for (int i = 0; i < 60; ++i) s["axes"][name].push_back(i);
+        },
+        65, {"axes: wanted a sweep of at most 1000000 pieces"});
     refuse([](json& s) { s["options"]["output"] = "x"; }, 65,
            {"sweep.json.options.output", "cannot set this option"});
     refuse([](json& s) { s["options"]["views"] = 6; }, 65, {"options.views"});
@@ -340,6 +470,10 @@ TEST_F(Sweep, RefusalsNameTheMember) {
     expect_usage_refused({"sweep", "walk", "nowhere"}, 2, {"plan", "walk"});
     ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
     expect_usage_refused({"sweep", "run", "sweep", "--piece", "0123"}, 2, {"--piece", "'0123'"});
+    expect_usage_refused({"sweep", "check", "sweep", "--kind", "timings"}, 2, {"--kind"});
+    const std::string id = list_piece_ids("sweep").front();
+    expect_usage_refused({"sweep", "run", "sweep", "--piece", id, "--kind", "timings"}, 2,
+                         {"wanted no --kind"});
     expect_usage_refused({"sweep", "check", "sweep", "--piece", "0123"}, 2, {"--piece"});
 }
 

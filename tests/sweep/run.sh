@@ -27,12 +27,15 @@ done
 killed=$(pgrep -f "^$catoptric sweep run shared" | head -n 1) || die "found no program to kill: $(cat first.log)"
 kill -KILL "$killed"
 ! wait "$snakemake" || die "wanted a failure of the job that was killed"
-[[ ! -e shared-merged/sweep.json ]] || die "merged although a job was killed"
+[[ ! -e shared-merged/merged.json ]] || die "merged although a job was killed"
 run --rerun-incomplete >second.log 2>&1 || die "the second run failed: $(cat second.log)"
-for file in sweep.json errors.csv summary.csv; do
+for file in merged.json errors.csv summary.csv; do
     cmp "single-merged/$file" "shared-merged/$file" || die "$file differs from that of a single process"
 done
 [[ -s shared-merged/times.csv ]] || die "found no times"
 run >third.log 2>&1 || die "the third run failed"
 grep -q 'Nothing to be done' third.log || die "a third run had work to do: $(cat third.log)"
+rm "$(ls shared/results/*.json | head -n 1)" shared-merged/merged.json
+run >fourth.log 2>&1 || die "a deleted result was not made again: $(cat fourth.log)"
+cmp single-merged/merged.json shared-merged/merged.json || die "merged.json differs after a deleted result"
 echo "sweep: 42 pieces by Snakemake, one job killed: same bytes as a single process"
