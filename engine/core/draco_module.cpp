@@ -11,7 +11,8 @@ constexpr Module kDracoModule{
     .address_space = std::size_t{32} << 20,
     .library = "Draco",
     .without = "meshes compressed by Draco cannot be read",
-    .requirement = "It comes with catoptric and wants Draco 1.5 (Debian: libdraco7)",
+    .requirement =
+        "this module comes with catoptric and wants Draco 1.5: apt-get install libdraco7",
     .symbol = kDracoCodecSymbol};
 
 } // namespace

@@ -11,7 +11,8 @@ constexpr Module kImageModule{
     .address_space = std::size_t{512} << 20,
     .library = "OpenImageIO",
     .without = "pictures cannot be read or written",
-    .requirement = "It comes with catoptric and wants OpenImageIO 2.4 (Debian: libopenimageio2.4)",
+    .requirement = "this module comes with catoptric and wants OpenImageIO 2.4: apt-get install "
+                   "libopenimageio2.4",
     .symbol = kImageCodecsSymbol};
 
 } // namespace

@@ -39,7 +39,7 @@ fs::path find_module_file(const Module& module) {
     for (const fs::path& folder : folders)
         if (fs::exists(folder / module.file_name)) return folder / module.file_name;
     fail(Failure::internal, module.without, ": ", module.file_name, " is in none of ",
-         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), ". ",
+         folders[0].string(), ", ", folders[1].string(), ", ", folders[2].string(), "; ",
          module.requirement);
 }
 
@@ -51,7 +51,7 @@ void* load_module_symbol(const Module& module) {
     // Its libraries may define symbols that other libraries of the program define, too.
     void* const loaded = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(loaded != nullptr, Failure::internal, module.without, ": ", file.string(),
-          " cannot be loaded: ", loaded ? "" : dlerror(), ". ", module.requirement);
+          " cannot be loaded: ", loaded ? "" : dlerror(), "; ", module.requirement);
     void* const symbol = dlsym(loaded, module.symbol);
     check(symbol != nullptr, Failure::internal, module.without, ": ", file.string(),
           " is of another version: wanted ", module.symbol, " in it, found none");

@@ -11,7 +11,7 @@ struct Module {
     std::size_t address_space; ///< bytes that the module and its libraries take
     const char* library;       ///< the library that it links, for messages
     const char* without;       ///< what is not possible without it: "pictures cannot be read"
-    const char* requirement;   ///< a sentence that says what to install
+    const char* requirement;   ///< the end of a sentence, which says what to install
     const char* symbol;        ///< the only symbol that the module exports
 };
 

@@ -79,8 +79,8 @@ protected:
         expect_exit_code(ended, 70, parts);
         expect_exit_code(ended, 70,
                          {"pictures cannot be read or written: ",
-                          "It comes with catoptric and wants OpenImageIO 2.4 (Debian: "
-                          "libopenimageio2.4)"});
+                          "; this module comes with catoptric and wants OpenImageIO 2.4: "
+                          "apt-get install libopenimageio2.4"});
     }
     const Words diff = {"diff", "a.exr", "a.exr"};
     const fs::path program = folder / "bin/catoptric";
@@ -99,7 +99,7 @@ TEST_F(Installed, ProgramFindsTheImageModule) {
 TEST_F(Installed, ErrorListsTheFoldersSearchedForTheImageModule) {
     const std::string bin = program.parent_path().string();
     const Words places = {"catoptric-images.so is in none of " + bin + ", " + bin + "/catoptric, " +
-                          modules.string() + ". "};
+                          modules.string() + "; "};
     expect_missing_image_module(diff, places);
     expect_missing_image_module({"compare", "-o", "out"}, places);
     expect_missing_image_module({"render", "--technique", "reuse", "-o", "b.exr"}, places);
