@@ -90,9 +90,10 @@ std::string decode_draco_mesh(std::span<const unsigned char> bytes,
         const std::string what = "attribute " + std::to_string(attribute.id);
         const draco::PointAttribute* const from = mesh->GetAttributeByUniqueId(attribute.id);
         if (from == nullptr) return what + ": wanted one of Draco's data, found none with this id";
-        if (from->num_components() != static_cast<std::int8_t>(attribute.width))
-            return what + ": wanted " + std::to_string(attribute.width) + " components, found " +
-                   std::to_string(from->num_components());
+        const int width = static_cast<int>(attribute.width), found = from->num_components();
+        if (found != width)
+            return what + ": wanted " + std::to_string(width) + " components, found " +
+                   std::to_string(found);
         if (!copy_attribute_values_as_wanted(*mesh, *from, attribute))
             return what + ": wanted values that fit the accessor's component type, found others";
     }

@@ -475,9 +475,9 @@ SweepPlan read_sweep_plan(const fs::path& folder) {
         for (const auto& entry : document.at("pieces")) {
             plan.pieces.push_back(make_piece(entry.at("piece").get<SweepJson>()));
             check_piece_members(plan.pieces.back().content);
-            check(plan.pieces.back().id == entry.at("id"), Failure::bad_data, file.string(),
-                  ": piece ", entry.at("id").dump(), " was changed: its content has the id ",
-                  plan.pieces.back().id);
+            check(entry.at("id").get<std::string>() == plan.pieces.back().id, Failure::bad_data,
+                  file.string(), ": piece ", entry.at("id").dump(),
+                  " was changed: its content has the id ", plan.pieces.back().id);
         }
         for (const std::size_t index : plan.common)
             if (plan.pieces.at(index).is_timing())

@@ -215,10 +215,11 @@ private:
     }
 
     static void check_scene_unchanged(const SweepPiece& piece, const scene::Scene& scene) {
-        const std::string hash = scene::hash_scene(scene);
-        check(hash == piece.content["scene_hash"], Failure::bad_data,
-              "the scene was changed after the sweep was planned: wanted the hash ",
-              piece.content["scene_hash"].get<std::string>(), ", found ", hash);
+        const std::string found = scene::hash_scene(scene),
+                          wanted = piece.content["scene_hash"].get<std::string>();
+        check(found == wanted, Failure::bad_data,
+              "the scene was changed after the sweep was planned: wanted the hash ", wanted,
+              ", found ", found);
     }
 
     SweepScene& open_scene(const SweepPiece& piece) {
