@@ -58,12 +58,12 @@ inline constexpr double kMaxPlaneDeviation = .01;
 /// at the first vertex that is off.
 std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_from_object);
 
-/// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh is
-/// `find_mesh_plane`, the whole mesh is one face. Otherwise a face is a set of triangles that
-/// lie in one plane within 1e-4 of the extent. The normals at their corners differ from the plane's
-/// by at most kMaxPlaneDeviation. A board modelled as a thin closed box has six faces. Returns no
-/// faces for more than 64 such planes or 65,536 triangles, because so many planes are never drawn
-/// one by one. O(triangles), plus O(n log n) for a surface that has faces.
+/// Returns the flat faces of a mirror, each of which a plane can replace. If the mesh lies in one
+/// plane (`find_mesh_plane`), the whole mesh is one face. Otherwise a face is a set of triangles
+/// that lie in one plane within 1e-4 of the extent. The normals at their corners differ from the
+/// plane's by at most kMaxPlaneDeviation. A board modelled as a thin closed box has six faces.
+/// Returns no faces for more than 64 such planes or 65,536 triangles, because so many planes are
+/// never drawn one by one. O(triangles), plus O(n log n) for a surface that has faces.
 FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object);
 /// Returns the flat faces of an object that is a mirror; none for a rough mirror.
 FlatFaces find_flat_faces(const Scene& scene, const Object& object);

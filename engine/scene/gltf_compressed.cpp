@@ -16,6 +16,9 @@ namespace catoptric::scene::gltf {
 namespace {
 
 constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
+/// Bytes by which a decoded byte of Draco's data counts against the budget, in addition to the
+/// result.
+constexpr std::uint64_t kDecodedBytesPerDracoByte = 4;
 
 std::optional<JsonObject> find_extension(const JsonObject& item, std::string_view name) {
     const std::optional<JsonObject> extensions = item.read_object_member("extensions");
@@ -104,8 +107,8 @@ ByteList decode_meshopt_view(const GltfContainer& container, const JsonObject& e
                                 "filter: wanted NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL that "
                                 "fits the mode and a stride of ",
                                 stride, ", found ", describe_json_value(Json(name)));
-    account.made_bytes.add_amount_within_budget(count > ~0ull / stride ? ~0ull : count * stride,
-                                                extension.place());
+    account.decoded_bytes.add_amount_within_budget(count > ~0ull / stride ? ~0ull : count * stride,
+                                                   extension.place());
     ByteList elements(count * stride);
     int failed = 0;
     if (mode == MeshoptMode::attributes)
@@ -191,7 +194,19 @@ void set_decoded_accessors(GltfContainer& container, std::vector<DecodedAccessor
              ? to["indices"]
              : to["attributes"][one.attribute]) = document["accessors"].size() - 1;
     }
-    erase_extension(document["meshes"][mesh]["primitives"][primitive], kDracoExtension);
+    Json& to = document["meshes"][mesh]["primitives"][primitive];
+    to["mode"] = unsigned{TINYGLTF_MODE_TRIANGLES}; // decoding gives a list of triangles
+    erase_extension(to, kDracoExtension);
+}
+
+/// Makes accessors that only described Draco's data as small as possible. Others would get zeros in
+/// place of the data that they lack.
+void shrink_accessors_without_data(Json& document, const std::vector<std::size_t>& accessors) {
+    for (const std::size_t index : accessors) {
+        Json& accessor = document["accessors"][index];
+        if (!accessor.contains("bufferView") && !accessor.contains("sparse"))
+            accessor["count"] = 1u;
+    }
 }
 
 std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& container,
@@ -205,6 +220,10 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
     const std::optional<JsonObject> compressed = extension.read_object_member("attributes"),
                                     attributes = primitive.read_object_member("attributes");
     extension.require_condition(compressed && attributes, "wanted attributes, found none");
+    const std::uint64_t mode = primitive.whole("mode", TINYGLTF_MODE_TRIANGLES);
+    primitive.require_condition(mode == TINYGLTF_MODE_TRIANGLES ||
+                                    mode == TINYGLTF_MODE_TRIANGLE_STRIP,
+                                "mode: wanted 4 or 5 beside ", kDracoExtension, ", found ", mode);
     std::vector<DecodedAccessor> decoded;
     std::vector<DracoAttribute> wanted;
     for (const auto& [name, value] : compressed->json_value().items()) {
@@ -216,12 +235,18 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
                           .type = read_draco_component_type(accessor),
                           .width = read_draco_width(accessor)});
     }
+    // Decoding takes time in proportion to the bytes, also if many primitives name the same bytes.
+    account.decoded_bytes.add_amount_within_budget(bytes.size * kDecodedBytesPerDracoByte,
+                                                   extension.place());
     const DracoCodec& codec = get_draco_codec();
     DracoCounts counts;
     std::string wrong = codec.read_counts({bytes.first, bytes.size}, counts);
     extension.require_condition(wrong.empty(), wrong);
     account.mesh_triangles.check_amount_fits_budget(counts.triangles, extension.place());
     account.positions.check_amount_fits_budget(counts.points, extension.place());
+    extension.require_condition(counts.points <= std::uint64_t{3} * counts.triangles,
+                                "wanted at most three points for each of ", counts.triangles,
+                                " triangles, found ", counts.points);
     std::vector<std::uint32_t> corners;
     wrong = codec.decode({bytes.first, bytes.size}, wanted, corners);
     extension.require_condition(wrong.empty(), wrong);
@@ -239,12 +264,13 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
                         {"type", "SCALAR"}},
                        ByteList(first, first + corners.size() * sizeof(std::uint32_t))});
     for (const DecodedAccessor& one : decoded)
-        account.made_bytes.add_amount_within_budget(one.bytes.size(), extension.place());
+        account.decoded_bytes.add_amount_within_budget(one.bytes.size(), extension.place());
     return decoded;
 }
 
 void decode_draco_primitives(GltfContainer& container, const std::string& file,
                              SceneLoadBudgetUsage& account) {
+    std::vector<std::size_t> described; // accessors that describe Draco's data
     const std::size_t meshes = JsonObject(container.document, file).size("meshes");
     for (std::size_t i = 0; i < meshes; ++i) {
         const std::size_t primitives =
@@ -257,10 +283,18 @@ void decode_draco_primitives(GltfContainer& container, const std::string& file,
                 const auto extension = find_extension(primitive, kDracoExtension);
                 if (!extension) continue;
                 decoded = decode_draco_primitive(container, root, primitive, *extension, account);
+                const std::size_t count = root.size("accessors");
+                if (const auto indices = primitive.index("indices", count))
+                    described.push_back(*indices);
+                const JsonObject attributes = *primitive.read_object_member("attributes");
+                for (const DecodedAccessor& one : decoded)
+                    if (!one.attribute.empty())
+                        described.push_back(attributes.needed_index(one.attribute, count));
             }
             set_decoded_accessors(container, std::move(decoded), i, k);
         }
     }
+    shrink_accessors_without_data(container.document, described);
 }
 
 } // namespace

@@ -100,7 +100,9 @@ void check_required_extensions(const JsonObject& root) {
                                   std::end(kIgnoredRequiredExtensions);
         root.require_condition(is_drawn,
                                "extensionsRequired: wanted KHR_materials_*, KHR_texture_*, "
-                               "KHR_mesh_quantization or KHR_lights_punctual, found ",
+                               "KHR_mesh_quantization, KHR_lights_punctual, "
+                               "KHR_draco_mesh_compression, EXT_meshopt_compression or "
+                               "EXT_mesh_gpu_instancing, found ",
                                describe_json_value(extension));
     }
 }

@@ -53,7 +53,7 @@ void decode_compressed_geometry(GltfContainer& container, const std::string& fil
 /// node's mesh, and the node itself loses its mesh and the extension. Accessors must be dense and
 /// checked. Throws `bad_data`. Defined in gltf_instances.cpp.
 void expand_instances(GltfContainer& container, const std::string& file,
-                      SceneLoadBudgetUsage& account);
+                      SceneLoadBudgetUsage& account, LoaderNotes& notes);
 /// Returns the size in bytes of one element of a checked accessor.
 std::size_t accessor_element_bytes(const JsonObject& accessor);
 

@@ -106,7 +106,7 @@ GltfDocument read_gltf_document(const std::string& file, SceneFileOpener& files,
     decode_compressed_geometry(container, file, account);
     check_view_bounds(JsonObject(container.document, file), container.buffers);
     expand_sparse_accessors(container, file, account);
-    expand_instances(container, file, account);
+    expand_instances(container, file, account, notes);
     {
         const JsonObject root(container.document, file);
         check_cross_references(root, files, notes);

@@ -76,7 +76,7 @@ std::vector<Json> read_instance_elements(const GltfContainer& container, const J
 /// Returns the nodes of the instances of a node, one for each.
 std::vector<Json> read_instances(const GltfContainer& container, const JsonObject& root,
                                  const JsonObject& node, const JsonObject& extension,
-                                 SceneLoadBudgetUsage& account) {
+                                 SceneLoadBudgetUsage& account, LoaderNotes& notes) {
     const std::optional<JsonObject> attributes = extension.read_object_member("attributes");
     extension.require_condition(attributes.has_value(), "wanted attributes, found none");
     std::vector<Json> instances;
@@ -100,10 +100,22 @@ std::vector<Json> read_instances(const GltfContainer& container, const JsonObjec
     }
     extension.require_condition(!is_first,
                                 "attributes: wanted TRANSLATION, ROTATION or SCALE, found none");
+    for (const auto& [name, value] : attributes->json_value().items())
+        if (std::ranges::find(kInstanceAttributes, name, &InstanceAttribute::name) ==
+            kInstanceAttributes.end())
+            notes.add_note("instance attributes that are not read", node.describe_json_place());
+    Json copied = Json::object(); // members that each instance has from its node
+    for (const char* member : {"mesh", "weights"})
+        if (const Json* value = node.find(member)) copied[member] = *value;
+    if (const auto ours = find_catoptric_extras(node))
+        copied["extras"]["catoptric"] = ours->json_value();
+    const std::string name = node.name();
+    account.json_memory.add_amount_within_budget(instances.size() * copied.dump().size() * 8,
+                                                 extension.place());
+    account.name_bytes.check_amount_fits_budget(instances.size() * name.size(), extension.place());
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        for (const char* member : {"mesh", "weights", "extras"})
-            if (const Json* value = node.find(member)) instances[i][member] = *value;
-        if (!node.name().empty()) instances[i]["name"] = node.name() + " #" + std::to_string(i + 1);
+        instances[i].update(copied);
+        if (!name.empty()) instances[i]["name"] = name + " #" + std::to_string(i + 1);
     }
     return instances;
 }
@@ -111,7 +123,7 @@ std::vector<Json> read_instances(const GltfContainer& container, const JsonObjec
 } // namespace
 
 void expand_instances(GltfContainer& container, const std::string& file,
-                      SceneLoadBudgetUsage& account) {
+                      SceneLoadBudgetUsage& account, LoaderNotes& notes) {
     const std::size_t nodes = JsonObject(container.document, file).size("nodes");
     for (std::size_t i = 0; i < nodes; ++i) {
         std::vector<Json> instances;
@@ -119,10 +131,15 @@ void expand_instances(GltfContainer& container, const std::string& file,
             const JsonObject root(container.document, file);
             const JsonObject node = root.at("nodes", i);
             const auto extensions = node.read_object_member("extensions");
-            if (!extensions || !node.has_member("mesh") || node.has_member("skin")) continue;
-            const auto extension = extensions->read_object_member(kInstancingExtension);
-            if (!extension) continue;
-            instances = read_instances(container, root, node, *extension, account);
+            const auto extension = extensions ? extensions->read_object_member(kInstancingExtension)
+                                              : std::nullopt;
+            if (!extension || !node.has_member("mesh")) continue;
+            if (node.has_member("skin")) {
+                notes.add_note("instances of a mesh with a skin, left out",
+                               node.describe_json_place());
+                continue;
+            }
+            instances = read_instances(container, root, node, *extension, account, notes);
         }
         Json& list = container.document["nodes"];
         for (Json& instance : instances) {

@@ -91,7 +91,7 @@ void expand_sparse_accessors(GltfContainer& container, const std::string& file,
         Json& accessor = document["accessors"][i];
         accessor.erase("sparse");
         accessor["bufferView"] = document["bufferViews"].size() - 1;
-        accessor["byteOffset"] = 0;
+        accessor["byteOffset"] = 0u;
     }
 }
 

@@ -56,7 +56,7 @@ std::size_t find_index_at_half_weight(std::vector<WeightedMeshCorner>& corners, 
     return i;
 }
 
-dvec3 find_median_corner(std::vector<WeightedMeshCorner>& corners) {
+dvec3 find_median_of_corners(std::vector<WeightedMeshCorner>& corners) {
     dvec3 median;
     for (int axis = 0; axis < 3; ++axis) {
         const std::size_t half = find_index_at_half_weight(
@@ -81,7 +81,7 @@ Bounds<double> compute_core_bounds(const Scene& scene) {
     const Bounds<double> everything = bounds(scene);
     std::vector<WeightedMeshCorner> corners = sample_triangle_corners(scene);
     if (corners.empty()) return everything;
-    const dvec3 middle = find_median_corner(corners);
+    const dvec3 middle = find_median_of_corners(corners);
     const auto far = [&](const WeightedMeshCorner& corner) {
         return max_distance_to_point(middle, corner.place);
     };

@@ -107,6 +107,17 @@ TEST_F(LoadCompressedTest, DracoMeshesLoadLikeTheirUncompressedTwins) {
                          wanted, 1e-4);
     const Scene loaded = load_glb(make_draco_gltf(grid, encode_by_draco("edgebreaker", 16)));
     EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings.front();
+    // Decoding gives a list of triangles, whatever the mode of the file.
+    GltfFileBuilder strip = make_draco_gltf(grid, encode_by_draco("edgebreaker", 16));
+    strip.root["meshes"][0]["primitives"][0]["mode"] = 5;
+    EXPECT_EQ(triangle_count(load_glb(strip)), 98u);
+    strip.root["meshes"][0]["primitives"][0]["mode"] = 0;
+    EXPECT_THAT(refuse(strip), HasSubstr("mode: wanted 4 or 5 beside KHR_draco"));
+    // Accessors that only describe Draco's data take no memory of their own.
+    const SceneFileOptions options{.budget = {.made_bytes = 400}};
+    const std::string file = write_loaded_file(
+        "x.glb", make_draco_gltf(grid, encode_by_draco("edgebreaker", 16)).glb_bytes());
+    EXPECT_EQ(triangle_count(load_scene_file(file, options)), 98u);
 }
 
 TEST_F(LoadCompressedTest, DracoDataThatDoNotFitAreRefused) {
@@ -331,6 +342,31 @@ TEST_F(LoadCompressedTest, InstancesFollowTheAnimationOfTheirNode) {
     move_scene_to_time(later, scene, 1);
     const dvec3 found = transform_point_to_world(later.objects[1].world_from_object, dvec3(0));
     EXPECT_LT(glm::distance(found, dvec3(5, 0, 40)), 1e-3) << found.x << " " << found.z;
+}
+
+TEST_F(LoadCompressedTest, InstancesMayBeSparseAndKeepOnlyOurExtras) {
+    GltfFileBuilder gltf = make_instanced_gltf();
+    const std::size_t at = gltf.add_accessor<std::uint16_t>({2}, "SCALAR", 5123),
+                      value = gltf.add_accessor<float>({0, 0, 50}, "VEC3", 5126);
+    const std::size_t translations =
+        gltf.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"];
+    const auto view_of = [&](std::size_t accessor) {
+        return gltf.root["accessors"][accessor]["bufferView"];
+    };
+    gltf.root["accessors"][translations]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", view_of(at)}, {"componentType", 5123}}},
+        {"values", {{"bufferView", view_of(value)}}}};
+    gltf.root["nodes"][0]["extras"] = {{"note", std::string(1000, 'x')},
+                                       {"catoptric", {{"seen_by_camera", false}}}};
+    gltf.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["_COLOR_0"] = 0;
+    const Scene scene = load_glb(gltf);
+    ASSERT_EQ(scene.objects.size(), 3u);
+    const dvec3 found = transform_point_to_world(scene.objects[2].world_from_object, dvec3(0));
+    EXPECT_LT(glm::distance(found, dvec3(100, 0, 50)), 1e-3) << found.x << " " << found.z;
+    EXPECT_FALSE(scene.objects[1].seen_by_camera);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_THAT(scene.warnings[0], HasSubstr("instance attributes that are not read"));
 }
 
 TEST_F(LoadCompressedTest, InstancesThatDoNotFitAreRefused) {
