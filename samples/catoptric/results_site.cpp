@@ -28,6 +28,7 @@ using report::escape_html;
 using SiteJson = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMaxReportBytes = 256U << 20U;
+constexpr double kMaxReportedMs = 1e9;
 constexpr std::size_t kMaxHistoryColumns = 12; // the latest reports
 constexpr std::size_t kIdCharacters = 12;
 constexpr std::string_view kPagePrefix = "scene-";
@@ -80,12 +81,15 @@ std::string read_text_of(const SiteJson& object, const std::string& name,
     return value.get<std::string>();
 }
 
-/// Returns a number; NaN for null.
-double read_number_of(const SiteJson& object, const std::string& name, const ReportPlace& place) {
+/// Returns a number from `low` to `high`; NaN for null.
+double read_number_of(const SiteJson& object, const std::string& name, const ReportPlace& place,
+                      double low, double high) {
     const SiteJson value = find_member(object, name, place);
-    place.at(name).check(value.is_number() || value.is_null(), "wanted a number, found ",
-                         report::describe_json_value(value));
-    return value.is_number() ? value.get<double>() : NAN;
+    const bool fits = value.is_number() && value.get<double>() >= low &&
+                      value.get<double>() <= high;
+    place.at(name).check(fits || value.is_null(), "wanted a number from ", low, " to ", high,
+                         ", found ", report::describe_json_value(value));
+    return fits ? value.get<double>() : NAN;
 }
 
 SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
@@ -95,15 +99,16 @@ SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
         row.label += ", model=required";
     const SiteJson times = find_member(json, "gpu_ms", place);
     if (!times.is_null()) { // null: a row of pictures from a file
-        row.ms = read_number_of(times, "median", place.at("gpu_ms"));
+        row.ms = read_number_of(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
         const SiteJson interval = find_member(times, "ci95", place.at("gpu_ms"));
         const bool has_interval = interval.is_array() && interval.size() == 2 &&
                                   interval[0].is_number() && interval[1].is_number();
         if (has_interval) row.ms_low = interval[0], row.ms_high = interval[1];
     }
     const SiteJson error = find_member(json, "error", place);
-    row.flip = read_number_of(error, "flip", place.at("error"));
-    row.rmse = read_number_of(error, "rmse", place.at("error"));
+    row.flip = read_number_of(error, "flip", place.at("error"), 0, 1);
+    // An estimate below the noise of the reference is negative.
+    row.rmse = read_number_of(error, "rmse", place.at("error"), -1, 1);
     row.is_reference = find_member(json, "is_reference", place) == true;
     return row;
 }
@@ -117,22 +122,40 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
                            report::describe_json_value(size));
     const SiteJson scene = find_member(json, "scene", place);
     const SiteJson camera = find_member(scene, "camera", place.at("scene"));
-    const std::string name = read_text_of(camera, "name", place.at("scene.camera"));
-    std::string eye;
-    for (const char* point : {"eye", "target"}) {
-        const SiteJson value = find_member(camera, point, place.at("scene.camera"));
-        place.at(std::string("scene.camera.") + point)
+    const auto point = [&](const char* name) {
+        const SiteJson value = find_member(camera, name, place.at("scene.camera"));
+        place.at(std::string("scene.camera.") + name)
             .check(value.is_array() && value.size() == 3 && value[0].is_number() &&
                        value[1].is_number() && value[2].is_number(),
                    "wanted three numbers, found ", report::describe_json_value(value));
-        eye += fmt::format("{}{:.4g} {:.4g} {:.4g}", eye.empty() ? "from " : " to ",
-                           value[0].get<double>(), value[1].get<double>(), value[2].get<double>());
-    }
-    return fmt::format(
-        "{}x{}, {} s, camera {}{}, reference {}", size[0].get<unsigned>(), size[1].get<unsigned>(),
-        read_number_of(json, "time", place),
-        name.empty() ? "" : quote_text_with_escapes(name) + " ", eye,
+        return fmt::format("{} {} {}", value[0].get<double>(), value[1].get<double>(),
+                           value[2].get<double>());
+    };
+    const auto number = [](const SiteJson& object, const char* name) {
+        const SiteJson value = object.is_object() ? object.value(name, SiteJson()) : SiteJson();
+        return value.is_number() ? fmt::format("{}", value.get<double>()) : std::string("0");
+    };
+    const std::string height = number(camera, "orthographic_height");
+    std::string text = fmt::format(
+        "{}x{}, {} s, camera from {} to {}, up {}, {}, exposure {}, ambient {}, reference {}",
+        size[0].get<unsigned>(), size[1].get<unsigned>(), number(json, "time"), point("eye"),
+        point("target"), point("up"),
+        height == "0" ? number(camera, "vertical_fov_degrees") + " degrees" : height + " high",
+        number(json, "exposure"), number(json, "ambient"),
         read_text_of(find_member(json, "reference", place), "label", place.at("reference")));
+    if (const SiteJson timing = find_member(json, "timing", place); timing == "pipelined")
+        text += ", pipelined";
+    if (find_member(json, "together", place) == true) text += ", all rows in one frame";
+    return text;
+}
+
+/// Returns whether the text is a date such as "2026-11-24T03:05:10Z", whose order is that of time.
+bool is_report_date(const std::string& text) {
+    constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
+    return text.size() == kForm.size() &&
+           std::ranges::equal(text, kForm, [](char found, char wanted) {
+               return wanted == 'd' ? found >= '0' && found <= '9' : found == wanted;
+           });
 }
 
 SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& place) {
@@ -151,6 +174,10 @@ SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& pla
     found.commit = read_text_of(json, "commit", place);
     found.version = read_text_of(json, "version", place);
     found.date = read_text_of(json, "date", place);
+    place.at("date").check(is_report_date(found.date),
+                           "wanted a date such as "
+                           "2026-11-24T03:05:10Z, found ",
+                           quote_text_with_escapes(found.date));
     found.setting = describe_setting(json, place);
     const SiteJson rows = find_member(json, "rows", place);
     place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
@@ -178,6 +205,8 @@ std::vector<SiteComparison> read_report(const fs::path& file, const std::string&
         list.push_back(read_site_comparison(json, place));
         return list;
     }
+    place.check(find_member(json, "complete", place) == true,
+                "wanted a complete report; this run was stopped");
     const SiteJson scenes = find_member(json, "scenes", place);
     place.at("scenes").check(scenes.is_array() && !scenes.empty(), "wanted a list, found ",
                              report::describe_json_value(scenes));
@@ -197,7 +226,8 @@ std::vector<SitePage> group_by_page(const std::vector<SiteComparison>& compariso
     for (const SiteComparison& one : comparisons) {
         const std::string key = one.scene + "\n" + one.hash + "\n" + one.setting;
         SitePage& page = pages[key];
-        page.scene = one.scene, page.setting = one.setting;
+        page.scene = one.scene;
+        page.setting = "hash " + one.hash.substr(0, 8) + ", " + one.setting;
         page.file = std::string(kPagePrefix) + compute_sha256(key).substr(0, kIdCharacters) +
                     ".html";
         page.devices[one.device + ", " + one.driver].push_back(one);
@@ -248,9 +278,12 @@ std::string make_front_plot(const SiteComparison& run) {
         "of each row\" font-size=\"11\" fill=\"currentColor\"><g stroke=\"currentColor\" "
         "stroke-opacity=\".25\"><path d=\"M{} {}V{}H{}\" fill=\"none\"/></g>",
         kWidth, kHeight, kLeft, kTop, kHeight - kBottom, kWidth - kRight);
-    for (int power = static_cast<int>(std::ceil(low)); power <= std::floor(high); ++power)
-        svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>",
-                           x(std::pow(10, power)), kHeight - kBottom + 16, std::pow(10, power));
+    for (int power = static_cast<int>(std::floor(low)); power <= std::floor(high); ++power)
+        for (const double step : {1.0, 2.0, 5.0})
+            if (const double at = step * std::pow(10, power);
+                std::log10(at) >= low && std::log10(at) <= high)
+                svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>",
+                                   x(at), kHeight - kBottom + 16, at);
     for (const double share : {0.0, .5, 1.0})
         svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3g}</text>",
                            kLeft - 6, y(share * most / 1.1) + 4, share * most / 1.1);
@@ -367,7 +400,9 @@ std::string list_front(const SiteComparison& run) {
     std::vector<const SiteRow*> front;
     for (const SiteRow& row : run.rows)
         if (row.on_front) front.push_back(&row);
-    std::ranges::sort(front, {}, [](const SiteRow* row) { return row->ms; });
+    std::ranges::sort(front, {}, [](const SiteRow* row) {
+        return std::isfinite(row->ms) ? row->ms : kMaxReportedMs;
+    });
     std::string text;
     for (const SiteRow* row : front) text += (text.empty() ? "" : ", ") + row->label;
     return text.empty() ? std::string(report::kEmptyCellText) : text;

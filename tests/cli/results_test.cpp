@@ -71,7 +71,7 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
                                                : fmt::format("<td>{:.4f}</td>", flip);
             EXPECT_THAT(page, testing::HasSubstr(cell));
         }
-        EXPECT_THAT(page, testing::HasSubstr("32x32, 0 s, camera"));
+        EXPECT_THAT(page, testing::HasSubstr("32x32, 0 s, camera from "));
         EXPECT_THAT(page, testing::HasSubstr(one["device"]["driver"].get<std::string>()));
         EXPECT_THAT(page, testing::Not(testing::HasSubstr("History")));
         const std::size_t front = one["pareto"][0];
@@ -98,9 +98,11 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     EXPECT_THAT(page, testing::HasSubstr("the latest 2 of 2 reports"));
     EXPECT_LT(page.find("0ldc0de, 2026-01-02"), page.find("1a7ec0de, 2026-02-03"));
     EXPECT_LT(page.find("111.500 / "), page.find("222.250 / "));
-    // Another size is another setting, with a page of its own.
-    late["size"] = {64, 32};
-    add_to_site(late, "a");
+    // Other light or another camera is another setting, with a page of its own.
+    json other = late;
+    other["exposure"] = 3;
+    other["size"] = {64, 32};
+    add_to_site(other, "a");
     build("a");
     EXPECT_EQ(read_pages("a").size(), 3u);
     for (const auto& entry : std::filesystem::directory_iterator(folder / "a/reports"))
@@ -137,12 +139,19 @@ TEST_F(ResultsSite, RefusalsNameTheMember) {
     refuse([](json& r) { r["rows"] = json::array(); }, {"report.json: rows: wanted a list"});
     refuse([](json& r) { r["rows"][1].erase("label"); }, {"rows[1].label: wanted text"});
     refuse([](json& r) { r["rows"][0]["gpu_ms"]["median"] = "fast"; },
-           {"rows[0].gpu_ms.median: wanted a number, found '\"fast\"'"});
+           {"rows[0].gpu_ms.median: wanted a number from 0 to 1e+09, found '\"fast\"'"});
+    refuse([](json& r) { r["rows"][0]["gpu_ms"]["median"] = 1.7e308; }, {"from 0 to 1e+09"});
+    refuse([](json& r) { r["rows"][0]["error"]["flip"] = 2; }, {"error.flip: wanted a number"});
+    refuse([](json& r) { r["date"] = "zzzz"; }, {"date: wanted a date", "'zzzz'"});
     refuse([](json& r) { r["rows"][0]["error"] = 4; }, {"rows[0].error: wanted an object"});
     refuse([](json& r) { r["pareto"] = {9}; }, {"pareto: wanted numbers of rows, found '9'"});
     refuse([](json& r) { r["size"] = {1, -1}; }, {"size: wanted two numbers"});
     refuse([](json& r) { r["scene"]["camera"]["eye"] = {1, 2}; }, {"scene.camera.eye"});
     refuse([](json& r) { r.erase("device"); }, {"device: wanted an object, found nothing"});
+    json stopped = report_of_two_scenes();
+    stopped["complete"] = false;
+    write_input_file("report.json", stopped.dump());
+    expect_usage_refused({"results", "add", "report.json", "refused"}, 65, {"a complete report"});
     expect_usage_refused({"results", "add", "none.json", "site"}, 66, {"none.json"});
     expect_usage_refused({"results", "build", "site"}, 66, {"wanted reports, found none"});
     expect_usage_refused({"results"}, 2, {"add or build"});
