@@ -4,7 +4,8 @@
 
 namespace catoptric::graph {
 
-/// Fills `used`, `first`, `last` and `alone` of every image and buffer from the surviving passes.
+/// Finds when each image and buffer is in use, from the passes that were not culled. Fills their
+/// members `used`, `first` and `last` (passes), and `alone`: no other memory may overlap theirs.
 void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan);
 
 /// Fills offsets, bytes and heap sizes. Needs lifetimes. Resources that are alive at the same time

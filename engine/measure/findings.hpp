@@ -56,7 +56,8 @@ find_stored_distance_format_result(const Comparison& comparison);
 struct BouncesVersusErrorResult {
     std::vector<const Row*> steps; ///< rows with 1, 2, ... inter-reflections
     double fall = 0;               ///< fall of the rmse from the first to the last step
-    bool helps = false;            ///< whether the fall is larger than kEightBitStep
+    /// Whether more inter-reflections help: whether `fall` is larger than kEightBitStep.
+    bool helps = false;
     /// Row of part three if its squared error is less than half of the squared error of the last
     /// step. Null otherwise.
     const Row* dominated_by = nullptr;

@@ -2,7 +2,7 @@
 
 #include "measure/comparison.hpp"
 
-// Splits a row's error by light edges.
+// Splits a row's error into pixels that looked at the outline of a lamp, and all others.
 namespace catoptric::measure {
 
 /// Returns the split of a row's error. `there` is its difference over pixels at light edges,

@@ -23,8 +23,7 @@ std::optional<std::uint32_t> find_knob_number(const TechniqueKnobSettings& setti
 }
 
 /// Returns whether a knob of two choices has the second.
-bool is_second_knob_choice_selected(const TechniqueKnobSettings& settings,
-                                    const TechniqueKnob& knob) {
+bool has_second_choice_of_knob(const TechniqueKnobSettings& settings, const TechniqueKnob& knob) {
     return settings.has_knob_named(knob) && settings.knob_value_as_integer(knob) == 1;
 }
 
@@ -37,15 +36,15 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
     knobs.shadow_map = find_knob_number(settings, kShadowMapEdgeKnob).value_or(1);
     knobs.face = find_knob_number(settings, kCaptureFaceKnob);
     knobs.chooses_face = settings.has_knob_named(kCaptureFaceKnob) && !knobs.face;
-    knobs.stores_floats = is_second_knob_choice_selected(settings, kCaptureColourKnob);
+    knobs.stores_floats = has_second_choice_of_knob(settings, kCaptureColourKnob);
     if (settings.has_knob_named(kCaptureDistanceKnob))
         knobs.distance = kDistanceFormats[settings.knob_value_as_integer(kCaptureDistanceKnob)];
     if (settings.has_knob_named(kDistanceRangeKnob))
         knobs.range = settings.numeric_knob_value(kDistanceRangeKnob);
     knobs.continues = find_knob_number(settings, kContinuedSearchesKnob).value_or(0);
-    knobs.by_object = is_second_knob_choice_selected(settings, kCaptureTexelLookupKnob);
-    knobs.asks_all = is_second_knob_choice_selected(settings, kSearchedCapturesKnob);
-    knobs.leaves_out_spheres = is_second_knob_choice_selected(settings, kMirrorsInCapturesKnob);
+    knobs.by_object = has_second_choice_of_knob(settings, kCaptureTexelLookupKnob);
+    knobs.asks_all = has_second_choice_of_knob(settings, kSearchedCapturesKnob);
+    knobs.leaves_out_spheres = has_second_choice_of_knob(settings, kMirrorsInCapturesKnob);
     if (settings.has_knob_named(kRoughMirrorMethodKnob)) {
         knobs.rough = settings.knob_value_as_enum<KnobsSharedByTechniques::RoughMirrorLookup>(
             kRoughMirrorMethodKnob);
@@ -59,7 +58,7 @@ KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings)
         knobs.refract = static_cast<std::uint32_t>(
             settings.knob_value_as_integer(kGlassRefractionModelKnob));
     if (settings.has_knob_named(kLightProbesKnob) &&
-        is_second_knob_choice_selected(settings, kIndirectLightKnob))
+        has_second_choice_of_knob(settings, kIndirectLightKnob))
         knobs.light_probes = *find_knob_number(settings, kLightProbesKnob);
     knobs.capture = find_knob_number(settings, kCaptureContentCacheKnob);
     knobs.is_black_in_others = settings.has_knob_named(kCaptureContentCacheKnob) && !knobs.capture;

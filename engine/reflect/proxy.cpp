@@ -57,9 +57,10 @@ add_proxy_shape_fitting_pass(graph::Graph& graph, const render::FrameInputs& inp
     return proxies;
 }
 
-MirrorShadingSetup make_proxy_shading(graph::Graph& graph, const render::FrameInputs& inputs,
-                                      const TechniqueKnobSettings& settings,
-                                      const MirrorShadingInputs& around) {
+MirrorShadingSetup make_mirror_shading_by_proxies(graph::Graph& graph,
+                                                  const render::FrameInputs& inputs,
+                                                  const TechniqueKnobSettings& settings,
+                                                  const MirrorShadingInputs& around) {
     MirrorShadingSetup look{make_capture_shader(around, "reflect/proxy.frag", settings), {}};
     look.mirror.buffers.emplace_back("Proxies",
                                      add_proxy_shape_fitting_pass(graph, inputs, around.captures));
@@ -78,7 +79,7 @@ constexpr Technique kProxyTechnique{
     .capture = make_capture_options,
     .in_captures = "reflect/parallax.frag",
     .reads_whole_cubes = true,
-    .look = make_proxy_shading};
+    .look = make_mirror_shading_by_proxies};
 const RegisteredTechnique kProxyRegistration{kProxyTechnique};
 
 } // namespace

@@ -39,11 +39,11 @@ void append_filtered_sky_levels(const std::shared_ptr<const scene::Environment>&
 } // namespace
 
 DeviceEnvironment::DeviceEnvironment(std::size_t slots)
-    : sky_entry_("sky", gpu::BufferUsage::uniform, slots),
+    : device_sky_record_("sky", gpu::BufferUsage::uniform, slots),
       texels_("sky.texels", gpu::BufferUsage::texels, slots),
       vertices_("sky.vertices", gpu::BufferUsage::vertex, slots),
       indices_("sky.indices", gpu::BufferUsage::index, slots) {
-    sky_entry_.set_device_list_contents(std::vector(1, shared::Sky{}));
+    device_sky_record_.set_device_list_contents(std::vector(1, shared::Sky{}));
 }
 
 void DeviceEnvironment::set_environment(
@@ -64,7 +64,7 @@ void DeviceEnvironment::set_environment(
     if (kind_ == kMapEnvironment)
         for (const vec3& texel : environment->texels) texels.emplace_back(texel, 1.0f);
     if (environment && has_lobes) append_filtered_sky_levels(environment, sky, texels);
-    sky_entry_.set_device_list_contents(std::vector(1, sky));
+    device_sky_record_.set_device_list_contents(std::vector(1, sky));
     texels_.set_device_list_contents(texels);
     if (kind_ == kNoEnvironmentKind) return;
     vertices_.set_device_list_contents(
@@ -74,13 +74,13 @@ void DeviceEnvironment::set_environment(
 
 std::size_t DeviceEnvironment::write(gpu::GpuDevice& device, std::size_t slot) {
     std::size_t writes = 0;
-    for (DoubleBufferedDeviceList* buffer : {&sky_entry_, &texels_, &vertices_, &indices_})
+    for (DoubleBufferedDeviceList* buffer : {&device_sky_record_, &texels_, &vertices_, &indices_})
         writes += buffer->upload_changed_pages(device, slot);
     return writes;
 }
 
 void DeviceEnvironment::bind(graph::PassCommands& commands, std::size_t slot) const {
-    commands.bind_resource("sky", sky_entry_.buffer_of_device_copy(slot));
+    commands.bind_resource("sky", device_sky_record_.buffer_of_device_copy(slot));
     commands.bind_resource("sky_texels", texels_.buffer_of_device_copy(slot));
 }
 

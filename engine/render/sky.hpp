@@ -33,7 +33,7 @@ private:
     std::shared_ptr<const scene::Environment> environment_;
     std::uint32_t kind_ = 0;
     bool has_levels_ = false;
-    DoubleBufferedDeviceList sky_entry_, texels_, vertices_, indices_;
+    DoubleBufferedDeviceList device_sky_record_, texels_, vertices_, indices_;
 };
 
 /// Draws the environment into pixels that no surface covers, into layers whose views start at

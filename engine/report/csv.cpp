@@ -104,8 +104,8 @@ void add_difference_metrics(CsvLine& line, const std::string& mask,
                        measure::metric_value_of_difference(quantity, error), is_in_table(quantity));
 }
 
-/// Adds the errors over all masks and over single mirrors. Each line has columns of `mirrors`
-/// mirrors, even if its row has fewer.
+/// Appends fields with the errors over each mask of pixels, then over each mirror. Appends fields
+/// for `mirrors` mirrors, even if the row has fewer, so that all lines have the same columns.
 void add_error_fields(CsvLine& line, const Comparison& comparison, const Row& row,
                       std::size_t mirrors) {
     for (const measure::RowPixelMask& mask : measure::list_row_masks())

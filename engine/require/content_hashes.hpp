@@ -9,10 +9,10 @@
 /// Content hashes of captures and shadow maps.
 namespace catoptric::require {
 
-/// World objects may get a coordinate space of their own on the device if they are small
-/// (render::kSmallObjectSizeToDistanceRatio). This is the limit, as a part of their largest
-/// possible distance from the scene's origin. When such an object comes or goes, the shaders of
-/// other objects change as well.
+/// Largest size of an object that may get a coordinate space of its own on the device, as a part of
+/// its largest possible distance from the scene's origin (render::kSmallObjectSizeToDistanceRatio).
+/// Shaders read such spaces only if some object has one. The first such object therefore changes
+/// the shaders of all others.
 inline constexpr double kSmallObjectSizeToDistanceRatio = 0x1p-12;
 /// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
 /// falls.

@@ -26,7 +26,7 @@ struct ShadowedVolume {
 ShadowedVolume compute_shadowed_volume(const scene::PointLight& light, const Bounds<double>& caster,
                                        const Bounds<double>& everything);
 
-/// A part of a receiver that a mover may shade, with the shade around this part.
+/// A part of a receiver that lies in the shadow of a mover: its box, and the volume of the shadow.
 struct ShadowReceiver {
     std::size_t caster = 0, receiver = 0; ///< objects
     Bounds<double> box;

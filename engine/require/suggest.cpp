@@ -48,7 +48,7 @@ bool is_mirror_flat(const RequiredWorkModelInput& question, const scene::Object&
            1 - kMaxCurvedAreaShare;
 }
 
-/// Returns how many mirrors with `of` the path meets before another mirror.
+/// Returns how many mirrors for which `of` is true the path meets before any other mirror.
 std::size_t count_leading_mirrors(const std::vector<std::uint32_t>& path,
                                   const std::vector<bool>& of) {
     return static_cast<std::size_t>(

@@ -19,7 +19,7 @@ std::string read_last_window_error() {
     return text ? text : "no reason was given";
 }
 
-uvec2 to_size(int width, int height) {
+uvec2 make_size_from_signed_edges(int width, int height) {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
 }
 
@@ -108,8 +108,9 @@ UserInput ViewWindow::poll_events(bool wait) {
     int width = 0, height = 0, wide = 0, high = 0;
     glfwGetFramebufferSize(window_, &width, &height);
     glfwGetWindowSize(window_, &wide, &high);
-    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) inputs.window = to_size(width, height);
-    inputs.scale = pixels_per_unit(inputs.window, to_size(wide, high));
+    if (!glfwGetWindowAttrib(window_, GLFW_ICONIFIED))
+        inputs.window = make_size_from_signed_edges(width, height);
+    inputs.scale = pixels_per_unit(inputs.window, make_size_from_signed_edges(wide, high));
     glfwGetCursorPos(window_, &inputs.mouse.x, &inputs.mouse.y);
     inputs.mouse *= inputs.scale;
     for (int button = 0; button < 3; ++button)

@@ -60,7 +60,7 @@ protected:
         process.signal_after = std::chrono::milliseconds(milliseconds);
         return test::run_process(process);
     }
-    static bool has_signal_sentence(const test::ProcessResult& ended, int signal) {
+    static bool was_stopped_by_signal_with_message(const test::ProcessResult& ended, int signal) {
         return ended.exit_code == 128 + signal &&
                ended.err.find("catoptric: stopped by signal " + std::to_string(signal)) !=
                    std::string::npos;
@@ -84,7 +84,7 @@ TEST_F(EarlySignalTest, SignalsAreAnsweredWhileTheDriverIsOpened) {
         const int after = static_cast<int>(random() % 6); // milliseconds
         const test::ProcessResult ended = run_and_signal_before_driver(programs[i / 2], signal,
                                                                        "libvulkan_lvp", after);
-        EXPECT_TRUE(has_signal_sentence(ended, signal))
+        EXPECT_TRUE(was_stopped_by_signal_with_message(ended, signal))
             << programs[i / 2].front() << " after " << after << ": " << ended.exit_code;
     }
 }
@@ -101,7 +101,7 @@ TEST_F(EarlySignalTest, SignalsAreAnsweredFromTheFirstInitialiserOn) {
             programs[static_cast<std::size_t>(i) % programs.size()], signal, "transferring control",
             after);
         EXPECT_EQ(ended.exit_code, 128 + signal);
-        ++(has_signal_sentence(ended, signal) ? answered : wordless);
+        ++(was_stopped_by_signal_with_message(ended, signal) ? answered : wordless);
     }
     std::printf("  answered %d of 30 signals, %d came before the program's first object\n",
                 answered, wordless);

@@ -15,8 +15,8 @@ using test::DeviceRayTracer;
 
 constexpr std::size_t kRaysPerChunk = 1u << 18;
 
-std::size_t count_missing_rays(const std::vector<DeviceRay>& rays,
-                               const std::vector<DeviceHit>& hits) {
+std::size_t count_rays_without_hit(const std::vector<DeviceRay>& rays,
+                                   const std::vector<DeviceHit>& hits) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
         if (hits[i].is_hit()) continue;
@@ -51,7 +51,7 @@ TEST(KernelWatertight, N14_RaysCannotLeaveMeshSpheresFarFromTheOrigin) {
                 ray.direction = numbers.random_unit_direction();
             }
             const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
-            missed += count_missing_rays(rays, hits);
+            missed += count_rays_without_hit(rays, hits);
             different += test::count_wrong_hits(kernel, rays, hits, 0, 16);
             rays_in_all += rays.size();
         }
@@ -123,9 +123,10 @@ TEST(KernelWatertight, N15_RaysAtEdgesAndCornersCannotLeaveClosedMeshes) {
             const std::vector<DeviceRay> rays = make_rays_aimed_at_edges(
                 setting, std::min(kRaysPerChunk, rays_each - done), numbers);
             const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays);
-            missed += count_missing_rays(rays, hits);
+            missed += count_rays_without_hit(rays, hits);
             different += test::count_wrong_hits(kernel, rays, hits, 0, 16);
-            if (done == 0) shadows_missed += count_missing_rays(rays, kernel.find_any_hits(rays));
+            if (done == 0)
+                shadows_missed += count_rays_without_hit(rays, kernel.find_any_hits(rays));
             rays_in_all += rays.size();
         }
     }

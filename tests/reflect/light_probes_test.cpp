@@ -133,7 +133,7 @@ TEST(LightProbes, NoLightLeaksThroughAWall) {
     EXPECT_LT(mean_green(dark), .005 * mean_green(lit));
 }
 
-/// Rays that complete a search light surfaces by the same probes.
+/// Where a search ends unknown, rays find the surface. It is lit by the same probes.
 TEST(LightProbes, TracedPixelsAreLitByProbesToo) {
     scene::Scene room = test::make_lit_room(1, 1);
     scene::find_mirrors(room);

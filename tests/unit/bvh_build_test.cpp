@@ -138,7 +138,8 @@ std::vector<BvhBuildInput> list_bvh_build_inputs() {
     BvhBuildInput heap{"one centre", make_random_triangles(kManyTriangles, 5), kManyTriangles};
     for (Triangle& t : heap.triangles) t.b = -t.a, t.c = vec3(0);
     list.push_back(heap);
-    // Copies and triangles with NaN are dropped, which leaves gaps between the kept triangles.
+    // The build drops duplicates and triangles with NaN, so the numbers of the kept triangles have
+    // gaps.
     BvhBuildInput holes{"holes", make_random_triangles(kManyTriangles, 6), 0};
     for (std::size_t i = 0; i < kManyTriangles; ++i) {
         Triangle& t = holes.triangles[i];

@@ -68,7 +68,8 @@ RoughGlassShares integrate_rough_glass(double roughness, const dvec3& o, double 
     };
     RoughGlassShares sum;
     for (int k = 0; k < kPolarSteps; ++k) {
-        // Facets with equal shares of D times the cosine, by the tangent of their tilt.
+        // Tilts of GGX facets that divide the distribution D, weighted by the cosine, into equal
+        // shares.
         const double share = (k + .5) / kPolarSteps,
                      tilt = std::atan(alpha * std::sqrt(share / (1 - share)));
         for (int j = 0; j < kAzimuthSteps; ++j) {

@@ -82,7 +82,7 @@ public:
         fill_next_value(row.traced_fraction.emplace(), "/traced_fraction", "traced_fraction");
         fill_next_value(row.mean, "/mean", "mean");
         fill_next_value(row.mean_clamped, "/mean_clamped", "mean_clamped");
-        fill_lookup_errors(row.lookup.emplace());
+        set_distinct_lookup_errors(row.lookup.emplace());
         fill_light_edges(row.light_edges.emplace());
         row.causes = std::make_shared<catoptric::measure::Causes>();
         fill_error_causes(*row.causes);
@@ -147,7 +147,7 @@ private:
         fill_next_value(mean.rgb.y, pointer + "/1", column_part_name(column, "g"));
         fill_next_value(mean.rgb.z, pointer + "/2", column_part_name(column, "b"));
     }
-    void fill_lookup_errors(LookupErrorSummary& lookup) {
+    void set_distinct_lookup_errors(LookupErrorSummary& lookup) {
         fill_next_value(lookup.pixels, "/lookup/pixels", "lookup_pixels");
         fill_next_value(lookup.mean_degrees, "/lookup/mean_degrees", "lookup_mean_degrees");
         fill_next_value(lookup.p95_degrees, "/lookup/p95_degrees", "lookup_p95_degrees");
