@@ -24,20 +24,16 @@ int first_column_of_level(int face, int level) {
 const uint kHalfInfinity = 0x7c00u;
 const float kSmallestNormalHalf = 6.103515625e-5;
 
-// Packs the least and the largest distance of a cell into a word. `low` is +infinity if the cell shows no surface at
-// all, `high` is +infinity if some texel shows no surface.
+// Packs the least and the largest distance of a cell into a word, as halves that are rounded down and up. `low` is
+// +infinity if the cell shows no surface at all, `high` is +infinity if some texel shows no surface. Rounds by the bits,
+// because a compiler may take unpackHalf2x16(packHalf2x16(x)) for x and then see no rounding error (NVIDIA 580).
 uint pack_distance_bounds(float low, float high) {
+    const uint lost_bits = 13u, exponent_change = 112u << 10; // between the formats of normal numbers
     uint a = kHalfInfinity, b = kHalfInfinity;
-    if (!isinf(low)) {
-        low = low < kSmallestNormalHalf ? 0.0 : min(low, kLargestHalf);
-        a = packHalf2x16(vec2(low, 0)) & 0xffffu;
-        if (unpackHalf2x16(a).x > low) --a;
-    }
-    if (!isinf(high) && high <= kLargestHalf) {
-        high = max(high, kSmallestNormalHalf);
-        b = packHalf2x16(vec2(high, 0)) & 0xffffu;
-        if (unpackHalf2x16(b).x < high) ++b;
-    }
+    if (!isinf(low))
+        a = low < kSmallestNormalHalf ? 0u : (floatBitsToUint(min(low, kLargestHalf)) >> lost_bits) - exponent_change;
+    if (!isinf(high) && high <= kLargestHalf)
+        b = ((floatBitsToUint(max(high, kSmallestNormalHalf)) + (1u << lost_bits) - 1u) >> lost_bits) - exponent_change;
     return a | b << 16u;
 }
 

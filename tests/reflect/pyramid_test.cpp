@@ -10,6 +10,7 @@
 #include "support/techniques.hpp"
 
 #include <random>
+#include <sstream>
 
 namespace {
 
@@ -131,6 +132,8 @@ TEST_P(Bounds, BoundsContainEveryLookup) {
     const PyramidReadBack read = build_and_read_pyramid(scene::make_cornell_mirrors(),
                                                         "pyramid:" + GetParam(), asked);
     std::size_t outside = 0, judged = 0, nothing = 0;
+    std::ostringstream first;
+    first.precision(9);
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const vec3 direction(asked[i]);
         const int face = f32::cube_face(direction);
@@ -149,13 +152,18 @@ TEST_P(Bounds, BoundsContainEveryLookup) {
             ++judged;
             nothing += std::isinf(found);
             const float roundings = std::isinf(found) ? 0 : 4 * found * 0x1p-24f;
-            outside += !(bounds.x <= found + roundings && found - roundings <= bounds.y);
+            const bool is_outside = !(bounds.x <= found + roundings &&
+                                      found - roundings <= bounds.y);
+            outside += is_outside;
+            if (is_outside && outside == 1)
+                first << direction.x << ' ' << direction.y << ' ' << direction.z << ", level "
+                      << level << ": " << found << " is not in " << bounds.x << " to " << bounds.y;
         }
     }
     EXPECT_GE(judged, asked.size());
     const bool has_nothing = GetParam().find("unorm8") == std::string::npos;
     EXPECT_EQ(nothing > 0, has_nothing) << "the room is open to the front";
-    EXPECT_EQ(outside, 0u);
+    EXPECT_EQ(outside, 0u) << first.str();
 }
 
 TEST_P(Bounds, BoundsOfACellCoverThoseOfItsChildren) {
@@ -188,6 +196,8 @@ TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
     const PyramidReadBack read = build_and_read_pyramid(scene, "pyramid:face=64",
                                                         make_random_directions(4));
     std::size_t wrong = 0;
+    std::ostringstream first;
+    first.precision(9);
     for (std::uint32_t layer = 0; layer < 24; ++layer)
         for (std::uint32_t y = 1; y + 1 < kCaptureFaceTexels / 2; ++y)
             for (std::uint32_t x = 1; x + 1 < kCaptureFaceTexels / 2; ++x) {
@@ -204,9 +214,17 @@ TEST(Pyramid, BoundsAreNoWiderThanTheirTexels) {
                                  ? bounds[i] != wanted[i]
                                  : !(std::abs(bounds[i] - wanted[i]) <= 0x1p-10f * wanted[i]);
                 wrong += bounds.x > wanted.x || bounds.y < wanted.y;
+                if (wrong > 0 && first.str().empty())
+                    first << "layer " << layer << ", cell " << x << ' ' << y << ": wanted "
+                          << wanted.x << " to " << wanted.y << ", found " << bounds.x << " to "
+                          << bounds.y;
             }
-    EXPECT_EQ(wrong, 0u);
+    EXPECT_EQ(wrong, 0u) << first.str();
 }
+
+/// Returns the mean error in degrees of reflected rays on a device that interpolates positions and
+/// normals between vertices that it has snapped to 1/256 of a pixel.
+double snapped_vertices_error() { return test::computes_like_cpp() ? 0 : .005; }
 
 TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
     for (const int face : {16, 37, 64, 256}) {
@@ -227,7 +245,7 @@ TEST(Pyramid, SearchFindsTheWallsOfAnEmptyRoom) {
         // walls the error is of second order in the size of a texel.
         const double texel = 90.0 / face;
         EXPECT_LT(worst, texel);
-        EXPECT_LT(error.mean_degrees, texel * texel / 90);
+        EXPECT_LT(error.mean_degrees, texel * texel / 90 + snapped_vertices_error());
     }
 }
 
@@ -247,7 +265,8 @@ TEST(Pyramid, HitsAreExactAndMissesAreTrue) {
               << " degrees, wrong object " << wrong[0] << "; unknown " << count[1] << "; misses "
               << count[2] << ", worst angle " << miss_angle << ", wrong object " << wrong[2]
               << "\n";
-    EXPECT_LT(hit_angle, 90.0 / 256 / 100); // degrees; a hundredth of a texel
+    // degrees; a hundredth of a texel
+    EXPECT_LT(hit_angle, 90.0 / 256 / 100 + snapped_vertices_error());
     EXPECT_LT(wrong[0], count[0] / 200);
     EXPECT_LT(miss_angle, .01);
     EXPECT_LT(wrong[2], count[2] / 200);
