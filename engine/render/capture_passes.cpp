@@ -18,6 +18,11 @@ using graph::PassCommands;
 using graph::PassPurpose;
 using graph::ResourceUse;
 
+/// Largest rounding error of a value that a device stores as unorm8, in steps of 1 / 255. Vulkan
+/// gives no bound. Direct3D allows .6 steps, and graphics cards are made for both: an NVIDIA H200
+/// rounds by more than half a step.
+constexpr float kUnormRoundingSteps = .6f;
+
 /// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
 /// and keeps the rest.
 void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options,
@@ -85,7 +90,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
         drawing.store.emplace_back("largest_colour", kLargestFiniteHalfFloatValue);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == TexelFormat::r8_unorm)
-        drawing.store.emplace_back("half_step", 0.5f / 255);
+        drawing.store.emplace_back("stored_rounding", kUnormRoundingSteps / 255);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .set_pass_layer_count(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,

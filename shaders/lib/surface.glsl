@@ -47,8 +47,8 @@ layout(constant_id = KEEPS_SURFACE_CONSTANT) const uint keeps_surface = 0u;
 
 // 1: the pass draws the second layer of a capture (depth peeling).
 layout(constant_id = PEELS_CONSTANT) const uint peels = 0u;
-// The absolute rounding error of a stored distance, in addition to the relative error.
-layout(constant_id = HALF_STEP_CONSTANT) const float half_step = 0.0;
+// The largest absolute rounding error of a stored distance, in addition to the relative error.
+layout(constant_id = STORED_ROUNDING_CONSTANT) const float stored_rounding = 0.0;
 // Distances of the capture's first layer.
 layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer;
 
@@ -57,7 +57,7 @@ layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_laye
 // float and of an interpolated distance.
 bool is_peeled_from_second_layer() {
     float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, rendered_view_layer()), 0).r;
-    return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + half_step) || !(dot(normal, from_eye) < 0.0);
+    return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + stored_rounding) || !(dot(normal, from_eye) < 0.0);
 }
 
 layout(constant_id = DRAWN_PARTS_CONSTANT) const uint drawn_parts = kDrawOpaqueParts;
