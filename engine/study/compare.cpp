@@ -362,6 +362,7 @@ private:
         const PinnedThreads held;
         comparison_.device.held_threads = static_cast<int>(held.pinned_thread_count());
         for (int round = 0; round < comparison_.rounds; ++round) measure_round_of_rows(round);
+        if (must_repeat_first_round(comparison_.device.type)) repeat_first_rounds();
         runs_.clear(); // frees also the device memory of their histories
     }
 
@@ -386,6 +387,28 @@ private:
         if (round > 0) report_progress();
     }
 
+    /// Number of frames of the first round.
+    int count_first_frames() const {
+        return choose_frame_count_of_round(compare_request_.base.frames, comparison_.rounds, 0);
+    }
+
+    void repeat_first_rounds() {
+        for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+            runs_[lane]->repeat_first_round();
+            runs_[lane]->suspend_frames();
+            for (std::size_t i = 0; i < runs_[lane]->technique_count(); ++i)
+                fill_times_of_row(lane + i, *runs_[lane]);
+        }
+        report_progress();
+    }
+
+    void fill_times_of_row(std::size_t index, const RowMeasurement& run) {
+        report::Row& row = comparison_.rows[index];
+        fill_row_times(row, run.list_rounds(), prefixes_[index], comparison_.device.type == "cpu");
+        row.noisy = run.has_timing_noise();
+        row.waited = run.mean_share_of_time_waiting_for_processor();
+    }
+
     /// Measures a round. Judges rows after the first round, and again by their last picture if it
     /// differs.
     void measure_round_of_row(std::size_t lane, const std::vector<std::string>& texts, int round) {
@@ -394,8 +417,9 @@ private:
             Request request = compare_request_.base;
             request.techniques = texts;
             request.model = models_[lane];
-            runs_.push_back(std::make_unique<RowMeasurement>(shared_session_, request,
-                                                             compare_request_.watcher));
+            runs_.push_back(std::make_unique<RowMeasurement>(
+                shared_session_, request, compare_request_.watcher,
+                must_repeat_first_round(comparison_.device.type) ? count_first_frames() : 0));
         }
         RowMeasurement& run = *runs_[lane];
         run.measure_one_round_of_frames(
@@ -406,11 +430,8 @@ private:
         for (std::size_t i = 0; i < texts.size(); ++i) {
             const std::size_t index = lane + i;
             if (first) add_comparison_row(texts[i], parts[i]);
-            report::Row& row = comparison_.rows[index];
-            fill_row_times(row, run.list_rounds(), prefixes_[index],
-                           comparison_.device.type == "cpu");
-            row.noisy = run.has_timing_noise();
-            row.waited = run.mean_share_of_time_waiting_for_processor();
+            fill_times_of_row(index, run);
+            const report::Row& row = comparison_.rows[index];
             const bool changed = last && !first &&
                                  (compare_request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));

@@ -17,6 +17,11 @@ double measure_elapsed_seconds() {
     return std::chrono::duration<double>(SteadyClock::now() - kProgramStart).count();
 }
 
+Request with_more_frames(Request request, int frames) {
+    request.frames += frames;
+    return request;
+}
+
 } // namespace
 
 int choose_frame_count_of_round(int frames, int rounds, int index) {
@@ -25,8 +30,18 @@ int choose_frame_count_of_round(int frames, int rounds, int index) {
 
 int choose_round_count(int frames, int asked) { return std::min(frames, asked); }
 
-RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher)
-    : row_request_(std::move(request)), watcher_(watcher), frames_(session, row_request_) {}
+bool must_repeat_first_round(const std::string& device_type) { return device_type != "cpu"; }
+
+RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher,
+                               int repeated_frames)
+    : row_request_(with_more_frames(std::move(request), repeated_frames)), watcher_(watcher),
+      repeated_frames_(repeated_frames), frames_(session, row_request_) {}
+
+void RowMeasurement::repeat_first_round() {
+    measure_one_round_of_frames(repeated_frames_);
+    rounds_.front() = std::move(rounds_.back());
+    rounds_.pop_back();
+}
 
 void RowMeasurement::measure_one_round_of_frames(int frames) {
     const auto render = [&](int count) {

@@ -6,6 +6,7 @@
 #include "session/watcher.hpp"
 
 #include <limits>
+#include <string>
 #include <vector>
 
 // Measures rows in rounds: a few frames of each row in turn, so that a slow moment of the machine
@@ -18,20 +19,31 @@ int choose_frame_count_of_round(int frames, int rounds, int index);
 /// Returns the number of rounds: `asked`, but at most one per frame.
 int choose_round_count(int frames, int asked);
 
+/// Returns whether rows on a device of this type ("cpu", "discrete" ...) must repeat their first
+/// round (RowMeasurement::repeat_first_round). A graphics card raises its clock only while it is
+/// busy, and other work interrupts the first round: shaders are compiled and pictures judged. An
+/// NVIDIA H200 rendered the frames of a first round up to 5.7 times more slowly than later ones.
+bool must_repeat_first_round(const std::string& device_type);
+
 /// A row under measurement: one technique, or several in each frame. Its history, frame number and
 /// clock continue from round to round as if nothing ran in between.
 class RowMeasurement {
 public:
     /// The session shows the request's scene. The session and the watcher must outlive this object.
-    RowMeasurement(Session& session, Request request, const Watcher& watcher);
+    /// `repeated_frames`: number of frames of `repeat_first_round`; 0: it is not called.
+    RowMeasurement(Session& session, Request request, const Watcher& watcher,
+                   int repeated_frames = 0);
 
     /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure_one_round_of_frames(int frames);
+    /// Measures frames after all rounds, and replaces the times of the first round by theirs.
+    void repeat_first_round();
     /// Returns the results of the last frame. Call before `suspend`.
     std::vector<TechniqueResult> list_technique_results() const { return frames_.result().parts; }
     /// Frees the session for other frames until the next `measure_one_round_of_frames`.
     void suspend_frames() { frames_.suspend_frame_loop(); }
 
+    std::size_t technique_count() const { return row_request_.techniques.size(); }
     /// Returns the number of the last frame, from 1.
     int rendered_frame_count() const { return frames_.rendered_frame_count(); }
     const std::vector<std::vector<FrameTimes>>& list_rounds() const { return rounds_; }
@@ -43,6 +55,7 @@ public:
 private:
     Request row_request_;
     const Watcher& watcher_;
+    int repeated_frames_;
     FrameLoop frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
     ProcessorWaitingTimes waiting_; ///< sum over all rounds

@@ -40,19 +40,24 @@ double compute_median_device_time(const std::vector<std::vector<FrameTimes>>& ro
     return measure::summarise_samples(samples).median;
 }
 
-/// Measures the rows of one size and model, and appends them to `samples`.
-void measure_cost_rows(Session& session, const Request& request, int threads,
+/// Measures the rows of one size and model, and appends them to `samples`. `device`: as
+/// Engine::device returns it.
+void measure_cost_rows(Session& session, const Request& request, const DeviceInfo& device,
                        const BenchOptions& options,
                        std::vector<measure::TimedWorkSample>& samples) {
     const std::vector<Request> rows = split_request_by_technique(request);
     const int rounds = choose_round_count(options.iterations, options.rounds);
+    const int repeated_frames = must_repeat_first_round(device.type)
+                                    ? choose_frame_count_of_round(options.iterations, rounds, 0)
+                                    : 0;
     std::vector<std::unique_ptr<RowMeasurement>> runs;
     for (int round = 0; round < rounds; ++round)
         for (std::size_t place = 0; place < rows.size(); ++place) {
             // Every second round goes backwards, so that no row always follows the same other.
             const std::size_t i = round % 2 == 0 ? place : rows.size() - 1 - place;
             if (round == 0)
-                runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher));
+                runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher,
+                                                                repeated_frames));
             report_row_to_watcher(options.watcher, make_cost_sample_name(rows[i]),
                                   static_cast<std::size_t>(round) * rows.size() + place,
                                   static_cast<std::size_t>(rounds) * rows.size());
@@ -60,11 +65,16 @@ void measure_cost_rows(Session& session, const Request& request, int threads,
                 choose_frame_count_of_round(options.iterations, rounds, round));
             runs[i]->suspend_frames();
         }
+    if (repeated_frames > 0)
+        for (const std::unique_ptr<RowMeasurement>& run : runs) {
+            run->repeat_first_round();
+            run->suspend_frames();
+        }
     for (std::size_t i = 0; i < rows.size(); ++i)
         samples.push_back(
             {make_cost_sample_name(rows[i]),
              sum_work_counts_of_passes(count_frame_work(session, rows[i], options.watcher)),
-             compute_median_device_time(runs[i]->list_rounds(), threads)});
+             compute_median_device_time(runs[i]->list_rounds(), device.threads)});
 }
 
 } // namespace
@@ -79,7 +89,7 @@ std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const
             part.model = model;
             part.size = glm::max(request.size / divisor, uvec2(1));
             part.frames = options.iterations;
-            measure_cost_rows(session, part, engine.device().threads, options, samples);
+            measure_cost_rows(session, part, engine.device(), options, samples);
         }
     return samples;
 }

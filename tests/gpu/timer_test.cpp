@@ -7,6 +7,7 @@
 #include "session/access.hpp"
 #include "session/frames.hpp"
 #include "study/compare_row.hpp"
+#include "study/row_run.hpp"
 #include "support/rendering.hpp"
 
 #include <iostream>
@@ -92,9 +93,34 @@ TEST(Timing, LongRunKeepsThePassesOfItsLastFrames) {
     EXPECT_GT(row.passes.front().gpu_ms.median, 0);
 }
 
+/// The picture is that of the last frame before the repeated ones, which only have times.
+TEST(Timing, RepeatedFirstRoundReplacesItsTimesOnly) {
+    app::Request request = test::make_test_request(test::make_lit_room(2, 1),
+                                                   {"reuse:face=8,shadow_map=8"}, {8, 8});
+    request.warmup = 1, request.frames = 5;
+    app::Session session(test::get_test_engine(), request.scene);
+    const app::Watcher watcher;
+    app::RowMeasurement row(session, request, watcher, 3);
+    for (const int frames : {3, 2}) row.measure_one_round_of_frames(frames);
+    EXPECT_EQ(row.rendered_frame_count(), 6);
+    const std::vector<std::vector<app::FrameTimes>> before = row.list_rounds();
+    row.repeat_first_round();
+    EXPECT_EQ(row.rendered_frame_count(), 9);
+    const std::vector<std::vector<app::FrameTimes>>& after = row.list_rounds();
+    ASSERT_EQ(after.size(), 2u);
+    ASSERT_EQ(after[0].size(), 3u);
+    ASSERT_EQ(after[1].size(), 2u);
+    EXPECT_NE(after[0].front().wall_ms, before[0].front().wall_ms);
+    EXPECT_EQ(after[1].front().wall_ms, before[1].front().wall_ms);
+    EXPECT_TRUE(app::must_repeat_first_round("discrete"));
+    EXPECT_FALSE(app::must_repeat_first_round("cpu"));
+}
+
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
-    constexpr std::uint32_t kWorkGroupCount = 256;
+    // Enough for a graphics card of 10,000 lanes to be busy all the time.
+    const std::uint32_t kWorkGroupCount = test::get_test_device().device.is_cpu_device() ? 256
+                                                                                         : 16384;
     std::vector<double> one, four;
     for (int frame = 0; frame < 9; ++frame) {
         graph::Graph graph;
