@@ -84,18 +84,21 @@ void expect_nearest_hits(DeviceRayTracer& kernel, std::span<const bvh::Triangle>
         const std::vector<DeviceHit> hits = kernel.find_closest_hits(rays, skipped),
                                      shadows = kernel.find_any_hits(rays, skipped);
         EXPECT_EQ(test::count_wrong_hits(kernel, rays, hits, skipped), 0u);
+        const std::size_t largest = test::computes_like_cpp()
+                                        ? 0
+                                        : rays.size() / test::kRaysPerOtherHit;
         std::size_t others = 0, on_balls = 0, other_shadows = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const DeviceHit wanted = find_nearest_hit_by_search(things, rays[i], skipped);
             on_balls += wanted.is_hit() && wanted.object % 2 == 1;
             other_shadows += shadows[i].is_hit() != wanted.is_hit();
-            if (!test::are_equal_hits(hits[i], wanted) && others++ == 0)
+            if (!test::is_hit_of_cpu(rays[i], hits[i], wanted) && others++ == largest)
                 ADD_FAILURE() << "ray " << i << ", " << test::format_for_message(rays[i])
                               << "\n  with a tree: " << test::format_for_message(hits[i])
                               << "\n  without: " << test::format_for_message(wanted);
         }
-        EXPECT_EQ(others, 0u);
-        EXPECT_EQ(other_shadows, 0u);
+        EXPECT_LE(others, largest);
+        EXPECT_LE(other_shadows, largest);
         EXPECT_GT(on_balls, rays.size() / 4);
     }
 }

@@ -176,7 +176,8 @@ TEST(KernelGeometry, N21_CopiesInDifferentObjectsAreAllKept) {
             gave_up += hits[i].has_reached_step_limit() ? 1 : 0;
             found += expected.is_hit() ? 1 : 0;
             ASSERT_EQ(expected.triangle, 0u);
-            ASSERT_TRUE(hits[i].has_reached_step_limit() || test::are_equal_hits(hits[i], expected))
+            ASSERT_TRUE(hits[i].has_reached_step_limit() ||
+                        test::is_hit_of_cpu(rays[i], hits[i], expected))
                 << i << ' ' << test::format_for_message(hits[i]);
         }
         std::cout << "[ MEASURED ] case N21, copies of one triangle in " << count
@@ -216,11 +217,13 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const auto lowest = bvh::find_closest_hit<float>(
             kernel.traversed_bvh(), {rays[i].origin, rays[i].direction, 0}, rays[i].t_max);
-        const bool second = hits[i].triangle >= once && hits[i].triangle < 2 * once;
-        not_lowest += lowest && !second && hits[i].triangle == lowest->triangle &&
-                              hits[i].t == lowest->t
-                          ? 0
-                          : 1;
+        // Which of two equal triangles is nearer depends on the last bit of t.
+        const bool second = hits[i].triangle >= once && hits[i].triangle < 2 * once,
+                   same = lowest &&
+                          (test::computes_like_cpp()
+                               ? hits[i].triangle == lowest->triangle && hits[i].t == lowest->t
+                               : test::is_hit_of_cpu(rays[i], hits[i], {lowest->t, {}, 0, 0, 1}));
+        not_lowest += same && !second ? 0 : 1;
         for (const std::uint32_t word : std::bit_cast<std::array<std::uint32_t, 8>>(hits[i]))
             checksum = (checksum ^ word) * 1099511628211u;
     }

@@ -139,7 +139,8 @@ TEST(KernelOwnSpaces, ExactSpheresAreHitInTheirObjectSpaces) {
         different += wanted.is_hit() != hits[i].is_hit() || wanted.object != hits[i].object ||
                      !(apart <= 1e-5f * std::max(wanted.t, 1e-3f));
     }
-    EXPECT_LE(different, 10u) << "where rays graze";
+    EXPECT_LE(different, test::computes_like_cpp() ? 10u : hits.size() / test::kRaysPerOtherHit)
+        << "where rays graze";
     EXPECT_GT(on_spheres, hits.size() / 10);
 }
 

@@ -62,8 +62,8 @@ TEST(Continue, MirrorsInMirrorsOfAnyShapeAreFollowed) {
             << search;
         // `march` may step over the edge of a mirror and continue in the wrong mirror, in about
         // twenty pixels.
-        EXPECT_LE(with.first_order, (search == "march" ? 1.5 : 1.05) * without.first_order)
-            << search;
+        const double most = search == "march" ? 1.5 : test::computes_like_cpp() ? 1.05 : 1.1;
+        EXPECT_LE(with.first_order, most * without.first_order) << search;
     }
 }
 

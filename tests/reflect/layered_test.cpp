@@ -63,6 +63,7 @@ TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
         scene::bounds(scene, scene.objects[scene::mirrors(scene).front()]).centre();
     std::size_t hidden = 0, wrong = 0;
     double solid_angle = 0;
+    float worst = 0;
     for (int face = 0; face < 6; ++face)
         for (std::uint32_t y = 0; y < kCaptureFaceTexels; ++y)
             for (std::uint32_t x = 0; x < kCaptureFaceTexels; ++x) {
@@ -86,12 +87,14 @@ TEST(Layered, SecondLayerShowsTheWallBehindTheBall) {
                     distance_to_box_wall(centre, normalize(at), wall));
                 EXPECT_GT(two, one * (1 + 0x1p-10f));
                 // Interpolated positions are exact to a few roundings of the scene's size, which is
-                // about 1.
-                wrong += !(std::abs(two - expected) <= 0x1p-18f) ||
+                // about 1; on a device that snaps vertices, to 1/512 of a texel on a slanted wall.
+                const float apart = std::abs(two - expected);
+                worst = std::max(worst, apart);
+                wrong += !(apart <= (test::computes_like_cpp() ? 0x1p-18f : 0x1p-12f)) ||
                          second.colour(0, face, x, y) != kWallColours[wall];
             }
     // At the outline of the ball some facets already face away while their smooth normals do not.
-    EXPECT_LE(wrong, hidden / 100);
+    EXPECT_LE(wrong, hidden / 100) << "worst distance " << worst;
     const double sine = kOccludingBallRadius / length(kOccludingBallCentre - centre),
                  expected = 2 * f64::kPi * (1 - std::sqrt(1 - sine * sine));
     EXPECT_NEAR(solid_angle, expected, .02 * expected) << hidden << " texels of ball";

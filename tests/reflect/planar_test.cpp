@@ -140,7 +140,7 @@ TEST(Planar, FlatMirrorsEqualRayTracing) {
         const PlanarComparison away = compare_first_order_pixels(planar, truth, left_out);
         print_planar_comparison(scene.name + ", away from shadow edges", away);
         EXPECT_EQ(away.share_off, 0) << scene.name;
-        EXPECT_LE(away.rmse, 1e-6) << scene.name;
+        EXPECT_LE(away.rmse, test::computes_like_cpp() ? 1e-6 : 1e-5) << scene.name;
         EXPECT_LE(away.left_out, .15) << scene.name;
     }
 }

@@ -16,8 +16,10 @@ constexpr int kSearchHitState = 0,
 // The rasteriser snaps vertices to 1/256 of a pixel, so rays are reflected at slightly different
 // points than in the reference. This shows only at the outline of the ball, where normals change
 // fast.
-// Largest errors allowed, in degrees: for the worst pixel, and for 99 % of the pixels.
-constexpr double kSnappedRayDifference = .1, kMaxSnappedRayShare = .01;
+// Largest errors allowed, in degrees: for the worst pixel, and for 99 % of the pixels. A graphics
+// card also interpolates between the snapped vertices.
+double largest_snapped_ray_difference() { return test::computes_like_cpp() ? .1 : .4; }
+double largest_common_ray_difference() { return test::computes_like_cpp() ? .01 : .06; }
 
 measure::LookupErrorSummary
 summarise_proxy_errors(const std::string& what,
@@ -38,8 +40,8 @@ TEST(Proxy, BoxOfAnEmptyRoomIsExact) {
         ASSERT_GT(pixels.size(), 1000u);
         double worst;
         EXPECT_LT(summarise_proxy_errors("box, face " + face, pixels, worst).p99_degrees,
-                  kMaxSnappedRayShare);
-        EXPECT_LT(worst, kSnappedRayDifference);
+                  largest_common_ray_difference());
+        EXPECT_LT(worst, largest_snapped_ray_difference());
         EXPECT_EQ(
             std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
             std::ssize(pixels));
@@ -60,7 +62,7 @@ TEST(Proxy, SphereOfARoundRoomIsExact) {
     ASSERT_GT(pixels.size(), 1000u);
     double worst;
     EXPECT_LT(summarise_proxy_errors("sphere", pixels, worst).p99_degrees,
-              kSnappedRayDifference); // the round room consists of 4^7 flat triangles
+              largest_snapped_ray_difference()); // the round room consists of 4^7 flat triangles
     EXPECT_EQ(std::ranges::count(pixels, kSearchHitState, &measure::LookupDirectionError::state),
               std::ssize(pixels));
 }
@@ -106,8 +108,8 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
             double worst;
             EXPECT_LT(summarise_proxy_errors("nothing, " + shape + ", " + distance, pixels, worst)
                           .p99_degrees,
-                      kMaxSnappedRayShare);
-            EXPECT_LT(worst, kSnappedRayDifference);
+                      largest_common_ray_difference());
+            EXPECT_LT(worst, largest_snapped_ray_difference());
         }
 }
 

@@ -109,7 +109,11 @@ TEST_P(PunctualLightTest, FloorIsLitAsSpecified) {
                 }
             std::cout << "[ MEASURED ] " << technique << ", " << scale << ": worst " << worst
                       << " of " << darkest << " to " << brightest << "\n";
-            EXPECT_LE(worst, 1e-3 * brightest) << technique << ", scale " << scale;
+            // At the edge of a spot without penumbra, light falls to 0 within a hundredth of a
+            // pixel, and snapped vertices shift positions by a 512th.
+            const bool on_edge = lit.light.cos_inner == lit.light.cos_outer &&
+                                 !test::computes_like_cpp();
+            EXPECT_LE(worst, (on_edge ? .1 : 1e-3) * brightest) << technique << ", scale " << scale;
         }
     }
 }

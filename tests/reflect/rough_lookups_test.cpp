@@ -212,7 +212,8 @@ TEST(RoughLookups, PerfectMirrorsAreTheSameInEveryMode) {
     }
 }
 
-/// The software driver silently stops an invocation's loops after 65,535 iterations.
+/// The software driver silently stops an invocation's loops after 65,535 iterations. Other drivers
+/// do not.
 TEST(RoughLookups, SearchesThatTheDriverStopsAreMarked) {
     const scene::Scene scene = scene::load("cornell-rough");
     const auto count_marked = [&](const std::string& rays) {
@@ -225,7 +226,7 @@ TEST(RoughLookups, SearchesThatTheDriverStopsAreMarked) {
                                      [](const auto& pixel) { return std::isnan(pixel.x); });
     };
     EXPECT_EQ(count_marked("16"), 0);
-    EXPECT_GT(count_marked("1024"), 0);
+    EXPECT_EQ(count_marked("1024") > 0, test::get_test_device().device.is_cpu_device());
 }
 
 /// A mirrored view is sharp, so flat rough mirrors are drawn by another technique, and `auto` does

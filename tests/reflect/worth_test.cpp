@@ -38,9 +38,11 @@ TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
                                   &layered = seen[3];
         EXPECT_LE(march.flip, secant.flip);
         EXPECT_LE(layered.flip, 1.02 * pyramid.flip);
-        EXPECT_LE(secant.off, 1.5 * pyramid.off);
+        // Another rasteriser draws other pixels at the outlines of mirrors.
+        EXPECT_LE(secant.off, (test::computes_like_cpp() ? 1.5 : 2.5) * pyramid.off);
         for (const measure::Difference* search : {&secant, &march})
-            EXPECT_LE(search->longest_line, 1.1 * pyramid.longest_line);
+            EXPECT_LE(search->longest_line,
+                      (test::computes_like_cpp() ? 1.1 : 1.3) * pyramid.longest_line);
         if (look.camera.name != looks.front().camera.name) continue;
         for (const measure::Difference& search : seen) EXPECT_LE(search.longest_line, 24);
     }

@@ -101,6 +101,13 @@ inline app::Engine& get_test_engine(bool layered = true) {
 
 /// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
 /// limits/limits_test.cpp tests the error on devices that do not support it.
+/// Returns whether shaders and fixed functions compute as the same expressions do in C++: divisions
+/// are correctly rounded, values are interpolated between unrounded vertices, and textures are
+/// filtered with weights of full precision. Mesa's software driver does so. Vulkan asks for less:
+/// divisions within 2.5 units in the last place, and as many bits of positions in a pixel and of
+/// weights as `subPixelPrecisionBits` and `subTexelPrecisionBits` say (8 on most graphics cards).
+inline bool computes_like_cpp() { return get_test_device().device.is_cpu_device(); }
+
 inline bool has_float_colour() { return get_test_device().device.has_float_filtering(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.

@@ -3,8 +3,11 @@
 #include "bvh/closest_hit.hpp"
 #include "support/device.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <iostream>
 #include <span>
 #include <sstream>
 #include <string>
@@ -199,22 +202,47 @@ inline std::string format_for_message(const DeviceRay& ray) {
     return out.str();
 }
 
-/// Returns the number of rays for which the device and the CPU reference differ. The first such ray
-/// fails the test with both hits. `stride`: compares only every stride-th ray.
+/// On a device that does not compute like C++, at most one in so many rays may meet another point
+/// than on the CPU, because it passes the edge of a triangle within rounding errors.
+constexpr std::size_t kRaysPerOtherHit = 200;
+
+/// Returns whether a hit of the device is the one that the CPU reference finds: to the last bit on
+/// a device that computes like C++, otherwise within the rounding errors of t, which are relative
+/// to t and to the coordinates of the ray's origin.
+inline bool is_hit_of_cpu(const DeviceRay& ray, const DeviceHit& found, const DeviceHit& expected) {
+    if (computes_like_cpp()) return are_equal_hits(found, expected);
+    const vec3 size = glm::abs(ray.origin), speed = glm::abs(ray.direction);
+    const float rounding = std::max({size.x, size.y, size.z}) /
+                           std::max({speed.x, speed.y, speed.z});
+    return found.outcome == expected.outcome &&
+           std::abs(found.t - expected.t) <= 0x1p-12f * std::abs(expected.t) + 0x1p-18f * rounding;
+}
+
+/// Returns the number of rays for which the device and the CPU reference differ. On a device that
+/// does not compute like C++, one in `kRaysPerOtherHit` rays may differ, and the function then
+/// returns 0. The first of too many such rays fails the test with both hits. `stride`: compares
+/// only every stride-th ray.
 inline std::size_t count_wrong_hits(const DeviceRayTracer& kernel,
                                     const std::vector<DeviceRay>& rays,
                                     const std::vector<DeviceHit>& hits, std::uint32_t skipped = 0,
                                     std::size_t stride = 1, const std::vector<vec4>& lows = {}) {
     std::size_t count = 0;
+    std::string first;
     for (std::size_t i = 0; i < rays.size(); i += stride) {
         const DeviceHit expected = find_hit_on_cpu(kernel.traversed_bvh(), rays[i], skipped,
                                                    lows.empty() ? vec3(0) : vec3(lows[i]));
-        if (are_equal_hits(hits[i], expected)) continue;
+        if (is_hit_of_cpu(rays[i], hits[i], expected)) continue;
         if (count++ == 0)
-            ADD_FAILURE() << "ray " << i << ", " << format_for_message(rays[i])
-                          << "\n  device: " << format_for_message(hits[i])
-                          << "\n  mirror: " << format_for_message(expected);
+            first = "ray " + std::to_string(i) + ", " + format_for_message(rays[i]) +
+                    "\n  device: " + format_for_message(hits[i]) +
+                    "\n  mirror: " + format_for_message(expected);
     }
+    if (!computes_like_cpp()) {
+        std::cout << "[ MEASURED ] " << count << " of " << rays.size() / stride
+                  << " rays meet another point than in C++\n";
+        if (count <= rays.size() / stride / kRaysPerOtherHit) return 0;
+    }
+    if (count > 0) ADD_FAILURE() << first;
     return count;
 }
 
