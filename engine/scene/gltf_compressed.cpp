@@ -20,11 +20,6 @@ constexpr std::string_view kDracoExtension = "KHR_draco_mesh_compression";
 /// result.
 constexpr std::uint64_t kDecodedBytesPerDracoByte = 4;
 
-std::optional<JsonObject> find_extension(const JsonObject& item, std::string_view name) {
-    const std::optional<JsonObject> extensions = item.read_object_member("extensions");
-    return extensions ? extensions->read_object_member(name) : std::nullopt;
-}
-
 /// Removes an extension that was decoded, so that it does not count as unread.
 void erase_extension(Json& item, std::string_view name) {
     Json& extensions = item["extensions"];
@@ -133,7 +128,7 @@ void decode_meshopt_views(GltfContainer& container, const std::string& file,
         ByteList elements;
         {
             const JsonObject root(container.document, file);
-            const auto extension = find_extension(root.at("bufferViews", i), kMeshoptExtension);
+            const auto extension = root.at("bufferViews", i).read_extension(kMeshoptExtension);
             if (!extension) continue;
             elements = decode_meshopt_view(container, *extension, account);
         }
@@ -280,7 +275,7 @@ void decode_draco_primitives(GltfContainer& container, const std::string& file,
             {
                 const JsonObject root(container.document, file);
                 const JsonObject primitive = root.at("meshes", i).at("primitives", k);
-                const auto extension = find_extension(primitive, kDracoExtension);
+                const auto extension = primitive.read_extension(kDracoExtension);
                 if (!extension) continue;
                 decoded = decode_draco_primitive(container, root, primitive, *extension, account);
                 const std::size_t count = root.size("accessors");

@@ -129,9 +129,7 @@ public:
 private:
     /// Returns whether the buffer only stands for what compressed views decode to.
     bool is_empty_fallback(const JsonObject& buffer) const {
-        const std::optional<JsonObject> extensions = buffer.read_object_member("extensions");
-        const auto meshopt = extensions ? extensions->read_object_member(kMeshoptExtension)
-                                        : std::nullopt;
+        const auto meshopt = buffer.read_extension(kMeshoptExtension);
         return meshopt && meshopt->flag("fallback", false) && !buffer.has_member("uri");
     }
     std::size_t find_file_of_buffer(const JsonObject& buffer) {

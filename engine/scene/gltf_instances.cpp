@@ -130,9 +130,7 @@ void expand_instances(GltfContainer& container, const std::string& file,
         {
             const JsonObject root(container.document, file);
             const JsonObject node = root.at("nodes", i);
-            const auto extensions = node.read_object_member("extensions");
-            const auto extension = extensions ? extensions->read_object_member(kInstancingExtension)
-                                              : std::nullopt;
+            const auto extension = node.read_extension(kInstancingExtension);
             if (!extension || !node.has_member("mesh")) continue;
             if (node.has_member("skin")) {
                 notes.add_note("instances of a mesh with a skin, left out",

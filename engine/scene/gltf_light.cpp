@@ -45,19 +45,12 @@ PunctualLight read_punctual_light(const JsonObject& light) {
 
 PunctualLights read_lights(const MaterialReadContext& source) {
     PunctualLights result;
-    const std::optional<JsonObject> extensions = source.root.read_object_member("extensions");
-    const std::optional<JsonObject> all = extensions ? extensions->read_object_member(
-                                                           kPunctualLightsExtension)
-                                                     : std::nullopt;
-    if (all)
+    if (const auto all = source.root.read_extension(kPunctualLightsExtension))
         all->each("lights", [&](const JsonObject& item) {
             result.lights.push_back(read_punctual_light(item));
         });
     source.root.each("nodes", [&](const JsonObject& node) {
-        const std::optional<JsonObject> its = node.read_object_member("extensions");
-        const std::optional<JsonObject> use = its ? its->read_object_member(
-                                                        kPunctualLightsExtension)
-                                                  : std::nullopt;
+        const std::optional<JsonObject> use = node.read_extension(kPunctualLightsExtension);
         result.of_node.push_back(
             use ? std::optional(use->needed_index("light", result.lights.size())) : std::nullopt);
     });

@@ -52,9 +52,8 @@ void read_texture_transform(const JsonObject& transform, Texture& texture) {
 
 /// Returns the index of a texture's image. The WebP image of EXT_texture_webp is preferred.
 std::optional<std::size_t> find_texture_image(const JsonObject& texture, std::size_t count) {
-    if (const auto extensions = texture.read_object_member("extensions"))
-        if (const auto webp = extensions->read_object_member("EXT_texture_webp"))
-            return webp->index("source", count);
+    if (const auto webp = texture.read_extension("EXT_texture_webp"))
+        return webp->index("source", count);
     return texture.index("source", count);
 }
 
@@ -119,11 +118,10 @@ std::optional<Texture> TextureReader::find_or_read_texture(const JsonObject& use
     const JsonObject from = root.at("textures", use.needed_index("index", root.size("textures")));
     Texture texture{.srgb = srgb};
     std::uint64_t set = use.whole("texCoord", 0);
-    if (const auto extensions = use.read_object_member("extensions"))
-        if (const auto transform = extensions->read_object_member("KHR_texture_transform")) {
-            read_texture_transform(*transform, texture);
-            set = transform->whole("texCoord", set);
-        }
+    if (const auto transform = use.read_extension("KHR_texture_transform")) {
+        read_texture_transform(*transform, texture);
+        set = transform->whole("texCoord", set);
+    }
     if (set > 1) {
         source_.notes.add_note("textures of a third set of coordinates, drawn without",
                                use.describe_json_place());

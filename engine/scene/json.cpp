@@ -72,6 +72,11 @@ std::optional<JsonObject> JsonObject::read_object_member(std::string_view key) c
     return to({key, std::nullopt, value});
 }
 
+std::optional<JsonObject> JsonObject::read_extension(std::string_view name) const {
+    const std::optional<JsonObject> extensions = read_object_member("extensions");
+    return extensions ? extensions->read_object_member(name) : std::nullopt;
+}
+
 const Json* JsonObject::list(std::string_view key) const {
     const Json* value = find(key);
     if (value != nullptr)

@@ -52,6 +52,8 @@ public:
     const Json& json_value() const { return *json_; }
 
     std::optional<JsonObject> read_object_member(std::string_view key) const;
+    /// Returns the member `name` of the member "extensions", or none if either is absent.
+    std::optional<JsonObject> read_extension(std::string_view name) const;
     /// Returns the number of objects in the list `key`, 0 if it is absent.
     std::size_t size(std::string_view key) const;
     /// Returns one object of the list `key`, which must exist and be longer than `index`.
