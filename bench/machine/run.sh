@@ -9,20 +9,22 @@ here=$PWD
 
 usage() {
     cat <<'TEXT'
-run.sh [-d DEVICE] [-t SECONDS] [--quick] [STEP...]
+run.sh [-d DEVICE] [-t SECONDS] [-j JOBS] [--quick] [STEP...]
   -d DEVICE    index from 0 or part of a name, as 'catoptric list devices' has it (the fastest kind)
   -t SECONDS   the most that one step may take (600)
+  -j JOBS      how many tests run at once (1); the other steps measure times and run alone
   --quick      small pictures, few rounds, a few tests: whether all of it runs
   STEP         only those whose names hold one of these words; 'devices' and 'info' always run
 Steps: devices, info, bench, compare, stress, ratios, and gpu/..., reflect/..., drivers/... of tests.txt.
 Exit code 0 when every step ended with 0, 1 otherwise. The archive is there in either case, and when this is stopped.
 TEXT
 }
-device=() limit=600 quick=0 only=()
+device=() limit=600 jobs=1 quick=0 only=()
 while (($#)); do
     case $1 in
     -d) device=(--device "${2:?-d wants a DEVICE}"); export CATOPTRIC_TEST_DEVICE=$2; shift ;;
     -t) limit=${2:?-t wants SECONDS}; shift ;;
+    -j) jobs=${2:?-j wants JOBS}; shift ;;
     --quick) quick=1 ;;
     -h | --help) usage; exit 0 ;;
     -*) echo "run.sh: no option '$1'" >&2; usage >&2; exit 2 ;;
@@ -69,6 +71,9 @@ printf '%-34s %-10s %8s\n' step exit seconds >"$summary"
 note() { printf '%-34s %-10s %8s\n' "$@" | tee -a "$summary"; }
 finish() { # packs the results; runs however the script ends
     [[ -z $child ]] || kill "$child" 2>/dev/null
+    local tests
+    mapfile -t tests < <(jobs -p)
+    ((${#tests[@]} == 0)) || { kill "${tests[@]}"; wait; } 2>/dev/null
     tar -czf "$here/$name.tar.gz" -C "$here" "$name" && rm -rf "$results"
     echo "archive: $here/$name.tar.gz"
 }
@@ -117,10 +122,27 @@ elif is_wanted compare; then
 fi
 wanted stress "$catoptric" stress "${device[@]}" "${stress[@]}" -o "$results/stress" --quiet
 wanted ratios bin/catoptric_bench "$pairs"
+running=0
+await_test() { wait -n || failed=1; running=$((running - 1)); }
 while read -r program file; do
     # --quick runs only the first test source of each program.
     ((quick)) && [[ $program == "${last:-}" ]] && continue
     last=$program
-    wanted "$program/$file" "bin/${program}_test" --from "${file}_test.cpp"
+    test=("$program/$file" "bin/${program}_test" --from "${file}_test.cpp")
+    is_wanted "${test[0]}" || continue
+    if ((jobs == 1)) || [[ $file == timer ]]; then # compares times, so it runs alone
+        while ((running)); do await_test; done
+        step "${test[@]}"
+        continue
+    fi
+    ((running < jobs)) || await_test
+    (
+        trap 'kill "$child" 2>/dev/null; exit 143' TERM
+        failed=0
+        step "${test[@]}"
+        exit $failed
+    ) &
+    running=$((running + 1))
 done <tests.txt
+while ((running)); do await_test; done
 exit $failed

@@ -75,6 +75,20 @@ env -i "$kit/run.sh" reflect/a >said.txt 2>&1 || fail "nothing failed: wanted ex
 ! grep -q '^gpu/' said.txt || fail "ran what was not asked for: $(cat said.txt)"
 (($(grep -c '^reflect/' said.txt) == $(ls "$source"/tests/reflect/a*_test.cpp | wc -l))) || fail "not all: $(cat said.txt)"
 
+# With -j, tests must run at the same time, except those that compare times, and their exit codes must still count.
+stub_in_kit() { printf '#!/usr/bin/env bash\n%s\n' "$2" >"$kit/bin/$1"; chmod +x "$kit/bin/$1"; }
+stub_in_kit gpu_test 'at=$TMPDIR/running; mkdir -p "$at"; touch "$at/$$"; sleep .3; ls "$at" | wc -l; rm "$at/$$"'
+rm "$kit"/results-*
+env -i "$kit/run.sh" -j 4 gpu/t gpu/s >said.txt 2>&1 || fail "wanted exit code 0: $(cat said.txt)"
+rm -rf parallel && mkdir parallel
+tar -C parallel --strip-components=1 -xzf "$kit"/results-*.tar.gz
+(($(cat parallel/gpu-*.log | grep -cx '[234]') >= 3)) || fail "-j 4 ran one test at a time: $(tail -n 1 parallel/gpu-*.log)"
+expect '^1$' parallel/gpu-timer.log
+stub_in_kit gpu_test 'exit 3'
+env -i "$kit/run.sh" -j 4 gpu/t >said.txt 2>&1 && fail "a test failed beside others: wanted exit code 1, found 0"
+expect '^gpu/timer +3 ' said.txt
+expect '^gpu/texels +3 ' said.txt
+
 # Without the image module, steps that need it are left out and none fails.
 "$source/bench/machine/pack.sh" build --small small.tar.gz
 tar -tf small.tar.gz >small.txt
