@@ -36,7 +36,8 @@ Utf8Character decode_utf8_character(std::string_view text) {
         if ((byte(i) & 0xc0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3f);
     }
-    // Smaller codes have a shorter form.
+    // A code point below the least of its length could be encoded in fewer bytes, which UTF-8
+    // forbids.
     constexpr std::uint32_t kMinCodePoints[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
     if (code < kMinCodePoints[size] || is_surrogate || code > 0x10ffff) return {};

@@ -23,7 +23,7 @@ struct GraphPassTime {
 struct GraphFrameTimes {
     std::vector<GraphPassTime> passes; ///< in order of execution
     double span_ms = 0;                ///< first to last timestamp
-    double compile_ms = 0; ///< finding or making the plan, making its images; host clock
+    double compile_ms = 0; ///< host time to order passes, place barriers and make images
     double record_ms = 0;  ///< filling the command buffer, host clock
     double wait_ms =
         0; ///< waiting for a place among the frames in flight, and for this frame's end

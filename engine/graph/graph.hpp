@@ -228,7 +228,9 @@ public:
     const std::deque<Pass>& list_passes() const { return passes_; }
     const std::vector<ImageHandle>& list_output_images() const { return wanted_images_; }
     const std::vector<BufferHandle>& list_output_buffers() const { return wanted_buffers_; }
-    const std::vector<ImageContentHashRecord>& list_content_records() const { return stamped_; }
+    const std::vector<ImageContentHashRecord>& list_image_content_hashes() const {
+        return stamped_;
+    }
     ImageLifetime image_lifetime(std::uint32_t image) const { return lives_[image].lifetime; }
     bool is_imported(BufferHandle buffer) const { return imported_buffers_[buffer.id]; }
     /// Returns the use in whose layout an imported image arrives.

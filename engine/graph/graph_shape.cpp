@@ -120,7 +120,7 @@ std::uint64_t hash_graph_shape(const Graph& graph) {
         hash.add_value(graph.list_buffers()[b].name);
         hash.add_value(graph.list_buffers()[b].bytes << 1 | graph.is_imported({b}));
     }
-    for (const ImageContentHashRecord& stamped : graph.list_content_records())
+    for (const ImageContentHashRecord& stamped : graph.list_image_content_hashes())
         add_members_to_hash(hash, stamped.part);
     for (const Pass& pass : graph.list_passes()) add_members_to_hash(hash, pass);
     for (const ImageHandle& image : graph.list_output_images()) add_members_to_hash(hash, image);
@@ -138,8 +138,8 @@ bool have_equal_graph_declarations(const Graph& graph, const Graph& known) {
         if (!have_equal_lifetimes(graph, known, i)) return false;
     for (std::uint32_t b = 0; b < graph.list_buffers().size(); ++b)
         if (graph.is_imported({b}) != known.is_imported({b})) return false;
-    if (!std::ranges::equal(graph.list_content_records(), known.list_content_records(), {},
-                            &ImageContentHashRecord::part, &ImageContentHashRecord::part))
+    if (!std::ranges::equal(graph.list_image_content_hashes(), known.list_image_content_hashes(),
+                            {}, &ImageContentHashRecord::part, &ImageContentHashRecord::part))
         return false;
     return std::ranges::equal(
         graph.list_passes(), known.list_passes(),

@@ -88,7 +88,7 @@ void PersistentImages::find_or_create_images(CompiledRenderGraph& shape,
 }
 
 void PersistentImages::write(const Graph& graph, const CompiledRenderGraph& shape) {
-    for (const auto& [part, content_hash] : graph.list_content_records()) {
+    for (const auto& [part, content_hash] : graph.list_image_content_hashes()) {
         PersistentImage* const kept = shape.kept[part.id];
         if (!kept) continue; // the frame uses no part of the image
         for_each_contiguous_layer_range(part, graph.list_images()[part.id].layers,

@@ -124,7 +124,7 @@ void check_content_hash_has_write(const Graph& graph, const ImageContentHashReco
 /// set.
 void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses& all) {
     ValuesPerSubresource<char> stamped(graph, false), written(graph, false);
-    for (const ImageContentHashRecord& s : graph.list_content_records()) {
+    for (const ImageContentHashRecord& s : graph.list_image_content_hashes()) {
         check_content_hash_has_write(graph, s);
         stamped.set_subresource_values_of_access(make_access_to_image_part(s.part), true);
     }
@@ -138,7 +138,7 @@ void check_content_hashes_match_accesses(const Graph& graph, const GraphAccesses
                      describe_missing_layers(graph, stamped, a), " are made from");
             written.set_subresource_values_of_access(a, true);
         }
-    for (const ImageContentHashRecord& s : graph.list_content_records())
+    for (const ImageContentHashRecord& s : graph.list_image_content_hashes())
         if (const ResourceAccess a = make_access_to_image_part(s.part);
             written.has_any_equal_value(a, false))
             fail(kInvalidGraphFailure, describe_access(graph, a),

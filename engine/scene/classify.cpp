@@ -55,7 +55,7 @@ struct SurfaceAreaSums {
                                                       : sums.rough_dielectric) += 1;
         sums.mirror_dielectric += may_be_mirror;
     }
-    SurfaceKindShares compute_surface_shares() const {
+    SurfaceKindShares divide_sums_by_area() const {
         if (all == 0) return {};
         SurfaceKindShares shares = sums;
         for (double* share : {&shares.mirror, &shares.smooth_dielectric, &shares.rough_dielectric,
@@ -214,7 +214,7 @@ vec3 compute_f0(const Material& material, const vec3& colour, float metallic) {
 float largest_channel(const vec3& colour) { return std::max({colour.x, colour.y, colour.z}); }
 
 SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object) {
-    return sum_surface_samples(scene, object).compute_surface_shares();
+    return sum_surface_samples(scene, object).divide_sums_by_area();
 }
 
 void find_mirrors(Scene& scene, bool dielectric_mirrors) {

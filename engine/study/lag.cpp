@@ -162,7 +162,8 @@ private:
         report_frame_to_watcher(lag_request_.watcher, ++frames_done_, frames_expected_);
         return made;
     }
-    /// Begins with cold history. Counts frames that earlier runs saved as done.
+    /// Begins a run of frames without history. `frames_before`: frames of the progress that count
+    /// as rendered, because earlier runs made them unnecessary.
     void begin_frame_run_without_history(int frames_before) {
         lag_session_.forget();
         frames_done_ = frames_before;

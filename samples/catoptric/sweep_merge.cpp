@@ -267,8 +267,8 @@ std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups) 
 }
 
 /// Returns the fields that tell groups apart: the scene, then a value for each axis.
-std::vector<std::string> make_group_fields(const SweepGroup& group,
-                                           const std::vector<std::string>& axes) {
+std::vector<std::string> make_scene_and_axis_fields(const SweepGroup& group,
+                                                    const std::vector<std::string>& axes) {
     std::vector<std::string> fields{group.scene.get<std::string>()};
     for (const std::string& axis : axes) {
         const SweepJson& value = group.options[axis];
@@ -301,7 +301,7 @@ std::string make_errors_csv(const std::vector<SweepGroup>& groups,
         for (std::size_t i = 0; i < group.pictures.size(); ++i)
             for (std::size_t row = 0; row < group.labels.size(); ++row) {
                 const SweepJson& view = group.picture_pieces[i]->content["view"];
-                std::vector<std::string> fields = make_group_fields(group, axes);
+                std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
                 for (const char* name : {"index", "seed", "time"})
                     fields.push_back(view.is_null() ? "" : view[name].dump());
                 fields.push_back(group.labels[row]);
@@ -324,7 +324,7 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
     table.add_line(header);
     for (const SweepGroup& group : groups)
         for (std::size_t row = 0; row < group.labels.size(); ++row) {
-            std::vector<std::string> fields = make_group_fields(group, axes);
+            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
             fields.push_back(group.labels[row]);
             const std::vector<double> flip = list_metric_values(group, row, "flip");
             fields.push_back(std::to_string(summarise(flip).views));
@@ -411,7 +411,7 @@ std::string make_times_csv(const std::vector<SweepGroup>& groups) {
     for (const SweepGroup& group : groups)
         for (const SweepTime& time : list_times(group)) {
             const SweepSummary summary = time.summary();
-            std::vector<std::string> fields = make_group_fields(group, axes);
+            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
             fields.insert(fields.end(),
                           {time.label, time.machine.get<std::string>(),
                            get_text(time.identity, "device"), get_text(time.identity, "driver"),

@@ -23,10 +23,12 @@ using test::DeviceRay;
 using test::DeviceRayTracer;
 using test::WitnessRayBatch;
 
-constexpr std::size_t kMaxListedAnswers = 3; ///< unfounded answers printed per witness and batch
+/// Number of wrong answers that the test prints for each ray tracer and list of rays.
+constexpr std::size_t kMaxListedAnswers = 3;
 
-/// Largest allowed share of unfounded answers in a batch. The ray query of lavapipe comes closest,
-/// for rays aimed at the edges of the mesh `corridor`.
+/// Largest allowed share of wrong answers of one ray tracer to a list of rays: answers that no ray
+/// within rounding errors gets in double precision. The ray queries of lavapipe have the largest
+/// share, for rays at the edges of the mesh `corridor`.
 constexpr double kMaxUnfoundedShareAtEdges = 0.05;
 
 struct RayWitness {

@@ -32,7 +32,7 @@ std::shared_ptr<scene::Environment> make_patched_environment() {
 }
 
 /// Returns a metal floor of this roughness below patches, which fills the picture.
-scene::Scene make_patched_floor(float roughness) {
+scene::Scene make_metal_floor_below_patches(float roughness) {
     scene::Scene scene{.name = "patched floor"};
     scene.mirror_max_roughness = 1;
     const std::size_t metal = test::add_material(
@@ -63,7 +63,7 @@ private:
 };
 
 TEST(NoisyReference, SeedsGiveIndependentPicturesOfTheSameMean) {
-    SeededTracer tracer(make_patched_floor(.4f), {32, 32});
+    SeededTracer tracer(make_metal_floor_below_patches(.4f), {32, 32});
     const measure::Picture one = tracer.trace_picture(4, 1), again = tracer.trace_picture(4, 1),
                            two = tracer.trace_picture(4, 2), none = tracer.trace_picture(4, 0);
     EXPECT_TRUE(test::have_equal_pixel_bytes(one, again));
@@ -74,7 +74,7 @@ TEST(NoisyReference, SeedsGiveIndependentPicturesOfTheSameMean) {
 }
 
 TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
-    SeededTracer tracer(make_patched_floor(.4f), {48, 48});
+    SeededTracer tracer(make_metal_floor_below_patches(.4f), {48, 48});
     measure::PictureMean a, b;
     std::vector<double> rmse, predicted;
     int seed = 0;
@@ -102,7 +102,7 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
 /// The true error is that against 16 times the rays, with other seeds.
 TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     constexpr int kRaysPerPixel = 16;
-    SeededTracer tracer(make_patched_floor(.4f), {64, 64});
+    SeededTracer tracer(make_metal_floor_below_patches(.4f), {64, 64});
     const measure::Picture row = tracer.trace_picture(1, 1000);
     const auto estimate = [&](int rays, int seed) {
         return measure::estimate_noise_free_error_by_halves(
@@ -131,7 +131,7 @@ TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
 
 app::CompareRequest make_rough_floor_request(const std::vector<std::string>& rows, double seconds) {
     app::CompareRequest request;
-    request.base = test::make_test_request(make_patched_floor(.3f), rows, {64, 64});
+    request.base = test::make_test_request(make_metal_floor_below_patches(.3f), rows, {64, 64});
     request.reference_seconds = seconds;
     return request;
 }
@@ -188,7 +188,7 @@ TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
     EXPECT_TRUE(rough.noise);
     request.reference = "raytrace:depth=16";
     EXPECT_FALSE(app::compare(test::get_test_engine(), request).noise);
-    request.base.scene = make_patched_floor(.04f);
+    request.base.scene = make_metal_floor_below_patches(.04f);
     request.reference = "";
     const report::Comparison sharp = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(sharp.reference_label, app::kReference);

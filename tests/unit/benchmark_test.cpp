@@ -47,14 +47,15 @@ std::vector<double> make_benchmark_times(double factor) {
     return values;
 }
 
-BenchmarkChange compute_only_change(const BenchmarkRun& before, const BenchmarkRun& after) {
+BenchmarkChange compare_runs_of_one_benchmark(const BenchmarkRun& before,
+                                              const BenchmarkRun& after) {
     return measure::compare_benchmark_runs(before, after).list.at(0);
 }
 
 TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
     // The ratios of the rounds are 1.5, 1, 1, 1, 1 and 3, with median 1. The ratio of the two
     // medians would be 20 / 15.
-    const BenchmarkChange found = compute_only_change(
+    const BenchmarkChange found = compare_runs_of_one_benchmark(
         make_benchmark_run({make_benchmark("a", {10, 10, 20, 20, 30, 10})}),
         make_benchmark_run({make_benchmark("a", {15, 10, 20, 20, 30, 30})}));
     EXPECT_EQ(found.ratio.median, 1);
@@ -66,7 +67,7 @@ TEST(BenchmarkCompare, RatioIsTheMedianOfTheRatiosOfRounds) {
 
 TEST(BenchmarkCompare, RunsDifferIfTheRatioIntervalExcludesOne) {
     const auto outcome = [](double factor) {
-        return compute_only_change(
+        return compare_runs_of_one_benchmark(
                    make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}),
                    make_benchmark_run({make_benchmark("a", make_benchmark_times(factor))}))
             .outcome();
@@ -78,8 +79,8 @@ TEST(BenchmarkCompare, RunsDifferIfTheRatioIntervalExcludesOne) {
 
 TEST(BenchmarkCompare, FewerThanSixRoundsGiveAnUnknownOutcome) {
     const std::vector<double> five{1, 1, 1, 1, 1}, double_of_it{2, 2, 2, 2, 2};
-    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", five)}),
-                                  make_benchmark_run({make_benchmark("a", double_of_it)}))
+    EXPECT_EQ(compare_runs_of_one_benchmark(make_benchmark_run({make_benchmark("a", five)}),
+                                            make_benchmark_run({make_benchmark("a", double_of_it)}))
                   .outcome(),
               Outcome::unknown);
 }
@@ -89,14 +90,16 @@ TEST(BenchmarkCompare, CyclesAreComparedIfBothRunsCountedThem) {
                     more = make_benchmark("a", make_benchmark_times(.5));
     for (BenchmarkRound& round : counted.rounds) round.cycles = 1e6;
     for (BenchmarkRound& round : more.rounds) round.cycles = 2e6;
-    const BenchmarkChange found = compute_only_change(make_benchmark_run({counted}),
-                                                      make_benchmark_run({more}));
+    const BenchmarkChange found = compare_runs_of_one_benchmark(make_benchmark_run({counted}),
+                                                                make_benchmark_run({more}));
     EXPECT_EQ(found.cost, BenchmarkCostKind::cycles);
     EXPECT_EQ(found.ratio.median, 2);
     EXPECT_EQ(found.outcome(), Outcome::mixed) << "twice the cycles in half the time";
     more.rounds[3].cycles.reset();
-    EXPECT_EQ(compute_only_change(make_benchmark_run({counted}), make_benchmark_run({more})).cost,
-              BenchmarkCostKind::cpu_time);
+    EXPECT_EQ(
+        compare_runs_of_one_benchmark(make_benchmark_run({counted}), make_benchmark_run({more}))
+            .cost,
+        BenchmarkCostKind::cpu_time);
 }
 
 TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
@@ -104,8 +107,8 @@ TEST(BenchmarkCompare, InstructionsAreComparedIfCyclesAreNotCounted) {
                     more = make_benchmark("a", kSixBenchmarkTimes);
     for (BenchmarkRound& round : counted.rounds) round.instructions = 1e6;
     for (BenchmarkRound& round : more.rounds) round.instructions = 3e6;
-    const BenchmarkChange found = compute_only_change(make_benchmark_run({counted}),
-                                                      make_benchmark_run({more}));
+    const BenchmarkChange found = compare_runs_of_one_benchmark(make_benchmark_run({counted}),
+                                                                make_benchmark_run({more}));
     EXPECT_EQ(found.cost, BenchmarkCostKind::instructions);
     EXPECT_EQ(found.ratio.median, 3);
 }
@@ -117,8 +120,8 @@ TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
         round.counters = {{"work/nodes", 1000}, {"work/draws", 7}, {"work/bytes", 5}, {"rays", 1}};
     for (BenchmarkRound& round : after.rounds)
         round.counters = {{"work/nodes", 1011}, {"work/draws", 7}, {"work/bytes", 4}, {"rays", 9}};
-    const BenchmarkChange found = compute_only_change(make_benchmark_run({before}),
-                                                      make_benchmark_run({after}));
+    const BenchmarkChange found = compare_runs_of_one_benchmark(make_benchmark_run({before}),
+                                                                make_benchmark_run({after}));
     EXPECT_EQ(found.outcome(), Outcome::same);
     EXPECT_EQ(found.compared_counts, 3u);
     ASSERT_EQ(found.counts.size(), 2u);
@@ -133,19 +136,20 @@ TEST(BenchmarkCompare, CountedWorkIsComparedWithoutAClock) {
 TEST(BenchmarkCompare, MoreProcessorTimeInLessWallTimeIsMixed) {
     BenchmarkResult shared = make_benchmark("a", make_benchmark_times(1.1));
     for (BenchmarkRound& round : shared.rounds) round.real_ms /= 2;
-    EXPECT_EQ(compute_only_change(make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}),
-                                  make_benchmark_run({shared}))
-                  .outcome(),
-              Outcome::mixed);
+    EXPECT_EQ(
+        compare_runs_of_one_benchmark(make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}),
+                                      make_benchmark_run({shared}))
+            .outcome(),
+        Outcome::mixed);
 }
 
 TEST(BenchmarkCompare, WallTimeIsComparedIfTheDeviceIsNoProcessor) {
     BenchmarkRun gpu = make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)});
     gpu.device.type = "discrete";
-    EXPECT_EQ(
-        compute_only_change(make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}), gpu)
-            .cost,
-        BenchmarkCostKind::real_time);
+    EXPECT_EQ(compare_runs_of_one_benchmark(
+                  make_benchmark_run({make_benchmark("a", kSixBenchmarkTimes)}), gpu)
+                  .cost,
+              BenchmarkCostKind::real_time);
 }
 
 TEST(BenchmarkCompare, BenchmarksOfOnlyOneRunAreListed) {

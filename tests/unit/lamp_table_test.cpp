@@ -38,7 +38,8 @@ std::uint32_t count_table_triangles(const std::vector<vec4>& table) {
 }
 
 /// Returns the probability with which the alias table draws each object.
-std::map<std::uint32_t, double> draw_probability_by_object(const std::vector<vec4>& table) {
+std::map<std::uint32_t, double>
+sum_alias_table_probabilities_by_object(const std::vector<vec4>& table) {
     const std::uint32_t count = count_table_triangles(table);
     std::map<std::uint32_t, double> result;
     const auto object = [&](std::uint32_t i) {
@@ -62,7 +63,7 @@ TEST(LampTable, TrianglesAreDrawnByPower) {
     const std::vector<vec4> table = render::make_lamp_table(scene.geometry, scene.surfaces);
     ASSERT_EQ(count_table_triangles(table), 3u);
     ASSERT_EQ(table.size(), 10u);
-    const std::map<std::uint32_t, double> found = draw_probability_by_object(table);
+    const std::map<std::uint32_t, double> found = sum_alias_table_probabilities_by_object(table);
     const double total = .5 + 9 + 3.5;
     ASSERT_EQ(found.size(), 3u);
     EXPECT_NEAR(found.at(0), .5 / total, 1e-6);

@@ -396,7 +396,7 @@ protected:
     }
     /// Changes each component of the vector that `get` returns, one at a time.
     template <typename Get>
-    void expect_new_hash_of_components(const char* what, Get&& get) {
+    void expect_new_hash_for_each_component(const char* what, Get&& get) {
         for (int i = 0; i < 3; ++i)
             expect_new_hash(what, [&](Scene& scene) { get(scene)[i] += .125f; });
     }
@@ -416,9 +416,9 @@ protected:
 TEST_F(SceneHashTest, SceneHashChangesWithMeshes) {
     expect_new_hash("a bit",
                     [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(552.8, 0); });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "position", [](Scene & s) -> auto& { return s.meshes.back().positions.back(); });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "normal", [](Scene & s) -> auto& { return s.meshes[0].normals.back(); });
     expect_new_hash(
         "order", [](Scene& s) { std::swap(s.meshes[0].triangles[0], s.meshes[0].triangles[1]); });
@@ -432,11 +432,11 @@ TEST_F(SceneHashTest, SceneHashChangesWithMeshes) {
 }
 
 TEST_F(SceneHashTest, SceneHashChangesWithMaterials) {
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "albedo", [](Scene & s) -> auto& { return s.materials.back().albedo; });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "emission", [](Scene & s) -> auto& { return s.materials.back().emission; });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "reflectance", [](Scene & s) -> auto& { return s.materials.back().reflectance; });
     expect_new_hash("mirror",
                     [](Scene& s) { s.materials.back().mirror = !s.materials.back().mirror; });
@@ -454,7 +454,7 @@ TEST_F(SceneHashTest, SceneHashChangesWithObjects) {
             expect_new_hash(
                 "place", [&](Scene& s) { s.objects.back().world_from_object[column][row] += .5; });
     expect_new_hash("no sphere", [](Scene& s) { s.objects[6].sphere.reset(); });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "centre", [](Scene & s) -> auto& { return s.objects[6].sphere->centre; });
     expect_new_hash("radius", [](Scene& s) { s.objects[6].sphere->radius += 1; });
     expect_new_hash("seen", [](Scene& s) { s.objects[6].seen_by_camera = false; });
@@ -482,19 +482,19 @@ TEST_F(SceneHashTest, SceneHashChangesWithMotions) {
     expect_new_hash_of_keys("value", [](TranslationTrack& keys) { keys.values[1].z = 9; });
     expect_new_hash_of_keys("in", [](TranslationTrack& keys) { keys.in_tangents[1].z = 9; });
     expect_new_hash_of_keys("out", [](TranslationTrack& keys) { keys.out_tangents[1].z = 9; });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "rest", [](Scene & s) -> auto& { return motion_of_scene(s).rest; });
     for (int column = 0; column < 3; ++column)
-        expect_new_hash_of_components(
+        expect_new_hash_for_each_component(
             "turn", [&](Scene & s) -> auto& { return motion_of_scene(s).world_from_keys[column]; });
 }
 
 TEST_F(SceneHashTest, SceneHashChangesWithCameras) {
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "eye", [](Scene & s) -> auto& { return s.cameras[0].eye; });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "target", [](Scene & s) -> auto& { return s.cameras[0].target; });
-    expect_new_hash_of_components(
+    expect_new_hash_for_each_component(
         "up", [](Scene & s) -> auto& { return s.cameras[0].up; });
     expect_new_hash("angle", [](Scene& s) { s.cameras[0].vertical_fov_degrees = 38; });
     expect_new_hash("name", [](Scene& s) { s.cameras[0].name += "'"; });
