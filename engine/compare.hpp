@@ -29,8 +29,8 @@ struct CompareRequest {
     bool together = false;         ///< render all rows in one frame
     /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;
-    /// Whether each row is measured twice, with the model `everything` and with `required`. False:
-    /// each row is measured once, with `base.model`.
+    std::optional<bool> repeats_first_round; ///< again at the end; none: if the device is no cpu
+    /// Whether each row is measured with both models, not with `base.model` alone.
     bool both_models = false;
     /// Studies in addition to time and error, such as {{"causes"}, {"views", 30}, {"lag"}}.
     std::vector<StudyChoice> studies;

@@ -201,19 +201,18 @@ private:
         comparison_.pareto = measure::find_pareto_front_of_rows(comparison_.rows);
     }
 
-    /// Measures the cost of clearing the cubes of all mirrors without drawing, for as many frames
-    /// as a row has.
-    void measure_cube_clear_cost(int round) {
-        const int warmup = round == 0 ? compare_request_.base.warmup : 0;
+    /// Returns the times of clearing the cubes of all mirrors without drawing, for as many frames
+    /// as a row has in the round.
+    std::vector<double> measure_cube_clear_times(int round, int warmup) {
         const int frames = choose_frame_count_of_round(compare_request_.base.frames,
                                                        comparison_.rounds, round);
-        std::vector<double>& samples = clear_ms_.emplace_back();
+        std::vector<double> samples;
         for (int k = 0; k < warmup + frames; ++k) {
             const FrameTimes times = Access::measure_cube_clear_time(shared_session_);
             if (k >= warmup) samples.push_back(times.passes_ms);
             throw_if_stopped(compare_request_.watcher);
         }
-        comparison_.clear_ms = measure::summarise_samples(clear_ms_);
+        return samples;
     }
 
     void fill_reference_facts() {
@@ -362,29 +361,37 @@ private:
         const PinnedThreads held;
         comparison_.device.held_threads = static_cast<int>(held.pinned_thread_count());
         for (int round = 0; round < comparison_.rounds; ++round) measure_round_of_rows(round);
-        if (must_repeat_first_round(comparison_.device.type)) repeat_first_rounds();
+        if (repeats_first_round()) measure_first_round_again();
         runs_.clear(); // frees also the device memory of their histories
     }
 
     void measure_round_of_rows(int round) {
-        measure_cube_clear_cost(round);
+        clear_ms_.push_back(
+            measure_cube_clear_times(round, round == 0 ? compare_request_.base.warmup : 0));
+        comparison_.clear_ms = measure::summarise_samples(clear_ms_);
         const std::vector<std::vector<std::string>> all = group_rows_rendered_together();
         // Reverses every second round. No row then always follows the same other, whose work may
         // still have an effect.
         for (std::size_t place = 0; place < all.size(); ++place) {
             const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
-            const auto rounds = static_cast<std::size_t>(comparison_.rounds);
-            std::string row = compare_request_.together ? "all rows in one frame"
-                                                        : all[lane].front();
-            if (compare_request_.both_models) row += ", model " + rendered_work_name(models_[lane]);
             report_row_to_watcher(compare_request_.watcher,
-                                  row + ", round " + std::to_string(round + 1) + " of " +
-                                      std::to_string(comparison_.rounds),
+                                  describe_lane(lane) + ", round " + std::to_string(round + 1) +
+                                      " of " + std::to_string(comparison_.rounds),
                                   static_cast<std::size_t>(round) * all.size() + place,
-                                  rounds * all.size());
+                                  count_row_measurements(all.size()));
             measure_round_of_row(lane, all[lane], round);
         }
-        if (round > 0) report_progress();
+        // Writing files would interrupt the device before the first round is measured again.
+        const bool is_followed = round + 1 == comparison_.rounds && repeats_first_round();
+        if (round > 0 && !is_followed) report_progress();
+    }
+
+    /// Returns what is measured together, for the watcher.
+    std::string describe_lane(std::size_t lane) const {
+        std::string text = compare_request_.together ? "all rows in one frame"
+                                                     : group_rows_rendered_together()[lane].front();
+        if (compare_request_.both_models) text += ", model " + rendered_work_name(models_[lane]);
+        return text;
     }
 
     /// Number of frames of the first round.
@@ -392,14 +399,44 @@ private:
         return choose_frame_count_of_round(compare_request_.base.frames, comparison_.rounds, 0);
     }
 
-    void repeat_first_rounds() {
+    bool repeats_first_round() const {
+        return compare_request_.repeats_first_round.value_or(
+            must_repeat_first_round(comparison_.device.type));
+    }
+
+    /// Measures the first round again, while nothing else interrupts the device. Then judges the
+    /// pictures of the last round, which would have interrupted it.
+    void measure_first_round_again() {
+        std::vector<double> clear_ms = measure_cube_clear_times(0, 0);
         for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-            runs_[lane]->repeat_first_round();
+            report_row_to_watcher(
+                compare_request_.watcher, comparison_.rows[lane].label + ", first round again",
+                static_cast<std::size_t>(comparison_.rounds) * runs_.size() + lane,
+                count_row_measurements(runs_.size()));
+            runs_[lane]->measure_first_round_again();
             runs_[lane]->suspend_frames();
+        }
+        clear_ms_.front() = std::move(clear_ms);
+        comparison_.clear_ms = measure::summarise_samples(clear_ms_);
+        for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
+            runs_[lane]->replace_first_round();
             for (std::size_t i = 0; i < runs_[lane]->technique_count(); ++i)
                 fill_times_of_row(lane + i, *runs_[lane]);
         }
+        for (const auto& [index, picture] : unjudged_) judge_row(index, picture);
+        unjudged_.clear();
         report_progress();
+    }
+
+    /// Returns how often a row is measured in all rounds.
+    std::size_t count_row_measurements(std::size_t rows) const {
+        return (static_cast<std::size_t>(comparison_.rounds) + (repeats_first_round() ? 1 : 0)) *
+               rows;
+    }
+
+    void judge_row(std::size_t index, const FrameNumberOfJudgedPicture& picture) {
+        judge_measured_row(index, picture.part, picture.number);
+        if (truths_.has_reference_noise()) judged_[index] = picture;
     }
 
     void fill_times_of_row(std::size_t index, const RowMeasurement& run) {
@@ -417,9 +454,9 @@ private:
             Request request = compare_request_.base;
             request.techniques = texts;
             request.model = models_[lane];
-            runs_.push_back(std::make_unique<RowMeasurement>(
-                shared_session_, request, compare_request_.watcher,
-                must_repeat_first_round(comparison_.device.type) ? count_first_frames() : 0));
+            runs_.push_back(
+                std::make_unique<RowMeasurement>(shared_session_, request, compare_request_.watcher,
+                                                 repeats_first_round() ? count_first_frames() : 0));
         }
         RowMeasurement& run = *runs_[lane];
         run.measure_one_round_of_frames(
@@ -435,11 +472,10 @@ private:
             const bool changed = last && !first &&
                                  (compare_request_.base.animate ||
                                   !have_equal_pixels(row.hdr, parts[i].hdr));
-            if (first || changed) {
-                judge_measured_row(index, parts[i], run.rendered_frame_count());
-                if (truths_.has_reference_noise())
-                    judged_[index] = {parts[i], run.rendered_frame_count()};
-            }
+            if (changed && repeats_first_round())
+                unjudged_.push_back({index, {parts[i], run.rendered_frame_count()}});
+            else if (first || changed)
+                judge_row(index, {parts[i], run.rendered_frame_count()});
             if (first) report_progress();
         }
     }
@@ -459,6 +495,8 @@ private:
     std::vector<std::string> study_warnings_;
     std::vector<FrameNumberOfJudgedPicture>
         judged_; ///< of each row; empty frames if the reference has no noise
+    std::vector<std::pair<std::size_t, FrameNumberOfJudgedPicture>>
+        unjudged_; ///< pictures of the last round, with the row's index
     report::Comparison comparison_;
 };
 

@@ -37,11 +37,13 @@ RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher&
     : row_request_(with_more_frames(std::move(request), repeated_frames)), watcher_(watcher),
       repeated_frames_(repeated_frames), frames_(session, row_request_) {}
 
-void RowMeasurement::repeat_first_round() {
+void RowMeasurement::measure_first_round_again() {
     measure_one_round_of_frames(repeated_frames_);
-    rounds_.front() = std::move(rounds_.back());
+    first_round_again_ = std::move(rounds_.back());
     rounds_.pop_back();
 }
+
+void RowMeasurement::replace_first_round() { rounds_.front() = std::move(first_round_again_); }
 
 void RowMeasurement::measure_one_round_of_frames(int frames) {
     const auto render = [&](int count) {

@@ -19,10 +19,10 @@ int choose_frame_count_of_round(int frames, int rounds, int index);
 /// Returns the number of rounds: `asked`, but at most one per frame.
 int choose_round_count(int frames, int asked);
 
-/// Returns whether rows on a device of this type ("cpu", "discrete" ...) must repeat their first
-/// round (RowMeasurement::repeat_first_round). A graphics card raises its clock only while it is
-/// busy, and other work interrupts the first round: shaders are compiled and pictures judged. An
-/// NVIDIA H200 rendered the frames of a first round up to 5.7 times more slowly than later ones.
+/// Returns whether rows on a device of this type ("cpu", "discrete" ...) measure their first round
+/// again. A graphics card raises its clock only while it is busy, and other work interrupts the
+/// first round: shaders are compiled and pictures judged. An NVIDIA H200 rendered the frames of a
+/// first round up to 5.7 times more slowly than later ones.
 bool must_repeat_first_round(const std::string& device_type);
 
 /// A row under measurement: one technique, or several in each frame. Its history, frame number and
@@ -30,14 +30,17 @@ bool must_repeat_first_round(const std::string& device_type);
 class RowMeasurement {
 public:
     /// The session shows the request's scene. The session and the watcher must outlive this object.
-    /// `repeated_frames`: number of frames of `repeat_first_round`; 0: it is not called.
+    /// `repeated_frames`: number of frames of `measure_first_round_again`; 0: it is not called.
     RowMeasurement(Session& session, Request request, const Watcher& watcher,
                    int repeated_frames = 0);
 
     /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure_one_round_of_frames(int frames);
-    /// Measures frames after all rounds, and replaces the times of the first round by theirs.
-    void repeat_first_round();
+    /// Measures frames after all rounds, whose times `replace_first_round` takes for those of the
+    /// first round. In a moving scene they show later instants. `list_technique_results` returns
+    /// their picture afterwards.
+    void measure_first_round_again();
+    void replace_first_round();
     /// Returns the results of the last frame. Call before `suspend`.
     std::vector<TechniqueResult> list_technique_results() const { return frames_.result().parts; }
     /// Frees the session for other frames until the next `measure_one_round_of_frames`.
@@ -58,6 +61,7 @@ private:
     int repeated_frames_;
     FrameLoop frames_;
     std::vector<std::vector<FrameTimes>> rounds_;
+    std::vector<FrameTimes> first_round_again_;
     ProcessorWaitingTimes waiting_; ///< sum over all rounds
     double waited_ = std::numeric_limits<double>::quiet_NaN();
     bool noisy_ = false;

@@ -67,7 +67,8 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
         }
     if (repeated_frames > 0)
         for (const std::unique_ptr<RowMeasurement>& run : runs) {
-            run->repeat_first_round();
+            run->measure_first_round_again();
+            run->replace_first_round();
             run->suspend_frames();
         }
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -382,6 +382,65 @@ TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
 }
 
 /// Rows run in reverse order in every second round, so that no row always follows the same row.
+/// On a graphics card the first round is measured again at the end. Pictures, errors and calls of
+/// `on_finished_row` stay as they are without.
+TEST(Rounds, FirstRoundIsMeasuredAgainOnRequest) {
+    app::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
+    request.base.animate = true;
+    std::vector<std::string> again;
+    std::size_t calls = 0, measurements = 0;
+    request.on_finished_row = [&](const report::Comparison&) { ++calls; };
+    request.watcher.on_row = [&](const std::string& label, std::size_t index, std::size_t count) {
+        if (label.ends_with(", first round again")) again.push_back(label);
+        EXPECT_LT(index, count) << label;
+        if (label.find("round") != std::string::npos) {
+            EXPECT_EQ(index, measurements++) << label;
+        }
+    };
+    for (const bool together : {false, true}) {
+        request.together = together;
+        report::Comparison found[2];
+        std::size_t called[2];
+        for (const bool repeats : {false, true}) {
+            request.repeats_first_round = repeats;
+            calls = measurements = 0, again.clear();
+            found[repeats] = app::compare(test::get_test_engine(), request);
+            called[repeats] = calls;
+            EXPECT_EQ(again.size(), repeats ? together ? 1u : 2u : 0u);
+        }
+        EXPECT_EQ(called[0], called[1]);
+        for (std::size_t row = 0; row < 2; ++row) {
+            const report::Row &once = found[0].rows[row], &twice = found[1].rows[row];
+            EXPECT_TRUE(test::have_equal_pixel_bytes(once.hdr, twice.hdr));
+            EXPECT_EQ(once.pictured, twice.pictured);
+            EXPECT_EQ(once.flip_map, twice.flip_map);
+            EXPECT_EQ(once.gpu_ms.samples.size(), twice.gpu_ms.samples.size());
+            EXPECT_EQ(twice.gpu_ms.rounds.size(), 6u);
+        }
+    }
+}
+
+/// If a signal stops the run while the first round is measured again, rows keep their times.
+TEST(Rounds, StopInTheRepeatedRoundKeepsAllRows) {
+    app::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
+    std::atomic<int> signal = 0;
+    request.watcher.stop = &signal;
+    request.repeats_first_round = true;
+    std::vector<double> times;
+    request.on_finished_row = [&](const report::Comparison& so_far) {
+        times.clear();
+        for (const report::Row& row : so_far.rows) times.push_back(row.gpu_ms.rounds.front());
+    };
+    request.watcher.on_row = [&](const std::string& label, std::size_t, std::size_t) {
+        if (label == "raytrace:depth=1, first round again") signal = 2;
+    };
+    const report::Comparison found = app::compare(test::get_test_engine(), request);
+    ASSERT_TRUE(found.stopped);
+    ASSERT_EQ(found.rows.size(), 2u);
+    for (std::size_t row = 0; row < 2; ++row)
+        EXPECT_EQ(found.rows[row].gpu_ms.rounds.front(), times[row]);
+}
+
 TEST(Rounds, OrderOfRowsAlternates) {
     app::CompareRequest request = make_report_request(
         {"reuse:face=16,shadow_map=16", "raytrace:depth=1"});
