@@ -4,11 +4,12 @@
 const uint kWrapRepeat = 0u, kWrapMirrored = 1u, kWrapClamp = 2u;
 
 // Returns the texel index, 0 to size - 1, to which the wrap mode maps the index `i` of an axis with `size` texels.
-// `i` is -1 or more. The remainder of a negative number is undefined in GLSL, so the function adds a period.
+// `i` is -1 or more, or any number if a coordinate is not finite. The remainder of a negative number is undefined in
+// GLSL, so the function takes that of an unsigned one.
 INLINE int wrap_texel_index_by_mode(int i, int size, uint wrap) {
     if (wrap == kWrapClamp) return i < 0 ? 0 : i < size ? i : size - 1;
     int period = wrap == kWrapMirrored ? 2 * size : size;
-    i = (i + period) % period;
+    i = int((uint(i) + uint(period)) % uint(period));
     return i < size ? i : 2 * size - 1 - i;
 }
 
