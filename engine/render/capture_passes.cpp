@@ -18,10 +18,11 @@ using graph::PassCommands;
 using graph::PassPurpose;
 using graph::ResourceUse;
 
-/// Largest rounding error of a value that a device stores as unorm8, in steps of 1 / 255. Vulkan
-/// gives no bound. Direct3D allows .6 steps, and graphics cards are made for both: an NVIDIA H200
-/// rounds by more than half a step.
-constexpr float kUnormRoundingSteps = .6f;
+/// Depth peeling keeps a surface in the second layer if its distance exceeds that of the first by
+/// the largest rounding error of a stored distance. Vulkan lets devices round unorm8 and halves to
+/// either neighbour. An NVIDIA H200 rounds unorm8 by more than half a step, and halves towards
+/// zero.
+constexpr float kUnorm8Rounding = 1.0f / 255, kPeelMarginOfHalves = 0x1p-9f;
 
 /// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
 /// and keeps the rest.
@@ -90,7 +91,9 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
         drawing.store.emplace_back("largest_colour", kLargestFiniteHalfFloatValue);
     if (cubes.surfaces) drawing.store.emplace_back("keeps_surface", 1u);
     if (peeled && options.distance == TexelFormat::r8_unorm)
-        drawing.store.emplace_back("stored_rounding", kUnormRoundingSteps / 255);
+        drawing.store.emplace_back("stored_rounding", kUnorm8Rounding);
+    if (peeled && options.distance == TexelFormat::r16f)
+        drawing.store.emplace_back("peel_margin", kPeelMarginOfHalves);
     pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
         .set_pass_layer_count(faces.count)
         .record([&scene = inputs.scene, mirror = faces.owner, face = faces.first, part,

@@ -49,15 +49,16 @@ layout(constant_id = KEEPS_SURFACE_CONSTANT) const uint keeps_surface = 0u;
 layout(constant_id = PEELS_CONSTANT) const uint peels = 0u;
 // The largest absolute rounding error of a stored distance, in addition to the relative error.
 layout(constant_id = STORED_ROUNDING_CONSTANT) const float stored_rounding = 0.0;
+// The margin for relative rounding errors of a stored and of an interpolated distance, as a share of the distance.
+layout(constant_id = PEEL_MARGIN_CONSTANT) const float peel_margin = 1.0 / 1024.0;
 // Distances of the capture's first layer.
 layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_layer;
 
 // Returns whether depth peeling removes the fragment from the second layer. The second layer keeps only surfaces behind
-// the first layer that face the capture's centre. The margin 2^-10 exceeds the relative rounding error of a 16-bit
-// float and of an interpolated distance.
+// the first layer that face the capture's centre.
 bool is_peeled_from_second_layer() {
     float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, rendered_view_layer()), 0).r;
-    return !(length(from_eye) * distance_scale > first * (1.0 + 1.0 / 1024.0) + stored_rounding) || !(dot(normal, from_eye) < 0.0);
+    return !(length(from_eye) * distance_scale > first * (1.0 + peel_margin) + stored_rounding) || !(dot(normal, from_eye) < 0.0);
 }
 
 layout(constant_id = DRAWN_PARTS_CONSTANT) const uint drawn_parts = kDrawOpaqueParts;

@@ -28,7 +28,8 @@ const float kSmallestNormalHalf = 6.103515625e-5;
 // +infinity if the cell shows no surface at all, `high` is +infinity if some texel shows no surface. Rounds by the bits,
 // because a compiler may take unpackHalf2x16(packHalf2x16(x)) for x and then see no rounding error (NVIDIA 580).
 uint pack_distance_bounds(float low, float high) {
-    const uint lost_bits = 13u, exponent_change = 112u << 10; // between the formats of normal numbers
+    // A float has 13 more bits of mantissa than a half, and the biases of their exponents differ by 112.
+    const uint lost_bits = 13u, exponent_change = 112u << 10;
     uint a = kHalfInfinity, b = kHalfInfinity;
     if (!isinf(low))
         a = low < kSmallestNormalHalf ? 0u : (floatBitsToUint(min(low, kLargestHalf)) >> lost_bits) - exponent_change;
