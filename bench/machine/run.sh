@@ -24,7 +24,11 @@ while (($#)); do
     case $1 in
     -d) device=(--device "${2:?-d wants a DEVICE}"); export CATOPTRIC_TEST_DEVICE=$2; shift ;;
     -t) limit=${2:?-t wants SECONDS}; shift ;;
-    -j) jobs=${2:?-j wants JOBS}; shift ;;
+    -j)
+        jobs=${2:?-j wants JOBS}
+        [[ $jobs =~ ^[1-9][0-9]*$ ]] || { echo "run.sh: -j: wanted a whole number from 1, found '$jobs'" >&2; exit 2; }
+        shift
+        ;;
     --quick) quick=1 ;;
     -h | --help) usage; exit 0 ;;
     -*) echo "run.sh: no option '$1'" >&2; usage >&2; exit 2 ;;

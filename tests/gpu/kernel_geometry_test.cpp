@@ -222,7 +222,8 @@ TEST(KernelGeometry, N21_LowestNumberWinsAmongCoplanarDuplicates) {
                    same = lowest &&
                           (test::computes_like_cpp()
                                ? hits[i].triangle == lowest->triangle && hits[i].t == lowest->t
-                               : test::is_hit_of_cpu(rays[i], hits[i], {lowest->t, {}, 0, 0, 1}));
+                               : test::is_hit_of_cpu(rays[i], hits[i],
+                                                     {lowest->t, {}, 0, hits[i].object, 1}));
         not_lowest += same && !second ? 0 : 1;
         for (const std::uint32_t word : std::bit_cast<std::array<std::uint32_t, 8>>(hits[i]))
             checksum = (checksum ^ word) * 1099511628211u;

@@ -89,6 +89,11 @@ env -i "$kit/run.sh" -j 4 gpu/t >said.txt 2>&1 && fail "a test failed beside oth
 expect '^gpu/timer +3 ' said.txt
 expect '^gpu/texels +3 ' said.txt
 
+code=0
+env -i "$kit/run.sh" -j 0 >said.txt 2>&1 || code=$?
+((code == 2)) || fail "-j 0: wanted exit code 2, found $code"
+expect "-j: wanted a whole number from 1, found '0'" said.txt
+
 # Without the image module, steps that need it are left out and none fails.
 "$source/bench/machine/pack.sh" build --small small.tar.gz
 tar -tf small.tar.gz >small.txt

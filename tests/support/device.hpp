@@ -99,8 +99,6 @@ inline app::Engine& get_test_engine(bool layered = true) {
     return *made;
 }
 
-/// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
-/// limits/limits_test.cpp tests the error on devices that do not support it.
 /// Returns whether shaders and fixed functions compute as the same expressions do in C++: divisions
 /// are correctly rounded, values are interpolated between unrounded vertices, and textures are
 /// filtered with weights of full precision. Mesa's software driver does so. Vulkan asks for less:
@@ -108,6 +106,8 @@ inline app::Engine& get_test_engine(bool layered = true) {
 /// weights as `subPixelPrecisionBits` and `subTexelPrecisionBits` say (8 on most graphics cards).
 inline bool computes_like_cpp() { return get_test_device().device.is_cpu_device(); }
 
+/// Returns whether the device supports `colour=float`, which filters images of 32-bit floats.
+/// limits/limits_test.cpp tests the error on devices that do not support it.
 inline bool has_float_colour() { return get_test_device().device.has_float_filtering(); }
 
 /// Runs one frame of a graph. The runner keeps the contents that the next frame may read.
