@@ -29,7 +29,7 @@ struct CompareRequest {
     bool together = false;         ///< render all rows in one frame
     /// Rounds, at least 6, or one per frame if there are fewer. Each measures frames of every row.
     int rounds = kRounds;
-    std::optional<bool> repeats_first_round; ///< again at the end; none: if the device is no cpu
+    std::optional<bool> repeats_first_round; ///< at the end, too; none: if the device is no cpu
     /// Whether each row is measured with both models, not with `base.model` alone.
     bool both_models = false;
     /// Studies in addition to time and error, such as {{"causes"}, {"views", 30}, {"lag"}}.

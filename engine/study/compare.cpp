@@ -410,7 +410,7 @@ private:
         std::vector<double> clear_ms = measure_cube_clear_times(0, 0);
         for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
             report_row_to_watcher(
-                compare_request_.watcher, comparison_.rows[lane].label + ", first round again",
+                compare_request_.watcher, describe_lane(lane) + ", first round again",
                 static_cast<std::size_t>(comparison_.rounds) * runs_.size() + lane,
                 count_row_measurements(runs_.size()));
             runs_[lane]->measure_first_round_again();
