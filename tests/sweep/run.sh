@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# run.sh CATOPTRIC SNAKEFILE WORK: runs a small sweep by Snakemake with two jobs, kills one of its processes, and expects
-# the tables that a single process writes.
+# run.sh CATOPTRIC SAMPLES WORK: runs a small sweep by Snakemake with two jobs, kills one of its processes, and expects
+# the tables that a single process writes. Runs it as a job of Open Job Description, too. SAMPLES: samples/sweep.
 set -euo pipefail
-catoptric=$1 snakefile=$2 work=$3
+catoptric=$1 snakefile=$2/Snakefile template=$2/openjd.yaml work=$3
 die() { echo "sweep: $*" >&2; exit 1; }
 command -v snakemake >/dev/null || die "wanted snakemake; ./dev test --label sweep installs it"
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
@@ -39,3 +39,20 @@ rm "$(ls shared/results/*.json | head -n 1)" shared-merged/merged.json
 run >fourth.log 2>&1 || die "a deleted result was not made again: $(cat fourth.log)"
 cmp single-merged/merged.json shared-merged/merged.json || die "merged.json differs after a deleted result"
 echo "sweep: 42 pieces by Snakemake, one job killed: same bytes as a single process"
+
+# The same sweep as a job of Open Job Description.
+python3 -m venv openjd
+openjd/bin/pip install --quiet 'openjd-cli>=0.8,<0.9'
+openjd/bin/openjd check "$template" >check.log || die "the template is refused: $(cat check.log)"
+"$catoptric" sweep plan sweep.json -o farm --quiet
+openjd/bin/openjd run "$template" --step Merge --run-dependencies -p Sweep="$PWD/farm" -p Out="$PWD/farm-merged" \
+    -p Workers=2 -p Catoptric="$catoptric" >farm.log 2>&1 || die "the job failed: $(cat farm.log)"
+for file in merged.json errors.csv summary.csv; do
+    cmp "single-merged/$file" "farm-merged/$file" || die "$file of the job differs from that of a single process"
+done
+[[ -s farm-merged/times.csv ]] || die "found no times of the job"
+rm "$(ls farm/results/*.json | head -n 1)"
+! openjd/bin/openjd run "$template" --step Merge --no-run-dependencies -p Sweep="$PWD/farm" -p Out="$PWD/incomplete" \
+    -p Catoptric="$catoptric" >incomplete.log 2>&1 || die "a job merged a sweep without a result"
+grep -q 'wanted the results of' incomplete.log || die "the job does not say what is missing: $(cat incomplete.log)"
+echo "sweep: 42 pieces by Open Job Description: same bytes as a single process"
