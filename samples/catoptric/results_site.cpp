@@ -256,9 +256,19 @@ std::string make_table_head(std::span<const std::string> titles, std::size_t tex
     return html + "</tr></thead>";
 }
 
+/// Returns the rows on the front that the plot can show, the fastest first. The plot and the table
+/// number them in this order.
+std::vector<const SiteRow*> list_front_rows(const SiteComparison& run) {
+    std::vector<const SiteRow*> front;
+    for (const SiteRow& row : run.rows)
+        if (row.on_front && row.ms > 0 && std::isfinite(row.flip)) front.push_back(&row);
+    std::ranges::stable_sort(front, {}, [](const SiteRow* row) { return row->ms; });
+    return front;
+}
+
 /// Returns a plot of time (logarithmic) against FLIP. Points of the front are filled and joined.
 std::string make_front_plot(const SiteComparison& run) {
-    constexpr double kWidth = 720, kHeight = 320, kLeft = 56, kRight = 150, kTop = 16, kBottom = 44;
+    constexpr double kWidth = 720, kHeight = 320, kLeft = 56, kRight = 24, kTop = 16, kBottom = 44;
     double low = INFINITY, high = 0, most = 0;
     for (const SiteRow& row : run.rows)
         if (row.ms > 0 && std::isfinite(row.flip)) {
@@ -290,10 +300,7 @@ std::string make_front_plot(const SiteComparison& run) {
     svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">device time of a frame, ms "
                        "(logarithmic)</text><text x=\"{}\" y=\"{}\">FLIP over the mirrors</text>",
                        (kLeft + kWidth - kRight) / 2, kHeight - 8, kLeft + 6, kTop + 4);
-    std::vector<const SiteRow*> front;
-    for (const SiteRow& row : run.rows)
-        if (row.on_front && row.ms > 0 && std::isfinite(row.flip)) front.push_back(&row);
-    std::ranges::sort(front, {}, [](const SiteRow* row) { return row->ms; });
+    const std::vector<const SiteRow*> front = list_front_rows(run);
     std::string path;
     for (const SiteRow* row : front)
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(row->ms), y(row->flip));
@@ -307,11 +314,25 @@ std::string make_front_plot(const SiteComparison& run) {
                            "stroke=\"var(--accent)\"><title>{}</title></circle>",
                            x(row.ms), y(row.flip), row.on_front ? "var(--accent)" : "var(--card)",
                            escape_html(says));
-        if (row.on_front)
-            svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x(row.ms) + 8,
-                               y(row.flip) - 6, escape_html(row.label));
+    }
+    // Numbers of the front's rows, above their circles; a number that would cover the last moves
+    // up.
+    dvec2 last(-INFINITY);
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        dvec2 at(x(front[i]->ms), y(front[i]->flip) - 8);
+        if (at.x - last.x < 16) at.y = std::min(at.y, last.y - 12);
+        svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", at.x,
+                           at.y, i + 1);
+        last = at;
     }
     return svg + "</svg></figure>";
+}
+
+/// Returns the row's number on the front, "reference", or nothing.
+std::string describe_place_on_front(const SiteRow& row, const std::vector<const SiteRow*>& front) {
+    if (const auto found = std::ranges::find(front, &row); found != front.end())
+        return fmt::format("number {}", found - front.begin() + 1);
+    return row.is_reference ? "reference" : "";
 }
 
 std::string make_latest_table(const SiteComparison& run) {
@@ -323,6 +344,7 @@ std::string make_latest_table(const SiteComparison& run) {
     });
     static const std::vector<std::string> kTitles{"Row",  "ms",   "95 % interval",
                                                   "FLIP", "RMSE", "Front"};
+    const std::vector<const SiteRow*> front = list_front_rows(run);
     std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(kTitles) +
                        "<tbody>";
     for (const SiteRow* row : rows)
@@ -335,9 +357,7 @@ std::string make_latest_table(const SiteComparison& run) {
                 ? format_cell(row->ms_low, 3) + " to " + format_cell(row->ms_high, 3)
                 : std::string(report::kEmptyCellText),
             report::format_picture_error(row->flip), report::format_picture_error(row->rmse),
-            row->on_front       ? "on the front"
-            : row->is_reference ? "reference"
-                                : "");
+            describe_place_on_front(*row, front));
     return html + "</tbody></table></div>";
 }
 

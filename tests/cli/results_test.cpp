@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -78,6 +79,19 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
         EXPECT_THAT(page,
                     testing::HasSubstr("<tr class=\"front\"><th scope=\"row\" class=\"text\">" +
                                        one["rows"][front]["label"].get<std::string>()));
+        // The front's rows are numbered from the fastest, in the plot and in the table.
+        std::vector<std::pair<double, std::string>> rows;
+        for (const std::size_t index : one["pareto"])
+            rows.emplace_back(one["rows"][index]["gpu_ms"]["median"], one["rows"][index]["label"]);
+        std::ranges::stable_sort(rows, {}, &std::pair<double, std::string>::first);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::size_t line = page.find("class=\"text\">" + rows[i].second + "</th>");
+            ASSERT_NE(line, std::string::npos);
+            EXPECT_THAT(page.substr(line, page.find("</tr>", line) - line),
+                        testing::EndsWith(fmt::format("<td>number {}</td>", i + 1)));
+            EXPECT_THAT(page,
+                        testing::HasSubstr(fmt::format("text-anchor=\"middle\">{}</text>", i + 1)));
+        }
     }
 }
 
