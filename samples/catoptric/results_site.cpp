@@ -95,8 +95,10 @@ double read_number_of(const SiteJson& object, const std::string& name, const Rep
 SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
     SiteRow row;
     row.label = read_text_of(json, "label", place);
-    if (const SiteJson model = find_member(json, "model", place); model == "required")
-        row.label += ", model=required";
+    // Labels name the model only in reports with both, but a page may show reports of either.
+    constexpr std::string_view kModel = ", model=required";
+    if (find_member(json, "model", place) == "required" && !row.label.ends_with(kModel))
+        row.label += kModel;
     const SiteJson times = find_member(json, "gpu_ms", place);
     if (!times.is_null()) { // null: a row of pictures from a file
         row.ms = read_number_of(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
@@ -320,7 +322,7 @@ std::string make_front_plot(const SiteComparison& run) {
     dvec2 last(-INFINITY);
     for (std::size_t i = 0; i < front.size(); ++i) {
         dvec2 at(x(front[i]->ms), y(front[i]->flip) - 8);
-        if (at.x - last.x < 16) at.y = std::min(at.y, last.y - 12);
+        if (at.x - last.x < 12) at.y = std::min(at.y, last.y - 12);
         svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", at.x,
                            at.y, i + 1);
         last = at;

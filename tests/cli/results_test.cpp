@@ -95,6 +95,20 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
     }
 }
 
+/// A report with both models names the model in its labels, another report only in its own member.
+TEST_F(ResultsSite, LabelsNameTheModelOnce) {
+    for (const bool both : {false, true}) {
+        json report = report_of_one_scene();
+        report["rows"][0]["label"] = std::string("reuse") + (both ? ", model=required" : "");
+        report["rows"][0]["model"] = "required";
+        const std::string site = both ? "both" : "one";
+        add_to_site(report, site);
+        build(site);
+        EXPECT_THAT(find_page(site, report["scene"]["name"]),
+                    testing::HasSubstr(">reuse, model=required</th>"));
+    }
+}
+
 TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     json old = report_of_one_scene(), late = old;
     old["date"] = "2026-01-02T00:00:00Z", old["commit"] = "0ldc0de";
