@@ -2,37 +2,26 @@
 # run.sh CATOPTRIC SAMPLES WORK: runs a small sweep by Snakemake with two jobs, kills one of its processes, and expects
 # the tables that a single process writes. Runs it as a job of Open Job Description, too. SAMPLES: samples/sweep.
 set -euo pipefail
-catoptric=$1 snakefile=$2/Snakefile template=$2/openjd.yaml work=$3
-die() { echo "sweep: $*" >&2; exit 1; }
+name=sweep catoptric=$1 snakefile=$2/Snakefile template=$2/openjd.yaml work=$3
+source "$(dirname "$0")/steps.sh"
 command -v snakemake >/dev/null || die "wanted snakemake; ./dev test --label sweep installs it"
 rm -rf "$work"; mkdir -p "$work"; cd "$work"
 cat >sweep.json <<'END'
 {"scenes": ["cornell-mirrors", "flat"], "techniques": ["reuse:face=32", "secant:face=32"],
  "options": {"size": "48x48", "frames": 6, "warmup": 1}, "views": {"count": 20, "seed": 5}, "timing": {"repeats": 1}}
 END
-"$catoptric" sweep plan sweep.json -o single --quiet
-"$catoptric" sweep run single --quiet
-"$catoptric" sweep merge single -o single-merged --quiet
+run_in_one_process
 
-"$catoptric" sweep plan sweep.json -o shared --quiet
 run() { # run OPTION...
     snakemake -s "$snakefile" --cores 2 --resources machine=1 --nolock "$@" \
         --config sweep=shared out=shared-merged catoptric="$catoptric" batch=4
 }
-run >first.log 2>&1 & snakemake=$!
-for ((i = 0; i < 600; ++i)); do # kill one of the programs as soon as a result is there
-    ls shared/results/*.json >/dev/null 2>&1 && break
-    sleep .1
-done
-killed=$(pgrep -f "^$catoptric sweep run shared" | head -n 1) || die "found no program to kill: $(cat first.log)"
-kill -KILL "$killed"
-! wait "$snakemake" || die "wanted a failure of the job that was killed"
-[[ ! -e shared-merged/merged.json ]] || die "merged although a job was killed"
-run --rerun-incomplete >second.log 2>&1 || die "the second run failed: $(cat second.log)"
-for file in merged.json errors.csv summary.csv; do
-    cmp "single-merged/$file" "shared-merged/$file" || die "$file differs from that of a single process"
-done
-[[ -s shared-merged/times.csv ]] || die "found no times"
+stop_a_job() {
+    local program
+    program=$(pgrep -f "^$catoptric sweep run shared" | head -n 1) || die "found no program to kill: $(cat first.log)"
+    kill -KILL "$program"
+}
+run_and_stop_a_job
 run >third.log 2>&1 || die "the third run failed"
 grep -q 'Nothing to be done' third.log || die "a third run had work to do: $(cat third.log)"
 rm "$(ls shared/results/*.json | head -n 1)" shared-merged/merged.json
@@ -47,10 +36,7 @@ openjd/bin/openjd check "$template" >check.log || die "the template is refused: 
 "$catoptric" sweep plan sweep.json -o farm --quiet
 openjd/bin/openjd run "$template" --step Merge --run-dependencies -p Sweep="$PWD/farm" -p Out="$PWD/farm-merged" \
     -p Workers=2 -p Catoptric="$catoptric" >farm.log 2>&1 || die "the job failed: $(cat farm.log)"
-for file in merged.json errors.csv summary.csv; do
-    cmp "single-merged/$file" "farm-merged/$file" || die "$file of the job differs from that of a single process"
-done
-[[ -s farm-merged/times.csv ]] || die "found no times of the job"
+expect_same_tables farm-merged
 rm "$(ls farm/results/*.json | head -n 1)"
 ! openjd/bin/openjd run "$template" --step Merge --no-run-dependencies -p Sweep="$PWD/farm" -p Out="$PWD/incomplete" \
     -p Catoptric="$catoptric" >incomplete.log 2>&1 || die "a job merged a sweep without a result"

@@ -3,8 +3,8 @@
 # of its jobs, and expects the tables that a single process writes. SAMPLES: samples/sweep. Exits with 77 and the reason
 # if this machine cannot run Slurm, such as without the rights of root.
 set -euo pipefail
-catoptric=$1 snakefile=$2/Snakefile work=$3
-die() { echo "slurm: $*" >&2; exit 1; }
+name=slurm catoptric=$1 snakefile=$2/Snakefile work=$3
+source "$(dirname "$0")/steps.sh"
 skip() { echo "slurm: not run: $*" >&2; exit 77; }
 for program in munged slurmctld slurmd sbatch snakemake; do
     command -v $program >/dev/null || die "wanted $program; ./dev test --label slurm installs it"
@@ -56,29 +56,18 @@ cat >sweep.json <<'END'
 {"scenes": ["cornell-mirrors", "flat"], "techniques": ["reuse:face=32"],
  "options": {"size": "48x48", "frames": 6, "warmup": 1}, "views": {"count": 12, "seed": 5}, "timing": {"repeats": 1}}
 END
-"$catoptric" sweep plan sweep.json -o single --quiet
-"$catoptric" sweep run single --quiet
-"$catoptric" sweep merge single -o single-merged --quiet
-"$catoptric" sweep plan sweep.json -o shared --quiet
+run_in_one_process
 run() { # run OPTION...
     snakemake -s "$snakefile" --jobs 2 --cluster-sync "sbatch --wait --ntasks 1 --output $PWD/job-%j.log" \
         --resources machine=1 --nolock --latency-wait 30 "$@" \
         --config sweep="$PWD/shared" out="$PWD/shared-merged" catoptric="$catoptric" batch=4
 }
-run >first.log 2>&1 & snakemake=$!
-for ((i = 0; i < 600; ++i)); do # cancel a job as soon as a result is there
-    ls shared/results/*.json >/dev/null 2>&1 && break
-    sleep .1
-done
-job=$(squeue -h -t R -o %i | head -n 1)
-[[ -n $job ]] || die "found no job to cancel: $(cat first.log)"
-scancel "$job"
-! wait "$snakemake" || die "wanted a failure of the job that was cancelled"
-[[ ! -e shared-merged/merged.json ]] || die "merged although a job was cancelled"
-run --rerun-incomplete >second.log 2>&1 || die "the second run failed: $(cat second.log)"
-for file in merged.json errors.csv summary.csv; do
-    cmp "single-merged/$file" "shared-merged/$file" || die "$file differs from that of a single process"
-done
-[[ -s shared-merged/times.csv ]] || die "found no times"
+stop_a_job() {
+    local job
+    job=$(squeue -h -t R -o %i | head -n 1)
+    [[ -n $job ]] || die "found no job to cancel: $(cat first.log)"
+    scancel "$job"
+}
+run_and_stop_a_job
 jobs=(job-*.log)
 echo "slurm: 26 pieces by ${#jobs[@]} jobs of Slurm, one cancelled: same bytes as a single process"
