@@ -20,9 +20,11 @@ using graph::ResourceUse;
 
 /// Depth peeling keeps a surface in the second layer if its distance exceeds that of the first by
 /// the largest rounding error of a stored distance. Vulkan lets devices round unorm8 and halves to
-/// either neighbour. An NVIDIA H200 rounds unorm8 by more than half a step, and halves towards
-/// zero.
-constexpr float kUnorm8Rounding = 1.0f / 255, kPeelMarginOfHalves = 0x1p-9f;
+/// either neighbour; Direct3D, for which graphics cards are made, too, allows errors of .6 steps of
+/// unorm8. An NVIDIA H200 rounds unorm8 by more than half a step, and seems to round halves towards
+/// zero. A whole step for unorm8 would lose surfaces of the second layer where its range is much
+/// too large.
+constexpr float kUnorm8Rounding = .6f / 255, kPeelMarginOfHalves = 0x1p-9f;
 
 /// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
 /// and keeps the rest.
