@@ -4,11 +4,13 @@
 #include "measure/comparison.hpp"
 #include "session/run.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-/// Compares the cost and the error of techniques.
+/// Compares the cost and the error of techniques, and chooses one by a limit.
 namespace catoptric::app {
 
 inline constexpr const char* kReference = "raytrace:depth=16";
@@ -50,5 +52,41 @@ struct CompareRequest {
 /// end are then returned with the cause in `stopped`. If there are no rows and the cause is no
 /// signal, the cause is thrown instead.
 CATOPTRIC_API measure::Comparison compare(Engine& engine, const CompareRequest& request);
+
+/// Error over the mirrors that a limit is set for.
+enum class ErrorQuantity : std::uint8_t { flip, rmse };
+
+/// What a plan must keep, and how it is found and proved.
+struct ChooseRequest {
+    Request base;          ///< scene and settings; `techniques` are the candidates; empty: all
+    std::string reference; ///< see CompareRequest::reference
+    double reference_seconds = 60; ///< most time for a reference's noise, in each comparison
+    ErrorQuantity quantity = ErrorQuantity::flip;
+    std::optional<double> max_error; ///< limit of the error in a view, 0..1
+    std::optional<double> max_ms;    ///< limit of the time of a frame, milliseconds
+    double share = .95;              ///< share of views that must keep the limit, between 0 and 1
+    double confidence = .95;         ///< between 0 and 1
+    int training_views = 12;         ///< views of the search, at least 6
+    int cameras_per_instant = 3;     ///< training views that share an instant; proofs have one each
+    int proof_views = 0;             ///< views of the proof; 0: as few as can prove the share
+    std::uint64_t proof_seed = 2;    ///< seed of the proof's views; must differ from base.seed
+    std::string costs; ///< file of another device's costs, to predict times; empty: measure here
+    Watcher watcher;
+    std::function<void(const std::string&)> tell; ///< gets a sentence at each step; may be empty
+};
+
+/// A plan that keeps the limits, or the reason why none was found.
+struct ChosenPlan {
+    std::string plan;    ///< for FrameSpec::techniques, such as "1=reuse 2,3=secant"; empty: none
+    std::string failure; ///< why no plan keeps the limits, a sentence; empty if one does
+    std::string json;    ///< plan.json: rules, certificate, proofs and candidates (docs/choose.md)
+};
+/// Chooses the cheapest plan that keeps a limit of error, or the closest within a limit of time,
+/// and proves it on fresh views. Costs a comparison with drawn views for each step. Throws `usage`
+/// unless a limit is given, and what `compare` throws.
+CATOPTRIC_API ChosenPlan choose(Engine& engine, const ChooseRequest& request);
+/// Proves one plan on fresh views: the last step of `choose`.
+CATOPTRIC_API ChosenPlan certify(Engine& engine, const ChooseRequest& request,
+                                 const std::string& plan);
 
 } // namespace catoptric::app

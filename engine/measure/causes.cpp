@@ -1,6 +1,7 @@
 // Metrics of a row's error split by cause.
 #include "measure/causes.hpp"
 
+#include "measure/light_edges.hpp"
 #include "measure/metric.hpp"
 
 #include <cmath>

@@ -21,8 +21,12 @@ using catoptric::AutoFace;
 using catoptric::CulledWork;
 struct Causes; // internal: report.json has their data
 struct LagResults;
+struct LightEdgeErrors;
+struct LookupErrorSummary;
 struct ReferenceNoise;
+struct SetupFacts;
 struct Studied;
+struct WorstView;
 
 /// Closed interval from `low` to `high`. Both are NaN if the interval is not known.
 struct Interval {
@@ -44,34 +48,12 @@ struct SampleSummary {
     Interval ci95;               ///< interval of the median, from the rounds
 };
 
-/// Error of a row over the mirrors in two parts: pixels that looked within a texel of a light's
-/// outline, whose few large errors dominate an rmse, and the rest. Their squares add up.
-struct LightEdgeErrors {
-    /// Share of the finite mirror pixels that looked at a light's edge, 0..1.
-    double pixels = Difference::kNone;
-    /// Share of the squared error at light edges, 0..1; 0 if there is no error.
-    double share = Difference::kNone;
-    double rmse = Difference::kNone; ///< part of the row's rmse at light edges
-    double rest_rmse = Difference::kNone;
-};
-
-/// Summary of the direction errors of a search.
-struct LookupErrorSummary {
-    std::size_t pixels = 0;
-    double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
-    double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
-    double p95_residual = 0;                        ///< 95th percentile over hits
-};
-
 struct DeviceFacts {
     std::string name, driver, api, type;
     int threads = 0;     ///< number of threads of a cpu device
     std::string profile; ///< file name of the device's profile; empty if no profile applies
-    /// Chosen variants of the shaders: name and choice.
-    std::vector<std::pair<std::string, std::string>> variants;
-    /// Number of the cpu device's threads that were each held on one processor while rows were
-    /// measured.
-    int held_threads = 0;
+    std::vector<std::pair<std::string, std::string>> variants; ///< of shaders: name and choice
+    int held_threads = 0; ///< threads that were each held on one processor during measurements
     int lanes = 0; ///< number of 32-bit shader lanes that run together; 0 if not counted
 };
 
@@ -80,8 +62,7 @@ struct CameraFacts {
     std::string name; ///< empty if the camera has no name
     dvec3 eye{0}, target{0}, up{0};
     double vertical_fov_degrees = 0;
-    /// Height of the picture, world units; 0 for a perspective camera.
-    double orthographic_height = 0;
+    double orthographic_height = 0; ///< height of the picture, world units; 0: perspective
 };
 
 /// Unsupported feature of the scene file: something left out, approximated or added.
@@ -89,8 +70,7 @@ struct UnsupportedFeatureFacts {
     std::string id;
     std::uint64_t count = 0;
     std::string first; ///< place of the first occurrence
-    /// Share of the picture's pixels, 0..1; empty if pixels cannot tell it.
-    std::optional<double> pixel_share;
+    std::optional<double> pixel_share; ///< of the picture, 0..1; empty if pixels cannot tell it
 };
 
 /// Light as the shading formula sees it, in world units.
@@ -116,28 +96,11 @@ struct SceneFacts {
     std::size_t triangles = 0;
     std::size_t mirrors = 0;
     std::string hash;
-    /// Whether the scene is that of the seed report. Only then can measured times be compared with
-    /// the seed report's.
-    bool is_seed = false;
+    bool is_seed = false; ///< whether measured times can be compared with the seed report's
     CameraFacts camera;
     std::vector<LightFacts> lights = {};
     std::optional<EnvironmentFacts> environment = {};
     std::vector<UnsupportedFeatureFacts> unsupported = {};
-};
-
-/// Set-up that is done once, in milliseconds of host time each. The times of the rows do not
-/// include it.
-struct SetupFacts {
-    /// Reading or building the scene; empty if the caller gave no time.
-    std::optional<double> load_ms;
-    double upload_ms = 0;    ///< laying the scene out for the device and writing it there
-    double hierarchy_ms = 0; ///< building the trees for ray tracing; 0 if no row traces rays
-    /// Compiling pipelines. Work that a driver defers to the first frame with a pipeline is not
-    /// included.
-    double compile_ms = 0;
-    std::size_t pipelines = 0;
-    /// Pipeline cache on disk: "none", "made" (empty before) or "used".
-    std::string pipeline_cache = "none";
 };
 
 struct PassFacts {
@@ -164,12 +127,6 @@ struct View {
     CameraFacts camera;
     double time = 0;        ///< seconds into the scene's motion
     std::uint64_t seed = 0; ///< seed from which the camera was drawn
-};
-
-/// View in which a row has its largest error.
-struct WorstView {
-    std::size_t view = 0; ///< index into Comparison::views
-    Picture display;      ///< the row's picture, with the reference to its right
 };
 
 /// Results of one technique with its settings, or of one plan: cost and error.
@@ -206,15 +163,16 @@ struct Row : Errors {
     std::uint64_t memory_bytes = 0; ///< memory of the frame's images
     std::optional<RayCounts> rays;  ///< rays of one frame; empty if the row traces none
     std::optional<std::size_t> saturated_texels; ///< of half-float captures, clipped at 65504
-    std::optional<LookupErrorSummary> lookup;    ///< of directions, over first-order pixels
-    std::optional<LightEdgeErrors> light_edges;  ///< only for rows that look into captures
+    /// Of directions, over first-order pixels. Null unless the row looks into captures.
+    std::shared_ptr<LookupErrorSummary> lookup;
+    std::shared_ptr<LightEdgeErrors> light_edges; ///< null unless the row looks into captures
     std::shared_ptr<Causes> causes;              ///< see CompareRequest::studies; may be null
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
     /// Errors in each of Comparison::views, in the same order. Empty if no views were drawn. A run
     /// that was cut short has fewer entries.
     std::vector<Errors> views;
-    std::optional<WorstView> worst;   ///< the drawn view with the largest FLIP over the mirrors
+    std::shared_ptr<WorstView> worst; ///< see measure/views.hpp; null if no view was judged
     std::shared_ptr<Studied> studied; ///< the same, of studies without a member of their own
     Mean mean, mean_clamped;
     int pictured = 0; ///< frame, from 1, whose picture and errors are given; later ones are equal
@@ -237,7 +195,7 @@ struct Comparison {
     std::optional<Error> stopped; ///< the error that ended the run early
     DeviceFacts device;
     SceneFacts scene;
-    SetupFacts setup; ///< costs of the set-up work that was done before the end of the comparison
+    std::shared_ptr<SetupFacts> setup; ///< set-up work until now; null before the first row
     int width = 0, height = 0;
     int frames = 0, warmup = 0;
     int rounds = 0;                          ///< number of rounds in which the frames were measured

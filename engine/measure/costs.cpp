@@ -121,12 +121,21 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& cou
     return time;
 }
 
-PredictedParetoFront find_predicted_pareto_front(const DeviceCosts& costs,
-                                                 const std::vector<Row>& rows) {
+PredictedParetoFront
+find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& rows,
+                            const std::vector<std::optional<PredictedTime>>& measured) {
     constexpr double kUnknownFrameTime = std::numeric_limits<double>::quiet_NaN();
     PredictedParetoFront front;
     std::vector<double> ms, cheap, dear;
-    for (const Row& row : rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& row = rows[i];
+        if (i < measured.size() && measured[i]) {
+            front.times.push_back(*measured[i]);
+            for (std::vector<double>* times : {&ms, &cheap, &dear})
+                times->push_back(is_row_eligible_for_ranking(row) ? measured[i]->ms
+                                                                  : kUnknownFrameTime);
+            continue;
+        }
         const WorkCountsByKind counts = total_work_counts_of_row(row);
         const bool is_known = has_counted_work(row);
         front.times.push_back(

@@ -69,9 +69,11 @@ struct PredictedParetoFront {
     /// the other way round. Equal to `rows` if no range is known.
     std::vector<std::size_t> rows_if_rays_are_cheap, rows_if_rays_are_dear;
 };
-/// Returns the front of the rows that are candidates for ranking and whose work was counted.
-PredictedParetoFront find_predicted_pareto_front(const DeviceCosts& costs,
-                                                 const std::vector<Row>& rows);
+/// Returns the front of the rows that are candidates for ranking and whose work was counted, or
+/// whose time on the device is in `measured`, which has an entry for each row or none at all.
+PredictedParetoFront
+find_predicted_pareto_front(const DeviceCosts& costs, const std::vector<Row>& rows,
+                            const std::vector<std::optional<PredictedTime>>& measured = {});
 
 /// Fits the cost of each kind in `kinds` so that the sum of the squared relative errors is least
 /// and no cost is negative (non-negative least squares by coordinate descent: Franc, Hlavac,

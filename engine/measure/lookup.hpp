@@ -2,10 +2,19 @@
 
 #include "measure/comparison.hpp"
 
+#include <cstddef>
 #include <span>
 
 // Direction errors of a search.
 namespace catoptric::measure {
+
+/// Summary of the direction errors of a search.
+struct LookupErrorSummary {
+    std::size_t pixels = 0;
+    double mean_degrees = 0, p95_degrees = 0, p99_degrees = 0;
+    double wrong_object = 0, unknown = 0, miss = 0; ///< shares of the pixels, 0..1
+    double p95_residual = 0;                        ///< 95th percentile over hits
+};
 
 /// Direction error of one first-order mirror pixel: where it looked in the capture, compared with
 /// where it should have looked.

@@ -2,10 +2,19 @@
 
 #include "measure/metric.hpp"
 
+#include <cstddef>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 // Evaluation of errors over several drawn views (Row::views), for one row and for pairs of rows.
 namespace catoptric::measure {
+
+/// View in which a row has its largest FLIP over the mirrors.
+struct WorstView {
+    std::size_t view = 0; ///< index into Comparison::views
+    Picture display;      ///< the row's picture, with the reference to its right
+};
 
 /// Metric over the views in which it is defined: those whose mask has a finite pixel.
 struct MetricOverViews {

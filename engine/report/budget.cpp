@@ -61,7 +61,7 @@ std::string describe_budget_answer(const Comparison& comparison) {
                                : "fastest row",
                            format_row_with_interval(*answer.nearest));
     if (!answer.undecided.empty())
-        text += ". Within the time by its median, but not with 95 % confidence: " +
+        text += ". Within the time by its median, but not by its whole interval: " +
                 format_rows_with_intervals(answer.undecided);
     return text + ".";
 }

@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "measure/causes.hpp"
+#include "measure/light_edges.hpp"
 #include "report/report_part.hpp"
 #include "report/text.hpp"
 

@@ -11,24 +11,26 @@ namespace catoptric::report {
 
 namespace {
 
-std::string make_values_script(const std::vector<std::uint16_t>& words, const std::string& file) {
+std::string make_words_script(const std::vector<std::uint16_t>& words, const std::string& file) {
     std::string bytes;
     bytes.reserve(2 * words.size());
     for (const std::uint16_t word : words) {
         bytes += static_cast<char>(word & 0xFF);
         bytes += static_cast<char>(word >> 8);
     }
-    return "catoptric_values(" + Json(file).dump() + ", \"" + encode_base64(bytes) + "\");\n";
+    return make_bytes_script(bytes, file);
 }
 
 Json make_picture_json(const Comparison& comparison, const std::string& label,
                        const std::string& image, const std::string& picture_id,
                        const std::string& error_id, bool is_first) {
-    return {{"label", label},
-            {"file", report_image_path(comparison, image + ".js")},
-            {"picture_id", picture_id},
-            {"error_id", error_id},
-            {"first", is_first}};
+    return {
+        {"label", label},
+        {"file", report_image_path(comparison, image + ".js")},
+        {"picture_id", picture_id},
+        {"error_id", error_id},
+        {"error_file", error_id.empty() ? "" : report_image_path(comparison, image + "-error.js")},
+        {"first", is_first}};
 }
 
 /// Returns the row with the least FLIP over the mirrors that is not 0, or null without such a row:
@@ -42,6 +44,10 @@ const Row* find_closest_row_with_error(const Comparison& comparison) {
 }
 
 } // namespace
+
+std::string make_bytes_script(std::string_view bytes, const std::string& file) {
+    return "catoptric_values(" + Json(file).dump() + ", \"" + encode_base64(bytes) + "\");\n";
+}
 
 std::string make_html_comparer(const Comparison& comparison) {
     if (comparison.reference_display.pixels.empty() || comparison.rows.empty()) return "";
@@ -78,7 +84,7 @@ std::string make_picture_values_script(const measure::Picture& picture, const st
     halves.reserve(3 * picture.pixels.size());
     for (const vec3& pixel : picture.pixels)
         for (int k = 0; k < 3; ++k) halves.push_back(glm::packHalf1x16(pixel[k]));
-    return make_values_script(halves, file);
+    return make_words_script(halves, file);
 }
 
 std::string make_mirror_pixels_script(const Comparison& comparison, const std::string& file) {
@@ -86,7 +92,7 @@ std::string make_mirror_pixels_script(const Comparison& comparison, const std::s
     mirrors.reserve(comparison.mirror_hits.size());
     for (const std::uint32_t hit : comparison.mirror_hits)
         mirrors.push_back(static_cast<std::uint16_t>(hit & 0xFFFF));
-    return make_values_script(mirrors, file);
+    return make_words_script(mirrors, file);
 }
 
 } // namespace catoptric::report

@@ -19,6 +19,9 @@ namespace {
 
 constexpr const char* kCostsSchema = "catoptric/costs/1";
 constexpr const char* kMeasuredTimesSchema = "catoptric/times/1";
+constexpr const char* kRowTimesSchema = "catoptric/row-times/1";
+constexpr double kLeastMs = 1e-6;
+constexpr const char* kMsText = "milliseconds above 0";
 constexpr std::uintmax_t kMaxCostFileBytes = std::uintmax_t{16} << 20;
 constexpr measure::UnitCostOrigin kAllCostOrigins[] = {measure::UnitCostOrigin::fitted,
                                                        measure::UnitCostOrigin::literature,
@@ -116,9 +119,8 @@ void check_json_schema(const CostJsonValue& document, const char* wanted, const 
         schema.fail_with_expected_value(std::string(what) + ", schema '" + wanted + "'");
 }
 
-Json read_costs_json(const std::filesystem::path& file) {
-    return parse_json<Json>(file.string(),
-                            read_json_text(file, "costs of a device", kMaxCostFileBytes));
+Json read_costs_json(const std::filesystem::path& file, const char* what = "costs of a device") {
+    return parse_json<Json>(file.string(), read_json_text(file, what, kMaxCostFileBytes));
 }
 
 measure::DeviceCosts read_costs_document(const Json& json, const std::string& file) {
@@ -191,7 +193,32 @@ OtherDeviceTimes read_times_file(const std::filesystem::path& file) {
     for (const CostJsonValue& row : document.find_member("rows").list_elements()) {
         row.check_member_names({"technique", "ms"});
         times.rows.push_back({row.find_member("technique").read_text(),
-                              row.find_member("ms").read_number(1e-6, "milliseconds above 0")});
+                              row.find_member("ms").read_number(kLeastMs, kMsText)});
+    }
+    return times;
+}
+
+PictureRowTimes read_row_times_file(const std::filesystem::path& file) {
+    const Json json = read_costs_json(file, "times of rows");
+    const CostJsonValue document{json, file.string() + ":"};
+    check_json_schema(document, kRowTimesSchema, "times of rows");
+    document.check_member_names({"schema", "device", "note", "rows"});
+    PictureRowTimes times;
+    times.device = document.find_member("device").read_text();
+    times.note = document.find_member("note").read_text_or_empty();
+    for (const CostJsonValue& row : document.find_member("rows").list_elements()) {
+        row.check_member_names({"row", "ms"});
+        auto& [name, list] = times.rows.emplace_back();
+        name = row.find_member("row").read_text();
+        check(std::ranges::count(times.rows, name, &PictureRowTimes::TimedPictureRow::row) == 1,
+              Failure::bad_data, row.place, ": wanted each row once, found ",
+              quote_text_with_escapes(name), " again");
+        const CostJsonValue ms = row.find_member("ms");
+        if (ms.json.is_array())
+            for (const CostJsonValue& one : ms.list_elements())
+                list.push_back(one.read_number(kLeastMs, kMsText));
+        else
+            list.push_back(ms.read_number(kLeastMs, "milliseconds above 0, or a list of them"));
     }
     return times;
 }

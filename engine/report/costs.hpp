@@ -7,7 +7,7 @@
 #include <vector>
 
 /// Files of the costs of a device, schema "catoptric/costs/1", and of times measured elsewhere,
-/// schema "catoptric/times/1".
+/// schemas "catoptric/times/1" and "catoptric/row-times/1".
 namespace catoptric::report {
 
 /// Returns the costs as JSON. A fit is written with the measured and the predicted time of each
@@ -32,5 +32,17 @@ struct OtherDeviceTimes {
 };
 /// Reads such times. Throws as `read_costs_file` does.
 OtherDeviceTimes read_times_file(const std::filesystem::path& file);
+
+/// Times that another renderer took for the pictures of its rows (`compare --row`).
+struct PictureRowTimes {
+    std::string device, note;
+    struct TimedPictureRow {
+        std::string row;        ///< name of the row
+        std::vector<double> ms; ///< times of frames, above 0
+    };
+    std::vector<TimedPictureRow> rows;
+};
+/// Reads such times. Throws as `read_costs_file` does.
+PictureRowTimes read_row_times_file(const std::filesystem::path& file);
 
 } // namespace catoptric::report

@@ -227,11 +227,15 @@ std::vector<std::string> list_findings(const Comparison& comparison) {
     return list;
 }
 
-std::string summarise_ray_tracing_verdict(const Comparison& comparison) {
+std::string summarise_ray_tracing_verdict(const Comparison& comparison, const std::string& where) {
     const std::string tracing = describe_ray_tracing_verdict(
         measure::find_ray_tracing_verdict(comparison));
-    return "On this device, " + comparison.device.name + ", " +
-           (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) + ".";
+    return where + ", " + (tracing.empty() ? describe_fastest_and_closest(comparison) : tracing) +
+           ".";
+}
+
+std::string summarise_ray_tracing_verdict(const Comparison& comparison) {
+    return summarise_ray_tracing_verdict(comparison, "On this device, " + comparison.device.name);
 }
 
 std::vector<std::string> describe_pareto_front(const Comparison& comparison) {

@@ -81,9 +81,52 @@ std::string make_html_headlines(const Comparison& comparison) {
                                    closest->label);
     html += make_html_headline("On the front", std::to_string(comparison.pareto.size()),
                                fmt::format("of {} rows", comparison.rows.size()));
-    html += make_html_headline("Reference", format_ms(comparison.reference_gpu_ms.median) + " ms",
-                               comparison.reference_label);
+    if (!std::isnan(comparison.reference_gpu_ms.median))
+        html += make_html_headline("Reference",
+                                   format_ms(comparison.reference_gpu_ms.median) + " ms",
+                                   comparison.reference_label);
     return html + "</dl>";
+}
+
+/// Returns the comparison on the devices that its parts know besides the one that measured it.
+std::vector<ComparisonOnDevice> list_other_devices(const Comparison& comparison) {
+    std::vector<ComparisonOnDevice> devices;
+    for (const ReportPart& part : list_report_parts())
+        if (part.other_devices != nullptr)
+            for (ComparisonOnDevice& device : part.other_devices(comparison))
+                devices.push_back(std::move(device));
+    return devices;
+}
+
+/// Returns a block that is shown while its device is chosen; 0: the device that measured.
+std::string make_html_device_block(std::size_t device, const std::string& html) {
+    return fmt::format("<div data-device=\"{}\"{}>{}</div>", device, device == 0 ? "" : " hidden",
+                       html);
+}
+
+/// Returns the choice of a device, or nothing if there is only one. The page's script shows the
+/// blocks of the chosen device.
+std::string make_html_device_switch(const Comparison& comparison,
+                                    const std::vector<ComparisonOnDevice>& others) {
+    if (others.empty()) return "";
+    std::string html = "<p class=\"controls\"><label>Times of <select class=\"devices\">"
+                       "<option value=\"0\">" +
+                       escape_html(comparison.device.name) + ", measured here</option>";
+    for (std::size_t i = 0; i < others.size(); ++i)
+        html += fmt::format("<option value=\"{}\">{}, {}</option>", i + 1,
+                            escape_html(others[i].comparison.device.name), others[i].times);
+    return html + "</select></label></p>";
+}
+
+/// Returns the sentences and headlines that begin the page, for one device. `where` begins the
+/// sentence on ray tracing.
+std::string make_html_first_sentences(const Comparison& comparison, const std::string& where) {
+    std::string html;
+    if (measure::has_time_or_flip_budget(comparison))
+        html = "<p class=\"lede answer\"><strong>" +
+               escape_html(describe_budget_answer(comparison)) + "</strong></p>";
+    return html + "<p class=\"lede\">" +
+           escape_html(summarise_ray_tracing_verdict(comparison, where)) + "</p>";
 }
 
 std::string make_html_row_numbers(const Row& row) {
@@ -135,15 +178,18 @@ std::string make_html_row_article(const Comparison& comparison, const EncodedPic
     html += "</div><div class=\"pair\">" +
             make_html_figure(row.display.width, row.display.height, encoded.rows[index].picture,
                              "Picture by " + row.label, "Picture",
-                             make_html_anchor_of_row(comparison, index) + "-picture") +
+                             make_html_anchor_of_row(comparison, index) + "-picture",
+                             find_picture_file(comparison, encoded, row.image + ".png")) +
             make_html_figure(row.display.width, row.display.height, encoded.rows[index].error,
                              "Heat map of the FLIP error of " + row.label +
                                  ", mean over the mirrors " + format_flip(row.error),
-                             "FLIP error", make_html_anchor_of_row(comparison, index) + "-error") +
-            make_html_figure(row.display.width, row.display.height, encoded.rows[index].causes,
-                             "Pixels of " + row.label +
-                                 " that are off, painted by their largest cause",
-                             "Largest cause where it is off");
+                             "FLIP error", make_html_anchor_of_row(comparison, index) + "-error",
+                             find_picture_file(comparison, encoded, row.image + "-error.png")) +
+            make_html_figure(
+                row.display.width, row.display.height, encoded.rows[index].causes,
+                "Pixels of " + row.label + " that are off, painted by their largest cause",
+                "Largest cause where it is off", "",
+                find_picture_file(comparison, encoded, "causes-" + row.image + ".png"));
     return html + "</div>" + make_html_row_numbers(row) + make_html_row_details(row) +
            "</article>\n";
 }
@@ -178,7 +224,8 @@ std::string make_html_pictures(const Comparison& comparison, const EncodedPictur
         make_html_figure(comparison.reference_display.width, comparison.reference_display.height,
                          encoded.reference, "Reference picture by " + comparison.reference_label,
                          "Reference: " + comparison.reference_label,
-                         make_html_id_prefix(comparison) + "reference") +
+                         make_html_id_prefix(comparison) + "reference",
+                         find_picture_file(comparison, encoded, "reference.png")) +
         "<div><p>Each row: its last frame, and where it differs from the reference.</p>" +
         make_html_heat_scale() + make_html_cause_legend(comparison) +
         "</div></div><div class=\"rows\">";
@@ -202,7 +249,7 @@ std::string make_html_report_part(const Comparison& comparison, const EncodedPic
     return html;
 }
 
-std::string make_html_pareto_front(const Comparison& comparison) {
+std::string make_html_comparison_plot(const Comparison& comparison) {
     std::string html;
     if (const std::string drawing = make_comparison_plot(comparison); !drawing.empty())
         html =
@@ -212,8 +259,18 @@ std::string make_html_pareto_front(const Comparison& comparison) {
             "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
             "Squares: ray traced. Bars: 95 % intervals of times; which rows tie, the places in the "
             "tables say. The lane below is error 0.</figcaption></figure>";
-    return make_html_titled_section("Time against error",
-                                    html + make_html_list(describe_pareto_front(comparison)));
+    return html;
+}
+
+std::string make_html_pareto_front(const Comparison& comparison,
+                                   const std::vector<ComparisonOnDevice>& others) {
+    std::string html = make_html_device_block(
+        0,
+        make_html_comparison_plot(comparison) + make_html_list(describe_pareto_front(comparison)));
+    for (std::size_t i = 0; i < others.size(); ++i)
+        html += make_html_device_block(i + 1, make_html_comparison_plot(others[i].comparison) +
+                                                  make_html_list({others[i].front}));
+    return make_html_titled_section("Time against error", html);
 }
 
 std::string make_html_measuring_circumstances(const Comparison& comparison) {
@@ -247,12 +304,15 @@ std::string to_html(const Comparison& comparison) {
 }
 
 std::string make_html_figure(int width, int height, const std::string& png, const std::string& alt,
-                             const std::string& caption, const std::string& id) {
+                             const std::string& caption, const std::string& id,
+                             const std::string& file) {
     if (png.empty()) return "";
-    return fmt::format("<figure><img {}width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">"
+    return fmt::format("<figure><img {}width=\"{}\" height=\"{}\" alt=\"{}\" {}src=\"{}\">"
                        "<figcaption>{}</figcaption></figure>",
                        id.empty() ? "" : "id=\"" + id + "\" ", width, height, escape_html(alt),
-                       make_png_data_uri(png), escape_html(caption));
+                       file.empty() ? "" : "loading=\"lazy\" ",
+                       file.empty() ? make_png_data_uri(png) : escape_html(file),
+                       escape_html(caption));
 }
 
 std::string make_html_page(const std::string& title, const std::string& content) {
@@ -264,29 +324,41 @@ std::string make_html_page(const std::string& title, const std::string& content)
 }
 
 std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {
+    const std::vector<ComparisonOnDevice> others = list_other_devices(comparison);
     std::string html =
         "<header class=\"screen\"><div><p class=\"kicker\">Reflections compared on " +
         escape_html(comparison.device.name) + "</p><h1>" + escape_html(comparison.scene.name) +
-        "</h1>" +
-        (measure::has_time_or_flip_budget(comparison)
-             ? "<p class=\"lede answer\"><strong>" +
-                   escape_html(describe_budget_answer(comparison)) + "</strong></p>"
-             : "") +
-        "<p class=\"lede\">" + escape_html(summarise_ray_tracing_verdict(comparison)) + "</p>";
+        "</h1>" + make_html_device_switch(comparison, others) +
+        make_html_device_block(
+            0, make_html_first_sentences(comparison, "On this device, " + comparison.device.name));
+    for (std::size_t i = 0; i < others.size(); ++i) {
+        const Comparison& other = others[i].comparison;
+        html += make_html_device_block(
+            i + 1, make_html_first_sentences(other, "On " + other.device.name + ", by times " +
+                                                        others[i].times));
+    }
+    for (const ReportPart& part : list_report_parts())
+        if (part.first_sentence != nullptr)
+            if (const std::string sentence = part.first_sentence(comparison); !sentence.empty())
+                html += "<p class=\"lede\">" + escape_html(sentence) + "</p>";
     const std::vector<std::string> notes = list_report_cautions(comparison);
     if (!notes.empty()) html += "<aside class=\"caution\">" + make_html_list(notes) + "</aside>";
     const bool is_page = make_html_id_prefix(comparison).empty(); // a page has exactly one <main>
-    html += make_html_headlines(comparison) + "</div>" + make_html_comparer(comparison) +
-            "</header>\n" + (is_page ? "<main>" : "<div class=\"main\">") +
-            make_html_pareto_front(comparison) +
+    html += make_html_device_block(0, make_html_headlines(comparison));
+    for (std::size_t i = 0; i < others.size(); ++i)
+        html += make_html_device_block(i + 1, make_html_headlines(others[i].comparison));
+    html += "</div>" + make_html_comparer(comparison) + "</header>\n" +
+            (is_page ? "<main>" : "<div class=\"main\">") +
+            make_html_pareto_front(comparison, others) +
             (comparison.scene.is_seed ? to_html(make_seed_report_table(comparison), "seed") : "");
     const std::vector<std::string> sentences = list_findings(comparison);
     if (!sentences.empty())
         html += make_html_titled_section(make_findings_title(comparison),
                                          make_html_list(sentences));
-    html += make_html_titled_section("Set-up, once",
-                                     "<p>" + escape_html(describe_setup_times(comparison.setup)) +
-                                         "</p>") +
+    html += make_html_titled_section(
+                "Set-up, once",
+                "<p>" + escape_html(describe_setup_times(measure::read_setup_facts(comparison))) +
+                    "</p>") +
             to_html(make_rows_table(comparison), "all", &comparison) +
             to_html(make_plan_table(comparison), "plans", &comparison);
     for (const ReportPart& part : list_report_parts())

@@ -16,9 +16,11 @@ std::string encode_base64(std::string_view bytes);
 std::string make_png_data_uri(std::string_view png);
 
 /// Returns a PNG with a caption, or nothing if `png` is empty. `id` names the picture in the page;
-/// empty: no name.
+/// empty: no name. `file`: the picture's file relative to the page, which then loads it when it
+/// comes into view; empty: the page holds the picture.
 std::string make_html_figure(int width, int height, const std::string& png, const std::string& alt,
-                             const std::string& caption, const std::string& id = {});
+                             const std::string& caption, const std::string& id = {},
+                             const std::string& file = {});
 
 /// Returns a section of a page under its title, which is HTML.
 std::string make_html_titled_section(const std::string& title, const std::string& content);
@@ -34,6 +36,9 @@ std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t ro
 /// Returns the comparer of the reference and the rows, which the page's script fills, or nothing
 /// without a reference or a row.
 std::string make_html_comparer(const Comparison& comparison);
+/// Returns a script that gives the comparer these bytes in base64. `file` is its path relative to
+/// the page.
+std::string make_bytes_script(std::string_view bytes, const std::string& file);
 /// Returns a script that gives the comparer the linear values of a picture, as halves in base64.
 /// `file` is its path relative to the page.
 std::string make_picture_values_script(const measure::Picture& picture, const std::string& file);

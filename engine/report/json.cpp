@@ -193,7 +193,7 @@ void add_circumstances_json(Json& json, const Comparison& comparison) {
     json["device"] = make_device_json(comparison.device);
     json["device"]["held_threads"] = comparison.device.held_threads;
     json["scene"] = make_scene_json(comparison.scene);
-    json["setup"] = to_json(comparison.setup);
+    json["setup"] = to_json(measure::read_setup_facts(comparison));
     json["size"] = Json::array({comparison.width, comparison.height});
     json["frames"] = comparison.frames;
     json["warmup"] = comparison.warmup;

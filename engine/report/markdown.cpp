@@ -94,9 +94,9 @@ std::string to_markdown(const Comparison& comparison) {
         text += "> " + escape_markdown(caution) + "\n>\n";
     text += "\n" +
             (comparison.scene.is_seed ? to_markdown(make_seed_report_table(comparison)) : "") +
-            "**Set-up**, once: " + escape_markdown(describe_setup_times(comparison.setup)) +
-            "\n\n" + to_markdown(make_rows_table(comparison)) +
-            to_markdown(make_plan_table(comparison));
+            "**Set-up**, once: " +
+            escape_markdown(describe_setup_times(measure::read_setup_facts(comparison))) + "\n\n" +
+            to_markdown(make_rows_table(comparison)) + to_markdown(make_plan_table(comparison));
     for (const ReportPart& part : list_report_parts()) text += make_markdown_part(comparison, part);
     text += to_markdown(make_unsupported_table(comparison.scene));
     text += "## The Pareto front: time against FLIP\n\n" +

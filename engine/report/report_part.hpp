@@ -12,6 +12,14 @@
 /// registers it, so that no other file lists it.
 namespace catoptric::report {
 
+/// A comparison by the times of another device.
+struct ComparisonOnDevice {
+    /// The comparison with that device's name, times and front, and without pictures.
+    Comparison comparison;
+    std::string times; ///< what the times are, for example "predicted from counted work"
+    std::string front; ///< a sentence that names the front
+};
+
 struct ReportPart {
     std::string_view name;
     int order = 1000; ///< place in the report; equal orders are sorted by name
@@ -23,6 +31,11 @@ struct ReportPart {
     /// Returns sentences that follow the tables. `title` heads them in HTML. May be null.
     std::vector<std::string> (*sentences)(const Comparison&) = nullptr;
     std::string_view title = {};
+    /// Returns a sentence for the top of report.html, or nothing. May be null.
+    std::string (*first_sentence)(const Comparison&) = nullptr;
+    /// Returns the comparison on other devices. The switch at the top of report.html shows the
+    /// first sentences and the plot of one of them. May be null.
+    std::vector<ComparisonOnDevice> (*other_devices)(const Comparison&) = nullptr;
     /// Returns HTML that stands before the tables. May be null.
     std::string (*plots)(const Comparison&) = nullptr;
     /// Returns HTML that stands after the sentences. May be null.

@@ -1,11 +1,13 @@
 // Writes one report on several scenes.
 #include "measure/causes.hpp"
+#include "measure/views.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/text.hpp"
 #include "report/writer.hpp"
 
 #include <algorithm>
+#include <memory>
 
 namespace catoptric::report {
 
@@ -35,7 +37,9 @@ Comparison copy_without_pictures(const Comparison& comparison) {
             row.causes = std::make_shared<measure::Causes>(*row.causes);
             row.causes->largest = {};
         }
-        if (row.worst) row.worst->display = {};
+        if (row.worst)
+            row.worst = std::make_shared<measure::WorstView>(
+                measure::WorstView{row.worst->view, {}});
     }
     return bare;
 }

@@ -102,6 +102,8 @@ std::string describe_budget_answer(const Comparison& comparison);
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
 /// it. If all rows are of one kind, it names the fastest and the closest row.
 std::string summarise_ray_tracing_verdict(const Comparison& comparison);
+/// Returns the same sentence with other words for "on this device, NAME", which begin it.
+std::string summarise_ray_tracing_verdict(const Comparison& comparison, const std::string& where);
 
 /// Returns sentences that compare the measured lag with the seed report's statement that parts one
 /// and two show no difference, and which rows have no lag.

@@ -3,6 +3,7 @@
 #include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "measure/lag.hpp"
+#include "measure/views.hpp"
 
 #include <fmt/format.h>
 

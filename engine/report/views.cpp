@@ -83,7 +83,8 @@ std::string make_html_worst_pictures(const Comparison& comparison, const Encoded
         const std::string where = describe_worst_view(comparison, *row.worst);
         html += make_html_figure(
             row.worst->display.width, row.worst->display.height, encoded.rows[i].worst,
-            row.label + ", to its right the reference, at " + where, row.label + ": " + where);
+            row.label + ", to its right the reference, at " + where, row.label + ": " + where, "",
+            find_picture_file(comparison, encoded, make_worst_view_image_name(row.image)));
     }
     return make_html_titled_section("Worst views", html);
 }

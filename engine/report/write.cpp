@@ -3,6 +3,7 @@
 #include "measure/halves.hpp"
 #include "measure/heat.hpp"
 #include "measure/picture_file.hpp"
+#include "measure/views.hpp"
 #include "report/html.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -41,6 +42,14 @@ fs::path make_images_folder(const fs::path& folder, const Comparison& comparison
     return images;
 }
 
+/// Returns the bytes of a comparison's pictures in its page.
+std::size_t count_picture_bytes(const EncodedPictures& pictures) {
+    std::size_t bytes = pictures.reference.size();
+    for (const EncodedPictures::RowPngPictures& row : pictures.rows)
+        bytes += row.picture.size() + row.error.size() + row.causes.size() + row.worst.size();
+    return bytes;
+}
+
 /// Writes the report on `shown`, one comparison or several scenes.
 template <class Shown>
 void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet csv,
@@ -53,6 +62,11 @@ void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet
 }
 
 } // namespace
+
+std::string find_picture_file(const Comparison& comparison, const EncodedPictures& pictures,
+                              const std::string& name) {
+    return pictures.is_inlined ? std::string() : report_image_path(comparison, name);
+}
 
 void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison,
                          const fs::path& images) {
@@ -92,6 +106,11 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
                        ? measure::make_heat_map(row.flip_map, row.display.width, row.display.height)
                        : measure::Picture(),
                    row.image + "-error.png");
+            if (!images.empty() && has_map) {
+                const std::string name = row.image + "-error.js";
+                write_file(images / name,
+                           make_bytes_script(encoded.error, report_image_path(comparison, name)));
+            }
             encoded.pictured = row.pictured;
             encoded.noise_frames = noise_frames;
         }
@@ -106,6 +125,8 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
 
 void ReportWriter::write_comparison(const Comparison& comparison) {
     encode_new_pictures(pictures_, comparison, make_images_folder(report_folder_, comparison));
+    pictures_.is_inlined = page_ == PagePictures::inlined ||
+                           count_picture_bytes(pictures_) <= kMaxInlinedBytes;
     write_report_texts(report_folder_, comparison, csv_, to_html(comparison, pictures_));
 }
 
@@ -116,7 +137,7 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
         "report.json",           "report.html",          "report.md",         "rows.csv",
         there / "reference.png", there / "reference.js", there / "mirrors.js"};
     for (const std::string& image : images) {
-        for (const char* ending : {".exr", ".js", ".png", "-error.png"})
+        for (const char* ending : {".exr", ".js", ".png", "-error.png", "-error.js"})
             files.push_back(there / (image + ending));
         for (const std::string& more :
              {"causes-" + image + ".png", make_worst_view_image_name(image)})
@@ -127,8 +148,8 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
 
 MultiSceneReportWriter::MultiSceneReportWriter(fs::path folder,
                                                const std::vector<std::string>& scenes,
-                                               CsvColumnSet csv)
-    : multi_scene_folder_(std::move(folder)), csv_(csv) {
+                                               CsvColumnSet csv, PagePictures page)
+    : multi_scene_folder_(std::move(folder)), csv_(csv), page_(page) {
     scenes_.asked = scenes;
 }
 
@@ -141,8 +162,12 @@ void MultiSceneReportWriter::write_scene_comparison(std::size_t index,
     }
     encode_new_pictures(pictures_.at(index), comparison,
                         make_images_folder(multi_scene_folder_, comparison));
-    sections_[index] = make_html_section(comparison, pictures_[index]);
     scenes_.list[index] = copy_without_pictures(comparison);
+    // Sections of earlier scenes stay as they are: they hold their pictures if these were few.
+    std::size_t bytes = 0;
+    for (const EncodedPictures& pictures : pictures_) bytes += count_picture_bytes(pictures);
+    pictures_[index].is_inlined = page_ == PagePictures::inlined || bytes <= kMaxInlinedBytes;
+    sections_[index] = make_html_section(comparison, pictures_[index]);
     write_report_texts(multi_scene_folder_, scenes_, csv_, to_html(scenes_, sections_));
 }
 

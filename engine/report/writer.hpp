@@ -16,6 +16,14 @@ enum class CsvColumnSet : std::uint8_t {
     table, ///< metrics of the report's table of rows, and fields that tell runs apart
     all,   ///< each metric over each mask, mirror, pass and round
 };
+/// Where the pictures of report.html are.
+enum class PagePictures : std::uint8_t {
+    automatic, ///< in the page up to kMaxInlinedBytes, else in files beside it
+    inlined    ///< in the page, however large it becomes
+};
+/// Pages with more bytes of pictures load them from files, as they come into view.
+inline constexpr std::size_t kMaxInlinedBytes = std::size_t{16} << 20;
+
 /// Pictures of a comparison as PNG. Each is encoded once, however often the page is written.
 struct EncodedPictures {
     struct RowPngPictures {
@@ -33,7 +41,12 @@ struct EncodedPictures {
     std::string reference; ///< empty if the reference was not rendered
     int noise_frames = 0;  ///< ReferenceNoise::frames of that picture
     std::vector<RowPngPictures> rows;
+    bool is_inlined = true; ///< whether the page holds the pictures, and not the names of files
 };
+/// Returns the file of a picture relative to the page, for make_html_figure; empty if the page
+/// holds its pictures. `name`: of the file in the comparison's folder of pictures.
+std::string find_picture_file(const Comparison& comparison, const EncodedPictures& pictures,
+                              const std::string& name);
 
 /// Encodes pictures that are new since the last call. Rows are added, show a later frame or get
 /// causes, and their worst views may change. Writes the new pictures into the folder `images`,
@@ -48,13 +61,15 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
 /// Writes the results of the finished rows into a folder, which is made as create_folder does.
 /// Files: report.json, report.md, report.html, rows.csv, images/<row>.png and .exr,
 /// images/<row>-error.png and images/reference.png. The linear values for the page lie in
-/// images/<row>.js, images/reference.js and images/mirrors.js. Rows with causes add
+/// images/<row>.js, images/reference.js and images/mirrors.js, and its heat maps in
+/// images/<row>-error.js. Rows with causes add
 /// images/causes-<row>.png, and drawn views add images/worst-<row>.png. `write` is called again as
 /// rows are added. It replaces only pictures that changed and all other files, each as a whole.
 class ReportWriter {
 public:
-    explicit ReportWriter(std::filesystem::path folder, CsvColumnSet csv = CsvColumnSet::table)
-        : report_folder_(std::move(folder)), csv_(csv) {}
+    explicit ReportWriter(std::filesystem::path folder, CsvColumnSet csv = CsvColumnSet::table,
+                          PagePictures page = PagePictures::automatic)
+        : report_folder_(std::move(folder)), csv_(csv), page_(page) {}
     /// Writes the comparison. Rows that an earlier call wrote must be unchanged, unless they show
     /// another frame or the noise of the reference was reduced. Throws `cannot_create`, `io`.
     void write_comparison(const Comparison& comparison);
@@ -62,6 +77,7 @@ public:
 private:
     std::filesystem::path report_folder_;
     CsvColumnSet csv_;
+    PagePictures page_;
     EncodedPictures pictures_;
 };
 
@@ -89,7 +105,8 @@ Comparison copy_without_pictures(const Comparison& comparison);
 class MultiSceneReportWriter {
 public:
     MultiSceneReportWriter(std::filesystem::path folder, const std::vector<std::string>& scenes,
-                           CsvColumnSet csv = CsvColumnSet::table);
+                           CsvColumnSet csv = CsvColumnSet::table,
+                           PagePictures page = PagePictures::automatic);
     /// Writes the scene at `index`, from 0. Scenes before it stay unchanged.
     void write_scene_comparison(std::size_t index, const Comparison& comparison);
     const MultiSceneReport& scene_reports() const { return scenes_; }
@@ -97,6 +114,7 @@ public:
 private:
     std::filesystem::path multi_scene_folder_;
     CsvColumnSet csv_;
+    PagePictures page_;
     MultiSceneReport scenes_;
     std::vector<EncodedPictures> pictures_; ///< encoded pictures of each scene
     std::vector<std::string> sections_;     ///< html_section of each scene

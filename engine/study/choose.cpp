@@ -3,10 +3,12 @@
 #include "compare.hpp"
 #include "core/error.hpp"
 #include "measure/certificate.hpp"
+#include "measure/costs.hpp"
 #include "measure/findings.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/plan_mix.hpp"
+#include "report/costs.hpp"
 #include "session/plan_file.hpp"
 #include "study/compare_checks.hpp"
 
@@ -20,18 +22,26 @@ namespace catoptric::app {
 
 namespace {
 
+/// A request with what it names by a file.
+struct ResolvedChooseRequest : ChooseRequest {
+    explicit ResolvedChooseRequest(const ChooseRequest& request) : ChooseRequest(request) {
+        if (!costs.empty()) device_costs = report::read_costs_file(costs);
+    }
+    std::optional<measure::DeviceCosts> device_costs; ///< read from `costs`
+};
+
 double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error) {
     return quantity == ErrorQuantity::flip ? error.flip : error.rmse;
 }
 
 /// Returns the least number of views that can prove the share, and that `compare` draws.
-int count_proof_views(const ChooseRequest& request) {
+int count_proof_views(const ResolvedChooseRequest& request) {
     return static_cast<int>(
         std::max(measure::count_views_needed_for_certificate(request.share, request.confidence, 0),
                  measure::kMinIntervalSamples));
 }
 
-void check_choose_request(const ChooseRequest& request) {
+void check_choose_request(const ResolvedChooseRequest& request) {
     const auto check_part = [](const char* name, double value) {
         check(value > 0 && value < 1, Failure::usage, name,
               ": wanted a number between 0 and 1, found ", value);
@@ -58,12 +68,12 @@ void check_choose_request(const ChooseRequest& request) {
           request.proof_views);
 }
 
-void report_choose_step(const ChooseRequest& request, const std::string& sentence) {
+void report_choose_step(const ResolvedChooseRequest& request, const std::string& sentence) {
     if (request.tell) request.tell(sentence);
 }
 
 /// Compares plans with the reference in the own view, and in `views` drawn ones if there are any.
-measure::Comparison compare_plans(Engine& engine, const ChooseRequest& request,
+measure::Comparison compare_plans(Engine& engine, const ResolvedChooseRequest& request,
                                   const std::vector<std::string>& plans, int views,
                                   std::uint64_t seed, int cameras_per_instant = 1) {
     CompareRequest compared;
@@ -75,18 +85,19 @@ measure::Comparison compare_plans(Engine& engine, const ChooseRequest& request,
     compared.watcher = request.watcher;
     compared.cameras_per_instant = cameras_per_instant;
     if (views > 0) compared.studies.push_back({"views", views});
-    if (request.costs) compared.studies.push_back({"work"});
+    if (request.device_costs) compared.studies.push_back({"work"});
     measure::Comparison comparison = compare(engine, compared);
     if (comparison.stopped) throw Error(*comparison.stopped);
     return comparison;
 }
 
-std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
+std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
                                           const measure::Comparison& comparison,
                                           const std::vector<std::string>& texts) {
     std::vector<measure::PredictedTime> predicted;
-    if (request.costs)
-        predicted = measure::find_predicted_pareto_front(*request.costs, comparison.rows).times;
+    if (request.device_costs)
+        predicted =
+            measure::find_predicted_pareto_front(*request.device_costs, comparison.rows).times;
     std::vector<JudgedPlan> plans;
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
         const measure::Row& row = comparison.rows[i];
@@ -94,7 +105,7 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
                         .ms = row.time_ms().median,
                         .ms_range = row.time_ms().ci95,
                         .errors = {}};
-        if (request.costs)
+        if (request.device_costs)
             plan.ms = predicted[i].ms, plan.ms_range = {predicted[i].low, predicted[i].high};
         for (const measure::Errors& errors : row.views)
             plan.errors.push_back(mirror_error_of_view(request.quantity, errors.error));
@@ -107,18 +118,18 @@ std::vector<JudgedPlan> list_judged_plans(const ChooseRequest& request,
 
 /// Returns whether the upper end of the plan's time, or its median without an interval, keeps the
 /// limit of time.
-bool keeps_time(const ChooseRequest& request, const JudgedPlan& plan) {
+bool keeps_time(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
     if (!request.max_ms) return true;
     return (plan.ms_range.is_known() ? plan.ms_range.high : plan.ms) <= *request.max_ms;
 }
 
-bool keeps_error(const ChooseRequest& request, const JudgedPlan& plan) {
+bool keeps_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
     return !request.max_error || plan.largest_error <= *request.max_error;
 }
 
 /// Returns the candidates that no other beats by a wide margin in the own view, in time and error.
 /// The others are listed in `dropped`.
-std::vector<std::string> keep_promising_plans(const ChooseRequest& request,
+std::vector<std::string> keep_promising_plans(const ResolvedChooseRequest& request,
                                               const measure::Comparison& comparison,
                                               const std::vector<std::string>& texts,
                                               std::vector<std::string>& dropped) {
@@ -156,7 +167,7 @@ std::string make_plan_text_from_technique_mix(const std::vector<std::string>& te
 
 /// Returns the cheapest mix of several techniques that keeps the limit of error in the training
 /// views, as a plan; empty if there is none. Candidates that are plans themselves take no part.
-std::string find_fastest_mixed_plan(const ChooseRequest& request,
+std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
                                     const measure::Comparison& training,
                                     const std::vector<JudgedPlan>& plans) {
     if (!request.max_error) return "";
@@ -189,26 +200,26 @@ std::string find_fastest_mixed_plan(const ChooseRequest& request,
 }
 
 /// Returns whether the second of two plans is faster when both are measured side by side.
-bool is_second_plan_faster(Engine& engine, const ChooseRequest& request, const std::string& first,
-                           const std::string& second) {
+bool is_second_plan_faster(Engine& engine, const ResolvedChooseRequest& request,
+                           const std::string& first, const std::string& second) {
     const std::vector<std::string> texts{first, second};
     const measure::Comparison both = compare_plans(engine, request, texts, 0, request.base.seed);
-    if (!request.costs) return measure::is_confidently_faster(both.rows[1], both.rows[0]);
+    if (!request.device_costs) return measure::is_confidently_faster(both.rows[1], both.rows[0]);
     const std::vector<JudgedPlan> plans = list_judged_plans(request, both, texts);
     return plans[1].ms < plans[0].ms;
 }
 
 /// Returns whether one plan takes less time than another. A measured interval must end before the
 /// other's. The ranges of predicted times have the same unknown costs, so the times decide.
-bool does_plan_take_less_time(const ChooseRequest& request, const JudgedPlan& a,
+bool does_plan_take_less_time(const ResolvedChooseRequest& request, const JudgedPlan& a,
                               const JudgedPlan& b) {
-    const bool known = !request.costs && a.ms_range.is_known() && b.ms_range.is_known();
+    const bool known = !request.device_costs && a.ms_range.is_known() && b.ms_range.is_known();
     return known ? a.ms_range.high < b.ms_range.low : a.ms < b.ms;
 }
 
 /// Returns the plans within the limits that no other such plan beats, from the surest to the
 /// cheapest: a plan is beaten by one that errs less and does not take more time.
-std::vector<const JudgedPlan*> list_unbeaten_plans(const ChooseRequest& request,
+std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& request,
                                                    const std::vector<JudgedPlan>& plans) {
     std::vector<const JudgedPlan*> kept;
     for (const JudgedPlan& plan : plans)
@@ -227,7 +238,7 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ChooseRequest& request,
 }
 
 /// Returns the plans to prove, from the surest to the cheapest.
-std::vector<std::string> list_plans_to_prove(Engine& engine, const ChooseRequest& request,
+std::vector<std::string> list_plans_to_prove(Engine& engine, const ResolvedChooseRequest& request,
                                              const measure::Comparison& training,
                                              const std::vector<JudgedPlan>& plans) {
     constexpr std::size_t kMaxProvedPlans = 4; // besides the mix
@@ -245,7 +256,7 @@ std::vector<std::string> list_plans_to_prove(Engine& engine, const ChooseRequest
     return chain;
 }
 
-std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
+std::vector<PlanProof> prove_plans(Engine& engine, const ResolvedChooseRequest& request,
                                    const std::vector<std::string>& texts) {
     const int views = request.proof_views > 0 ? request.proof_views : count_proof_views(request);
     report_choose_step(
@@ -258,6 +269,9 @@ std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
     std::vector<PlanProof> proofs;
     for (JudgedPlan& plan : list_judged_plans(request, comparison, texts)) {
         PlanProof proof{.plan = std::move(plan),
+                        .device = request.device_costs
+                                      ? request.device_costs->device + " (predicted)"
+                                      : engine.device().name,
                         .scene_hash = comparison.scene.hash,
                         .exposure = comparison.exposure};
         const std::vector<double>& errors = proof.plan.errors;
@@ -277,12 +291,12 @@ std::vector<PlanProof> prove_plans(Engine& engine, const ChooseRequest& request,
     return proofs;
 }
 
-std::string format_limit_of_error(const ChooseRequest& request) {
+std::string format_limit_of_error(const ResolvedChooseRequest& request) {
     return fmt::format("{} <= {:g}", error_quantity_name(request.quantity), *request.max_error);
 }
 
 /// Returns why no plan keeps the limits in the training views, and which comes nearest.
-std::string describe_nearest_plan(const ChooseRequest& request,
+std::string describe_nearest_plan(const ResolvedChooseRequest& request,
                                   const std::vector<JudgedPlan>& plans) {
     const JudgedPlan *closest = nullptr, *fastest = nullptr;
     for (const JudgedPlan& plan : plans) {
@@ -304,7 +318,7 @@ std::string describe_nearest_plan(const ChooseRequest& request,
 }
 
 /// Returns why no plan holds in the proof's views.
-std::string describe_failed_proof(const ChooseRequest& request,
+std::string describe_failed_proof(const ResolvedChooseRequest& request,
                                   const std::vector<PlanProof>& proofs) {
     const PlanProof& surest = proofs.front();
     if (surest.keeps_error)
@@ -328,12 +342,14 @@ double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& m
     return mirrors.pixels == 0 ? 0 : error_value_of_difference(quantity, mirrors);
 }
 
-PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan) {
+PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::string& plan) {
+    const ResolvedChooseRequest request(asked);
     check_choose_request(request);
     return prove_plans(engine, request, {plan}).front();
 }
 
-PlanChoice choose_plan(Engine& engine, const ChooseRequest& request) {
+PlanChoice choose_plan(Engine& engine, const ChooseRequest& asked) {
+    const ResolvedChooseRequest request(asked);
     check_choose_request(request);
     PlanChoice choice;
     std::vector<std::string> texts = request.base.techniques;

@@ -1,11 +1,9 @@
 #pragma once
 
+#include "compare.hpp"
 #include "measure/comparison.hpp"
-#include "measure/costs.hpp"
-#include "session/run.hpp"
 
-#include <cstdint>
-#include <functional>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +12,6 @@
 // proves the choice on other views than those it was found on.
 namespace catoptric::app {
 
-/// Error over the mirrors that a limit is set for.
-enum class ErrorQuantity : std::uint8_t { flip, rmse };
 /// Returns "flip" or "rmse".
 const char* error_quantity_name(ErrorQuantity quantity);
 
@@ -23,28 +19,6 @@ const char* error_quantity_name(ErrorQuantity quantity);
 /// shows no mirror, and infinite if any pixel of the mirrors is not finite, whatever the others
 /// say.
 double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
-
-struct ChooseRequest {
-    Request base;          ///< scene and settings; `techniques` are the candidates; empty: all
-    std::string reference; ///< see CompareRequest::reference
-    double reference_seconds = 60; ///< most time for a reference's noise, in each comparison
-    ErrorQuantity quantity = ErrorQuantity::flip;
-    std::optional<double> max_error; ///< limit of the error in a view, 0..1
-    std::optional<double> max_ms;    ///< limit of the time of a frame, milliseconds
-    double share = .95;              ///< share of views that must keep the limit, between 0 and 1
-    double confidence = .95;         ///< between 0 and 1
-    int training_views = 12;         ///< views of the search, at least 6
-    /// Training views that share an instant, whose captures settle once. Proofs draw an instant for
-    /// each view.
-    int cameras_per_instant = 3;
-    int proof_views = 0;          ///< views of the proof; 0: as few as can prove the share
-    std::uint64_t proof_seed = 2; ///< seed of the proof's views; must differ from base.seed
-    /// Costs of another device, from which times are predicted; empty: measured here.
-    std::optional<measure::DeviceCosts> costs;
-    Watcher watcher;
-    /// Called with a sentence at the begin of each step. May be empty.
-    std::function<void(const std::string&)> tell;
-};
 
 /// A plan with its cost and its errors over views.
 struct JudgedPlan {
@@ -67,6 +41,7 @@ struct PlanProof {
     bool keeps_error = false; ///< the share is proved, or there is no limit of error
     bool keeps_time = false;  ///< the upper end of the time keeps its limit, or there is none
     bool holds() const { return keeps_error && keeps_time; }
+    std::string device;     ///< whose times decide, with " (predicted)" if costs predict them
     std::string scene_hash; ///< of the scene whose views were drawn
     double exposure = 0;    ///< stops
 };

@@ -5,6 +5,7 @@
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/masks.hpp"
+#include "measure/setup.hpp"
 #include "measure/statistics.hpp"
 #include "reflect/technique.hpp"
 #include "report/comparison.hpp"
@@ -20,6 +21,7 @@
 #include "study/compare_checks.hpp"
 #include "study/compare_row.hpp"
 #include "study/picture_rows.hpp"
+#include "study/plan_certificate.hpp"
 #include "study/reference_cache.hpp"
 #include "study/row_judge.hpp"
 #include "study/row_run.hpp"
@@ -95,6 +97,7 @@ public:
                 truths_.keep_reference_in_file(compare_request_.reference_file);
             fill_reference_facts();
             measure_all_rounds();
+            add_plan_certificates(compare_request_.base.techniques, comparison_);
             reduce_reference_noise();
             measure_pixel_centre_sampling_error();
             truths_.write_file();
@@ -184,13 +187,11 @@ private:
         const CompiledPipelines compiled = Access::compiled_pipelines(comparison_engine_);
         constexpr const char* kCacheStateNames[] = {"none", "made",
                                                     "used"}; // indexed by PipelineCacheState
-        comparison_.setup = {compare_request_.base.load_ms,
-                             setup.upload_ms,
-                             setup.hierarchy_ms,
-                             compiled.ms - compiled_before_.ms,
-                             compiled.pipelines - compiled_before_.pipelines,
-                             kCacheStateNames[static_cast<std::size_t>(
-                                 Access::pipeline_cache_state_of_engine(comparison_engine_))]};
+        comparison_.setup = std::make_shared<measure::SetupFacts>(measure::SetupFacts{
+            compare_request_.base.load_ms, setup.upload_ms, setup.hierarchy_ms,
+            compiled.ms - compiled_before_.ms, compiled.pipelines - compiled_before_.pipelines,
+            kCacheStateNames[static_cast<std::size_t>(
+                Access::pipeline_cache_state_of_engine(comparison_engine_))]});
         comparison_.load_end = read_machine_load();
         comparison_.warnings = compare_request_.base.scene.warnings;
         for (const std::vector<std::string>& warnings : row_warnings_)

@@ -3,9 +3,12 @@
 #include "measure/costs.hpp"
 
 #include "core/error.hpp"
+#include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "report/costs.hpp"
 #include "report/text.hpp"
+#include "report/writer.hpp"
+#include "study/row_times.hpp"
 #include "study/study.hpp"
 #include "study/work.hpp"
 
@@ -33,8 +36,8 @@ bool does_list_contain_index(const std::vector<std::size_t>& list, std::size_t i
 void set_row_costs(std::vector<report::Row>& rows, const std::vector<measure::DeviceCosts>& all) {
     std::vector<std::vector<measure::NamedMetricValueParts>> lists(rows.size());
     for (const measure::DeviceCosts& costs : all) {
-        const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(costs,
-                                                                                         rows);
+        const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
+            costs, rows, find_row_times_on_device(rows, costs.device));
         for (std::size_t i = 0; i < rows.size(); ++i)
             lists[i].push_back({"device",
                                 describe_device_costs(costs),
@@ -96,7 +99,8 @@ std::vector<ReportTable> make_cost_tables(const report::Comparison& comparison) 
     ReportTable table{"Predicted time on other devices, ms",
                       {report::make_text_column("row"), "FLIP"},
                       "Counted work times the costs of each device, with the smallest and the "
-                      "largest cost of its range. *: on the device's front of time and FLIP.",
+                      "largest cost of its range; of another renderer's row, its own time "
+                      "(--row-times). *: on the device's front of time and FLIP.",
                       {},
                       {}};
     for (const report::Row& row : comparison.rows) {
@@ -151,6 +155,42 @@ std::vector<std::string> describe_predicted_fronts(const report::Comparison& com
     return sentences;
 }
 
+/// Returns a summary of a time that is known without measuring here. Times differ if their medians
+/// do, because the ends of predicted ranges have the same unknown costs.
+measure::SampleSummary make_stated_time(const PredictedCostCells& time) {
+    measure::SampleSummary summary{.median = time.ms, .p05 = time.low, .p95 = time.high};
+    if (time.low < time.high) summary.ci95 = {time.low, time.high};
+    summary.rounds.assign(measure::kMinIntervalSamples, time.ms);
+    return summary;
+}
+
+std::vector<report::ComparisonOnDevice>
+list_comparisons_on_other_devices(const report::Comparison& comparison) {
+    std::vector<report::ComparisonOnDevice> devices;
+    if (comparison.rows.empty()) return devices;
+    const std::vector<std::string> fronts = describe_predicted_fronts(comparison);
+    for (std::size_t device = 0; device < fronts.size(); ++device) {
+        report::ComparisonOnDevice& other = devices.emplace_back(
+            report::ComparisonOnDevice{report::copy_without_pictures(comparison),
+                                       "predicted from counted work", fronts[device]});
+        other.comparison.device = {};
+        other.comparison.reference_gpu_ms.median = NAN;
+        other.comparison.pareto.clear();
+        for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+            const PredictedCostCells time = list_cost_cells(comparison.rows[i])[device];
+            report::Row& row = other.comparison.rows[i];
+            other.comparison.device.name = time.device;
+            row.moves = row.noisy = false; // both are facts of the measured times
+            row.gpu_ms = row.frame_ms = make_stated_time(time);
+            if (time.front) other.comparison.pareto.push_back(i);
+        }
+        std::ranges::stable_sort(other.comparison.pareto, {}, [&](std::size_t i) {
+            return other.comparison.rows[i].gpu_ms.median;
+        });
+    }
+    return devices;
+}
+
 const RegisteredStudy kCostsStudy{
     {.name = "costs",
      .help = "also predict each row's time on another device from its counted work and the costs "
@@ -177,7 +217,8 @@ const RegisteredStudy kCostsStudy{
      .part = {.order = 700,
               .tables = make_cost_tables,
               .sentences = describe_predicted_fronts,
-              .title = "Front of each device"}}};
+              .title = "Front of each device",
+              .other_devices = list_comparisons_on_other_devices}}};
 
 } // namespace
 

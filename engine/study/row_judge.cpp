@@ -1,5 +1,6 @@
 #include "study/row_judge.hpp"
 
+#include "measure/light_edges.hpp"
 #include "measure/lookup.hpp"
 #include "report/comparison.hpp"
 #include "session/technique_choice.hpp"
@@ -7,6 +8,7 @@
 #include "study/light_edges.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace catoptric::app {
@@ -67,10 +69,10 @@ std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row&
     row.saturated_texels = looked.saturated;
     if (!looked.lookup.empty()) {
         const TrueHitFinder& oracle = find_true_hit_finder(number);
-        row.lookup = measure::summarise_lookup_errors(
-            oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out")));
-        row.light_edges = split_error_at_light_edges(row, truth, hits, looked.lookup, oracle,
-                                                     base_.exposure);
+        row.lookup = std::make_shared<measure::LookupErrorSummary>(measure::summarise_lookup_errors(
+            oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out"))));
+        row.light_edges = std::make_shared<measure::LightEdgeErrors>(split_error_at_light_edges(
+            row, truth, hits, looked.lookup, oracle, base_.exposure));
     }
     std::vector<std::string> warnings;
     if (looked.saturated.value_or(0) > 0)

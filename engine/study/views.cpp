@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "measure/interval.hpp"
+#include "measure/views.hpp"
 #include "report/comparison.hpp"
 #include "scene/pose.hpp"
 #include "session/access.hpp"
@@ -77,8 +78,9 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
     const double flip = row.views.back().error.flip;
     // A view without judged pixels is never the worst.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
-        row.worst = {row.views.size() - 1,
-                     place_pictures_side_by_side(part.display, truth.part.display)};
+        row.worst = std::make_shared<measure::WorstView>(measure::WorstView{
+            row.views.size() - 1,
+            place_pictures_side_by_side(part.display, truth.part.display)});
 }
 
 /// The reference of a view, and what its rays meet.

@@ -1,5 +1,5 @@
 // catoptric choose: chooses the cheapest plan that keeps a limit, and proves it on other views.
-#include "study/choose.hpp"
+#include "study/choose_json.hpp"
 
 #include "compare.hpp"
 #include "core/error.hpp"
@@ -12,9 +12,7 @@
 #include "output_checks.hpp"
 #include "parse.hpp"
 #include "progress.hpp"
-#include "report/costs.hpp"
 #include "report/json.hpp"
-#include "session/plan_file.hpp"
 #include "study/compare_checks.hpp"
 #include "study/reference_cache.hpp"
 #include "table.hpp"
@@ -28,8 +26,6 @@
 namespace catoptric::cli {
 
 namespace {
-
-using report::Json;
 
 constexpr const char* kChooseExamples = R"(Examples:
   catoptric choose room.glb --max-error flip=0.05 -o plan.json
@@ -47,7 +43,6 @@ struct ChooseOptions {
     app::ChooseRequest limits; ///< without scene, reference and watcher
     std::string output, certified;
     std::vector<std::string> techniques;
-    std::string costs;
     bool is_share_given = false, is_confidence_given = false, is_proof_seed_given = false;
     std::vector<std::string> command;
 };
@@ -98,132 +93,19 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
                              1;
     check(!proved || static_cast<std::uint64_t>(*proved) != request.proof_seed, Failure::usage,
           "--proof-seed: wanted another than that of the certificate, found ", request.proof_seed);
-    check(certificate.value("times", nlohmann::json()) != "predicted" || request.costs ||
+    check(certificate.value("times", nlohmann::json()) != "predicted" || !request.costs.empty() ||
               !request.max_ms,
           Failure::usage, file, ": its limit of time is for another device; wanted --costs of it");
 }
 
-std::string format_plan_time(const app::JudgedPlan& plan) {
-    std::string text = fmt::format("{:.3g}", plan.ms);
-    if (plan.ms_range.low < plan.ms_range.high)
-        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
-    return text;
-}
-
-/// Returns the name of the device whose times decide.
-std::string timed_device_name(const app::ChooseRequest& request, const app::Engine& engine) {
-    return request.costs ? request.costs->device + " (predicted)" : engine.device().name;
-}
-
-/// Returns what a proof says of its plan, in one sentence.
-std::string describe_proof(const app::ChooseRequest& request, const app::PlanProof& proof,
-                           const std::string& device) {
-    const char* quantity = app::error_quantity_name(request.quantity);
-    // A larger share than the requested one was not to be proved, so it is not claimed.
-    const double share = std::min(proof.share_bound, request.share);
-    const std::string statement = request.max_error
-                                      ? fmt::format("at least {:.4g} % of views have {} <= {:g}",
-                                                    100 * share, quantity, *request.max_error)
-                                      : fmt::format("at least {:g} % of views have {} <= {:.4g}",
-                                                    100 * request.share, quantity,
-                                                    proof.error_bound);
-    return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures)",
-                       proof.plan.text, format_plan_time(proof.plan), device, statement,
-                       100 * request.confidence, proof.plan.errors.size(), proof.failures);
-}
-
-/// Returns the rules of a plan. The file of a plan was read before, so it is valid.
-Json make_plan_rules_json(const std::string& text) {
-    if (constexpr std::string_view kFile = "plan:"; text.starts_with(kFile)) {
-        const std::string file = text.substr(kFile.size());
-        const Json document = parse_json<Json>(file, read_file(file));
-        return document.is_object() ? document.value("plan", Json()) : document;
-    }
-    Json rules = Json::array();
-    if (text == reflect::kAutoPlanName || app::read_technique_plan(text).is_technique) {
-        rules.push_back({{"mirror", "*"}, {"technique", text}});
-        return rules;
-    }
-    for (std::size_t begin = 0; begin < text.size();) {
-        const std::size_t end = std::min(text.find(' ', begin), text.size());
-        const std::string rule = text.substr(begin, end - begin);
-        const std::size_t sign = rule.find('=');
-        rules.push_back({{"mirror", rule.substr(0, sign)}, {"technique", rule.substr(sign + 1)}});
-        begin = end + 1;
-    }
-    return rules;
-}
-
-Json make_judged_plan_json(const app::JudgedPlan& plan) {
-    return {{"technique", plan.text},
-            {"ms", report::make_number_json(plan.ms)},
-            {"ms_range", report::make_interval_json(plan.ms_range)},
-            {"largest_error", report::make_number_json(plan.largest_error)},
-            {"errors", report::make_number_list_json(plan.errors)}};
-}
-
-Json make_proof_json(const app::PlanProof& proof) {
-    Json json = make_judged_plan_json(proof.plan);
-    json["views"] = proof.plan.errors.size(), json["failures"] = proof.failures;
-    json["share_bound"] = report::make_number_json(proof.share_bound);
-    json["error_bound"] = report::make_number_json(proof.error_bound);
-    json["keeps_error"] = proof.keeps_error, json["keeps_time"] = proof.keeps_time;
-    return json;
-}
-
-Json make_certificate_json(const ChooseOptions& options, const app::ChooseRequest& request,
-                           const app::PlanProof& proof, const std::string& device) {
-    return {{"quantity", app::error_quantity_name(request.quantity)},
-            {"max_error", report::make_number_json(request.max_error)},
-            {"max_ms", report::make_number_json(request.max_ms)},
-            {"share", request.share},
-            {"confidence", request.confidence},
-            {"views", proof.plan.errors.size()},
-            {"failures", proof.failures},
-            {"share_bound", report::make_number_json(proof.share_bound)},
-            {"error_bound", report::make_number_json(proof.error_bound)},
-            {"ms", report::make_number_json(proof.plan.ms)},
-            {"ms_range", report::make_interval_json(proof.plan.ms_range)},
-            {"device", device},
-            {"times", request.costs ? "predicted" : "measured"},
-            {"scene", options.common.scene},
-            {"scene_hash", proof.scene_hash},
-            {"reference", request.reference},
-            {"exposure", proof.exposure},
-            {"width", request.base.size.x},
-            {"height", request.base.size.y},
-            {"training_seed", request.base.seed},
-            {"proof_seed", request.proof_seed},
-            {"views_drawn", "as by compare --views: cameras that see a mirror, instants within one "
-                            "period of the scene's motion"},
-            {"version", app::version()},
-            {"commit", app::commit()}};
-}
-
-Json make_choice_json(const ChooseOptions& options, const app::ChooseRequest& request,
-                      const app::PlanChoice& choice, const std::string& device) {
-    Json document{{"schema", "catoptric/plan/1"}, {"command", options.command}};
-    if (choice.chosen) {
-        const app::PlanProof& proof = choice.proofs[*choice.chosen];
-        document["plan"] = make_plan_rules_json(proof.plan.text);
-        document["certificate"] = make_certificate_json(options, request, proof, device);
-    } else {
-        document["plan"] = nullptr, document["why"] = choice.failure;
-    }
-    document["proofs"] = report::make_list_json(choice.proofs, make_proof_json);
-    document["candidates"] = report::make_list_json(choice.candidates, make_judged_plan_json);
-    document["dropped"] = choice.dropped;
-    return document;
-}
-
 std::string make_candidate_table(const app::ChooseRequest& request, const app::PlanChoice& choice) {
     std::vector<std::vector<std::string>> rows{
-        {"candidate", request.costs ? "ms [range]" : "ms [95 %]",
+        {"candidate", request.costs.empty() ? "ms [95 %]" : "ms [range]",
          fmt::format("largest {} in {} views", app::error_quantity_name(request.quantity),
                      request.training_views)}};
     for (const app::JudgedPlan& plan : choice.candidates)
         rows.push_back(
-            {plan.text, format_plan_time(plan), fmt::format("{:.5f}", plan.largest_error)});
+            {plan.text, app::format_plan_time(plan), fmt::format("{:.5f}", plan.largest_error)});
     return align_columns(rows);
 }
 
@@ -233,7 +115,6 @@ app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPri
     request.base.techniques = options.techniques;
     request.reference = app::choose_reference(options.common.reference, request.base.scene,
                                               app::ReferencePixelKind::centre);
-    if (!options.costs.empty()) request.costs = report::read_costs_file(options.costs);
     if (!options.certified.empty()) read_certificate(options, request);
     request.watcher = make_progress_watcher(progress);
     request.tell = [&progress, &options](const std::string& step) {
@@ -245,22 +126,18 @@ app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPri
 
 int certify_plan_and_print_result(const ChooseOptions& options, const app::ChooseRequest& request,
                                   app::Engine& engine, ProgressPrinter& progress) {
-    const Json rules = make_plan_rules_json("plan:" + options.certified);
-    const app::PlanProof proof = app::prove_plan(engine, request, "plan:" + options.certified);
+    const std::string plan = "plan:" + options.certified;
+    const app::PlanProof proof = app::prove_plan(engine, request, plan);
     progress.clear();
-    const std::string device = timed_device_name(request, engine);
-    const Json document{{"schema", "catoptric/plan/1"},
-                        {"command", options.command},
-                        {"plan", rules},
-                        {"certificate", make_certificate_json(options, request, proof, device)},
-                        {"proofs", Json::array({make_proof_json(proof)})}};
+    report::Json document = app::make_proved_plan_json(request, plan, proof, options.common.scene);
+    document["command"] = options.command;
     if (!options.output.empty() && proof.holds())
         write_file(options.output, report::serialise_json(document));
     if (options.common.device.validate) engine.check_validation();
     print_result(options.common.manners.json
                      ? report::serialise_json(document)
                      : std::string(proof.holds() ? "holds: " : "does not hold: ") +
-                           describe_proof(request, proof, device) + "\n");
+                           app::describe_proof(request, proof) + "\n");
     return proof.holds() ? 0 : 1;
 }
 
@@ -268,7 +145,7 @@ int certify_plan_and_print_result(const ChooseOptions& options, const app::Choos
 void check_output_place(const ChooseOptions& options, const app::ChooseRequest& request) {
     check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
     std::vector<std::filesystem::path> read;
-    for (const std::string& file : {options.certified, options.costs})
+    for (const std::string& file : {options.certified, request.costs})
         if (!file.empty()) read.emplace_back(file);
     for (const std::string& text : options.techniques)
         if (text.starts_with("plan:")) read.emplace_back(text.substr(5));
@@ -300,8 +177,8 @@ int run_choose(const ChooseOptions& options) {
         return certify_plan_and_print_result(options, request, engine, progress);
     const app::PlanChoice choice = app::choose_plan(engine, request);
     progress.clear();
-    const std::string device = timed_device_name(request, engine);
-    const Json document = make_choice_json(options, request, choice, device);
+    report::Json document = app::make_choice_json(request, choice, options.common.scene);
+    document["command"] = options.command;
     if (choice.chosen) write_file(options.output, report::serialise_json(document));
     if (options.common.manners.json) {
         print_result(report::serialise_json(document));
@@ -309,7 +186,7 @@ int run_choose(const ChooseOptions& options) {
         std::string text = make_candidate_table(request, choice);
         for (const app::PlanProof& proof : choice.proofs)
             text += std::string(proof.holds() ? "holds: " : "does not hold: ") +
-                    describe_proof(request, proof, device) + "\n";
+                    app::describe_proof(request, proof) + "\n";
         print_result(text + (choice.chosen
                                  ? "chosen: " + choice.proofs[*choice.chosen].plan.text + "\n"
                                  : "no plan: " + choice.failure + "\n"));
@@ -342,7 +219,7 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
                 });
     verb.option("--costs", "FILE",
                 "choose for another device, by times predicted from its costs (see docs/costs)",
-                options.costs);
+                options.limits.costs);
 }
 
 void add_view_count_options(CommandVerb& verb, ChooseOptions& options) {

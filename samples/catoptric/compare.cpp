@@ -62,6 +62,10 @@ struct CompareOptions {
     BaselineOptions baseline;
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
+    bool inlines_pictures = false; ///< in report.html, however large it becomes
+    report::PagePictures page_pictures() const {
+        return inlines_pictures ? report::PagePictures::inlined : report::PagePictures::automatic;
+    }
     std::vector<std::pair<std::string, std::string>> pictures; ///< rows of files: name, PICTURES
     std::vector<app::StudyChoice> studies;
     std::vector<std::string> command;
@@ -196,8 +200,9 @@ void check_not_stopped(const CompareOptions& options, const report::Comparison& 
 class CompareReportOutput {
 public:
     CompareReportOutput(const CompareOptions& options, std::size_t count)
-        : compare_options_(options), one_(options.folder, options.csv),
-          several_(options.folder, list_scenes_to_compare(options), options.csv),
+        : compare_options_(options), one_(options.folder, options.csv, options.page_pictures()),
+          several_(options.folder, list_scenes_to_compare(options), options.csv,
+                   options.page_pictures()),
           is_one_(count == 1) {}
 
     void write_scene_report(std::size_t index, const report::Comparison& comparison) {
@@ -414,6 +419,10 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                     const bool all = parse_choice_index("--csv", text, {"table", "all"}) == 1;
                     options->csv = all ? report::CsvColumnSet::all : report::CsvColumnSet::table;
                 });
+    verb.flag("--inline",
+              "put all pictures into report.html, also if they take more than 16 MiB; otherwise it "
+              "loads so many from images/",
+              options->inlines_pictures);
 }
 
 } // namespace

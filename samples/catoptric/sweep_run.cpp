@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
+#include "measure/views.hpp"
 #include "progress.hpp"
 #include "report/json.hpp"
 #include "report/writer.hpp"

@@ -53,6 +53,22 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
     EXPECT_NEAR(certificate["share_bound"], std::pow(.1, 1.0 / 6), 1e-9);
     // Two of six may lie above: P(Binomial(6, .5) <= 1) = 7/64 > .1 allows none.
     EXPECT_NEAR(certificate["error_bound"], std::ranges::max(errors), 1e-6);
+    // A report with the plan quotes its certificate, and says if it is for another scene.
+    const std::string statement =
+        "at least 50 % of views have flip <= 0.5, with 90 % confidence (6 "
+        "views, " +
+        std::to_string(failures) + " failures), at 32x32";
+    const json quoted = json::parse(
+        read_output_file("out/report.json"))["rows"][0]["certificate"][0];
+    EXPECT_EQ(quoted, (json{{"statement", statement}, {"of_this_scene", true}}));
+    EXPECT_THAT(read_output_file("out/report.html"),
+                HasSubstr("plan:plan.json was chosen: at least 50 % of views have flip &lt;= 0.5"));
+    ASSERT_EQ(
+        run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "plan:plan.json"}))
+            .exit_code,
+        0);
+    EXPECT_THAT(read_output_file("out/report.html"),
+                HasSubstr("plan:plan.json was chosen for another scene: at least 50 %"));
     // The plans were proved from the surest to the cheapest.
     const json& proofs = plan["proofs"];
     for (std::size_t i = 0; i + 1 < proofs.size(); ++i)

@@ -108,6 +108,65 @@ TEST_F(PictureRowsCliTest, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
     refused({"parallax:face=16=own.exr"}, 66, "16=own.exr");
 }
 
+/// Times of one device rank the row among ours only if our rows were measured on it.
+TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
+    ASSERT_EQ(compare_picture_rows({"mine=own.exr"}).exit_code, 0);
+    const json before = json::parse(read_output_file("out/report.json"));
+    EXPECT_FALSE(before["rows"][0].contains("row_times"));
+    const std::string here = before["device"]["name"];
+    write_input_file("here.json", R"({"schema": "catoptric/row-times/1", "device": ")" + here +
+                                      R"(", "rows": [{"row": "mine",
+                                      "ms": [0.003, 0.001, 0.002, 0.002, 0.001, 0.004]}]})");
+    write_input_file("card.json", R"({"schema": "catoptric/row-times/1", "device": "card",
+                                      "rows": [{"row": "mine", "ms": 4.5}]})");
+    write_input_file("costs.json", R"({"schema": "catoptric/costs/1", "device": "card",
+        "origin": "given", "costs": [{"work": "frames", "ns": 5000000}]})");
+    const auto compare_with_times = [&](const Words& options) {
+        Words words{"compare",          "-o",    "out",         "--techniques",
+                    "parallax:face=16", "--row", "mine=own.exr"};
+        words.insert(words.end(), options.begin(), options.end());
+        return run_cli(with_small_quick_frame(words));
+    };
+    const test::ProcessResult ended = compare_with_times(
+        {"--row-times", "here.json", "--row-times", "card.json", "--costs", "costs.json"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json report = json::parse(read_output_file("out/report.json"));
+    const json& mine = report["rows"][1];
+    EXPECT_EQ(mine["gpu_ms"]["median"], .002);
+    EXPECT_EQ(mine["gpu_ms"]["ci95"], json::parse("[0.001, 0.004]"));
+    EXPECT_EQ(report["pareto"], json::parse("[1]")) << "equal pictures, and it is faster";
+    ASSERT_EQ(mine["row_times"].size(), 2U);
+    EXPECT_EQ(mine["row_times"][1], json::parse(R"({"device": "card", "ms": 4.5, "low_ms": null,
+                                                    "high_ms": null, "frames": 1})"));
+    // On the card it takes 4.5 ms, and our row takes 5 ms by its costs.
+    EXPECT_EQ(mine["costs"][0]["ms"], 4.5);
+    EXPECT_EQ(mine["costs"][0]["on_front"], true);
+    EXPECT_EQ(report["rows"][0]["costs"][0]["ms"], 5);
+    EXPECT_EQ(report["rows"][0]["costs"][0]["on_front"], false);
+    EXPECT_THAT(read_output_file("out/report.md"),
+                testing::ContainsRegex("mine \\| card \\| 4\\.500? \\| – \\| 1 \\|"));
+
+    write_input_file("bad.json", R"({"schema": "catoptric/row-times/1", "device": "card",
+                                     "rows": [{"row": "mine", "ms": [1, 0]}]})");
+    write_input_file("other.json", R"({"schema": "catoptric/row-times/1", "device": "card",
+                                       "rows": [{"row": "yours", "ms": 1}]})");
+    const std::pair<Words, std::string> refused[] = {
+        {{"--row-times", "bad.json"},
+         "bad.json: rows[0].ms[1]: wanted milliseconds above 0, found 0"},
+        {{"--row-times", "other.json"},
+         "--row-times other.json: wanted the name of a row of --row, found 'yours'"},
+        {{"--row-times", "card.json", "--row-times", "card.json"},
+         "wanted one time for each row and device, found a second for 'mine' on 'card'"},
+        {{"--row-times", "costs.json"}, "costs.json: schema: wanted times of rows"}};
+    std::filesystem::remove_all(folder / "out");
+    for (const auto& [options, text] : refused) {
+        const test::ProcessResult failed = compare_with_times(options);
+        EXPECT_NE(failed.exit_code, 0) << text;
+        EXPECT_THAT(failed.err, testing::HasSubstr(text));
+        EXPECT_FALSE(std::filesystem::exists(folder / "out/report.json")) << text;
+    }
+}
+
 /// Another renderer gets the views from `views`. Here it is this program itself, so the row of its
 /// pictures must have the errors of the row that draws them.
 class ViewPictureRowsCliTest : public PictureRowsCliTest {

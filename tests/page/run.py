@@ -2,6 +2,7 @@
 """Opens a report in Chromium and uses its page as a reader would. run.py CATOPTRIC FOLDER, by ./dev test --label page."""
 
 import base64
+import json
 import pathlib
 import re
 import struct
@@ -171,6 +172,31 @@ def test_first_screen(browser):
     expect(places[2] < 400, f"the pictures stand at {places[2]}")
 
 
+def test_devices(browser, report):
+    """The switch shows the answer and the plot by the times of another device, and back."""
+    names = browser.execute_script("return [...document.querySelectorAll('.devices option')].map(x => x.textContent)")
+    expect(len(names) == 2 and names[1] == "card (given), predicted from counted work", f"the devices are {names}")
+    answers = []
+    for device in (1, 0):
+        browser.execute_script(
+            """const choice = document.querySelector('.devices');
+               choice.value = arguments[0];
+               choice.dispatchEvent(new Event('change'));""", str(device))
+        shown = [x for x in browser.find_elements(By.CSS_SELECTOR, ".answer") if x.is_displayed()]
+        expect(len(shown) == 1, f"device {device}: {len(shown)} answers are shown")
+        answers.append(shown[0].text)
+        plots = [x for x in browser.find_elements(By.CSS_SELECTOR, ".plot") if x.is_displayed()]
+        expect(len(plots) == 1, f"device {device}: {len(plots)} plots are shown")
+        titles = plots[0].find_elements(By.CSS_SELECTOR, "[data-picture] title")
+        told = dict(title.get_attribute("textContent").rsplit(": ", 1) for title in titles)
+        expect(set(told) == set(ROWS), f"device {device}: the plot has the rows {list(told)}")
+        for row in report["rows"]:
+            ms = row["costs"][0]["ms"] if device == 1 else row["gpu_ms"]["median"]
+            found = float(told[row["label"]].split(" ms")[0])
+            expect(abs(found - ms) <= 0.01 * ms, f"device {device}, {row['label']}: wanted {ms} ms, found {found}")
+    expect("on card (given)" in answers[0] and "card" not in answers[1], f"the answers are {answers}")
+
+
 def relative_luminance(colour):
     linear = [c / 255 / 12.92 if c / 255 <= 0.03928 else ((c / 255 + 0.055) / 1.055) ** 2.4 for c in colour]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
@@ -201,14 +227,20 @@ def test_print(browser):
 
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    costs = folder / "card.json"
+    costs.write_text("""{"schema": "catoptric/costs/1", "device": "card", "origin": "given",
+        "costs": [{"work": "camera_rays", "ns": 100, "range": [50, 200]}, {"work": "frames", "ns": 1000000}]}""")
     subprocess.run([program, "compare", "cornell-mirrors", "--size", f"{SIZE[0]}x{SIZE[1]}", "--frames", "6", "--warmup", "1",
-                    "--max-ms", "1000", "-q", "-o", str(folder), "--techniques", *ROWS], check=True, stdout=subprocess.DEVNULL)
+                    "--max-ms", "1000", "--costs", costs, "-q", "-o", str(folder), "--techniques", *ROWS], check=True,
+                   stdout=subprocess.DEVNULL)
     page = folder / "report.html"
     browser = open_page(page)
     test_first_screen(browser)
     test_values(browser, folder)
     test_pictures(browser)
     test_plot_and_tables(browser)
+    test_devices(browser, json.loads((folder / "report.json").read_text()))
     test_contrast(browser, "light")
     test_print(browser)
     problems = [entry["message"] for entry in browser.get_log("browser")]

@@ -1,5 +1,7 @@
 // Tests of the errors that a comparison measures over drawn views.
 #include "compare.hpp"
+#include "measure/light_edges.hpp"
+#include "measure/views.hpp"
 #include "report/comparison.hpp"
 #include "support/rendering.hpp"
 
@@ -88,7 +90,7 @@ TEST(ComparedLightEdges, EveryRowThatReadsCapturesHasLightEdges) {
     const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_EQ(found.rows.size(), 5u);
     for (const report::Row& row : found.rows) {
-        EXPECT_EQ(row.light_edges.has_value(), row.lookup.has_value()) << row.label;
+        EXPECT_EQ(row.light_edges == nullptr, row.lookup == nullptr) << row.label;
         if (!row.light_edges) continue;
         const measure::LightEdgeErrors& edges = *row.light_edges;
         const double whole = row.error.rmse * row.error.rmse;

@@ -1,13 +1,16 @@
 // Tests of incomplete reports. Every file of a running or stopped run says so, and each picture is
 // written once.
 #include "core/file.hpp"
+#include "measure/views.hpp"
 #include "report/stress.hpp"
 #include "report/writer.hpp"
 #include "report_sample.hpp"
 #include "support/folder.hpp"
 
 #include <gmock/gmock.h>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <random>
 
 namespace {
 
@@ -104,9 +107,9 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     catoptric::report::ReportWriter writer(folder / "out");
     writer.write_comparison(made);
     EXPECT_EQ(list_image_files(),
-              (std::vector<std::string>{"causes-naive0.png", "mirrors.js", "naive0-error.png",
-                                        "naive0.exr", "naive0.js", "naive0.png", "reference.js",
-                                        "reference.png"}));
+              (std::vector<std::string>{"causes-naive0.png", "mirrors.js", "naive0-error.js",
+                                        "naive0-error.png", "naive0.exr", "naive0.js", "naive0.png",
+                                        "reference.js", "reference.png"}));
     std::vector<fs::path> missing = catoptric::report::list_report_files({"naive0"});
     EXPECT_EQ(missing.size(), 4 + list_image_files().size() + 1);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
@@ -115,8 +118,9 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
     made.rows.push_back(whole.rows[1]);
     writer.write_comparison(made);
     const std::string second = whole.rows[1].image;
-    EXPECT_EQ(list_image_files(), (std::vector<std::string>{second + "-error.png", second + ".exr",
-                                                            second + ".js", second + ".png"}));
+    EXPECT_EQ(list_image_files(),
+              (std::vector<std::string>{second + "-error.js", second + "-error.png",
+                                        second + ".exr", second + ".js", second + ".png"}));
     // The causes of a row's error may arrive after the row itself.
     made.rows[1].causes = whole.rows[1].causes = made.rows[0].causes;
     fs::remove_all(folder / "out/images");
@@ -141,8 +145,10 @@ TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
     for (auto& row : made.rows) row.views.resize(3);
     catoptric::report::ReportWriter writer(folder / "out");
     writer.write_comparison(made);
-    made.rows[0].worst = {0, catoptric::measure::Picture(9, 3)};
-    made.rows[1].worst = {0, catoptric::measure::Picture(9, 3)};
+    made.rows[0].worst = std::make_shared<catoptric::measure::WorstView>(
+        catoptric::measure::WorstView{0, catoptric::measure::Picture(9, 3)});
+    made.rows[1].worst = std::make_shared<catoptric::measure::WorstView>(
+        catoptric::measure::WorstView{0, catoptric::measure::Picture(9, 3)});
     fs::remove_all(folder / "out/images");
     writer.write_comparison(made);
     const auto of = [&](int row) { return "worst-" + made.rows[row].image + ".png"; };
@@ -152,6 +158,32 @@ TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
     writer.write_comparison(made);
     EXPECT_EQ(list_image_files(), std::vector<std::string>{of(1)});
     EXPECT_EQ(catoptric::read_file(folder / "out/report.html"), catoptric::report::to_html(made));
+}
+
+/// A page of many large pictures would take long to open.
+TEST_F(GrowingReport, PageWithManyBytesOfPicturesLoadsThemFromFiles) {
+    using catoptric::report::PagePictures;
+    Comparison made = make_usual_comparison();
+    const auto measure_page = [&](PagePictures pictures) {
+        catoptric::report::ReportWriter writer(folder / "out",
+                                               catoptric::report::CsvColumnSet::table, pictures);
+        writer.write_comparison(made);
+        return catoptric::read_file(folder / "out/report.html");
+    };
+    const std::string file = R"( loading="lazy" src="images/)" + made.rows[1].image + R"(.png">)";
+    EXPECT_THAT(measure_page(PagePictures::automatic), testing::Not(testing::HasSubstr("lazy")));
+    std::mt19937 random(7);
+    made.rows[1].flip_map.clear();
+    made.rows[1].display = catoptric::measure::Picture(2600, 2400); // noise, which no PNG shrinks
+    for (auto& pixel : made.rows[1].display.pixels)
+        for (int k = 0; k < 3; ++k) pixel[k] = static_cast<float>(random() % 256) / 255;
+    const std::string page = measure_page(PagePictures::automatic);
+    EXPECT_THAT(page, testing::HasSubstr(file));
+    EXPECT_THAT(page, testing::Not(testing::HasSubstr("data:image/png")));
+    EXPECT_LT(page.size(), 1U << 20);
+    const std::string whole = measure_page(PagePictures::inlined);
+    EXPECT_THAT(whole, testing::Not(testing::HasSubstr("lazy")));
+    EXPECT_GT(whole.size(), 16U << 20);
 }
 
 /// A file that could not be written is written again with the next row.

@@ -3,11 +3,14 @@
 #include "report/writer.hpp"
 
 #include "measure/causes.hpp"
+#include "measure/light_edges.hpp"
+#include "measure/lookup.hpp"
 #include "measure/statistics.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
 
 #include <gmock/gmock.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -82,8 +85,10 @@ public:
         fill_next_value(row.traced_fraction.emplace(), "/traced_fraction", "traced_fraction");
         fill_next_value(row.mean, "/mean", "mean");
         fill_next_value(row.mean_clamped, "/mean_clamped", "mean_clamped");
-        set_distinct_lookup_errors(row.lookup.emplace());
-        fill_light_edges(row.light_edges.emplace());
+        row.lookup = std::make_shared<LookupErrorSummary>();
+        set_distinct_lookup_errors(*row.lookup);
+        row.light_edges = std::make_shared<LightEdgeErrors>();
+        fill_light_edges(*row.light_edges);
         row.causes = std::make_shared<catoptric::measure::Causes>();
         fill_error_causes(*row.causes);
         row.causes->largest.resize(row.display.pixels.size());
@@ -168,7 +173,7 @@ private:
         fill_next_value(causes.rest_rmse, "/causes/rest_rmse", "causes_rest_rmse");
         // This share is also a figure of the row itself, in `light_edges`.
         fields.push_back(
-            {"/causes/at_light_edges", "causes_at_light_edges", row.light_edges.value().share});
+            {"/causes/at_light_edges", "causes_at_light_edges", row.light_edges->share});
         fill_next_value(causes.squared_error_per_mirror.emplace_back(),
                         "/causes/squared_error_per_mirror/0", "causes_squared_error_per_mirror#0");
         causes.list.resize(2);
@@ -268,7 +273,8 @@ TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
 
 TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
     Comparison made = make_comparison_of_distinct_figures(DistinctRowFiller());
-    made.setup = {1.5, 2.25, 33.5, 444.5, 6, "used"};
+    made.setup = std::make_shared<SetupFacts>(
+        SetupFacts{1.5, 2.25, 33.5, 444.5, 6, "used"});
     EXPECT_EQ(json::parse(to_json(made))["setup"],
               json::parse(R"({"load_ms": 1.5, "upload_ms": 2.25, "hierarchy_ms": 33.5,
                               "compile_ms": 444.5, "pipelines": 6, "pipeline_cache": "used"})"));
@@ -279,13 +285,13 @@ TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
         EXPECT_LT(page.find(line), page.find("Every row"));
         EXPECT_EQ(page.find(line), page.rfind(line)) << "told once";
     }
-    made.setup = {{}, 2.25, 0, 444.5, 6, "made"};
+    made.setup = std::make_shared<SetupFacts>(SetupFacts{{}, 2.25, 0, 444.5, 6, "made"});
     EXPECT_TRUE(json::parse(to_json(made))["setup"]["load_ms"].is_null());
-    EXPECT_EQ(describe_setup_times(made.setup),
+    EXPECT_EQ(describe_setup_times(*made.setup),
               "upload 2.25 ms; no hierarchy; 6 pipelines 444 ms, the "
               "cache on disk was empty");
-    made.setup.pipeline_cache = "none";
-    EXPECT_THAT(describe_setup_times(made.setup), testing::EndsWith("444 ms, no cache on disk"));
+    made.setup->pipeline_cache = "none";
+    EXPECT_THAT(describe_setup_times(*made.setup), testing::EndsWith("444 ms, no cache on disk"));
 }
 
 /// Collects the JSON pointers of all numbers in a document.

@@ -281,7 +281,7 @@ TEST_F(ReportWritingTest, WrittenReportReplacesItsOldFilesAndKeepsOthers) {
          {"reference.png", "naive0.png", "naive0.exr", "naive0-error.png", "raytrace.png"})
         EXPECT_EQ(catoptric::measure::read_picture(out / "images" / name).width, 4) << name;
     EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 6);
-    EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 19);
+    EXPECT_EQ(std::distance(fs::directory_iterator(out / "images"), fs::directory_iterator()), 23);
 }
 
 TEST_F(ReportWritingTest, WritingAReportCreatesTheFolderAndItsParents) {

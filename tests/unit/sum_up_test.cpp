@@ -2,6 +2,7 @@
 // causes of a row's error.
 #include "measure/causes.hpp"
 
+#include "measure/light_edges.hpp"
 #include "report/comparison.hpp"
 #include "report/tables.hpp"
 #include "report_sample.hpp"
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <memory>
 
 namespace {
 
@@ -117,7 +119,8 @@ Causes make_causes_with_first_whole() {
 TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
     report::Row row = report::sample::make_row("parallax", 6, .5, .1);
     row.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
-    row.light_edges.emplace().share = .5;
+    row.light_edges = std::make_shared<measure::LightEdgeErrors>();
+    row.light_edges->share = .5;
     const report::ReportTable table = report::make_cause_table(
         report::sample::make_comparison({report::sample::make_row("raytrace", 6, 0, 0), row}));
     using Cells = std::vector<std::string>;

@@ -1,4 +1,5 @@
-// The script of report.html: the comparer, sortable tables, plot marks that choose a row, and tabs of scenes.
+// The script of report.html: the comparer, sortable tables, plot marks that choose a row, the choice of a device, and
+// tabs of scenes.
 // The page works from disk. Pictures are in the page; their linear values are in images/*.js beside it, which the
 // comparer loads when it shows a row. Without these files the comparer shows the values of the 8-bit pictures.
 "use strict";
@@ -50,6 +51,7 @@ const to_srgb_code = x => srgb_codes[Math.min(Math.max(x, 0), 1) * kSrgbSteps + 
 
 /** Returns the linear values of an image of the page, before the page's exposure. */
 async function read_image(image, exposure) {
+    image.loading = "eager"; // a page with many pictures loads those in view alone
     await image.decode();
     const canvas = new OffscreenCanvas(image.naturalWidth, image.naturalHeight);
     const pen = canvas.getContext("2d", {willReadFrequently: true});
@@ -161,8 +163,23 @@ class Comparer {
         const image = () => document.getElementById(picture.picture_id);
         return picture.values ??= load_values(picture.file).then(halves_to_floats).catch(async error => {
             this.note.textContent = `Values are those of the 8-bit pictures, because ${error.message}.`;
-            return read_image(image(), this.data.exposure);
+            return read_image(image(), this.data.exposure).catch(() => { // a picture that lies beside the page
+                this.note.textContent = `The picture cannot be shown, because ${error.message}.`;
+                return new Float32Array(this.width * this.height * 3);
+            });
         });
+    }
+
+    /** Loads the heat map of a row once: from the file beside the page, or from the page. */
+    load_error(index) {
+        const picture = this.pictures[index];
+        return picture.error ??= load_values(picture.error_file)
+            .then(bytes => createImageBitmap(new Blob([bytes], {type: "image/png"})))
+            .catch(async () => {
+                const image = document.getElementById(picture.error_id);
+                await image.decode();
+                return image;
+            });
     }
 
     load_mirrors() {
@@ -178,11 +195,8 @@ class Comparer {
         if (known) return known;
         const [floats, reference, mirrors] = await Promise.all([this.load(index), this.load("0"), this.load_mirrors()]);
         const canvas = new OffscreenCanvas(this.width, this.height), pen = canvas.getContext("2d", {willReadFrequently: true});
-        const error = document.getElementById(this.pictures[index].error_id);
-        if (show === "error" && error) {
-            await error.decode();
-            pen.drawImage(error, 0, 0, this.width, this.height);
-        }
+        if (show === "error" && document.getElementById(this.pictures[index].error_id))
+            pen.drawImage(await this.load_error(index), 0, 0, this.width, this.height);
         const image = pen.getImageData(0, 0, this.width, this.height), scale = 2 ** exposure;
         const shows_mirror = mirror => mask === "mirrors" ? mirror > 0 : mirror === Number(mask);
         for (let i = 0; i < this.width * this.height; ++i) {
@@ -413,6 +427,16 @@ for (const place of document.querySelectorAll(".comparer")) {
         });
     }
 }
+for (const choice of document.querySelectorAll(".devices")) { // of this comparison alone
+    const section = choice.closest(".scene") ?? document;
+    const show = () => {
+        for (const block of section.querySelectorAll("[data-device]"))
+            block.hidden = block.dataset.device !== choice.value;
+    };
+    choice.addEventListener("change", show);
+    show(); // a reloaded page keeps its choice
+}
+addEventListener("beforeprint", () => document.querySelectorAll("img").forEach(image => { image.loading = "eager"; }));
 document.querySelectorAll(".scroll table").forEach(make_sortable);
 const links = Array.from(document.querySelectorAll("nav a"));
 if (links.length > 1) make_tabs(links);

@@ -1,0 +1,154 @@
+#include "study/choose_json.hpp"
+
+#include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
+#include "report/json.hpp"
+#include "session/plan_file.hpp"
+#include "study/reference_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace catoptric::app {
+
+namespace {
+
+using report::Json;
+
+/// Returns the rules of a plan. The file of a plan was read before, so it is valid.
+Json make_plan_rules_json(const std::string& text) {
+    if (constexpr std::string_view kFile = "plan:"; text.starts_with(kFile)) {
+        const std::string file = text.substr(kFile.size());
+        const Json document = parse_json<Json>(file, read_file(file));
+        return document.is_object() ? document.value("plan", Json()) : document;
+    }
+    Json rules = Json::array();
+    if (text == reflect::kAutoPlanName || read_technique_plan(text).is_technique) {
+        rules.push_back({{"mirror", "*"}, {"technique", text}});
+        return rules;
+    }
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const std::string rule = text.substr(begin, end - begin);
+        const std::size_t sign = rule.find('=');
+        rules.push_back({{"mirror", rule.substr(0, sign)}, {"technique", rule.substr(sign + 1)}});
+        begin = end + 1;
+    }
+    return rules;
+}
+
+Json make_judged_plan_json(const JudgedPlan& plan) {
+    return {{"technique", plan.text},
+            {"ms", report::make_number_json(plan.ms)},
+            {"ms_range", report::make_interval_json(plan.ms_range)},
+            {"largest_error", report::make_number_json(plan.largest_error)},
+            {"errors", report::make_number_list_json(plan.errors)}};
+}
+
+Json make_proof_json(const PlanProof& proof) {
+    Json json = make_judged_plan_json(proof.plan);
+    json["views"] = proof.plan.errors.size(), json["failures"] = proof.failures;
+    json["share_bound"] = report::make_number_json(proof.share_bound);
+    json["error_bound"] = report::make_number_json(proof.error_bound);
+    json["keeps_error"] = proof.keeps_error, json["keeps_time"] = proof.keeps_time;
+    return json;
+}
+
+Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
+                           const std::string& scene) {
+    return {{"quantity", error_quantity_name(request.quantity)},
+            {"max_error", report::make_number_json(request.max_error)},
+            {"max_ms", report::make_number_json(request.max_ms)},
+            {"share", request.share},
+            {"confidence", request.confidence},
+            {"views", proof.plan.errors.size()},
+            {"failures", proof.failures},
+            {"share_bound", report::make_number_json(proof.share_bound)},
+            {"error_bound", report::make_number_json(proof.error_bound)},
+            {"ms", report::make_number_json(proof.plan.ms)},
+            {"ms_range", report::make_interval_json(proof.plan.ms_range)},
+            {"device", proof.device},
+            {"times", request.costs.empty() ? "measured" : "predicted"},
+            {"scene", scene},
+            {"scene_hash", proof.scene_hash},
+            {"reference",
+             choose_reference(request.reference, request.base.scene, ReferencePixelKind::centre)},
+            {"exposure", proof.exposure},
+            {"width", request.base.size.x},
+            {"height", request.base.size.y},
+            {"training_seed", request.base.seed},
+            {"proof_seed", request.proof_seed},
+            {"views_drawn", "as by compare --views: cameras that see a mirror, instants within one "
+                            "period of the scene's motion"},
+            {"version", version()},
+            {"commit", commit()}};
+}
+
+} // namespace
+
+std::string format_plan_time(const JudgedPlan& plan) {
+    std::string text = fmt::format("{:.3g}", plan.ms);
+    if (plan.ms_range.low < plan.ms_range.high)
+        text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
+    return text;
+}
+
+std::string describe_proof(const ChooseRequest& request, const PlanProof& proof) {
+    const char* quantity = error_quantity_name(request.quantity);
+    // A larger share than the requested one was not to be proved, so it is not claimed.
+    const double share = std::min(proof.share_bound, request.share);
+    const std::string statement = request.max_error
+                                      ? fmt::format("at least {:.4g} % of views have {} <= {:g}",
+                                                    100 * share, quantity, *request.max_error)
+                                      : fmt::format("at least {:g} % of views have {} <= {:.4g}",
+                                                    100 * request.share, quantity,
+                                                    proof.error_bound);
+    return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures)",
+                       proof.plan.text, format_plan_time(proof.plan), proof.device, statement,
+                       100 * request.confidence, proof.plan.errors.size(), proof.failures);
+}
+
+Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
+                      const std::string& scene) {
+    Json document{{"schema", "catoptric/plan/1"}};
+    if (choice.chosen) {
+        const PlanProof& proof = choice.proofs[*choice.chosen];
+        document["plan"] = make_plan_rules_json(proof.plan.text);
+        document["certificate"] = make_certificate_json(request, proof, scene);
+    } else {
+        document["plan"] = nullptr, document["why"] = choice.failure;
+    }
+    document["proofs"] = report::make_list_json(choice.proofs, make_proof_json);
+    document["candidates"] = report::make_list_json(choice.candidates, make_judged_plan_json);
+    document["dropped"] = choice.dropped;
+    return document;
+}
+
+Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
+                           const PlanProof& proof, const std::string& scene) {
+    return {{"schema", "catoptric/plan/1"},
+            {"plan", make_plan_rules_json(plan)},
+            {"certificate", make_certificate_json(request, proof, scene)},
+            {"proofs", Json::array({make_proof_json(proof)})}};
+}
+
+ChosenPlan choose(Engine& engine, const ChooseRequest& request) {
+    const PlanChoice choice = choose_plan(engine, request);
+    return {
+        .plan = choice.chosen ? choice.proofs[*choice.chosen].plan.text : "",
+        .failure = choice.failure,
+        .json = report::serialise_json(make_choice_json(request, choice, request.base.scene.name))};
+}
+
+ChosenPlan certify(Engine& engine, const ChooseRequest& request, const std::string& plan) {
+    const PlanProof proof = prove_plan(engine, request, plan);
+    return {.plan = proof.holds() ? plan : "",
+            .failure = proof.holds() ? "" : "does not hold: " + describe_proof(request, proof),
+            .json = report::serialise_json(
+                make_proved_plan_json(request, plan, proof, request.base.scene.name))};
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "report/json.hpp"
+#include "study/choose.hpp"
+
+#include <string>
+
+// The file of a plan, schema "catoptric/plan/1" (docs/choose.md).
+namespace catoptric::app {
+
+/// Returns the file of a choice. Without a chosen plan, `plan` is null, and `why` is the reason.
+/// `scene` is how the user names the scene.
+report::Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
+                              const std::string& scene);
+/// Returns the file of a plan that was proved alone. `plan`: its text in Request::techniques; a
+/// file that it names must exist.
+report::Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
+                                   const PlanProof& proof, const std::string& scene);
+/// Returns what a proof says of its plan, in one sentence.
+std::string describe_proof(const ChooseRequest& request, const PlanProof& proof);
+/// Returns the time of a plan in milliseconds with its range, such as "3.1 [2.9 - 3.4]".
+std::string format_plan_time(const JudgedPlan& plan);
+
+} // namespace catoptric::app

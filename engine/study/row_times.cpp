@@ -1,0 +1,139 @@
+#include "study/row_times.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "measure/statistics.hpp"
+#include "report/costs.hpp"
+#include "report/text.hpp"
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace catoptric::app {
+
+namespace {
+
+using report::ReportTable;
+
+constexpr const char* kRowTimesMetricName = "row_times";
+
+/// Throws `usage` if a file of times names a row that is no row of pictures, or if two files state
+/// a time for the same row and device.
+void check_rows_of_times(const CompareRequest& request, int /*count*/,
+                         report::Comparison& /*comparison*/) {
+    std::set<std::pair<std::string, std::string>> seen;
+    for (const StudyChoice& choice : request.studies) {
+        if (choice.name != "row-times") continue;
+        for (const std::string& file : choice.texts) {
+            const report::PictureRowTimes times = report::read_row_times_file(file);
+            for (const auto& [row, ms] : times.rows) {
+                check(
+                    std::ranges::any_of(request.pictures,
+                                        [&](const auto& picture) { return picture.first == row; }),
+                    Failure::usage, "--row-times ", file,
+                    ": wanted the name of a row of --row, found ", quote_text_with_escapes(row));
+                check(seen.emplace(row, times.device).second, Failure::usage, "--row-times ", file,
+                      ": wanted one time for each row and device, found a second for ",
+                      quote_text_with_escapes(row), " on ", quote_text_with_escapes(times.device));
+            }
+        }
+    }
+}
+
+/// Adds the times to their rows. A time on the comparison's own device ranks its row.
+void add_row_times(const StudyInput& input) {
+    std::vector<report::Row>& rows = input.comparison.rows;
+    std::vector<std::vector<measure::NamedMetricValueParts>> lists(rows.size());
+    for (const std::string& file : input.texts) {
+        const report::PictureRowTimes times = report::read_row_times_file(file);
+        for (const auto& [name, list] : times.rows) {
+            const auto row = std::ranges::find(rows, name, &report::Row::label);
+            check(row != rows.end(), Failure::internal, "times of rows: no row ", name);
+            std::vector<std::vector<double>> rounds;
+            for (const double ms : list) rounds.push_back({ms});
+            const measure::SampleSummary summary = measure::summarise_samples(rounds);
+            if (times.device == input.comparison.device.name) row->gpu_ms = row->frame_ms = summary;
+            lists[static_cast<std::size_t>(row - rows.begin())].push_back(
+                {"device",
+                 times.device,
+                 {{"ms", summary.median},
+                  {"low_ms", summary.ci95.low},
+                  {"high_ms", summary.ci95.high},
+                  {"frames", static_cast<double>(list.size())}}});
+        }
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (!lists[i].empty())
+            measure::set_row_metric_of_study(rows[i], kRowTimesMetricName, std::move(lists[i]));
+    input.tell();
+}
+
+std::vector<measure::NamedMetricValueParts> list_row_times(const measure::Row& row) {
+    const measure::MetricValue value = measure::find_row_metric_of_study(row, kRowTimesMetricName);
+    const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
+    return list != nullptr ? *list : std::vector<measure::NamedMetricValueParts>();
+}
+
+double read_time_part(const measure::NamedMetricValueParts& parts, std::size_t index) {
+    return std::get<double>(parts.values[index].second);
+}
+
+std::vector<ReportTable> make_row_time_tables(const report::Comparison& comparison) {
+    ReportTable table{"Times of other renderers, ms",
+                      {report::make_text_column("row"), report::make_text_column("device"), "ms",
+                       "95 %", "frames", "FLIP"},
+                      "As stated by the files of --row-times. Times on the comparison's own device "
+                      "rank their rows; others do so on the device of --costs with the same name.",
+                      {},
+                      {}};
+    for (const report::Row& row : comparison.rows)
+        for (const measure::NamedMetricValueParts& time : list_row_times(row)) {
+            const double low = read_time_part(time, 1), high = read_time_part(time, 2);
+            table.rows.push_back(
+                {row.label, time.name, report::format_ms(read_time_part(time, 0)),
+                 low <= high ? report::format_ms(low) + "–" + report::format_ms(high)
+                             : std::string(report::kEmptyCellText),
+                 fmt::format("{:.0f}", read_time_part(time, 3)), report::format_flip(row.error)});
+        }
+    return {table};
+}
+
+const RegisteredStudy kRowTimesStudy{
+    {.name = "row-times",
+     .help = "times of rows of --row, as their renderers measured them; may be repeated",
+     .order = 40, // before costs, whose fronts they join
+     .words = "FILE",
+     .check_words =
+         [](const std::vector<std::string>& files) {
+             for (const std::string& file : files) report::read_row_times_file(file);
+         },
+     .prepare = check_rows_of_times,
+     .run = add_row_times,
+     .metrics = {{.name = kRowTimesMetricName,
+                  .unit = "ms",
+                  .help = "time on each device of --row-times, with its interval",
+                  .better = measure::BetterDirection::less,
+                  .order = 785,
+                  .get = measure::Metric::IsMetricOfStudy{}}},
+     .part = {.order = 690, .tables = make_row_time_tables, .title = "Other renderers"}}};
+
+} // namespace
+
+std::vector<std::optional<measure::PredictedTime>>
+find_row_times_on_device(const std::vector<measure::Row>& rows, const std::string& device) {
+    std::vector<std::optional<measure::PredictedTime>> times(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (const measure::NamedMetricValueParts& time : list_row_times(rows[i])) {
+            if (time.name != device) continue;
+            const double ms = read_time_part(time, 0), low = read_time_part(time, 1),
+                         high = read_time_part(time, 2);
+            times[i] = low <= high ? measure::PredictedTime{ms, low, high}
+                                   : measure::PredictedTime{ms, ms, ms};
+        }
+    return times;
+}
+
+} // namespace catoptric::app
