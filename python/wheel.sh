@@ -18,9 +18,24 @@ fi
 
 rm -rf "$work/prefix" "$work/plain"
 cmake --install "$build" --prefix "$work/prefix" --strip >/dev/null
+
+# The licences of what the wheel holds: the libraries beside ours, and those of which only headers or objects are used.
+licenses=$work/licenses
+rm -rf "$licenses"; mkdir -p "$licenses"
+cp "$source/../LICENSE" "$licenses/LICENSE"
+find "$tool/../lib" -path '*/nanobind-*/licenses/LICENSE' -exec cp {} "$licenses/nanobind.txt" ';'
+packages=(libglm-dev nlohmann-json3-dev spirv-tools)
+while read -r library; do
+    for path in "$library" "/usr$library"; do # the package may name either
+        package=$(dpkg-query --search "$path" 2>/dev/null) && packages+=("${package%%:*}") && break
+    done
+done < <(find "$work/prefix" -name 'libcatoptric.so' -o -name 'catoptric-draco.so' | xargs ldd |
+    awk '$3 ~ "^/" && $1 !~ /^lib(c|m|stdc\+\+|gcc_s|vulkan|catoptric)\.so/ {print $3}' | sort -u)
+for package in "${packages[@]}"; do cp "/usr/share/doc/$package/copyright" "$licenses/$package.txt"; done
+
 PATH=$tool:$PATH CMAKE_GENERATOR=Ninja CMAKE_PREFIX_PATH=$work/prefix \
     CMAKE_CXX_COMPILER_LAUNCHER=$(command -v ccache || true) "$tool/python" -m build --wheel --no-isolation \
-    -Cbuild-dir="$work/build" --outdir "$work/plain" "$source" >"$work/build.log" 2>&1 ||
+    -Cbuild-dir="$work/build" -Ccmake.define.CATOPTRIC_LICENSES="$licenses" --outdir "$work/plain" "$source" >"$work/build.log" 2>&1 ||
     { cat "$work/build.log" >&2; exit 1; }
 
 rm -rf "$work/repaired"

@@ -12,6 +12,8 @@ in pixels, times are milliseconds unless a name says otherwise, and lengths have
 
 from __future__ import annotations
 
+import dataclasses
+import json
 import os
 import re
 import typing
@@ -38,10 +40,10 @@ from ._catoptric import (Camera, Device, Difference, Engine, Frame, Knob, Scene,
 
 __version__: str = _catoptric.version()
 __all__ = [
-    "BadData", "Camera", "CannotCreate", "Device", "DeviceLost", "Difference", "Engine", "Error", "Exhausted", "Frame",
-    "InternalError", "IoError", "Knob", "MissingInput", "NoDevice", "Scene", "Session", "Technique", "UsageError",
-    "compare", "devices", "diff", "encode_png", "has_abandoned_device", "load", "read_picture", "techniques",
-    "to_display", "views", "write_exr", "write_png"
+    "BadData", "Camera", "CannotCreate", "ChosenPlan", "Device", "DeviceLost", "Difference", "Engine", "Error",
+    "Exhausted", "Frame", "InternalError", "IoError", "Knob", "MissingInput", "NoDevice", "Scene", "Session",
+    "Technique", "UsageError", "choose", "compare", "devices", "diff", "encode_png", "has_abandoned_device", "load",
+    "read_picture", "techniques", "to_display", "views", "write_exr", "write_png"
 ]
 
 Rows = list[dict[str, typing.Any]]
@@ -166,3 +168,84 @@ def views(scene: Scene | str, techniques: typing.Iterable[str] | None = None, co
                      ambient=ambient, seed=seed, model=model, frames=1, warmup=0, reference=reference,
                      reference_seconds=reference_seconds, views=count)
     return _make_table(found.views())
+
+
+@dataclasses.dataclass(frozen=True)
+class ChosenPlan:
+    """A plan that keeps its limits, with its certificate, or the reason why none was found.
+
+    Attributes:
+        plan: A text for ``Session.frame`` and ``compare``, such as "1=reuse 2,3=secant". None: no plan keeps the limits.
+        failure: Why no plan keeps the limits, a sentence. None if one does.
+        document: The contents of plan.json, as ``catoptric choose`` writes them: rules ("plan"), "certificate",
+            "proofs", "candidates" and "dropped".
+    """
+    plan: str | None
+    failure: str | None
+    document: dict[str, typing.Any]
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes plan.json, which ``catoptric render --plan`` reads and ``catoptric choose --certify`` proves again.
+
+        Raises:
+            UsageError: There is no plan.
+        """
+        if self.plan is None:
+            raise UsageError(f"{os.fspath(path)}: wanted a plan to write, found none: {self.failure}")
+        new = f"{os.fspath(path)}.{os.getpid()}.new"  # so that an older file stays until this one is complete
+        try:
+            with open(new, "w", encoding="ascii") as file:
+                json.dump(self.document, file, indent=2)
+                file.write("\n")
+            os.replace(new, path)
+        except BaseException:
+            if os.path.exists(new):
+                os.remove(new)
+            raise
+
+
+def choose(scene: Scene | str, techniques: typing.Iterable[str] | None = None, *, max_flip: float | None = None,
+           max_rmse: float | None = None, max_ms: float | None = None, share: float = .95, confidence: float = .95,
+           training_views: int = 12, cameras_per_instant: int = 3, proof_views: int = 0, proof_seed: int = 2,
+           costs: str | os.PathLike[str] = "", size: tuple[int, int] = (512, 512), frames: int = 20, warmup: int = 8,
+           camera: Camera | None = None, time: float = 0.0, exposure: float | None = None,
+           ambient: float | None = None, seed: int = 1, model: str = "everything", reference: str = "",
+           reference_seconds: float = 60.0, engine: Engine | None = None) -> ChosenPlan:
+    """Chooses the cheapest plan that keeps a limit of error, or the closest within a limit of time.
+
+    The plan is found in training views and proved on fresh views. Its certificate says: at least the share ``share`` of
+    drawn views keeps the limit, with this confidence.
+
+    Args:
+        scene: A scene, or a name or path for ``load``.
+        techniques: The candidates. None: those that techniques propose.
+        max_flip, max_rmse: Limit of the error over the mirrors in a view, 0 to 1; one of the two at most.
+        max_ms: Limit of the time of a frame, milliseconds. Alone: the plan with the least error is chosen.
+        share: Share of views that must keep the limit, between 0 and 1.
+        confidence: Confidence of the statement, between 0 and 1.
+        training_views: Number of views in which candidates are judged, at least 6.
+        cameras_per_instant: Number of neighbouring training views of one instant, which share captures.
+        proof_views: Number of fresh views. 0: as few as can prove the share (59 for 95 % with 95 % confidence).
+        proof_seed: The seed of the fresh views, another than ``seed``.
+        costs: A file of another device's costs, from which times are predicted. Empty: times are measured.
+        size, frames, warmup, camera, time, exposure, ambient, seed, model, reference, reference_seconds, engine: See
+            ``compare``.
+
+    Returns:
+        The plan, or the reason why no plan keeps the limits.
+
+    Raises:
+        UsageError: No limit, two limits of error, or an error that ``compare`` raises.
+    """
+    if max_flip is not None and max_rmse is not None:
+        raise UsageError("max_flip and max_rmse: wanted one of them at most, found both")
+    if isinstance(techniques, str):
+        techniques = [techniques]
+    plan, failure, document = _catoptric.choose(
+        engine if engine is not None else Engine(), load(scene) if isinstance(scene, str) else scene,
+        list(techniques or ()), size=size, camera=camera, time=time, exposure=exposure, ambient=ambient, seed=seed,
+        model=model, frames=frames, warmup=warmup, reference=reference, reference_seconds=reference_seconds,
+        max_flip=max_flip, max_rmse=max_rmse, max_ms=max_ms, share=share, confidence=confidence,
+        training_views=training_views, cameras_per_instant=cameras_per_instant, proof_views=proof_views,
+        proof_seed=proof_seed, costs=os.fspath(costs))
+    return ChosenPlan(plan or None, failure or None, json.loads(document))

@@ -10,11 +10,13 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 namespace catoptric::python {
 
@@ -96,42 +98,92 @@ std::optional<std::string> find_stop(const measure::Comparison& comparison) {
     return comparison.stopped->what();
 }
 
+app::Request make_request(const scene::Scene& scene, const std::vector<std::string>& techniques,
+                          const std::pair<std::int64_t, std::int64_t>& size,
+                          const std::optional<scene::Camera>& camera, double time,
+                          std::optional<double> exposure, std::optional<double> ambient,
+                          std::uint64_t seed, const std::string& model) {
+    const SceneDefaults defaults = choose_defaults(scene, camera, ambient, exposure);
+    app::Request request;
+    request.scene = scene;
+    request.techniques = techniques;
+    request.camera = defaults.camera;
+    request.size = parse_size(size);
+    request.time = time;
+    request.exposure = defaults.exposure;
+    request.auto_exposure = defaults.auto_exposure;
+    request.ambient = defaults.ambient;
+    request.seed = seed;
+    request.model = parse_model(model);
+    return request;
+}
+
+/// Runs a study on the engine. Ctrl+C ends it by KeyboardInterrupt.
+template <typename Request, typename Study>
+auto run_study(SharedEngine& shared, Request& request, const Study& study) {
+    SignalWatch watch;
+    request.watcher = watch.watcher();
+    try {
+        auto result = run_on_engine(shared, study);
+        watch.rethrow();
+        return result;
+    } catch (const Error&) {
+        watch.rethrow();
+        throw;
+    }
+}
+
 std::unique_ptr<measure::Comparison>
 compare(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::string>& techniques,
         const std::pair<std::int64_t, std::int64_t>& size,
         const std::optional<scene::Camera>& camera, double time, std::optional<double> exposure,
         std::optional<double> ambient, std::uint64_t seed, const std::string& model, int frames,
         int warmup, const std::string& reference, double reference_seconds, int views) {
-    const SceneDefaults defaults = choose_defaults(scene, camera, ambient, exposure);
-    SignalWatch watch;
     app::CompareRequest request;
-    request.base.scene = scene;
-    request.base.techniques = techniques;
-    request.base.camera = defaults.camera;
-    request.base.size = parse_size(size);
-    request.base.time = time;
-    request.base.exposure = defaults.exposure;
-    request.base.auto_exposure = defaults.auto_exposure;
-    request.base.ambient = defaults.ambient;
-    request.base.seed = seed;
-    request.base.model = parse_model(model);
+    request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
+                                model);
     request.base.frames = frames;
     request.base.warmup = warmup;
     request.reference = reference;
     request.reference_seconds = reference_seconds;
     if (views > 0) request.studies.push_back({"views", views});
-    request.watcher = watch.watcher();
-    std::unique_ptr<measure::Comparison> comparison;
-    try {
-        comparison = run_on_engine(shared, [&](app::Engine& engine) {
-            return std::make_unique<measure::Comparison>(app::compare(engine, request));
-        });
-    } catch (const Error&) {
-        watch.rethrow();
-        throw;
-    }
-    watch.rethrow();
-    return comparison;
+    return run_study(shared, request, [&](app::Engine& engine) {
+        return std::make_unique<measure::Comparison>(app::compare(engine, request));
+    });
+}
+
+/// Returns the plan ("" if none keeps the limits), why there is none, and plan.json.
+std::tuple<std::string, std::string, std::string>
+choose(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::string>& techniques,
+       const std::pair<std::int64_t, std::int64_t>& size,
+       const std::optional<scene::Camera>& camera, double time, std::optional<double> exposure,
+       std::optional<double> ambient, std::uint64_t seed, const std::string& model, int frames,
+       int warmup, const std::string& reference, double reference_seconds,
+       std::optional<double> max_flip, std::optional<double> max_rmse,
+       std::optional<double> max_ms, double share, double confidence, int training_views,
+       int cameras_per_instant, int proof_views, std::uint64_t proof_seed,
+       const std::string& costs) {
+    app::ChooseRequest request;
+    request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
+                                model);
+    request.base.frames = frames;
+    request.base.warmup = warmup;
+    request.reference = reference;
+    request.reference_seconds = reference_seconds;
+    if (max_rmse) request.quantity = app::ErrorQuantity::rmse;
+    request.max_error = max_rmse ? max_rmse : max_flip;
+    request.max_ms = max_ms;
+    request.share = share;
+    request.confidence = confidence;
+    request.training_views = training_views;
+    request.cameras_per_instant = cameras_per_instant;
+    request.proof_views = proof_views;
+    request.proof_seed = proof_seed;
+    request.costs = costs;
+    const app::ChosenPlan chosen = run_study(shared, request, [&](app::Engine& engine) {
+        return app::choose(engine, request);
+    });
+    return {chosen.plan, chosen.failure, chosen.json};
 }
 
 } // namespace
@@ -157,6 +209,15 @@ void bind_comparisons(nb::module_& module) {
                nb::arg("model"), nb::arg("frames"), nb::arg("warmup"), nb::arg("reference"),
                nb::arg("reference_seconds"), nb::arg("views"),
                "Compares techniques. Use catoptric.compare() or catoptric.views() instead.");
+    module.def("choose", &choose, nb::arg("engine"), nb::arg("scene"), nb::arg("techniques"),
+               nb::arg("size"), nb::arg("camera").none(), nb::arg("time"),
+               nb::arg("exposure").none(), nb::arg("ambient").none(), nb::arg("seed"),
+               nb::arg("model"), nb::arg("frames"), nb::arg("warmup"), nb::arg("reference"),
+               nb::arg("reference_seconds"), nb::arg("max_flip").none(),
+               nb::arg("max_rmse").none(), nb::arg("max_ms").none(), nb::arg("share"),
+               nb::arg("confidence"), nb::arg("training_views"), nb::arg("cameras_per_instant"),
+               nb::arg("proof_views"), nb::arg("proof_seed"), nb::arg("costs"),
+               "Chooses a plan. Use catoptric.choose() instead.");
     module.def("create_folder", &report::create_folder, nb::arg("folder"),
                "Makes a folder with its parents. Existing folders are accepted.");
 }

@@ -177,6 +177,36 @@ def check_rows():
     check(told[0]["label"] == "reuse" and pathlib.Path("report/report.html").exists(), "report: other rows")
 
 
+def check_choice(program):
+    """Checks that choose finds what `catoptric choose` finds, and that its file is a plan of the command line."""
+    limits = {"share": .5, "training_views": 6, "cameras_per_instant": 1, "size": (48, 48), "frames": 6, "warmup": 1}
+    chosen = catoptric.choose("cornell-mirrors", ["reuse", "raytrace:depth=3"], max_flip=.1, **limits)
+    options = ["--share", ".5", "--training-views", "6", "--cameras-per-instant", "1", "--size", "48x48", "--frames", "6",
+               "--warmup", "1", "--quiet", "--max-error", "flip=.1", "--techniques", "reuse", "raytrace:depth=3"]
+    subprocess.run([program, "choose", "cornell-mirrors", *options, "-o", "told.json"], check=True,
+                   stdout=subprocess.DEVNULL)
+    told = json.loads(pathlib.Path("told.json").read_text())
+    check(chosen.plan == "raytrace:depth=3" and chosen.failure is None, f"choose: {chosen.plan}, {chosen.failure}")
+    check(chosen.document["plan"] == told["plan"], f"choose: wanted {told['plan']}, found {chosen.document['plan']}")
+    for part in ("proofs", "candidates"):  # the errors are those of the same views; only times differ
+        wanted, found = ([(plan["technique"], plan["errors"]) for plan in document[part]]
+                         for document in (told, chosen.document))
+        check(wanted == found and len(found) > 0, f"choose: {part}: wanted {wanted}, found {found}")
+    unmeasured = {"ms", "ms_range"}
+    wanted, found = ({name: value for name, value in document["certificate"].items() if name not in unmeasured}
+                     for document in (told, chosen.document))
+    check(wanted == found, f"choose: wanted the certificate {wanted}, found {found}")
+    chosen.write("plan.json")
+    subprocess.run([program, "render", "--plan", "plan.json", "--size", "48x48", "--quiet", "-o", "plan.png"], check=True)
+    none = catoptric.choose("cornell-mirrors", ["reuse"], max_rmse=0, **limits)
+    check(none.plan is None and "the best that is reachable is reuse" in none.failure, f"choose: {none.failure}")
+    expect_error(catoptric.UsageError, 2, "wanted a plan to write", none.write, "plan.json")
+    expect_error(catoptric.UsageError, 2, "wanted one of them", catoptric.choose, "flat", max_flip=.1, max_rmse=.1)
+    expect_error(catoptric.UsageError, 2, "a limit is missing", catoptric.choose, "flat")
+    expect_error(FileNotFoundError, 66, "none.json", catoptric.choose, "flat", max_ms=4, costs="none.json")
+    print(f"choose: {chosen.plan}, as the command line")
+
+
 def check_package(program):
     measure_import()
     names = [technique.name for technique in catoptric.techniques()]
@@ -192,6 +222,7 @@ def check_package(program):
     check_errors(session)
     check_threads(session)
     check_rows()
+    check_choice(program)
     check_interrupt()
 
 
