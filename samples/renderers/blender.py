@@ -151,8 +151,9 @@ def add_lamps(scene, lamps):
         data = bpy.data.lights.new(f"lamp {index}", "AREA" if one_sided else "POINT")
         strength = max(lamp["emission"])
         data.color = [value / strength for value in lamp["emission"]]
-        # A lamp of radiance L and area A has the power pi L A; Blender's other watts are of the same kind.
-        data.energy = math.pi * strength * lamp["area"]
+        # For the radiance L and the area A: Blender's area lights of W watts have L = W / (4 A), and its points have
+        # W / (4 pi) watts per steradian, which are L A / 4 for a closed lamp.
+        data.energy = (4 if one_sided else math.pi) * strength * lamp["area"]
         data.specular_factor = 0 # mirrors show the mesh
         if one_sided:
             data.shape, data.size = "SQUARE", math.sqrt(lamp["area"])

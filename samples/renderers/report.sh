@@ -6,6 +6,7 @@ usage() {
     cat <<'END'
 report.sh SCENE OUT [OPTION...] [-- COMPARE-OPTION...]
 Writes OUT/report/report.html, where pictures of other renderers stand beside ours. SCENE: a .glb or .gltf file.
+Replaces the folders OUT/views, OUT/cycles, OUT/eevee and OUT/three.
   --rows LIST         other renderers, of cycles, eevee and three (all three, separated by commas)
   --count N           drawn views beside the scene's own: 1 (none) or at least 6 (6)
   --size WxH          size of the pictures (256x256)
@@ -68,12 +69,15 @@ draw_by_blender() { # draw_by_blender ENGINE SAMPLES [COMMAND...]: COMMAND start
     done
 }
 draw_by_three() {
-    local modules=${CATOPTRIC_NODE_MODULES:-$out/npm/node_modules}
-    if [[ ! -d $modules/three ]]; then
-        need npm npm
-        mkdir -p "$out/npm"
-        cp "$here/package.json" "$here/package-lock.json" "$out/npm"
-        npm ci --prefix "$out/npm" --no-audit --no-fund --silent
+    local modules=${CATOPTRIC_NODE_MODULES:-}
+    if [[ -z $modules ]]; then
+        modules=$out/npm/node_modules
+        if [[ ! -d $modules/three ]]; then
+            need npm npm
+            mkdir -p "$out/npm"
+            cp "$here/package.json" "$here/package-lock.json" "$out/npm"
+            npm ci --prefix "$out/npm" --no-audit --no-fund --silent
+        fi
     fi
     /usr/bin/python3 -B "$here/three.py" "$out/views" "$out/three" --modules "$modules" --pixel "$pixel"
 }
