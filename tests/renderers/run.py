@@ -8,6 +8,8 @@ Exit code 77: a renderer is missing.
 import json
 import os
 import pathlib
+import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -107,8 +109,23 @@ def test_refusals(samples, program, folder):
         expect(not (folder / "out").exists(), f"{words}: wrote a folder")
 
 
+def test_document(samples, program, folder):
+    """Runs each command of docs/renderers.md, with one small view."""
+    text = (samples / "../../docs/renderers.md").read_text()
+    commands = re.findall(r"^samples/renderers/report\.sh (\S+) out (.*)$", text, re.M)
+    expect(len(commands) >= 3, f"docs/renderers.md: wanted at least 3 commands, found {commands}")
+    (folder / "samples").symlink_to(samples.parent)
+    for index, (file, options) in enumerate(commands):
+        before, _, after = options.partition("-- ")
+        # Of an option that is given twice, the last value counts.
+        words = [*shlex.split(before), "--count", "1", "--size", "48x32", "--samples", "2", "--catoptric", program, "--",
+                 *shlex.split(after), "--reference-seconds", "5", "--frames", "6", "--warmup", "1", "--quiet"]
+        run("samples/renderers/report.sh", file, f"document-{index}", *words, folder=folder)
+        expect((folder / f"document-{index}/report/report.html").is_file(), f"{options}: found no report")
+
+
 def main():
-    program, samples, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]).resolve()
+    program, samples, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
     for name, package in PROGRAMS.items():
         if shutil.which(name) is None:
             print(f"renderers: skipped: wanted the program {name}, found none; ./dev test --label renderers installs {package}")
@@ -123,6 +140,8 @@ def main():
             f"{SIZE[0]}x{SIZE[1]}", "--samples", "4", "--catoptric", program, "--", *FAST, folder=folder)
         test_report(folder / out, names)
         test_cameras(program, folder / out, folder / "scene.glb", names, views)
+    os.environ["CATOPTRIC_NODE_MODULES"] = str(folder / "all/npm/node_modules") # three.js is installed once
+    test_document(samples, program, folder)
     print("renderers: passed")
 
 
