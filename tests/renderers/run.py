@@ -5,6 +5,7 @@ run.py CATOPTRIC SAMPLES FOLDER, by ./dev test --label renderers, which installs
 Exit code 77: a renderer is missing.
 """
 
+import importlib.util
 import json
 import os
 import pathlib
@@ -23,6 +24,7 @@ FAST = ["--techniques", "secant:face=32", "--frames", "6", "--warmup", "1", "--m
 MOST = {"cycles": 0.006, "eevee": 0.006, "three": 0.03}
 PROGRAMS = {"blender": "blender", "xvfb-run": "xvfb", "chromium": "chromium", "chromedriver": "chromium-driver",
             "npm": "npm", "oiiotool": "openimageio-tools"}
+MODULES = {"numpy": "python3-numpy", "selenium": "python3-selenium"}
 
 
 def expect(holds, what):
@@ -126,10 +128,11 @@ def test_document(samples, program, folder):
 
 def main():
     program, samples, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-    for name, package in PROGRAMS.items():
-        if shutil.which(name) is None:
-            print(f"renderers: skipped: wanted the program {name}, found none; ./dev test --label renderers installs {package}")
-            sys.exit(77)
+    missing = [package for name, package in PROGRAMS.items() if shutil.which(name) is None]
+    missing += [package for name, package in MODULES.items() if importlib.util.find_spec(name) is None]
+    if missing:
+        print(f"renderers: skipped: wanted {', '.join(missing)}, found none; ./dev test --label renderers installs them")
+        sys.exit(77)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     test_refusals(samples, program, folder)
