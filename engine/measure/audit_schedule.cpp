@@ -1,0 +1,69 @@
+#include "measure/audit_schedule.hpp"
+
+#include "core/error.hpp"
+#include "measure/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace catoptric::measure {
+
+namespace {
+
+constexpr std::size_t kFramesForMedian = 60, kFramesBeforeFirstBlock = 8, kAuditsForTime = 4;
+constexpr std::size_t kMaxBlock = 1'000'000; // frames; several hours
+
+void keep_last_times(std::deque<double>& times, double ms, std::size_t most) {
+    times.push_back(ms);
+    if (times.size() > most) times.pop_front();
+}
+
+} // namespace
+
+AuditSchedule::AuditSchedule(const AuditPace& pace) : pace_(pace), random_(pace.seed) {
+    check(pace.every >= 1, Failure::usage, "audit: every: wanted at least 1 frame, found ",
+          pace.every);
+    check(pace.most_time > 0 && pace.most_time <= 1, Failure::usage,
+          "audit: share of time: wanted a number above 0 and at most 1, found ", pace.most_time);
+}
+
+bool AuditSchedule::count_frame(double frame_ms) {
+    frames_ms_ += frame_ms;
+    keep_last_times(last_frames_, frame_ms, kFramesForMedian);
+    if (at_ == block_) {
+        if (last_frames_.size() < kFramesBeforeFirstBlock) return false;
+        begin_block();
+    }
+    return at_++ == drawn_;
+}
+
+void AuditSchedule::begin_block() {
+    const double frame_ms = compute_percentile({last_frames_.begin(), last_frames_.end()}, .5);
+    const double audit_ms = last_audits_.empty() ? 0 : *std::ranges::max_element(last_audits_);
+    double frames = pace_.every;
+    if (audit_ms > 0) {
+        const double needed = std::ceil(audit_ms / (pace_.most_time * frame_ms)); // inf: no time
+        frames = std::clamp(needed, frames, std::max(frames, static_cast<double>(kMaxBlock)));
+    }
+    block_ = static_cast<std::size_t>(frames);
+    at_ = 0, drawn_ = random_() % block_;
+}
+
+void AuditSchedule::expect_audit_time(double ms) {
+    keep_last_times(last_audits_, ms, kAuditsForTime);
+}
+
+void AuditSchedule::add_audit_time(double ms) {
+    audits_ms_ += ms;
+    expect_audit_time(ms);
+}
+
+bool PlanLadder::step_to_surer_plan(double seconds) {
+    constexpr double kSecondsBetweenSteps = .5;
+    if (place_ == 0 || (stepped_ && seconds < *stepped_ + kSecondsBetweenSteps)) return false;
+    --place_, stepped_ = seconds;
+    return true;
+}
+
+} // namespace catoptric::measure

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <random>
+
+// Chooses which frames of a running program are audited, and when its plan may change.
+namespace catoptric::measure {
+
+struct AuditPace {
+    int every = 60;         ///< least number of frames in a block, from 1
+    double most_time = .05; ///< limit of the audits' time, as a share of the frames' time
+    std::uint64_t seed = 1; ///< of the frames that are drawn
+};
+
+/// Draws one frame at random from each block of successive frames. The draw makes the outcome of an
+/// audit a fair sample of the block, however its frames depend on each other, and whatever their
+/// period. A block has `every` frames, or as many more as keep the limit of time: the largest of
+/// the last 4 audits' times over `most_time` times the median time of the last 60 frames.
+class AuditSchedule {
+public:
+    /// Throws `usage` for numbers out of range.
+    explicit AuditSchedule(const AuditPace& pace = {});
+
+    /// Counts one frame, which took `frame_ms` without its audit. Returns whether to audit it.
+    bool count_frame(double frame_ms);
+    /// Adds the time of an audit that belongs to the run.
+    void add_audit_time(double ms);
+    /// Adds the time of an audit before the run, which only helps to choose the next block.
+    void expect_audit_time(double ms);
+
+    /// Returns the number of frames of the present block; 0 before the first.
+    std::size_t block_length() const { return block_; }
+    double frames_ms() const { return frames_ms_; } ///< all frames without their audits
+    double audits_ms() const { return audits_ms_; } ///< all audits
+
+private:
+    void begin_block();
+
+    AuditPace pace_;
+    std::mt19937_64 random_;
+    std::deque<double> last_frames_, last_audits_; ///< ms
+    std::size_t block_ = 0, at_ = 0;               ///< frames of the block: all, so far
+    std::size_t drawn_ = 0;                        ///< number of the drawn frame, from 0
+    double frames_ms_ = 0, audits_ms_ = 0;
+};
+
+/// A place in a list of plans from the surest to the cheapest. It moves to the surer side only, and
+/// at most twice in any second.
+class PlanLadder {
+public:
+    /// `plans`: at least 1.
+    explicit PlanLadder(std::size_t plans) : place_(plans - 1) {}
+    std::size_t place() const { return place_; } ///< index of the present plan
+    /// Moves to the next surer plan. Returns false at the surest plan, and within half a second of
+    /// the last step. `seconds` counts from any beginning and never falls.
+    bool step_to_surer_plan(double seconds);
+
+private:
+    std::size_t place_;
+    std::optional<double> stepped_; ///< time of the last step
+};
+
+} // namespace catoptric::measure
