@@ -275,8 +275,11 @@ void Access::resume_frame_sequence(Session& session, FrameSequence sequence) {
         self.plans = std::move(sequence.sequence_impl_->plans);
         self.models.clear();
     }
-    if (sequence.sequence_impl_->scene_key)
-        self.update_device_scene(*sequence.sequence_impl_->scene_key);
+    const std::optional<DeviceSceneKey>& scene_key = sequence.sequence_impl_->scene_key;
+    // An update from another size would discard the needed edges that were just set.
+    if (!scene_key || (self.scene_key && self.scene_key->size != scene_key->size))
+        self.scene_key.reset();
+    if (scene_key) self.update_device_scene(*scene_key);
 }
 
 std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,

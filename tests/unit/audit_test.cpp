@@ -243,7 +243,7 @@ TEST(Audit, SharesOutOfRangeAreRefused) {
     EXPECT_EQ(test::catch_error_text(Failure::usage, [] { AuditSchedule({.every = 0}); }),
               "audit: every: wanted at least 1 frame, found 0");
     EXPECT_EQ(test::catch_error_text(Failure::usage, [] { AuditSchedule({.most_time = 0}); }),
-              "audit: share of time: wanted a number above 0 and at most 1, found 0");
+              "audit: share of time: wanted a number above 0, found 0");
 }
 
 /// Returns the numbers, from 0, of the frames that a schedule audits.

@@ -1,0 +1,257 @@
+#include "study/plan_audit.hpp"
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "measure/display.hpp"
+#include "measure/flip.hpp"
+#include "measure/masks.hpp"
+#include "scene/rough_reflectors.hpp"
+#include "session/access.hpp"
+#include "study/reference_seeds.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace catoptric::app {
+
+namespace {
+
+using AuditJson = nlohmann::json;
+
+constexpr int kUncountedFramesOfPlan = 8; // captures and mirrors in mirrors settle meanwhile
+
+/// Returns a member that must be a number from `low` to `high`.
+double read_number_member(const AuditJson& object, const char* member, double low, double high,
+                          const std::string& place) {
+    const AuditJson value = object.value(member, AuditJson());
+    const bool fits = value.is_number() && value.get<double>() >= low &&
+                      value.get<double>() <= high;
+    check(fits, Failure::bad_data, place, ".", member, ": wanted a number from ", low, " to ", high,
+          ", found ", value.is_null() ? "nothing" : value.type_name());
+    return value.get<double>();
+}
+
+/// Returns the texts of the proved plans, from the surest to the chosen one.
+std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::string& file) {
+    std::vector<std::string> plans;
+    std::size_t chosen = 0;
+    for (std::size_t i = 0; i < proofs.size(); ++i) {
+        const std::string place = fmt::format("{}: proofs[{}]", file, i);
+        check(proofs[i].is_object(), Failure::bad_data, place, ": wanted an object, found ",
+              proofs[i].type_name());
+        const AuditJson text = proofs[i].value("technique", AuditJson());
+        check(text.is_string(), Failure::bad_data, place, ".technique: wanted text, found ",
+              text.is_null() ? "nothing" : text.type_name());
+        if (proofs[i].value("keeps_error", AuditJson()) != true) break;
+        plans.push_back(text.get<std::string>());
+        if (proofs[i].value("keeps_time", AuditJson()) == true) chosen = plans.size();
+    }
+    check(chosen > 0, Failure::bad_data, file,
+          ": proofs: wanted a plan that keeps the limits, found none");
+    plans.resize(chosen);
+    return plans;
+}
+
+const PlanAuditRequest& check_plan_audit_request(const PlanAuditRequest& request) {
+    check(!request.plans.empty(), Failure::usage, "audit: plans: wanted at least 1, found none");
+    check(request.max_error >= 0 && request.max_error <= 1, Failure::usage,
+          "audit: limit of error: wanted a number from 0 to 1, found ", request.max_error);
+    check(!draws_rays_from_lobes(request.reference), Failure::usage,
+          "audit: reference: wanted a technique without noise, found ", request.reference);
+    return request;
+}
+
+bool do_frames_show_same_view(const FrameSpec& a, const FrameSpec& b) {
+    return a.techniques == b.techniques && a.camera == b.camera && a.size == b.size &&
+           a.time == b.time && a.ambient == b.ambient && a.exposure == b.exposure &&
+           a.model == b.model;
+}
+
+double milliseconds_between(std::chrono::steady_clock::time_point begin,
+                            std::chrono::steady_clock::time_point end) {
+    return std::chrono::duration<double, std::milli>(end - begin).count();
+}
+
+/// Returns how many samples of this step fit into a length in pixels, with equal margins.
+std::uint32_t count_samples_of_step(std::uint32_t pixels, std::uint32_t step) {
+    const std::uint32_t samples = pixels / step;
+    return samples - (pixels - samples) % 2; // an odd step times an odd number is odd
+}
+
+} // namespace
+
+PlanAuditRequest read_plan_audit(const std::filesystem::path& file) {
+    constexpr std::uintmax_t kMaxBytes = 16U << 20U;
+    const std::string name = file.string();
+    const auto document = parse_json<AuditJson>(name, read_json_text(file, "a plan", kMaxBytes));
+    const auto member = [&](const char* wanted, bool is_list) {
+        const AuditJson value = document.is_object() ? document.value(wanted, AuditJson())
+                                                     : AuditJson();
+        check(is_list ? value.is_array() : value.is_object(), Failure::bad_data, name, ": ", wanted,
+              ": wanted the one that 'catoptric choose' writes, found ",
+              value.is_null() ? "nothing" : value.type_name());
+        return value;
+    };
+    const AuditJson certificate = member("certificate", false);
+    const std::string place = name + ": certificate";
+    PlanAuditRequest request;
+    request.plans = list_proved_plans(member("proofs", true), name);
+    if (certificate.value("quantity", AuditJson()) == "rmse")
+        request.quantity = ErrorQuantity::rmse;
+    const bool has_limit = !certificate.value("max_error", AuditJson()).is_null();
+    request.max_error = read_number_member(certificate, has_limit ? "max_error" : "error_bound", 0,
+                                           1, place);
+    request.tested.share = read_number_member(certificate, "share", .5, .9999, place);
+    request.tested.confidence = read_number_member(certificate, "confidence", .5, .9999, place);
+    if (const AuditJson reference = certificate.value("reference", AuditJson());
+        reference.is_string())
+        request.reference = reference.get<std::string>();
+    return request;
+}
+
+SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::size_t most) {
+    SampledView view;
+    const auto samples = [&](std::uint32_t step) {
+        return uvec2(count_samples_of_step(size.x, step), count_samples_of_step(size.y, step));
+    };
+    const auto is_possible = [&](std::uint32_t step) {
+        return samples(step).x > 0 && samples(step).y > 0;
+    };
+    while (std::size_t{samples(view.step).x} * samples(view.step).y > most &&
+           is_possible(view.step + 2))
+        view.step += 2;
+    view.size = samples(view.step);
+    view.first = (size - view.size * view.step) / 2U + uvec2(view.step / 2);
+    view.camera = camera;
+    const double height = static_cast<double>(view.size.y * view.step) / size.y; // of the picture
+    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
+    if (view.size * view.step == size) return view; // the same numbers, to the last bit
+    view.camera.vertical_fov_degrees = glm::degrees(2 * std::atan(tangent * height));
+    view.camera.orthographic_height *= height;
+    return view;
+}
+
+measure::Picture sample_picture(const measure::Picture& picture, const SampledView& view) {
+    const uvec2 last = view.first + view.step * (view.size - uvec2(1));
+    check(last.x < static_cast<std::uint32_t>(picture.width) &&
+              last.y < static_cast<std::uint32_t>(picture.height),
+          Failure::internal, "audit: wanted a picture with the pixel ", last.x, ",", last.y,
+          ", found ", picture.width, "x", picture.height);
+    measure::Picture samples(static_cast<int>(view.size.x), static_cast<int>(view.size.y));
+    for (int y = 0; y < samples.height; ++y)
+        for (int x = 0; x < samples.width; ++x) {
+            const ivec2 pixel = ivec2(view.first) + static_cast<int>(view.step) * ivec2(x, y);
+            samples.at(x, y) = picture.at(pixel.x, pixel.y);
+        }
+    return samples;
+}
+
+PlanAudit::PlanAudit(PlanAuditRequest request)
+    : request_(std::move(request)), audit_(check_plan_audit_request(request_).tested),
+      schedule_(request_.pace), ladder_(request_.plans.size()) {}
+
+/// Ray traces the samples of a frame and returns the difference over the mirrors.
+measure::Difference PlanAudit::compare_with_traced_frame(Session& session,
+                                                         const measure::Picture& running,
+                                                         const FrameSpec& spec) const {
+    const SampledView view = choose_sampled_view(spec.camera, spec.size, kMostSamples);
+    FrameSpec traced = spec;
+    traced.techniques = {request_.reference};
+    traced.camera = view.camera, traced.size = view.size;
+    traced.most_captures = 0, traced.budget_ms = 0;
+    FrameSequence sequence = Access::suspend_sequence(session); // keeps the choices of auto
+    const TechniqueResult truth = session.frame(traced).read();
+    Access::resume_frame_sequence(session, std::move(sequence));
+    const measure::Picture samples = sample_picture(running, view);
+    std::vector<float> map(samples.pixels.size(), 0.0f); // only FLIP needs the map
+    if (request_.quantity == ErrorQuantity::flip)
+        map = measure::flip(measure::to_unrounded_display(samples, spec.exposure),
+                            measure::to_unrounded_display(truth.hdr, spec.exposure));
+    return measure::difference(measure::apply_exposure(samples, spec.exposure),
+                               measure::apply_exposure(truth.hdr, spec.exposure),
+                               measure::mask_mirror_pixels(truth.hits), map);
+}
+
+void PlanAudit::prepare(Session& session, const FrameSpec& spec) {
+    check(!scene::has_rough_reflector(session.scene()), Failure::usage,
+          "audit: wanted a scene without rough surfaces, because their reference has noise, found "
+          "a rough surface in '",
+          session.scene().name, "'");
+    const measure::Picture black(static_cast<int>(spec.size.x), static_cast<int>(spec.size.y));
+    compare_with_traced_frame(session, black, spec);
+    const Clock::time_point begin = Clock::now();
+    compare_with_traced_frame(session, black, spec);
+    schedule_.expect_audit_time(milliseconds_between(begin, Clock::now()));
+    is_prepared_ = true;
+    ended_ = Clock::now();
+}
+
+/// Returns whether the frame shows something else than the frame before.
+bool PlanAudit::shows_new_picture(const Session& session, const FrameSpec& spec) {
+    const bool is_new = !watched_ || !do_frames_show_same_view(*watched_, spec) ||
+                        Access::session_counters(session).updates != updates_;
+    if (is_new) watched_ = spec;
+    return is_new;
+}
+
+void PlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
+                            PlanAuditOutcome& outcome) {
+    const measure::Difference difference = compare_with_traced_frame(session, frame.hdr(), spec);
+    if (difference.pixels == 0) return; // the statement counts views that show a mirror
+    outcome.error = mirror_error_of_view(request_.quantity, difference);
+    audit_.count_frame(*outcome.error <= request_.max_error);
+    outcome.is_alarm = audit_.is_alarmed() && !was_alarmed_;
+    was_alarmed_ = audit_.is_alarmed();
+}
+
+/// Changes to the next surer plan, whose audit begins without evidence.
+void PlanAudit::step_to_surer_plan(double seconds, PlanAuditOutcome& outcome) {
+    outcome.has_new_plan = ladder_.step_to_surer_plan(seconds);
+    if (outcome.is_alarm)
+        outcome.message = fmt::format("audit: {} of {} frames break {} <= {:g}",
+                                      audit_.failure_count(), audit_.frame_count(),
+                                      error_quantity_name(request_.quantity), request_.max_error);
+    if (outcome.has_new_plan) {
+        outcome.message += (outcome.is_alarm ? "; " : "audit: ") +
+                           fmt::format("the plan is now {}", plan());
+        audit_ = measure::Audit(request_.tested);
+        was_alarmed_ = false, frames_of_plan_ = 0;
+    } else if (outcome.is_alarm && ladder_.place() == 0) {
+        outcome.message += "; no surer plan is proved";
+    }
+}
+
+PlanAuditOutcome PlanAudit::watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
+                                        double seconds) {
+    PlanAuditOutcome outcome;
+    const bool is_of_plan = !spec.techniques.empty() && spec.techniques.front() == plan();
+    if (is_of_plan && !is_prepared_) prepare(session, spec);
+    const Clock::time_point begin = Clock::now();
+    const bool is_counted = shows_new_picture(session, spec) && is_of_plan &&
+                            ++frames_of_plan_ > kUncountedFramesOfPlan;
+    if (is_counted && schedule_.count_frame(milliseconds_between(ended_, begin))) {
+        if (request_.before_audit) request_.before_audit();
+        audit_frame(session, frame, spec, outcome);
+        schedule_.add_audit_time(milliseconds_between(begin, Clock::now()));
+    }
+    if (is_of_plan && audit_.is_alarmed()) step_to_surer_plan(seconds, outcome);
+    updates_ = Access::session_counters(session).updates;
+    ended_ = Clock::now();
+    return outcome;
+}
+
+std::string PlanAudit::describe() const {
+    const std::size_t frames = audit_.frame_count();
+    const double share = schedule_.frames_ms() > 0 ? schedule_.audits_ms() / schedule_.frames_ms()
+                                                   : 0;
+    return fmt::format("audit: {} of {} frames keep {} <= {:g}; assured share {:.3f}; {:.1f} % of "
+                       "the frames' time{}",
+                       frames - audit_.failure_count(), frames,
+                       error_quantity_name(request_.quantity), request_.max_error,
+                       audit_.assured_share(), 100 * share,
+                       audit_.is_alarmed() ? "; alarm: too many frames fail" : "");
+}
+
+} // namespace catoptric::app

@@ -1,0 +1,112 @@
+#pragma once
+
+#include "measure/audit.hpp"
+#include "measure/audit_schedule.hpp"
+#include "session/session.hpp"
+#include "study/choose.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Audits a plan while a program runs: some frames are also ray traced, and the plan gives way to a
+// surer one if too many frames break the certificate's limit.
+namespace catoptric::app {
+
+struct PlanAuditRequest {
+    std::vector<std::string> plans; ///< from the surest to the plan that runs first, the last
+    ErrorQuantity quantity = ErrorQuantity::flip;
+    double max_error = 0;                        ///< limit of mirror_error_of_view in a frame, 0..1
+    std::string reference = "raytrace:depth=16"; ///< a technique that traces without noise
+    measure::AuditedShare tested;
+    measure::AuditPace pace;
+    /// Called before a frame is audited, while results of the frames before it can still be read.
+    /// May be empty.
+    std::function<void()> before_audit;
+};
+
+/// Returns the request of a file that `catoptric choose` wrote: the proved plans up to the chosen
+/// one, and the certificate's limit, share, confidence and reference. A certificate without a limit
+/// of error gives the error that it states. Throws `missing_input`, `io` and `bad_data`.
+PlanAuditRequest read_plan_audit(const std::filesystem::path& file);
+
+/// Every `step`-th pixel of a picture in both directions, as the picture of a camera of its own.
+struct SampledView {
+    std::uint32_t step = 1; ///< odd, so that the samples are centres of pixels
+    uvec2 first{0};         ///< pixel of the first sample
+    uvec2 size{0};          ///< number of samples
+    /// Sees the sampled pixels alone: a ray through the centre of its pixel (x, y) meets what the
+    /// picture shows at `first` + `step` * (x, y).
+    scene::Camera camera;
+};
+
+/// Returns the samples of a picture of this size: as many as possible, `most` at most.
+SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::size_t most);
+/// Returns the pixels of the samples. Throws `internal` if a sample lies outside of the picture.
+measure::Picture sample_picture(const measure::Picture& picture, const SampledView& view);
+
+/// What one call of PlanAudit::watch_frame has found.
+struct PlanAuditOutcome {
+    std::optional<double> error; ///< of the frame, if it was audited and shows a mirror
+    bool is_alarm = false;       ///< the alarm sounds at this frame for the first time for its plan
+    bool has_new_plan = false;   ///< PlanAudit::plan has changed to a surer plan
+    std::string message;         ///< of the alarm or the change, for the user; empty: neither
+};
+
+/// Audits the frames of one session. The samples of a running frame, as shown, are compared with a
+/// ray-traced picture of the same camera, instant and scene, which is a frame of its own outside
+/// the session's sequence.
+class PlanAudit {
+public:
+    /// Samples of a frame; a larger picture is sampled in steps of 3, 5, ... pixels.
+    static constexpr std::size_t kMostSamples = 40'000;
+
+    /// Throws `usage` for an empty list of plans, numbers out of range, and a reference with noise.
+    explicit PlanAudit(PlanAuditRequest request);
+
+    /// Returns the plan to render, for FrameSpec::techniques.
+    const std::string& plan() const { return request_.plans[ladder_.place()]; }
+    /// Renders two references, so that shaders are compiled and the time of an audit is known.
+    /// Throws `usage` if surfaces of the scene are rough, because their reference has noise.
+    void prepare(Session& session, const FrameSpec& spec);
+    /// Counts a frame, and audits it if it is drawn. Call it after each frame and before the next.
+    /// `spec` is the frame's specification, and `seconds` a time that never falls. Frames are not
+    /// counted if `spec` does not begin with `plan`, if they show the same camera, instant and
+    /// scene as the frame before, or within 8 frames after a change of plan. Results of the
+    /// session's earlier frames cannot be read after a frame was audited. Throws as prepare and
+    /// Session::frame do.
+    PlanAuditOutcome watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
+                                 double seconds);
+
+    /// Returns the audit of the present plan, since it runs.
+    const measure::Audit& audit() const { return audit_; }
+    const measure::AuditSchedule& schedule() const { return schedule_; }
+    /// Returns a line such as "audit: 37 of 37 frames keep flip <= 0.05; assured share 0.904; 4.1 %
+    /// of the frames' time".
+    std::string describe() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    bool shows_new_picture(const Session& session, const FrameSpec& spec);
+    measure::Difference compare_with_traced_frame(Session& session, const measure::Picture& running,
+                                                  const FrameSpec& spec) const;
+    void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
+                     PlanAuditOutcome& outcome);
+    void step_to_surer_plan(double seconds, PlanAuditOutcome& outcome);
+
+    PlanAuditRequest request_;
+    measure::Audit audit_;
+    measure::AuditSchedule schedule_;
+    measure::PlanLadder ladder_;
+    bool is_prepared_ = false, was_alarmed_ = false;
+    int frames_of_plan_ = 0;           ///< frames counted since the plan began
+    std::optional<FrameSpec> watched_; ///< of the last frame
+    std::uint64_t updates_ = 0;        ///< of the session's scene data after the last frame
+    Clock::time_point ended_;          ///< end of the last call
+};
+
+} // namespace catoptric::app

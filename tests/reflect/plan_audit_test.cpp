@@ -1,0 +1,306 @@
+// Tests of the audit of running frames: that its samples are the running picture's, that its errors
+// are those of a comparison, and that it notices a wrong law and stale reflections.
+#include "study/plan_audit.hpp"
+
+#include "compare.hpp"
+#include "measure/audit_schedule.hpp"
+#include "support/refusal.hpp"
+#include "support/rendering.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using namespace catoptric;
+
+constexpr uvec2 kAuditedSize{64, 64};
+constexpr const char* kRunningPlan = "parallax:face=64,shadow_map=64";
+constexpr double kAuditedLimit = .08; ///< of FLIP; the plan errs by .04 to .06
+
+scene::Scene make_audited_room() {
+    return test::replace_balls_by_coarse_balls(test::make_lit_room(2, 1));
+}
+
+app::FrameSpec make_audited_spec(const scene::Scene& scene) {
+    app::FrameSpec spec = test::make_test_request(scene, {kRunningPlan}, kAuditedSize);
+    spec.model = app::RenderedWork::required;
+    return spec;
+}
+
+/// Returns the camera of frame k on a small circle.
+scene::Camera camera_of_frame(const scene::Camera& first, int k) {
+    scene::Camera camera = first;
+    camera.eye += dvec3(.3 * std::sin(.11 * k), .2 * std::sin(.07 * k),
+                        .1 + .1 * std::cos(.09 * k));
+    return camera;
+}
+
+app::PlanAuditRequest make_audit_request(std::vector<std::string> plans = {kRunningPlan}) {
+    app::PlanAuditRequest request;
+    request.plans = std::move(plans);
+    request.max_error = kAuditedLimit;
+    request.pace = {.every = 4, .most_time = std::numeric_limits<double>::infinity()};
+    return request;
+}
+
+/// Audits every frame that is counted.
+app::PlanAuditRequest make_request_of_every_frame() {
+    app::PlanAuditRequest request = make_audit_request();
+    request.pace.every = 1;
+    return request;
+}
+
+TEST(PlanAudit, SampledViewKeepsPixelCentresForAnySize) {
+    const scene::Camera camera{.vertical_fov_degrees = 50};
+    const scene::Camera flat{.orthographic_height = 3};
+    for (const uvec2 size : {uvec2(64, 64), uvec2(1920, 1080), uvec2(512, 512), uvec2(1367, 771),
+                             uvec2(4000, 10), uvec2(1, 1), uvec2(3840, 2160)}) {
+        const app::SampledView view = app::choose_sampled_view(camera, size, 40'000);
+        SCOPED_TRACE(testing::Message() << size.x << "x" << size.y << " step " << view.step);
+        EXPECT_EQ(view.step % 2, 1u);
+        ASSERT_GE(std::min(view.size.x, view.size.y), 1u);
+        EXPECT_LE(view.size.x * view.size.y, 40'000u);
+        const uvec2 last = view.first + view.step * (view.size - uvec2(1));
+        // The margins at both ends are equal, and smaller than two steps.
+        EXPECT_EQ(view.first, size - uvec2(1) - last);
+        EXPECT_LT(view.first.x, 2 * view.step);
+        EXPECT_LT(view.first.y, 2 * view.step);
+        // The direction through the first sample, down from the axis, is the same in both pictures.
+        const auto slope = [](double degrees, double y, double height) {
+            return std::tan(glm::radians(degrees) / 2) * (1 - 2 * (y + .5) / height);
+        };
+        EXPECT_NEAR(slope(view.camera.vertical_fov_degrees, 0, view.size.y),
+                    slope(camera.vertical_fov_degrees, view.first.y, size.y), 1e-12);
+        EXPECT_NEAR(app::choose_sampled_view(flat, size, 40'000).camera.orthographic_height *
+                        (1 - 1. / view.size.y),
+                    flat.orthographic_height * (1 - (2. * view.first.y + 1) / size.y), 1e-12);
+    }
+    EXPECT_EQ(app::choose_sampled_view(camera, {200, 200}, 40'000).step, 1u);
+    EXPECT_EQ(app::choose_sampled_view(camera, {201, 200}, 40'000).step, 3u);
+    EXPECT_EQ(app::choose_sampled_view(camera, {200, 200}, 40'000).camera, camera);
+}
+
+/// The traced picture of the sampled view must show what the pixels of the whole traced picture
+/// show, but for pixels where the last bit of a direction decides.
+TEST(PlanAudit, TracedSamplesEqualThePixelsOfTheWholePicture) {
+    for (const char* name : {"room", "courtyard"}) {
+        SCOPED_TRACE(name);
+        const scene::Scene scene = scene::load(name);
+        app::Session session(test::get_test_engine(), scene);
+        app::FrameSpec spec = test::make_test_request(scene, {"raytrace:depth=16"}, {97, 66});
+        const measure::Picture whole = session.frame(spec).hdr();
+        const app::SampledView view = app::choose_sampled_view(spec.camera, spec.size, 800);
+        ASSERT_EQ(view.step, 3u);
+        spec.camera = view.camera, spec.size = view.size;
+        const measure::Picture samples = app::sample_picture(whole, view),
+                               traced = session.frame(spec).hdr();
+        std::size_t other = 0;
+        for (std::size_t i = 0; i < samples.pixels.size(); ++i) {
+            const vec3 difference = glm::abs(samples.pixels[i] - traced.pixels[i]);
+            other += std::max({difference.x, difference.y, difference.z}) > .01f;
+        }
+        EXPECT_LE(other, samples.pixels.size() / 100);
+    }
+}
+
+TEST(PlanAudit, ErrorIsThatOfAComparison) {
+    const scene::Scene scene = make_audited_room();
+    app::CompareRequest compared;
+    static_cast<app::FrameSpec&>(compared.base) = make_audited_spec(scene);
+    compared.base.scene = scene;
+    compared.base.warmup = 8, compared.base.frames = 6;
+    const measure::Row row = app::compare(test::get_test_engine(), compared).rows.front();
+
+    app::Session session(test::get_test_engine(), scene);
+    for (const app::ErrorQuantity quantity : {app::ErrorQuantity::flip, app::ErrorQuantity::rmse}) {
+        app::PlanAuditRequest request = make_request_of_every_frame();
+        request.quantity = quantity;
+        app::PlanAudit audit(request);
+        app::FrameSpec spec = make_audited_spec(scene);
+        std::optional<double> error;
+        for (int k = 0; k < 18; ++k) {
+            // The instant changes and the picture does not, so that each frame counts.
+            spec.time = k;
+            const app::Frame frame = session.frame(spec);
+            if (const auto found = audit.watch_frame(session, frame, spec, k).error) error = found;
+        }
+        ASSERT_TRUE(error);
+        EXPECT_NEAR(*error, quantity == app::ErrorQuantity::flip ? row.error.flip : row.error.rmse,
+                    1e-6);
+    }
+}
+
+/// The audit's frames are outside the sequence: each running picture keeps its bytes. The picture
+/// is large enough to be sampled, and choices for the first frame of the sequence stay.
+TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
+    const scene::Scene scene = make_audited_room();
+    app::FrameSpec spec = make_audited_spec(scene);
+    spec.size = {210, 200};
+    for (const char* plan : {"secant:face=auto,shadow_map=64", "auto"}) {
+        app::PlanAuditRequest request = make_audit_request({plan});
+        request.pace.every = 2;
+        spec.techniques = request.plans;
+        app::PlanAudit audit(request);
+        app::Session audited(test::get_test_engine(), scene), plain(test::get_test_engine(), scene);
+        for (int k = 0; k < 22; ++k) {
+            spec.camera = camera_of_frame(scene.cameras.front(), 2 * k);
+            const app::Frame frame = audited.frame(spec);
+            const measure::Picture picture = frame.hdr();
+            audit.watch_frame(audited, frame, spec, k);
+            EXPECT_TRUE(test::have_equal_pixel_bytes(picture, plain.frame(spec).hdr()))
+                << plan << " " << k;
+        }
+        EXPECT_GE(audit.audit().frame_count(), 2u);
+    }
+}
+
+TEST(PlanAudit, UnchangedPicturesAndOtherPlansAreNotAudited) {
+    const scene::Scene scene = make_audited_room();
+    app::Session session(test::get_test_engine(), scene);
+    app::PlanAudit audit(make_request_of_every_frame());
+    app::FrameSpec spec = make_audited_spec(scene);
+    const auto run = [&](int frames) {
+        for (int k = 0; k < frames; ++k) audit.watch_frame(session, session.frame(spec), spec, k);
+        return audit.audit().frame_count();
+    };
+    EXPECT_EQ(run(30), 0u); // one picture, which counts as one frame
+    for (int k = 1; k <= 20; ++k) spec.camera = camera_of_frame(scene.cameras.front(), k), run(1);
+    const std::size_t moving = audit.audit().frame_count();
+    EXPECT_GE(moving, 4u);
+    EXPECT_EQ(run(10), moving);
+    session.change(scene::set_material(1, {.name = "red", .albedo = {.6f, .2f, .1f}}));
+    EXPECT_EQ(run(10), moving + 1); // the edited scene is seen without another specification
+    spec.techniques = {"reuse:face=16"};
+    spec.camera.eye.x += .1;
+    EXPECT_EQ(run(1), moving + 1); // not the audited plan
+    spec.techniques = {kRunningPlan};
+    spec.camera.target = spec.camera.eye + dvec3(0, 0, -1); // no mirror is seen
+    EXPECT_EQ(run(1), moving + 1);
+}
+
+struct CaughtFault {
+    bool is_early = false;  ///< whether the alarm sounded before the fault
+    int frames = 0;         ///< frames from the fault until the alarm
+    std::size_t audits = 0; ///< audited frames among them
+};
+
+/// Runs a loop in which a fault begins at a frame, until the alarm. `fault` returns what the fault
+/// shows instead of the frame.
+template <typename ShowFault>
+CaughtFault run_until_alarm(app::Session& session, int faulty, std::uint64_t seed,
+                            const ShowFault& fault) {
+    constexpr int kMostFrames = 200;
+    app::PlanAuditRequest request = make_audit_request();
+    request.pace.seed = seed;
+    app::PlanAudit audit(request);
+    app::FrameSpec spec = make_audited_spec(session.scene());
+    std::size_t before = 0;
+    session.forget();
+    for (int k = 0; k < kMostFrames; ++k) {
+        spec.camera = camera_of_frame(session.scene().cameras.front(), k);
+        const app::Frame frame = k < faulty ? session.frame(spec) : fault(spec);
+        const app::PlanAuditOutcome outcome = audit.watch_frame(session, frame, spec, k / 60.);
+        if (k < faulty) before = audit.audit().frame_count();
+        if (outcome.is_alarm)
+            return {k < faulty, k - faulty + 1, audit.audit().frame_count() - before};
+    }
+    return {false, kMostFrames, audit.audit().frame_count() - before};
+}
+
+template <typename ShowFault>
+void expect_fault_is_caught_for_20_seeds(app::Session& session, const ShowFault& fault) {
+    int most_frames = 0;
+    std::size_t most_audits = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const int faulty = 30 + static_cast<int>(seed * 7 % 20);
+        const CaughtFault caught = run_until_alarm(session, faulty, seed, fault);
+        EXPECT_FALSE(caught.is_early) << seed;
+        // About 8 clean audits come before, after which 4 failures suffice.
+        EXPECT_LE(caught.audits, 4u) << seed;
+        most_frames = std::max(most_frames, caught.frames);
+        most_audits = std::max(most_audits, caught.audits);
+    }
+    std::printf("20 of 20 alarms, after at most %d frames, %zu audited\n", most_frames,
+                most_audits);
+    EXPECT_LE(most_frames, 20);
+}
+
+TEST(PlanAudit, WrongLawIsCaughtForEverySeed) {
+    const scene::Scene scene = make_audited_room();
+    app::Session session(test::get_test_engine(), scene), wrong(test::get_test_engine(), scene);
+    expect_fault_is_caught_for_20_seeds(session, [&](app::FrameSpec spec) {
+        spec.techniques = {"reuse:face=64,shadow_map=64"}; // without the corrected direction
+        return wrong.frame(spec);
+    });
+}
+
+/// A wall is painted over, and the mirrors keep showing what was captured before.
+TEST(PlanAudit, StaleReflectionsAreCaughtForEverySeed) {
+    const scene::Scene scene = make_audited_room();
+    app::Session session(test::get_test_engine(), scene), stale(test::get_test_engine(), scene);
+    session.change(scene::set_material(0, {.name = "white", .albedo = {.25f, .3f, .7f}}));
+    expect_fault_is_caught_for_20_seeds(
+        session, [&](const app::FrameSpec& spec) { return stale.frame(spec); });
+}
+
+TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
+    const scene::Scene scene = make_audited_room();
+    app::Session session(test::get_test_engine(), scene);
+    app::PlanAuditRequest request = make_audit_request(
+        {kRunningPlan, "reuse:face=64", "reuse:face=16"});
+    request.pace.every = 1;
+    app::PlanAudit audit(request);
+    EXPECT_EQ(audit.plan(), "reuse:face=16");
+    app::FrameSpec spec = make_audited_spec(scene);
+    std::vector<int> steps;
+    std::vector<std::string> messages;
+    int alarms = 0;
+    for (int k = 0; k < 120; ++k) {
+        spec.camera = camera_of_frame(scene.cameras.front(), k);
+        spec.techniques = {audit.plan()};
+        const app::PlanAuditOutcome outcome = audit.watch_frame(session, session.frame(spec), spec,
+                                                                k / 60.);
+        alarms += outcome.is_alarm;
+        if (!outcome.message.empty()) messages.push_back(outcome.message);
+        if (!outcome.has_new_plan) continue;
+        steps.push_back(k);
+        EXPECT_EQ(audit.audit().frame_count(), 0u); // the new plan begins without evidence
+    }
+    ASSERT_EQ(steps.size(), 2u);
+    EXPECT_EQ(alarms, 2);
+    ASSERT_EQ(messages.size(), 3u);
+    EXPECT_EQ(messages[0],
+              "audit: 2 of 2 frames break flip <= 0.08; the plan is now reuse:face=64");
+    EXPECT_EQ(messages[1], "audit: 2 of 2 frames break flip <= 0.08");
+    EXPECT_EQ(messages[2], std::string("audit: the plan is now ") + kRunningPlan);
+    EXPECT_GE(steps[1] - steps[0], 30); // half a second
+    EXPECT_EQ(audit.plan(), kRunningPlan);
+    EXPECT_THAT(audit.describe(),
+                testing::MatchesRegex("audit: [0-9]+ of [0-9]+ frames keep flip <= 0.08; assured "
+                                      "share 0.[0-9]+"));
+}
+
+TEST(PlanAudit, ImpossibleAuditsAreRefused) {
+    EXPECT_EQ(
+        test::catch_error_text(Failure::usage, [] { app::PlanAudit(make_audit_request({})); }),
+        "audit: plans: wanted at least 1, found none");
+    app::PlanAuditRequest request = make_audit_request();
+    request.reference = "raytrace:rays=4";
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::PlanAudit{request}; }),
+              "audit: reference: wanted a technique without noise, found raytrace:rays=4");
+    request = make_audit_request();
+    request.max_error = 2;
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::PlanAudit{request}; }),
+              "audit: limit of error: wanted a number from 0 to 1, found 2");
+    scene::Scene rough = make_audited_room();
+    test::make_mirrors_rough(rough, .2f);
+    app::Session session(test::get_test_engine(), rough);
+    app::PlanAudit audit(make_audit_request());
+    test::expect_error([&] { audit.prepare(session, make_audited_spec(rough)); }, Failure::usage,
+                       {"wanted a scene without rough surfaces", "'room'"});
+}
+
+} // namespace
