@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kFramesForMedian = 60, kFramesBeforeFirstBlock = 8, kAuditsForTime = 4;
 constexpr std::size_t kMaxBlock = 1'000'000; // frames; several hours
+constexpr double kLongestFrame = 10;         // medians; a longer frame is a pause of the program
 
 void keep_last_times(std::deque<double>& times, double ms, std::size_t most) {
     times.push_back(ms);
@@ -29,8 +30,17 @@ AuditSchedule::AuditSchedule(const AuditPace& pace) : pace_(pace), random_(pace.
 }
 
 bool AuditSchedule::count_frame(double frame_ms) {
-    frames_ms_ += frame_ms;
-    keep_last_times(last_frames_, frame_ms, kFramesForMedian);
+    const double usual_ms = last_frames_.empty() ? frame_ms : median_frame_ms();
+    const double counted_ms = std::min(frame_ms, kLongestFrame * usual_ms);
+    if (was_audited_) { // the frame before
+        const double excess_ms = std::max(0.0, counted_ms - usual_ms);
+        audits_ms_ += excess_ms, last_audits_.back() += excess_ms;
+        frames_ms_ += counted_ms - excess_ms;
+        was_audited_ = false;
+    } else {
+        frames_ms_ += counted_ms;
+        keep_last_times(last_frames_, counted_ms, kFramesForMedian);
+    }
     if (at_ == block_) {
         if (last_frames_.size() < kFramesBeforeFirstBlock) return false;
         begin_block();
@@ -38,8 +48,12 @@ bool AuditSchedule::count_frame(double frame_ms) {
     return at_++ == drawn_;
 }
 
+double AuditSchedule::median_frame_ms() const {
+    return compute_percentile({last_frames_.begin(), last_frames_.end()}, .5);
+}
+
 void AuditSchedule::begin_block() {
-    const double frame_ms = compute_percentile({last_frames_.begin(), last_frames_.end()}, .5);
+    const double frame_ms = median_frame_ms();
     const double audit_ms = last_audits_.empty() ? 0 : *std::ranges::max_element(last_audits_);
     double frames = pace_.every;
     if (audit_ms > 0) {
@@ -57,6 +71,7 @@ void AuditSchedule::expect_audit_time(double ms) {
 void AuditSchedule::add_audit_time(double ms) {
     audits_ms_ += ms;
     expect_audit_time(ms);
+    was_audited_ = true;
 }
 
 bool PlanLadder::step_to_surer_plan(double seconds) {

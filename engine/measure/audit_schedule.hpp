@@ -25,6 +25,8 @@ public:
     explicit AuditSchedule(const AuditPace& pace = {});
 
     /// Counts one frame, which took `frame_ms` without its audit. Returns whether to audit it.
+    /// After an audited frame, the time above the median counts as time of the audit. A frame of
+    /// more than 10 medians counts as 10, because the program has paused.
     bool count_frame(double frame_ms);
     /// Adds the time of an audit that belongs to the run.
     void add_audit_time(double ms);
@@ -37,6 +39,7 @@ public:
     double audits_ms() const { return audits_ms_; } ///< all audits
 
 private:
+    double median_frame_ms() const;
     void begin_block();
 
     AuditPace pace_;
@@ -45,6 +48,7 @@ private:
     std::size_t block_ = 0, at_ = 0;               ///< frames of the block: all, so far
     std::size_t drawn_ = 0;                        ///< number of the drawn frame, from 0
     double frames_ms_ = 0, audits_ms_ = 0;
+    bool was_audited_ = false; ///< the frame before
 };
 
 /// A place in a list of plans from the surest to the cheapest. It moves to the surer side only, and

@@ -14,9 +14,10 @@ namespace catoptric::view {
 namespace {
 
 /// Options that the state replaces, or that a single picture does not need.
-constexpr std::array<std::string_view, 13> kReplacedOptions{
-    "--camera", "--time",       "--size",     "--technique", "--plan",     "--model",    "--frames",
-    "--warmup", "--screenshot", "--exposure", "--timing",    "--progress", "--budget-ms"};
+constexpr std::array<std::string_view, 16> kReplacedOptions{
+    "--camera",    "--time",   "--size",        "--technique",    "--plan",   "--model",
+    "--frames",    "--warmup", "--screenshot",  "--exposure",     "--timing", "--progress",
+    "--budget-ms", "--audit",  "--audit-every", "--audit-percent"};
 constexpr std::array<std::string_view, 5> kFlagsWithoutMeaningInCommands{
     "--animate", "--validate", "--json", "--quiet", "--verbose"};
 

@@ -142,6 +142,7 @@ void ViewLoop::load(const std::string& file) {
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
         view_options_.words = {file};
+        view_options_.audit.clear(); // its certificate is of the other scene
         for (const auto& [option, value] : {std::pair{"--device", common.device.name},
                                             {"--device-profile", common.device.profile}})
             if (!value.empty())
@@ -151,6 +152,7 @@ void ViewLoop::load(const std::string& file) {
         state_.other = remove_mirror_settings(state_.other);
         state_.roughness.clear();
         open(SceneChangeOrigin::another);
+        start_audit();
         show_message("loaded: " + file);
     } catch (const Error& error) {
         const bool is_open = viewer_ != nullptr && viewer_->viewer_engine().usable();

@@ -36,6 +36,29 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
     state_.motion.speed = settings_.speed, state_.gain = settings_.gain;
     state_.model = request_.model;
     open(SceneChangeOrigin::another);
+    start_audit();
+}
+
+/// Begins the audit that the options ask for, with plans as the controls write them.
+void ViewLoop::start_audit() {
+    audit_.reset();
+    if (view_options_.audit.empty()) return;
+    app::PlanAuditRequest request = app::read_plan_audit(view_options_.audit);
+    for (std::string& plan : request.plans) plan = technique_text_of_plan(parse_plan_text(plan));
+    request.pace.every = view_options_.audit_every;
+    request.pace.most_time = view_options_.audit_percent / 100;
+    request.before_audit = [this] { viewer_->collect_finished_frames(0); };
+    audit_.emplace(std::move(request));
+    audit_->prepare(viewer_->viewer_session(), request_);
+}
+
+/// Audits the last frame before the next one is rendered, and changes the plan after an alarm.
+void ViewLoop::audit_last_frame(const UserInput& inputs) {
+    seconds_ += is_user_simulated() ? kFrameStepSeconds : inputs.seconds;
+    if (!audit_) return;
+    const app::PlanAuditOutcome outcome = viewer_->audit_last_frame(*audit_, seconds_);
+    if (outcome.has_new_plan) state_.plan = parse_plan_text(audit_->plan());
+    if (!outcome.message.empty()) show_message(outcome.message);
 }
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop
@@ -113,9 +136,12 @@ void ViewLoop::recover_from_error(const Error& error) {
 }
 
 void ViewLoop::show_frame(const UserInput& inputs) {
+    audit_last_frame(inputs);
     PanelButtonRequests wants;
     controls_.begin(glm::max(last_, uvec2(1)), inputs);
-    draw_control_panels(state_, {request_.scene, *viewer_, entries_, period_}, last_, wants);
+    draw_control_panels(state_,
+                        {request_.scene, *viewer_, entries_, period_, audit_ ? &*audit_ : nullptr},
+                        last_, wants);
     app::WindowOverlay overlay = controls_.end();
     perform_panel_requests(wants);
     render(inputs, std::move(overlay));
@@ -170,6 +196,7 @@ void ViewLoop::print_times() const {
 
 int ViewLoop::finish_view_run() {
     print_times();
+    if (audit_) cli::print_note_unless_quiet(view_options_.common.manners, audit_->describe());
     if (!view_options_.screenshot.empty()) viewer_->write_picture(view_options_.screenshot);
     if (view_options_.common.device.validate) viewer_->viewer_engine().check_validation();
     if (is_user_simulated()) return 0;

@@ -23,8 +23,10 @@ private:
     void perform_key_action(const KeyBinding& key);
     void perform_panel_requests(const PanelButtonRequests& wants);
     void load(const std::string& file);
+    void start_audit();
     void show_frame(const UserInput& inputs);
     void render(const UserInput& inputs, app::WindowOverlay overlay);
+    void audit_last_frame(const UserInput& inputs);
     void recover_from_error(const Error& error);
     void show_message(const std::string& text);
     std::string command() const;
@@ -47,7 +49,9 @@ private:
     dvec2 scale_{1};           ///< UserInput::scale
     bool waits_ = false;       ///< whether it waits for window events, because nothing can be shown
     std::size_t frame_ = 0;
-    int losses_ = 0; ///< device losses since the last rendered frame
+    int losses_ = 0;                      ///< device losses since the last rendered frame
+    std::optional<app::PlanAudit> audit_; ///< of the plan of --audit
+    double seconds_ = 0;                  ///< time of the frames shown so far
     double reach_ = 1, period_ = 0;
     bool ends_ = false;
 };

@@ -1,8 +1,10 @@
 #include "options.hpp"
 
 #include "catoptric/output_checks.hpp"
+#include "catoptric/parse.hpp"
 #include "core/error.hpp"
 #include "session/engine.hpp"
+#include "study/plan_audit.hpp"
 
 #include <memory>
 
@@ -14,6 +16,7 @@ constexpr const char* kViewExamples = R"(Examples:
   catoptric-view
   catoptric-view gallery --technique reuse --animate
   catoptric-view scene.glb --plan "1=planar *=hybrid"
+  catoptric-view scene.glb --audit plan.json --animate
   catoptric-view --frames 20 --screenshot last.png
 
 F1 in the window lists the keys. --frames N ends the program after N frames. Frame k equals frame k of
@@ -30,6 +33,36 @@ void check_screenshot_options(const ViewOptions& options) {
     cli::check_file_can_be_made(options.screenshot);
 }
 
+/// Returns the technique or plan that the window shows first.
+std::string choose_first_technique(const ViewOptions& options) {
+    cli::TechniqueOption drawn = options.drawn;
+    const bool is_given = !drawn.technique.empty() || !drawn.plan.empty();
+    if (!options.audit.empty()) {
+        check(!is_given, Failure::usage,
+              "--audit: its file has the plan: wanted no --technique and no --plan beside it");
+        return app::read_plan_audit(options.audit).plans.back();
+    }
+    if (!is_given) drawn.technique = "secant";
+    return check_technique_choice(drawn, "catoptric-view");
+}
+
+void add_audit_options(cli::CommandVerb& verb, ViewOptions& options) {
+    verb.option("--audit", "FILE",
+                "run the plan of this file of 'catoptric choose', compare drawn frames with ray "
+                "tracing, and change to a surer plan if too many break the limit",
+                options.audit);
+    verb.option("--audit-every", "N", "audit at most one frame of N (60)",
+                [&options](const std::string& text) {
+                    options.audit_every = static_cast<int>(
+                        cli::parse_integer("--audit-every", text, 1, 1'000'000));
+                });
+    verb.option("--audit-percent", "P",
+                "limit of the audits' time, in percent of the frames' time (5)",
+                [&options](const std::string& text) {
+                    options.audit_percent = cli::parse_real("--audit-percent", text, .01, 1e6);
+                });
+}
+
 } // namespace
 
 std::function<int()> parse_view_command(const std::vector<std::string>& words,
@@ -44,12 +77,11 @@ std::function<int()> parse_view_command(const std::vector<std::string>& words,
     verb.option("--screenshot", "OUT",
                 "file OUT.png or OUT.exr for the picture of the last of --frames, without controls",
                 options->screenshot);
+    add_audit_options(verb, *options);
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
     verb.set_verb_action([options, run] {
-        if (options->drawn.technique.empty() && options->drawn.plan.empty())
-            options->drawn.technique = "secant";
-        options->technique = check_technique_choice(options->drawn, "catoptric-view");
+        options->technique = choose_first_technique(*options);
         check(!options->common.both_models, Failure::usage,
               "--model both: wanted everything or required, of which a picture has one");
         check_budget_option(options->common);

@@ -14,6 +14,9 @@ struct ViewOptions {
     cli::TechniqueOption drawn;
     std::string technique; ///< as app::FrameSpec::techniques takes it
     std::string screenshot;
+    std::string audit;        ///< file of `catoptric choose` whose plan is audited; empty: none
+    int audit_every = 60;     ///< least number of frames from which one is drawn for the audit
+    double audit_percent = 5; ///< limit of the audits' time, in percent of the frames' time
     std::vector<std::string> words; ///< all words without the program's name
 };
 

@@ -66,7 +66,8 @@ void draw_playback_controls(ViewState& state, double period) {
     if (period == 0) ImGui::TextDisabled("nothing moves in this scene");
 }
 
-void draw_error_figures(ViewState& state, const SceneViewer& viewer) {
+void draw_error_figures(ViewState& state, const SceneViewer& viewer, const app::PlanAudit* audit) {
+    if (audit != nullptr) ImGui::TextWrapped("%s", audit->describe().c_str());
     ImGui::Checkbox("errors against the traced reference", &state.judges);
     const int passes = viewer.progressive_reference().rendered_pass_count();
     if (passes > 0)
@@ -141,7 +142,7 @@ void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 win
         return ImGui::CollapsingHeader(name, is_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     };
     if (section("View")) draw_mode_controls(state);
-    if (section("Errors")) draw_error_figures(state, seen.viewer);
+    if (section("Errors")) draw_error_figures(state, seen.viewer, seen.audit);
     if (section("Plan")) draw_plan_controls(state, seen.scene, seen.entries);
     if (section("Motion")) draw_playback_controls(state, seen.period);
     if (section("Times")) draw_frame_times(seen.viewer);

@@ -51,7 +51,6 @@ std::vector<PlanEntry> SceneViewer::entries() const {
     return last_ ? last_->read().plan : std::vector<PlanEntry>();
 }
 
-/// Collects the times of the oldest frames until at most `most` are in flight.
 void SceneViewer::collect_finished_frames(std::size_t most) {
     while (pending_.size() > most) {
         pending_.front().sample.frame = pending_.front().frame.times();
@@ -196,6 +195,11 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
     slices_ = made.slices();
     pending_.push_back({std::move(made), std::move(sample)});
     ++frames_;
+}
+
+app::PlanAuditOutcome SceneViewer::audit_last_frame(app::PlanAudit& audit, double seconds) {
+    if (!last_) return {};
+    return audit.watch_frame(*session_, *last_, spec_, seconds);
 }
 
 std::uint32_t SceneViewer::mirror_number_at_pixel(uvec2 pixel) {

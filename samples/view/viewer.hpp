@@ -4,6 +4,7 @@
 #include "reference.hpp"
 #include "session/run.hpp"
 #include "session/screen.hpp"
+#include "study/plan_audit.hpp"
 #include "times.hpp"
 #include "window.hpp"
 
@@ -40,18 +41,21 @@ public:
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
     std::uint32_t mirror_number_at_pixel(uvec2 pixel);
     void discard_frame_history();
+    /// Audits the last frame, if it is drawn (app::PlanAudit::watch_frame).
+    app::PlanAuditOutcome audit_last_frame(app::PlanAudit& audit, double seconds);
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
     void write_picture(const std::filesystem::path& file) const;
     app::FrameSpec make_frame_spec() const { return spec_; }
     std::size_t cut_count() const { return cuts_; }
+    /// Collects the times of the oldest frames until at most `most` are in flight.
+    void collect_finished_frames(std::size_t most);
 
 private:
     void update_from_state(const ViewState& state, uvec2 size);
     bool update_roughness(const MirrorRoughness& roughness);
     void measure_errors_when_camera_rests(const ViewState& state);
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
-    void collect_finished_frames(std::size_t most);
 
     struct FrameInFlight {
         app::Frame frame;

@@ -291,6 +291,21 @@ TEST(AuditSchedule, KeepsTheLimitOfTime) {
     EXPECT_EQ(schedule.block_length(), 10u);
 }
 
+TEST(AuditSchedule, CountsWhatTheNextFrameTakesLonger) {
+    AuditSchedule schedule({.every = 1, .most_time = 1});
+    for (int k = 0; k < 7; ++k) EXPECT_FALSE(schedule.count_frame(2));
+    EXPECT_TRUE(schedule.count_frame(2));
+    schedule.add_audit_time(4);
+    schedule.count_frame(5); // 3 ms above the median
+    EXPECT_EQ(schedule.audits_ms(), 7);
+    EXPECT_EQ(schedule.frames_ms(), 18);
+    schedule.count_frame(5); // no audit came before
+    EXPECT_EQ(schedule.audits_ms(), 7);
+    EXPECT_EQ(schedule.frames_ms(), 23);
+    schedule.count_frame(1000); // a pause
+    EXPECT_EQ(schedule.frames_ms(), 43);
+}
+
 TEST(PlanLadder, StepsToTheSurerSideAtMostTwiceASecond) {
     PlanLadder ladder(100);
     EXPECT_EQ(ladder.place(), 99u);
