@@ -14,7 +14,7 @@ struct Triangle {
     std::uint32_t object = 0; ///< below 2^29; a hit returns it
     std::uint32_t flags =
         0; ///< kHiddenFromCameraFlag | kCastsNoShadowFlag | kTriangleApproximatesSphereFlag
-           ///< | kOneSidedFlag | kAlphaMaskedFlag | kSpherePrimitiveFlag
+           ///< | kOneSidedFlag | kAlphaMaskedFlag | kSpherePrimitiveFlag | kTintsShadowFlag
 };
 
 inline constexpr std::uint32_t kHiddenFromCameraFlag =
@@ -27,6 +27,8 @@ inline constexpr std::uint32_t kTriangleApproximatesSphereFlag =
 inline constexpr std::uint32_t kOneSidedFlag = f32::kBvhOneSided;
 /// Flag of triangles that alpha masks may cut out in part.
 inline constexpr std::uint32_t kAlphaMaskedFlag = f32::kBvhAlphaMasked;
+/// Flag of glass that shadow rays pass, and that attenuates their light.
+inline constexpr std::uint32_t kTintsShadowFlag = f32::kBvhTintsShadow;
 /// A sphere in place of a triangle: see `make_sphere_primitive`.
 inline constexpr std::uint32_t kSpherePrimitiveFlag = f32::kBvhSpherePrimitive;
 inline constexpr std::uint32_t kMaxTreeDepth = f32::kBvhMaxDepth;

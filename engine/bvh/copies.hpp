@@ -8,7 +8,7 @@ namespace catoptric::bvh {
 /// equal corners and flags.
 enum class DuplicateTriangleSearchScope {
     within_object, ///< triangles of the same object, as in `build_bvh`
-    across_objects ///< triangles of all objects, except kAlphaMaskedFlag and
+    across_objects ///< triangles of all objects, except kAlphaMaskedFlag, kTintsShadowFlag and
                    ///< kTriangleApproximatesSphereFlag ones, whose object matters
 };
 

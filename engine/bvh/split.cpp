@@ -191,8 +191,8 @@ TriangleReferences remove_duplicate_triangles(TriangleReferences references,
     const auto whose = [&](const TriangleReference& r) {
         const Triangle& t = triangles[r.triangle_index_of_reference()];
         const bool is_told_apart = copies == DuplicateTriangleSearchScope::within_object ||
-                                   (t.flags &
-                                    (kAlphaMaskedFlag | kTriangleApproximatesSphereFlag)) != 0;
+                                   (t.flags & (kAlphaMaskedFlag | kTriangleApproximatesSphereFlag |
+                                               kTintsShadowFlag)) != 0;
         return std::pair{is_told_apart ? t.object : 0, t.flags};
     };
     std::ranges::sort(references, [&](const TriangleReference& a, const TriangleReference& b) {

@@ -41,7 +41,8 @@ std::string describe_raster_pipeline(const RasterPipelineState& state,
     for (TexelFormat format : attachments.colour)
         name += "/" + std::string(catoptric::texel_format_name(format));
     if (attachments.depth) name += "/depth";
-    if (state.blended) name += "/blended";
+    if (state.blending != Blending::none)
+        name += state.blending == Blending::sum ? "/summed" : "/blended";
     if (state.hidden != TriangleWinding::none)
         name += state.hidden == TriangleWinding::clockwise ? "/no clockwise"
                                                            : "/no counterclockwise";
@@ -166,16 +167,19 @@ VkPipeline make_raster_pipeline(const GpuDevice& device, VkPipelineCache cache,
     VkPipelineDepthStencilStateCreateInfo depth{
         VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = attachments.depth;
-    depth.depthWriteEnable = attachments.depth && !state.blended;
+    depth.depthWriteEnable = attachments.depth && state.blending == Blending::none;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER;
     VkPipelineColorBlendAttachmentState write{};
     write.colorWriteMask = 0xf;
-    write.blendEnable = state.blended;
+    write.blendEnable = state.blending != Blending::none;
     write.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
     write.dstColorBlendFactor = write.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
     write.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    if (state.blending == Blending::sum)
+        write.srcColorBlendFactor = write.dstColorBlendFactor = write.dstAlphaBlendFactor =
+            VK_BLEND_FACTOR_ONE;
     std::vector<VkPipelineColorBlendAttachmentState> writes(attachments.colour.size(), write);
-    if (state.blended && !writes.empty())
+    if (state.blending != Blending::none && !writes.empty())
         std::fill(writes.begin() + 1, writes.end(), decltype(write){});
     VkPipelineColorBlendStateCreateInfo blend{
         VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
@@ -241,7 +245,7 @@ bool PipelineStore::ShaderConstantValuesLess::operator()(const RasterPipelineKey
                                                          const RasterPipelineKeyView& b) const {
     const auto first = [](const RasterPipelineKeyView& view) {
         const auto& [state, attachments] = view;
-        return std::tie(state.hidden, state.blended, attachments.depth, attachments.colour,
+        return std::tie(state.hidden, state.blending, attachments.depth, attachments.colour,
                         state.fragment, state.vertex);
     };
     const auto order = first(a) <=> first(b);

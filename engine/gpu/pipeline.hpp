@@ -20,6 +20,10 @@ using ShaderConstantValues =
 /// The order of a triangle's corners in the picture.
 enum class TriangleWinding { none, clockwise, counterclockwise };
 
+/// How a pass combines colours with its first attachment: it replaces them, covers them by alpha,
+/// or adds to them. If it does not replace them, it writes no other attachment and no depth.
+enum class Blending { none, cover, sum };
+
 /// A raster pipeline as a pass body asks for it. Attachments come from the pass. Depth is reversed:
 /// greater is nearer.
 struct RasterPipelineState {
@@ -29,8 +33,7 @@ struct RasterPipelineState {
     TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
     ShaderConstantValues features =
         {}; ///< constants of the scene; ignored by shaders that lack them
-    /// Blended over the first attachment by alpha. Other attachments and depth are not written.
-    bool blended = false;
+    Blending blending = Blending::none;
 };
 
 struct ComputePipelineState {

@@ -31,9 +31,13 @@ public:
         const auto found = made_.find(*edge);
         if (found != made_.end()) return found->second;
         const std::string suffix = made_.empty() ? "" : "." + std::to_string(*edge);
-        return made_[*edge] = {render::add_shadow_passes(frame_graph_, shadow_frame_inputs_, *edge,
-                                                         model_, suffix),
-                               probes_};
+        render::ShadingLights lighting{
+            render::add_shadow_passes(frame_graph_, shadow_frame_inputs_, *edge, model_, suffix),
+            probes_};
+        if (lighting.shadow_map && shadow_frame_inputs_.scene.has_tinted_shadows())
+            lighting.glass_depths = render::add_glass_shadow_passes(
+                frame_graph_, shadow_frame_inputs_, *lighting.shadow_map, *edge, suffix);
+        return made_[*edge] = lighting;
     }
 
 private:
@@ -162,8 +166,7 @@ MutualMirrorCaptures add_capture_passes_with_feedback(
     const render::ShadingLights& view_lighting, const std::optional<render::LightProbes>& probes) {
     const auto add_probes = [&](render::ShaderOfEachMirror looks) {
         if (probes)
-            render::add_light_probe_passes(graph, inputs, *probes, view_lighting.shadow_map,
-                                           std::move(looks));
+            render::add_light_probe_passes(graph, inputs, *probes, view_lighting, std::move(looks));
     };
     // Mirrored views show traced mirrors by captures, so captures are needed.
     const bool has_views = assignment.choices.size() > 1 &&

@@ -154,7 +154,7 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
         order.emplace_back(view.parallel ? dot(view.forward, to_object) : length(to_object), i);
     }
     std::ranges::stable_sort(order, std::ranges::greater(), &std::pair<float, std::size_t>::first);
-    state.blended = true;
+    state.blending = gpu::Blending::cover;
     state.constants.emplace_back("drawn_parts", shared::kDrawBlendedParts);
     std::ranges::copy(scene.shader_feature_constants(drawing.first_view),
                       std::back_inserter(state.features));
@@ -180,6 +180,8 @@ void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
 void bind_lighting_images(PassCommands& commands, const ShadingLights& lighting) {
     if (lighting.shadow_map)
         commands.bind_resource("shadow_map", *lighting.shadow_map, TextureFilter::compare);
+    if (lighting.shadow_map && lighting.glass_depths)
+        commands.bind_resource("glass_depths", *lighting.glass_depths, TextureFilter::nearest);
     if (!lighting.probes) return;
     commands.bind_resource("probe_grid", lighting.probes->grid);
     commands.bind_resource("probe_light", lighting.probes->light, TextureFilter::linear);

@@ -29,6 +29,8 @@ struct LightProbeImages {
 struct ShadingLights {
     std::optional<graph::ImageHandle> shadow_map;
     std::optional<LightProbeImages> probes = {};
+    /// Optical depths of glass, in the layers of the shadow map; none: glass casts no shadow.
+    std::optional<graph::ImageHandle> glass_depths = {};
     friend bool operator==(const ShadingLights&, const ShadingLights&) = default;
 };
 

@@ -139,6 +139,7 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.mirror = scene::is_mirror(now, object);
     range.glass = scene::is_glass(material);
     range.casts_shadow = !range.glass && scene::emitted_radiance(material) == vec3(0);
+    range.tints = range.glass && now.tints_glass_shadows;
     range.seen_by_camera = object.seen_by_camera;
     range.exact_sphere = object.sphere.has_value();
     range.one_sided = !range.mirror && !range.glass && scene::is_one_sided(material);

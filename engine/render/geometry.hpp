@@ -43,6 +43,7 @@ struct ObjectDrawRange {
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
     bool glass = false;   ///< rays pass through (scene::is_glass)
+    bool tints = false;   ///< glass that attenuates light on its way to what is behind it
     bool shell = false;   ///< the mesh passes is_shell
     bool flipped = false; ///< whether the object's transform mirrors or flattens the mesh
     /// Index in FrameGeometry::attributes of the first attribute of the object's mesh; empty: the

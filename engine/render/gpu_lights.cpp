@@ -56,8 +56,9 @@ void GpuScene::fill_light_table(const scene::Scene& now, bool others) {
         entry.position = vec3(light_places_.back());
         if (!light.directional) {
             const float gap = nearest_.distance_to_nearest(
-                geometry_, light_places_.back(),
-                [](std::size_t, const ObjectDrawRange& range) { return !range.casts_shadow; });
+                geometry_, light_places_.back(), [](std::size_t, const ObjectDrawRange& range) {
+                    return !range.casts_shadow && !range.tints;
+                });
             const bool has_axes = light.cosines != dvec3(0);
             const shared::View main = has_axes ? make_turned_cube_views(
                                                      entry.position, glm::mat3(light.axes), gap)[4]

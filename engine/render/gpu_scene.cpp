@@ -337,6 +337,7 @@ gpu::ShaderConstantValues GpuScene::shader_feature_constants(std::uint32_t view)
             {"has_clear_coats", material_details_.any_clear_coat() ? 1u : 0u},
             {"has_glass", material_details_.has_any_glass_material() ? 1u : 0u},
             {"has_blending", has_blended_surfaces() ? 1u : 0u},
+            {"tints_shadows", has_tinted_shadows() ? 1u : 0u},
             {"has_normal_textures", material_details_.has_normal_textures() ? 1u : 0u},
             {"light_kinds", has_light_kinds_ ? 1u : 0u},
             {"one_light", light_count() == 1 ? 1u : 0u},

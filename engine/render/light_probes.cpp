@@ -134,13 +134,12 @@ LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
 }
 
 void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
-                            const LightProbes& probes, std::optional<ImageHandle> shadow_map,
+                            const LightProbes& probes, ShadingLights lighting,
                             ShaderOfEachMirror looks) {
     const LightProbeImages& now = probes.images;
-    const ShadingLights lighting{shadow_map,
-                                 LightProbeImages{graph.previous_contents(now.grid),
-                                                  graph.previous_contents(now.light),
-                                                  graph.previous_contents(now.distances)}};
+    lighting.probes = LightProbeImages{graph.previous_contents(now.grid),
+                                       graph.previous_contents(now.light),
+                                       graph.previous_contents(now.distances)};
     const auto shared_looks = std::make_shared<const ShaderOfEachMirror>(std::move(looks));
     for (std::uint32_t probe = 0; probe < probes.count(); ++probe)
         add_light_probe_capture(graph, inputs, probes, probe, lighting, shared_looks);

@@ -28,12 +28,12 @@ LightProbes declare_light_probes(graph::Graph& graph, const FrameInputs& inputs,
                                  std::uint32_t most);
 
 /// Declares a pass for each probe, which draws the scene around it without lamps and glass, and one
-/// that computes LightProbes::images. The captures are lit by the shadow map and by the probes of
+/// that computes LightProbes::images. The captures are lit by `lighting` and by the probes of
 /// the frame before, so frame k shows k reflections between diffuse surfaces; lamps would otherwise
 /// count twice, since they light surfaces as points. `looks`: shaders of mirrors. The captures have
 /// kLightProbeFace texels an edge. Costs O(probes * objects) on the host.
 void add_light_probe_passes(graph::Graph& graph, const FrameInputs& inputs,
-                            const LightProbes& probes, std::optional<graph::ImageHandle> shadow_map,
+                            const LightProbes& probes, ShadingLights lighting,
                             ShaderOfEachMirror looks);
 
 } // namespace catoptric::render

@@ -136,6 +136,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
                                   std::uint64_t most) {
     any_lobes_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::has_lobe);
     any_glass_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::glass);
+    any_tinted_shadow_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::tints);
     any_clear_coat_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::clear_coat);
     any_blended_ = std::ranges::any_of(geometry.ranges, &ObjectDrawRange::blended);
     fill_texture_texels(now, most);

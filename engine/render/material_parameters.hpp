@@ -22,7 +22,9 @@ public:
     std::size_t write(gpu::GpuDevice& device, std::size_t slot);
     void bind(graph::PassCommands& commands, std::size_t slot) const;
 
-    bool any_clear_coat() const { return any_clear_coat_; }    ///< some surface has a clear coat
+    bool any_clear_coat() const { return any_clear_coat_; } ///< some surface has a clear coat
+    /// Returns whether glass attenuates the light that surfaces behind it receive.
+    bool has_tinted_shadows() const { return any_tinted_shadow_; }
     bool has_any_glass_material() const { return any_glass_; } ///< rays pass through some surface
     bool has_any_blended_material() const {
         return any_blended_;
@@ -44,6 +46,7 @@ private:
     std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
     bool any_ = false, masks_ = false, any_normal_textures_ = false;
     bool any_lobes_ = false, any_glass_ = false, any_clear_coat_ = false, any_blended_ = false;
+    bool any_tinted_shadow_ = false;
     bool has_lobe_table_ = false; ///< the texels hold the albedo of rough lobes
     bool texels_filled_ = false;  ///< `fill_texture_texels` was called
     DoubleBufferedDeviceList detail_words_, attributes_, texels_;

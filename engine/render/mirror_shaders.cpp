@@ -42,6 +42,7 @@ void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lightin
                           const ShaderOfEachMirror& looks) {
     PassReadDeclarations reads{pass};
     if (lighting.shadow_map) reads.add_image(*lighting.shadow_map);
+    if (lighting.shadow_map && lighting.glass_depths) reads.add_image(*lighting.glass_depths);
     if (lighting.probes) {
         reads.add_image(lighting.probes->grid);
         reads.add_image(lighting.probes->light);

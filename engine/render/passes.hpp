@@ -25,6 +25,13 @@ std::optional<graph::ImageHandle> add_shadow_passes(graph::Graph& graph, const F
                                                     const require::RequiredWorkModel& model = {},
                                                     const std::string& suffix = "");
 
+/// Declares one pass for each light, which draws the optical depth of the glass between the light
+/// and the surfaces in its shadow map (shaders/lib/glass_shadow.glsl): rgba32f, in the layers of
+/// the shadow map. These passes draw in every frame, and count as no scene pass.
+graph::ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
+                                           graph::ImageHandle shadow_map, std::uint32_t edge,
+                                           const std::string& suffix = "");
+
 /// Declares one pass for each mirror with a capture. The pass draws all faces that need drawing. If
 /// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
 /// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a

@@ -99,4 +99,37 @@ std::optional<ImageHandle> add_shadow_passes(graph::Graph& graph, const FrameInp
     return map;
 }
 
+ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInputs& inputs,
+                                    ImageHandle shadow_map, std::uint32_t edge,
+                                    const std::string& suffix) {
+    const GpuScene& scene = inputs.scene;
+    check(scene.scene_device().supports_float_colour_blending(), Failure::no_device,
+          "--glass-shadow tint: wanted a device that adds rgba32f colours and blends one "
+          "attachment alone, found none of both; render with --glass-shadow none");
+    const std::uint32_t faces = scene.shadow_face_count();
+    const ImageHandle depths = graph.add_image({inputs.prefix + "glass_depths" + suffix,
+                                                TexelFormat::rgba32f, edge, edge,
+                                                faces * scene.light_count()});
+    for (std::uint32_t light = 0; light < scene.light_count(); ++light) {
+        const std::string name = scene.light_count() == 1
+                                     ? "glass_shadow"
+                                     : "glass_shadow/" + std::to_string(light + 1);
+        graph.add_pass(inputs.prefix + name + suffix)
+            .reads(shadow_map, ResourceUse::sampled)
+            .writes(depths.select_image_layers(faces * light, faces), ResourceUse::colour,
+                    graph::ClearValue{})
+            .set_pass_layer_count(faces)
+            .record([&scene, light, shadow_map](PassCommands& commands) {
+                scene.bind(commands);
+                commands.bind_resource("shadow_depths", shadow_map, graph::TextureFilter::nearest);
+                gpu::RasterPipelineState state{"", "glass_shadow.frag", {}};
+                state.blending = gpu::Blending::sum;
+                draw_objects(commands, scene, state, scene.shadow_view_index(light),
+                             scene.drawn_shadow_faces(light), 0,
+                             [&](std::size_t i) { return scene.list_draw_ranges()[i].tints; });
+            });
+    }
+    return depths;
+}
+
 } // namespace catoptric::render

@@ -18,7 +18,8 @@ namespace {
 
 std::uint32_t ray_mask_of_draw_range(const ObjectDrawRange& range) {
     return (range.seen_by_camera ? 0 : bvh::kHiddenFromCameraFlag) |
-           (range.casts_shadow ? 0 : bvh::kCastsNoShadowFlag) |
+           (range.casts_shadow || range.tints ? 0 : bvh::kCastsNoShadowFlag) |
+           (range.tints ? bvh::kTintsShadowFlag : 0) |
            (range.exact_sphere ? bvh::kTriangleApproximatesSphereFlag : 0) |
            (range.one_sided ? bvh::kOneSidedFlag : 0) | (range.masked ? bvh::kAlphaMaskedFlag : 0);
 }
@@ -70,7 +71,8 @@ std::vector<bvh::Triangle> replace_by_exact_spheres(std::span<const bvh::Triangl
         std::ranges::fill(own, nothing);
         own.front() = bvh::make_sphere_primitive(
             surfaces[i].centre, surfaces[i].radius, i,
-            ray_mask_of_draw_range(range) & (bvh::kHiddenFromCameraFlag | bvh::kCastsNoShadowFlag));
+            ray_mask_of_draw_range(range) &
+                (bvh::kHiddenFromCameraFlag | bvh::kCastsNoShadowFlag | bvh::kTintsShadowFlag));
     }
     return triangles;
 }

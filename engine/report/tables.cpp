@@ -216,7 +216,9 @@ constexpr CellTextWriter kCellTextWriters[] = {
                          "largest are glass; of the others, the diffuse part is drawn"},
     {"partial-glass", "glass that is partly metal, or lets less than half of the light pass: drawn "
                       "as if no light passed it"},
-    {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent"},
+    {"glass-shadow", "glass casts no shadow, so light passes it without being tinted or bent; "
+                     "--glass-shadow tint tints it"},
+    {"glass-shadow-straight", "light passes it on straight rays: it is tinted, but not bent"},
     {"smooth-dielectric", "reflects the environment alone where rays are not traced; "
                           "--dielectric-mirrors makes mirrors of them"},
     {"skin", "posed by its joints at rest"},

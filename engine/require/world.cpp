@@ -91,7 +91,7 @@ void VisibilityScene::set_layout(const scene::Scene& now) {
         thing.is_mirror = scene::is_mirror(now, object);
         thing.is_glass = scene::is_glass(now.materials[object.material]);
         thing.casts_shadow = scene::emitted_radiance(now.materials[object.material]) == vec3(0) &&
-                             !thing.is_glass;
+                             (!thing.is_glass || now.tints_glass_shadows);
         thing.tight_rest = scene::bounds(now, object);
         if (thing.is_mover)
             movers_.push_back(i);

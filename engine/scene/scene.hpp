@@ -152,12 +152,13 @@ struct Scene {
     std::shared_ptr<const Environment> environment; ///< none: black
     float mirror_max_roughness = .6f;               ///< rougher surfaces are no mirrors
     bool has_multiple_scattering = false;           ///< rough lobes lose no light (Turquin 2019)
+    bool tints_glass_shadows = false;               ///< glass attenuates the light of shadow rays
     int light_samples = 1;                          ///< points that replace each lamp
     std::optional<double> exposure;                 ///< stops, if the file gives them
     std::vector<UnsupportedFeature> unsupported;
     std::vector<std::string> warnings; ///< about features that the loader left out or repaired
-    /// Real paths of the scene's files, its own first. They include files that the scene names but
-    /// that were not read. No output may be written over them.
+    /// Real paths of the scene's files, its own first, also of files that were not read. No output
+    /// may be written over them.
     std::vector<std::filesystem::path> files;
 };
 

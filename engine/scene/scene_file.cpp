@@ -76,7 +76,7 @@ Json mirror_override_to_json(const MirrorOverride& wish) {
            (wish.roughness > 0 ? ",roughness=" + text(wish.roughness) : "");
 }
 
-const std::array<SceneFileJsonKey, 14> kSceneFileKeys{
+const std::array<SceneFileJsonKey, 15> kSceneFileKeys{
     {{"mirrors",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
           for (const std::string& text : read_text_list_member(file, value, "mirrors"))
@@ -122,6 +122,18 @@ const std::array<SceneFileJsonKey, 14> kSceneFileKeys{
       [](const SceneOverrides& overrides) {
           if (!overrides.multiple_scattering) return Json();
           return Json(*overrides.multiple_scattering ? "turquin" : "none");
+      }},
+     {"glass_shadow",
+      [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
+          const std::string text = read_text_member(file, value, "glass_shadow");
+          file.require_condition(text == "none" || text == "tint",
+                                 "glass_shadow: wanted \"none\" or \"tint\", found ",
+                                 quote_text_with_escapes(text));
+          overrides.tints_glass_shadows = text == "tint";
+      },
+      [](const SceneOverrides& overrides) {
+          if (!overrides.tints_glass_shadows) return Json();
+          return Json(*overrides.tints_glass_shadows ? "tint" : "none");
       }},
      {"light_samples",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {

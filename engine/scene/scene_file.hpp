@@ -11,9 +11,9 @@
 /// SCENE.catoptric.json: overrides that a user writes into a file beside a scene.
 ///   {"mirrors": ["PATTERN=REFLECTANCE", ...], "lights": ["PATTERN", ...],
 ///    "mirror_max_roughness": 0.6, "dielectric_mirrors": false,
-///    "multiple_scattering": "none|turquin", "environment": "FILE|studio|none",
-///    "environment_scale": 1, "environment_rotate": 0, "ambient": 0.05, "exposure": "auto" | STOPS,
-///    "camera": "C", "up": "y|z", "animation": "NAME|none"}
+///    "multiple_scattering": "none|turquin", "glass_shadow": "none|tint", "environment":
+///    "FILE|studio|none", "environment_scale": 1, "environment_rotate": 0, "ambient": 0.05,
+///    "exposure": "auto" | STOPS, "camera": "C", "up": "y|z", "animation": "NAME|none"}
 /// Each key takes the same value as the option of that name. A picture lies below the scene's
 /// folder or --root.
 namespace catoptric::scene {

@@ -130,6 +130,7 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     replace_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
     replace_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
     replace_if_set(both.multiple_scattering, stronger.multiple_scattering);
+    replace_if_set(both.tints_glass_shadows, stronger.tints_glass_shadows);
     replace_if_set(both.light_samples, stronger.light_samples);
     replace_if_set(both.environment, stronger.environment);
     replace_if_set(both.environment_scale, stronger.environment_scale);
@@ -232,6 +233,10 @@ void apply_edit(Scene& scene, const SceneOverrides& overrides) {
         scene.mirror_max_roughness = static_cast<float>(*overrides.mirror_max_roughness);
     scene.has_multiple_scattering = overrides.multiple_scattering.value_or(
         scene.has_multiple_scattering);
+    scene.tints_glass_shadows = overrides.tints_glass_shadows.value_or(scene.tints_glass_shadows);
+    for (UnsupportedFeature& feature : scene.unsupported)
+        if (scene.tints_glass_shadows && feature.id == "glass-shadow")
+            feature.id = "glass-shadow-straight";
     for (const MirrorOverride& wish : overrides.mirrors)
         check(wish.roughness <= scene.mirror_max_roughness, Failure::usage, "--mirror ",
               quote_text_with_escapes(wish.pattern), ": wanted a roughness of at most ",

@@ -46,6 +46,7 @@ struct SceneOverrides {
     std::optional<double> mirror_max_roughness;
     std::optional<bool> dielectric_mirrors;
     std::optional<bool> multiple_scattering; ///< "turquin" in files and on the command line
+    std::optional<bool> tints_glass_shadows; ///< "tint" in files and on the command line
     std::optional<int> light_samples;        ///< 1 to kMaxLightSamples
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;

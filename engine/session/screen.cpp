@@ -172,8 +172,9 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
             commands.bind_vertex_and_index_buffers(slot.vertices, slot.indices);
             commands.draw(0, 3);
             if (draws.empty()) return;
-            commands.bind_pipeline(gpu::RasterPipelineState{
-                .vertex = "overlay.vert", .fragment = "overlay.frag", .blended = true});
+            commands.bind_pipeline(gpu::RasterPipelineState{.vertex = "overlay.vert",
+                                                            .fragment = "overlay.frag",
+                                                            .blending = gpu::Blending::cover});
             commands.bind_resource("Corners", slot.vertices);
             commands.bind_resource("Font", font);
             commands.push_constants(shared::OverlayParameters{size, font_size});

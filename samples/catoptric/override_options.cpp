@@ -46,6 +46,15 @@ void add_surface_options(CommandVerb& verb, scene::SceneOverrides& overrides) {
                   quote_text_with_escapes(text));
             overrides.multiple_scattering = text == "turquin";
         });
+    verb.option("--glass-shadow", "NAME",
+                "shadow of glass: none (all light passes) or tint (the light that straight rays "
+                "through it leave) (none)",
+                [&](const std::string& text) {
+                    check(text == "none" || text == "tint", Failure::usage,
+                          "--glass-shadow: wanted none or tint, found ",
+                          quote_text_with_escapes(text));
+                    overrides.tints_glass_shadows = text == "tint";
+                });
 }
 
 void add_environment_options(CommandVerb& verb, scene::SceneOverrides& overrides) {

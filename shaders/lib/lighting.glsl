@@ -1,12 +1,13 @@
 // Shading that the rasteriser and the ray tracer share. Before the include, a shader defines the function
 //   float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance)
-// that returns the visible share of a light. Shading calls visible_share_of_light only if the cosines at light and surface are
-// both positive.
+// that returns the visible share of a light, and with tints_shadows sets light_tint. Shading calls visible_share_of_light only
+// if the cosines at light and surface are both positive.
 #ifndef CATOPTRIC_LIGHTING_GLSL
 #define CATOPTRIC_LIGHTING_GLSL
 
 #include "lib/bindings.glsl"
 #include "lib/environment.glsl"
+#include "lib/glass_shadow.glsl"
 #include "lib/light_kinds.glsl"
 #include "lib/light_probes.glsl"
 #include "lib/material.glsl"
@@ -59,8 +60,10 @@ vec3 shade_surface(Surface surface, vec3 position, vec3 normal, vec3 facet, vec3
             is_lit = factor > 0.0;
         }
         if (is_lit) {
+            if (tints_shadows != 0u) light_tint = vec3(1);
             float visible = visible_share_of_light(light, position, normal, direction, distance);
             vec3 irradiance = read_light(light).intensity * (factor * visible);
+            if (tints_shadows != 0u && !is_glass(surface.detail)) irradiance *= light_tint;
             direct += irradiance;
             if (has_clear_coats != 0u && has_rough_coat && !is_light_a_lamp(light)) {
                 vec3 to_light = vec3(dot(tangent, direction), dot(bitangent, direction), dot(normal, direction));

@@ -5,10 +5,34 @@
 
 #include "lib/bindings.glsl"
 #include "lib/constants.glsl"
+#include "lib/glass_shadow.glsl"
 #include "lib/lights.glsl"
 
 // 1: the pass has shadow maps. 0: nothing reads them, and surfaces drawn by raster are lit without shadows.
 layout(constant_id = HAS_SHADOW_MAP_CONSTANT) const uint has_shadow_map = 0u;
+
+// The optical depth of the glass between each light and the surfaces in its shadow map, in the same layers.
+layout(set = 0, binding = GLASS_DEPTHS_BINDING) uniform sampler2DArray glass_depths;
+
+// Returns the share of the four texels around `place`, 0 to 1 across the layer, whose surfaces are not nearer to the light
+// than `depth`, and sets light_tint to the mean tint of their light.
+float compare_with_shadow_map(vec2 place, float layer, float depth) {
+    float visible = texture(shadow_map, vec4(place, layer, depth));
+    if (tints_shadows == 0u || visible == 0.0) return visible;
+    vec2 size = vec2(textureSize(shadow_map, 0).xy), at = place * size - 0.5, low = floor(at), share = at - low;
+    // Texels in the order of a gather: lower left, lower right, upper right, upper left, where v points down.
+    vec4 weights = textureGather(shadow_map, vec3(place, layer), depth) *
+        vec4((1.0 - share.x) * share.y, share.x * share.y, share.x * (1.0 - share.y), (1.0 - share.x) * (1.0 - share.y));
+    float sum = dot(weights, vec4(1));
+    if (!(sum > 0.0)) return visible;
+    vec3 passed = vec3(0);
+    for (int i = 0; i < 4; ++i) {
+        vec2 texel = clamp(low + vec2(i == 1 || i == 2, i < 2), vec2(0), size - 1.0);
+        passed += weights[i] * share_behind_glass(texelFetch(glass_depths, ivec3(texel, layer), 0).rgb);
+    }
+    light_tint = passed / sum;
+    return visible;
+}
 
 // How far the looked-up point is lifted off its surface, in texels times sin(theta), where the surface is tilted by
 // theta against the shadow face. The four taps lie within one texel of the point along each axis, so a lift of sqrt(2)
@@ -51,7 +75,7 @@ float sample_parallel_shadow_map(uint light, vec3 position, vec3 normal, float e
         float slack = kShadowDepthError * (1.0 + view.near * edge * texel * sine / max(abs(cosine), kShadowDepthError));
         float depth = 1.0 - view.near * dot(view.forward, v) + slack;
         count_work_once(kWorkShadowLookups);
-        return texture(shadow_map, vec4(place * 0.5 + 0.5, float(light * shadow_face_count() + window), depth));
+        return compare_with_shadow_map(place * 0.5 + 0.5, float(light * shadow_face_count() + window), depth);
     }
     return 1.0;
 }
@@ -75,17 +99,17 @@ float sample_shadow_map(uint light, vec3 position, vec3 normal, float error, uin
     float slack = kShadowDepthError * (1.0 + place.z * dot(abs(n), vec3(1)) / height);
     float layer = float(light * shadow_face_count() + uint(face));
     count_work_once(kWorkShadowLookups);
-    return texture(shadow_map, vec4(place.xy / place.z * 0.5 + 0.5, layer, read_light(light).near / place.z * (1.0 + slack)));
+    return compare_with_shadow_map(place.xy / place.z * 0.5 + 0.5, layer, read_light(light).near / place.z * (1.0 + slack));
 }
 float sample_shadow_map(uint light, vec3 position, vec3 normal, float error) {
     return sample_shadow_map(light, position, normal, error, kBiasAlongNormal);
 }
 
 // Finds the share of the light that reaches the point. Returns false at the edge of a shadow, where the four taps differ
-// and a shadow ray must tell.
+// and a shadow ray must tell, and behind glass.
 bool find_light_share_by_shadow_map(uint light, vec3 position, vec3 normal, float error, out float visible) {
     visible = sample_shadow_map(light, position, normal, error, kBiasTowardsLight);
-    return visible == 0.0 || visible == 1.0;
+    return visible == 0.0 || (visible == 1.0 && (tints_shadows == 0u || light_tint == vec3(1)));
 }
 
 #endif

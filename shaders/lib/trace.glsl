@@ -8,6 +8,8 @@
 // TRACE_BALLS: whether the BVH may hold spheres in place of triangles.
 // TRACE_IS_THERE(stored triangle, object, barycentric, is shadow ray): returns false where rays of this kind pass a
 // kBvhAlphaMasked triangle.
+// TRACE_TINTS_SHADOWS: with tints_shadows, shadow rays call pass_triangle_of_glass or pass_sphere_of_glass where they meet
+// kBvhTintsShadow triangles and spheres, and go on.
 // Four choices make the walk fast on a processor: uniform texel buffers, the stack in shared memory, divergent lanes,
 // and loops that test their condition at the end. The software driver jumps only at a loop's end, so it runs the body
 // of a loop that tests first once more than needed. NAIVE selects storage buffers and a private stack, the obvious
@@ -109,6 +111,22 @@ void read_triangle_corners(uint place, out vec3 a, out vec3 b, out vec3 c) {
     c = bvh_triangles_at(3u * place + 2u).xyz;
 }
 
+#ifdef TRACE_TINTS_SHADOWS
+// Takes note of the glass that a shadow ray passes. `record`: record of the instance, whose object space holds ray and glass.
+// `corner`: number of the triangle in the list of corners. `facet`: normal of the triangle, of any length.
+void pass_triangle_of_glass(uint record, Ray ray, uint object, uint corner, vec3 weights, vec3 facet, float t);
+void pass_sphere_of_glass(Ray ray, uint object, vec3 centre, float radius, float t_max);
+
+// Returns whether a triangle owns the points on its side from `a` to `b`. Of two triangles that share a side, in opposite
+// directions, one does, and so does one of all those around a corner. Others would count a surface twice there.
+bool owns_side(vec3 a, vec3 b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+bool owns_point(vec3 a, vec3 b, vec3 c, vec3 weights) {
+    return (weights.x != 0.0 || owns_side(b, c)) && (weights.y != 0.0 || owns_side(c, a)) && (weights.z != 0.0 || owns_side(a, b));
+}
+#endif
+
 bool intersects_sphere(vec3 centre, float radius, Ray ray, float t_max, out float t) {
     return is_precision_rule_kept(kStableSphereRule) ? intersect_sphere_robustly(centre, radius, ray, t_max, t)
         : plain_sphere_test(centre, radius, ray, t_max, t);
@@ -141,6 +159,17 @@ void intersect_stored_triangle(uint place, TreeWalkState walked, uint skipped_fl
     bool seen = (skips == 0u || (skips == kBvhOneSided && !hits_back_face(a.xyz, b.xyz, c.xyz, ray.direction))) &&
                 triangle + 1u != ray.leaves && TRACE_SEES(object);
     bool nearer = t < best.t || (found && t == best.t && triangle < best.triangle);
+#ifdef TRACE_TINTS_SHADOWS
+    if (tints_shadows != 0u && (flags & kBvhTintsShadow) != 0u && (skipped_flags & kBvhCastsNoShadow) != 0u) {
+        if (TRACE_BALLS && (flags & kBvhSpherePrimitive) != 0u) {
+            if (seen) pass_sphere_of_glass(ray, object, a.xyz, b.x, best.t);
+        } else if (hit && seen && nearer && owns_point(a.xyz, b.xyz, c.xyz, weights)) {
+            pass_triangle_of_glass(walked.record, ray, object, triangle - walked.shift, normalise_barycentric(weights),
+                                   cross(b.xyz - a.xyz, c.xyz - a.xyz), t);
+        }
+        return;
+    }
+#endif
 #ifdef TRACE_IS_THERE
     if (masks != 0u && hit && seen && nearer && (flags & kBvhAlphaMasked) != 0u)
         seen = TRACE_IS_THERE(triangle - walked.shift, object, normalise_barycentric(weights), (skipped_flags & kBvhCastsNoShadow) != 0u);
@@ -197,6 +226,13 @@ TreeWalkState begin_walk_in_instance(uint record, Ray ray, vec3 low, out uint ro
 void intersect_instance_sphere(TreeWalkState walked, uint skipped_flags, inout TraceHit best, inout bool found) {
     float t;
     float radius = object_space_sphere_radius(walked.record);
+#ifdef TRACE_TINTS_SHADOWS
+    if (tints_shadows != 0u && (walked.flags & kBvhTintsShadow) != 0u && (skipped_flags & kBvhCastsNoShadow) != 0u) {
+        bool is_met = (walked.flags & skipped_flags & ~(kBvhStandsForSphere | kBvhOneSided)) == 0u && radius > 0.0;
+        if (is_met) pass_sphere_of_glass(walked.ray, walked.object, vec3(0), radius, best.t);
+        return;
+    }
+#endif
     if ((walked.flags & skipped_flags & ~(kBvhStandsForSphere | kBvhOneSided)) == 0u && TRACE_SEES(walked.object) &&
         radius > 0.0 &&
         intersect_sphere_robustly(vec3(0), radius, walked.ray, best.t, t)) {

@@ -44,6 +44,8 @@ bool passes_alpha_test(uint triangle, uint object, vec3 barycentric, bool is_sha
 layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #define TRACE_BALLS (exact_spheres != 0u)
 
+#define TRACE_TINTS_SHADOWS
+#include "lib/glass_shadow.glsl"
 #include "lib/trace.glsl"
 #include "lib/shadow.glsl"
 #ifdef DOUBLES
@@ -355,6 +357,46 @@ float counted_share_of_met_emission(SurfacePoint p, vec3 origin, float ray_densi
     return ray_density / (ray_density + solid_angle_density(density, p.position - origin, p.facet));
 }
 
+// The glass that the shadow ray has passed so far: the ray's direction, whose length is that of t = 1 in scene units; the
+// optical depth, in which the inside of a body counts from the ray's origin to where the ray leaves the body, less the way to
+// where it enters; and the absorption of bodies that the ray has entered more often than left, per scene unit.
+vec3 shadow_direction, passed_depth, entered_absorption;
+
+// Adds the absorption up to the surface of a solid body.
+void pass_side_of_solid_glass(uint detail, float way, bool leaves) {
+    vec3 absorption = leaves ? read_material_parameters(detail).absorption : -read_material_parameters(detail).absorption;
+    passed_depth += absorption * way;
+    entered_absorption -= absorption;
+}
+
+void pass_triangle_of_glass(uint record, Ray ray, uint object, uint triangle, vec3 weights, vec3 facet, float t) {
+    Surface surface = read_surface(object);
+    uint corner = 3u * triangle;
+    VertexAttribute at = kNoAttribute;
+    if (has_vertex_attributes(surface.detail)) at = interpolate_attribute(corner, weights);
+    if (masks != 0u && fails_alpha_test(surface.detail, at)) return;
+    vec3 normal = weights.x * NORMAL(corner) + weights.y * NORMAL(corner + 1u) + weights.z * NORMAL(corner + 2u);
+    if (object_spaces != 0u && record != 0u) normal = transform_normal_out_of_object_space(read_instance_ray_transform(record), normal);
+    passed_depth += glass_surface_depth(surface.detail, surface.albedo, at, abs(dot(normalize(normal), normalize(shadow_direction))));
+    if (is_solid_glass(surface.detail)) pass_side_of_solid_glass(surface.detail, t * length(shadow_direction), dot(facet, ray.direction) > 0.0);
+}
+
+void pass_sphere_of_glass(Ray ray, uint object, vec3 centre, float radius, float t_max) {
+    vec3 arm = centre - ray.origin;
+    float size = length(ray.direction), along = dot(arm, ray.direction) / size;
+    float square = radius * radius - dot(arm, arm) + along * along;
+    if (!(square > 0.0)) return;
+    float half_chord = sqrt(square);
+    Surface surface = read_surface(object);
+    vec3 depth = glass_surface_depth(surface.detail, surface.albedo, kNoAttribute, half_chord / radius);
+    for (int side = -1; side <= 1; side += 2) {
+        float t = (along + float(side) * half_chord) / size;
+        if (!(t > 0.0 && t < t_max)) continue;
+        passed_depth += depth;
+        if (is_solid_glass(surface.detail)) pass_side_of_solid_glass(surface.detail, t * length(shadow_direction), side > 0);
+    }
+}
+
 float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direction, float distance) {
     if (SHADOW_BY == kShadowNone) return 1.0;
     if (has_shadow_map != 0u && SHADOW_BY == kShadowMap)
@@ -374,7 +416,17 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
         ray.direction = direction;
         t = kLargestFloat;
     }
-    return has_any_hit(ray, t, kBvhCastsNoShadow | skipped_triangle_flags()) ? 0.0 : 1.0;
+    if (tints_shadows != 0u) {
+        shadow_direction = ray.direction;
+        passed_depth = entered_absorption = vec3(0);
+    }
+    bool is_hidden = has_any_hit(ray, t, kBvhCastsNoShadow | skipped_triangle_flags());
+    if (tints_shadows != 0u) {
+        // A light in a body of glass: its light has passed the glass from the light on.
+        if (!is_directional_light(light)) passed_depth += max(entered_absorption, vec3(0)) * length(shadow_direction);
+        light_tint = share_behind_glass(passed_depth);
+    }
+    return is_hidden ? 0.0 : 1.0;
 }
 #include "lib/lighting.glsl"
 

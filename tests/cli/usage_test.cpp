@@ -52,6 +52,7 @@ TEST_F(CommandLineTest, HelpNamesEveryCommonOption) {
                                "--mirror-max-roughness",
                                "--dielectric-mirrors",
                                "--multiple-scattering",
+                               "--glass-shadow",
                                "--light-samples",
                                "--environment",
                                "--environment-scale",
@@ -201,6 +202,7 @@ TEST_F(CommandLineTest, InvalidNumberOfAnOptionIsRefused) {
     for (const std::string share : {"-0.1", "1.1", "nan"})
         refused("--mirror-max-roughness", share, "from 0 to 1");
     refused("--multiple-scattering", "yes", "none or turquin");
+    refused("--glass-shadow", "yes", "none or tint");
     for (const std::string scale : {"-1", "inf"}) refused("--environment-scale", scale, "from 0");
     refused("--environment-rotate", "north", "finite");
     refused("--mirror", "a=2", "from 0 to 1");

@@ -278,6 +278,7 @@ TEST_F(Readers, ChangedSceneOverrideFilesAreReadOrRefused) {
                            {"mirror_max_roughness", 0.1},
                            {"dielectric_mirrors", false},
                            {"multiple_scattering", "turquin"},
+                           {"glass_shadow", "tint"},
                            {"light_samples", 4},
                            {"environment", "good.exr"},
                            {"environment_scale", 1},

@@ -45,7 +45,7 @@ protected:
 TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     measure::write_exr(measure::Picture(4, 2), folder / "sky.exr");
     const app::ResolvedScene found = load_with_override_file(
-        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin", "light_samples": 4,
+        R"({"mirrors": ["thing=0.5"], "mirror_max_roughness": 0.25, "dielectric_mirrors": true, "multiple_scattering": "turquin", "glass_shadow": "tint", "light_samples": 4,
             "environment": "sky.exr", "environment_scale": 2, "environment_rotate": -90,
             "ambient": 0.125, "exposure": -1.5, "camera": "1,2,3:0,0,0:30", "up": "y",
             "animation": "none"})");
@@ -54,6 +54,7 @@ TEST_F(Beside, EveryKeyOfTheOverrideFileIsRead) {
     EXPECT_EQ(scene.mirror_max_roughness, .25f);
     EXPECT_EQ(found.overrides.dielectric_mirrors, true);
     EXPECT_TRUE(scene.has_multiple_scattering);
+    EXPECT_TRUE(scene.tints_glass_shadows);
     EXPECT_EQ(scene.light_samples, 4);
     ASSERT_NE(scene.environment, nullptr);
     EXPECT_EQ(scene.environment->name, "sky.exr");
@@ -138,6 +139,8 @@ TEST_F(Beside, InvalidValueErrorsNameFileAndKey) {
                 HasSubstr("wanted true or false"));
     EXPECT_THAT(override_file_error_text(R"({"multiple_scattering": "full"})"),
                 HasSubstr("wanted \"none\" or \"turquin\", found 'full'"));
+    EXPECT_THAT(override_file_error_text(R"({"glass_shadow": "black"})"),
+                HasSubstr("glass_shadow: wanted \"none\" or \"tint\", found 'black'"));
     EXPECT_THAT(override_file_error_text(R"({"light_samples": 0})"),
                 HasSubstr("light_samples: wanted a number from 1 to 128, found 0"));
     EXPECT_THAT(override_file_error_text(R"({"light_samples": 2.5})"),
@@ -198,6 +201,7 @@ TEST_F(Beside, WrittenOverridesAreReadBackUnchanged) {
     overrides.lights = {"l*"};
     overrides.mirror_max_roughness = .3, overrides.dielectric_mirrors = false;
     overrides.multiple_scattering = true, overrides.light_samples = 9;
+    overrides.tints_glass_shadows = true;
     overrides.environment = (folder / "sky.exr").string(), overrides.environment_rotation = 12.5;
     overrides.exposure = ExposureOverride{}, overrides.up = UpAxis::z, overrides.camera = "c";
     const std::string scene = write_file_beside_scene("x.obj", kUnlitTriangleObjText);

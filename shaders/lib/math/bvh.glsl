@@ -16,6 +16,7 @@ const uint kBvhOneSided = 8u;         // flag: camera and mirror rays pass throu
 const uint kBvhAlphaMasked = 16u;     // flag: an alpha test may cut parts of the triangle out
 // Flag: a sphere takes the triangle's place: corner a is its centre, b.x its radius.
 const uint kBvhSpherePrimitive = 32u;
+const uint kBvhTintsShadow = 64u; // flag: glass, which attenuates the light of shadow rays that pass through
 
 const uint kBvhInstanceMarker = 5u; // triangle count that marks an instance, whose record is at the word's node
 // stack entry that marks the return from an instance to the scene's tree
