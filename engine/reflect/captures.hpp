@@ -2,6 +2,7 @@
 
 #include "reflect/technique.hpp"
 #include "render/light_probes.hpp"
+#include "render/passes.hpp"
 #include "shared.h"
 
 #include <algorithm>
@@ -138,14 +139,16 @@ inline constexpr TechniqueKnob kBlurLawKnob{
     .choices = kBlurLawChoices};
 
 /// In the order of shared::kRefract....
-inline constexpr std::array<std::string_view, 6> kGlassRefractionModelChoices{
-    "none", "auto", "thin", "sphere", "box", "traced"};
+inline constexpr std::array<std::string_view, 7> kGlassRefractionModelChoices{
+    "none", "auto", "thin", "sphere", "box", "traced", "backface"};
 inline constexpr TechniqueKnob kGlassRefractionModelKnob{
     .name = "refract",
-    .help = "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
-            "body: thin, sphere or box), thin (rays are not bent), sphere (a ball at each point), "
-            "box (the body's bounds), traced (rays where a tracer completes the search, else auto)",
-    .high = shared::kRefractTraced,
+    .help =
+        "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
+        "body: thin, sphere or box), thin (rays are not bent), sphere (a ball at each point), "
+        "box (the body's bounds), traced (rays where a tracer completes the search, else auto), "
+        "backface (the back faces that the camera's view shows, else auto)",
+    .high = render::kRefractBackface,
     .value = shared::kRefractAuto,
     .choices = kGlassRefractionModelChoices};
 

@@ -12,6 +12,13 @@ namespace catoptric::reflect {
 
 namespace {
 
+constexpr const char* kGlassBacks = "glass_backs"; // image in shaders/lib/refraction.glsl
+
+/// Returns the model of glass for views other than the camera's, which have no image of back faces.
+std::uint32_t choose_refraction_model_of_other_views(std::uint32_t refract) {
+    return refract == render::kRefractBackface ? shared::kRefractAuto : refract;
+}
+
 std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechniques& knobs) {
     if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return std::nullopt;
     return knobs.shadow_map;
@@ -119,7 +126,8 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
             (feeding.was_there[i] || !is_kept)) {
             look.fragment = technique.capture ? technique.in_captures : "reflect/parallax.frag";
             look.captures = feeding.last;
-            look.constants.emplace_back("refract_model", choice.shared.refract);
+            look.constants.emplace_back(
+                "refract_model", choose_refraction_model_of_other_views(choice.shared.refract));
             look.blank = !feeding.was_there[i];
             const auto mirror = static_cast<std::uint32_t>(i);
             // Asked for even if it is blank, because only what a frame asks for is there in the
@@ -217,13 +225,18 @@ choose_mirror_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
         render::MirrorShader& look = looks.looks[i];
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
+        std::erase_if(look.images, [](const auto& image) { return image.first == kGlassBacks; });
+        for (auto& [name, value] : look.constants)
+            if (name == "refract_model")
+                value = choose_refraction_model_of_other_views(std::get<std::uint32_t>(value));
         const Technique& technique = *assignment.choices[i].technique;
         if (is_drawn_by_mirrored_views(assignment.choices[i])) look = {};
         if (technique.capture || !technique.picture) continue;
         look = {};
         if (assignment.choices[i].shared.is_black_in_others || !outputs.captures) continue;
         look.fragment = "reflect/parallax.frag";
-        look.constants.emplace_back("refract_model", assignment.choices[i].shared.refract);
+        look.constants.emplace_back("refract_model", choose_refraction_model_of_other_views(
+                                                         assignment.choices[i].shared.refract));
         look.captures = outputs.captures;
     }
     return looks;
@@ -256,6 +269,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     outputs.kept = feedback.update.kept;
     render::ShaderOfEachMirror looks{{}, assignment.of_mirror};
     std::vector<TracerSettings> tracers;
+    std::optional<graph::ImageHandle> glass_backs;
     const bool needs_looks = completes || !assignment.of_mirror.empty();
     for (std::size_t i = 0; i < choices.size() && needs_looks; ++i) {
         render::FrameInputs own = inputs;
@@ -275,6 +289,10 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         if (look.mirror.captures == feedback.update.captures)
             feedback.levels.add_rough_lookup_mirrors(graph, around.mirrors, choices[i].shared,
                                                      look.mirror);
+        if (choices[i].shared.refract == render::kRefractBackface && inputs.scene.has_glass()) {
+            if (!glass_backs) glass_backs = render::add_glass_back_pass(graph, inputs);
+            look.mirror.images.emplace_back(kGlassBacks, std::vector{*glass_backs});
+        }
         if (look.tracer) {
             if (!look.tracer->paths) look.tracer->lighting.probes = lighting.probes;
             tracers.push_back(*look.tracer);

@@ -116,6 +116,8 @@ public:
         return material_details_.has_any_blended_material() &&
                scene_device_.supports_float_colour_blending();
     }
+    /// Returns whether rays pass through some surface.
+    bool has_glass() const { return material_details_.has_any_glass_material(); }
     /// Returns whether glass attenuates the light that surfaces behind it receive.
     bool has_tinted_shadows() const { return material_details_.has_tinted_shadows(); }
     /// Returns whether some surface has more than one colour.

@@ -79,6 +79,26 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
     return view;
 }
 
+ImageHandle add_glass_back_pass(graph::Graph& graph, const FrameInputs& inputs) {
+    const uvec2 size = inputs.size;
+    const ImageHandle backs = graph.add_image(
+        {inputs.prefix + "glass_backs", TexelFormat::rgba32f, size.x, size.y});
+    const ImageHandle depth = graph.add_image(
+        {inputs.prefix + "glass_backs.depth", TexelFormat::d32f, size.x, size.y});
+    graph.add_pass(inputs.prefix + "glass_backs")
+        .writes(backs, ResourceUse::colour, ClearValue{})
+        .writes(depth, ResourceUse::depth, kClearToFarthestDepth)
+        .record([&scene = inputs.scene](PassCommands& commands) {
+            scene.bind(commands);
+            draw_objects(commands, scene, {"", "glass_back.frag", {}}, GpuScene::kCameraViewIndex,
+                         1, 0, [&](std::size_t i) {
+                             const ObjectDrawRange& range = scene.list_draw_ranges()[i];
+                             return range.glass && range.seen_by_camera;
+                         });
+        });
+    return backs;
+}
+
 ImageHandle add_mirrored_view(graph::Graph& graph, const FrameInputs& inputs,
                               const std::string& name, const MirroredView& view,
                               std::uint32_t number, const ShadingLights& lighting,

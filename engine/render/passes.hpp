@@ -32,6 +32,13 @@ graph::ImageHandle add_glass_shadow_passes(graph::Graph& graph, const FrameInput
                                            graph::ImageHandle shadow_map, std::uint32_t edge,
                                            const std::string& suffix = "");
 
+/// Number of the knob value refract=backface, as in shaders/lib/refraction.glsl. Only camera views
+/// have the image that it reads.
+inline constexpr std::uint32_t kRefractBackface = shared::kRefractTraced + 1;
+/// Declares the pass that draws the back faces of glass in the camera's view
+/// (shaders/glass_back.frag). It counts as no scene pass.
+graph::ImageHandle add_glass_back_pass(graph::Graph& graph, const FrameInputs& inputs);
+
 /// Declares one pass for each mirror with a capture. The pass draws all faces that need drawing. If
 /// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
 /// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a

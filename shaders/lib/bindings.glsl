@@ -37,6 +37,7 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 // lib/rough.glsl uses the bindings 32 and 33, and lib/light_probes.glsl 34 to 36.
 #define GLASS_DEPTHS_BINDING 37  // optical depths of glass (lib/shadow.glsl)
 #define SHADOW_DEPTHS_BINDING 38 // the shadow map without comparison (glass_shadow.frag)
+#define GLASS_BACKS_BINDING 39   // back faces of glass in the camera's view (lib/refraction.glsl)
 // Bindings from 20 on belong to the techniques. lib/material.glsl uses these bindings:
 #define DETAILS_BINDING 40
 #define ATTRIBUTES_BINDING 41

@@ -4,9 +4,15 @@
 #ifndef CATOPTRIC_REFRACTION_GLSL
 #define CATOPTRIC_REFRACTION_GLSL
 
+#include "lib/drawn.glsl"
+#include "lib/eye.glsl"
 #include "lib/material.glsl"
 
 layout(constant_id = REFRACT_CONSTANT) const uint refract_model = kRefractNone;
+// A model of camera views alone: light leaves the body at the back face that an image of the view shows (Wyman, "An
+// Approximate Image-Space Approach for Interactive Refraction", 2005). Where the image shows none, the model is auto.
+const uint kRefractBackface = 6u;
+layout(set = 0, binding = GLASS_BACKS_BINDING) uniform sampler2D glass_backs; // see glass_back.frag
 
 // Returns whether light passes the surface that was evaluated last.
 bool is_refracting(uint detail) {
@@ -44,11 +50,85 @@ float find_way_out_of_box(vec3 at, vec3 direction, vec3 lowest, vec3 highest, ou
     return way;
 }
 
+// A point of a back face, and its normal, which points outwards.
+struct BackFace {
+    vec3 position;
+    vec3 normal;
+};
+
+// Reads the back face of the drawn body in a pixel. Returns false if the pixel shows none.
+bool read_back_face(View view, ivec2 pixel, out BackFace back) {
+    ivec2 size = textureSize(glass_backs, 0);
+    if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, size))) return false;
+    vec4 texel = texelFetch(glass_backs, pixel, 0);
+    if (texel.w != float(drawn_mirror_number())) return false;
+    vec2 place = (vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0;
+    vec3 across = place.x * view.right / dot(view.right, view.right) + place.y * view.down / dot(view.down, view.down);
+    float along = abs(texel.z), z = sqrt(max(1.0 - dot(texel.xy, texel.xy), 0.0));
+    back.position = view.eye + along * view.forward + (orthographic != 0u ? 1.0 : along) * across;
+    back.normal = vec3(texel.xy, texel.z < 0.0 ? -z : z);
+    return true;
+}
+
+// Returns where the view shows a point, in pixels.
+vec2 find_pixel_of_point(View view, vec3 point) {
+    vec3 v = point - view.eye;
+    float along = orthographic != 0u ? 1.0 : dot(view.forward, v);
+    return (vec2(dot(view.right, v), dot(view.down, v)) / along * 0.5 + 0.5) * vec2(textureSize(glass_backs, 0));
+}
+
+// Returns the mean normal of the back faces around a place, in pixels. Those that belong to another side of the body than
+// `normal` do not count.
+vec3 interpolate_back_normal(View view, vec2 place, vec3 normal) {
+    const float kSameSideCosine = 0.9;
+    vec2 low = floor(place - 0.5), share = place - 0.5 - low;
+    vec3 sum = vec3(0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        BackFace back;
+        if (!read_back_face(view, ivec2(low) + step, back) || dot(back.normal, normal) < kSameSideCosine) continue;
+        sum += back.normal * (step.x == 1 ? share.x : 1.0 - share.x) * (step.y == 1 ? share.y : 1.0 - share.y);
+    }
+    return dot(sum, sum) > 0.0 ? normalize(sum) : normal;
+}
+
+// Finds the way along `inside` from `at`, on the drawn body, to where the ray leaves it through a back face, and the normal
+// there, which points inwards. Meets the tangent planes of the back faces that it passes by turns (Newton's method), and turns
+// half-way back from where the view shows no back face. Returns false if the pixel itself shows none, or the ray does not
+// leave through a face in view.
+bool find_way_to_back_face(vec3 at, vec3 inside, out float way, out vec3 normal) {
+    const int kSteps = 12;
+    const float kTolerance = 1e-3, kMinCosine = 1e-2; // of the way; between the ray and the normal
+    View view = views[draw.first_view];
+    way = 0.0;
+    normal = -inside;
+    BackFace back;
+    if (!read_back_face(view, ivec2(gl_FragCoord.xy), back)) return false;
+    float seen_way = 0.0, next = dot(back.position - at, back.normal) / max(dot(inside, back.normal), kMinCosine);
+    bool is_met = false;
+    for (int i = 0; i < kSteps && !is_met; ++i) {
+        if (!(next > 0.0 && next <= kLargestFloat)) return false;
+        BackFace met;
+        if (!read_back_face(view, ivec2(floor(find_pixel_of_point(view, at + next * inside))), met)) {
+            next = 0.5 * (seen_way + next);
+            continue;
+        }
+        back = met;
+        seen_way = next;
+        next = dot(back.position - at, back.normal) / max(dot(inside, back.normal), kMinCosine);
+        is_met = abs(next - seen_way) <= kTolerance * next;
+    }
+    if (!(seen_way > 0.0) || !(dot(inside, back.normal) > kMinCosine)) return false;
+    way = is_met ? next : seen_way;
+    normal = -interpolate_back_normal(view, find_pixel_of_point(view, at + way * inside), back.normal);
+    return dot(inside, normal) < 0.0;
+}
+
 // Returns the ray that meets the glass at `at` along the unit vector `seen`, behind the glass. `n` is the surface's unit
 // normal; that of a solid body points outwards. `from_viewer`: the distance to the viewer, who may be inside the body.
 RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float from_viewer, Probe body) {
     MaterialParameters glass = read_material_parameters(detail);
-    bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced;
+    bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced || refract_model == kRefractBackface;
     bool is_thin = is_auto ? body.kind == kMirrorThinGlass : refract_model == kRefractThin;
     bool is_box = is_auto ? body.kind == kMirrorGlassBox : refract_model == kRefractBox;
     bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_inside_glass(detail, seen, n);
@@ -58,15 +138,21 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     RefractedRay ray = RefractedRay(at, seen, (1.0 - reflected) * glass_tint, reflected, passing_roughness(is_solid, glass.ior));
     if (is_inside) ray.weight *= exp(-glass.absorption * from_viewer);
     if (!is_solid || reflected == 1.0) return ray;
+    float way;
+    vec3 far_normal;
+    bool has_back_face = refract_model == kRefractBackface && !is_inside &&
+        find_way_to_back_face(at, refract_direction(seen, normal, cosine, ratio, cosine_behind), way, far_normal);
+    if (refract_model == kRefractBackface) is_thin = is_thin && !has_back_face;
     if (is_thin && !is_inside) {
         ray.weight *= ray.weight;
         return ray;
     }
     if (!is_thin) ray.direction = refract_direction(seen, normal, cosine, ratio, cosine_behind);
     if (is_inside) return ray;
-    vec3 inside = ray.direction, far_normal, size = body.highest - body.lowest;
-    float way;
-    if (is_box) {
+    vec3 inside = ray.direction, size = body.highest - body.lowest;
+    if (refract_model == kRefractBackface && has_back_face) {
+        // The way and the normal are known.
+    } else if (is_box) {
         way = find_way_out_of_box(at, inside, body.lowest, body.highest, far_normal);
     } else {
         float along = dot(normal, inside);
