@@ -54,7 +54,7 @@ struct DeviceFacts {
     std::string profile; ///< file name of the device's profile; empty if no profile applies
     std::vector<std::pair<std::string, std::string>> variants; ///< of shaders: name and choice
     int held_threads = 0; ///< threads that were each held on one processor during measurements
-    int lanes = 0; ///< number of 32-bit shader lanes that run together; 0 if not counted
+    int lanes = 0;        ///< number of 32-bit shader lanes that run together; 0 if not counted
 };
 
 /// Camera of a picture, in world units.
@@ -69,7 +69,7 @@ struct CameraFacts {
 struct UnsupportedFeatureFacts {
     std::string id;
     std::uint64_t count = 0;
-    std::string first; ///< place of the first occurrence
+    std::string first;                 ///< place of the first occurrence
     std::optional<double> pixel_share; ///< of the picture, 0..1; empty if pixels cannot tell it
 };
 
@@ -166,7 +166,7 @@ struct Row : Errors {
     /// Of directions, over first-order pixels. Null unless the row looks into captures.
     std::shared_ptr<LookupErrorSummary> lookup;
     std::shared_ptr<LightEdgeErrors> light_edges; ///< null unless the row looks into captures
-    std::shared_ptr<Causes> causes;              ///< see CompareRequest::studies; may be null
+    std::shared_ptr<Causes> causes;               ///< see CompareRequest::studies; may be null
     std::optional<double> traced_fraction;
     std::optional<AutoFace> auto_face;
     /// Errors in each of Comparison::views, in the same order. Empty if no views were drawn. A run

@@ -71,8 +71,8 @@ std::vector<std::string> RowErrorJudge::fill_row_errors_and_picture(report::Row&
         const TrueHitFinder& oracle = find_true_hit_finder(number);
         row.lookup = std::make_shared<measure::LookupErrorSummary>(measure::summarise_lookup_errors(
             oracle.judge_lookups(looked.lookup, has_knob_value(row, "mirrors", "left_out"))));
-        row.light_edges = std::make_shared<measure::LightEdgeErrors>(split_error_at_light_edges(
-            row, truth, hits, looked.lookup, oracle, base_.exposure));
+        row.light_edges = std::make_shared<measure::LightEdgeErrors>(
+            split_error_at_light_edges(row, truth, hits, looked.lookup, oracle, base_.exposure));
     }
     std::vector<std::string> warnings;
     if (looked.saturated.value_or(0) > 0)

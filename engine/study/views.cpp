@@ -79,8 +79,7 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
     // A view without judged pixels is never the worst.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
         row.worst = std::make_shared<measure::WorstView>(measure::WorstView{
-            row.views.size() - 1,
-            place_pictures_side_by_side(part.display, truth.part.display)});
+            row.views.size() - 1, place_pictures_side_by_side(part.display, truth.part.display)});
 }
 
 /// The reference of a view, and what its rays meet.

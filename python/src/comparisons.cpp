@@ -159,10 +159,9 @@ choose(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::s
        const std::optional<scene::Camera>& camera, double time, std::optional<double> exposure,
        std::optional<double> ambient, std::uint64_t seed, const std::string& model, int frames,
        int warmup, const std::string& reference, double reference_seconds,
-       std::optional<double> max_flip, std::optional<double> max_rmse,
-       std::optional<double> max_ms, double share, double confidence, int training_views,
-       int cameras_per_instant, int proof_views, std::uint64_t proof_seed,
-       const std::string& costs) {
+       std::optional<double> max_flip, std::optional<double> max_rmse, std::optional<double> max_ms,
+       double share, double confidence, int training_views, int cameras_per_instant,
+       int proof_views, std::uint64_t proof_seed, const std::string& costs) {
     app::ChooseRequest request;
     request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
                                 model);
@@ -180,9 +179,8 @@ choose(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::s
     request.proof_views = proof_views;
     request.proof_seed = proof_seed;
     request.costs = costs;
-    const app::ChosenPlan chosen = run_study(shared, request, [&](app::Engine& engine) {
-        return app::choose(engine, request);
-    });
+    const app::ChosenPlan chosen = run_study(
+        shared, request, [&](app::Engine& engine) { return app::choose(engine, request); });
     return {chosen.plan, chosen.failure, chosen.json};
 }
 
@@ -213,10 +211,10 @@ void bind_comparisons(nb::module_& module) {
                nb::arg("size"), nb::arg("camera").none(), nb::arg("time"),
                nb::arg("exposure").none(), nb::arg("ambient").none(), nb::arg("seed"),
                nb::arg("model"), nb::arg("frames"), nb::arg("warmup"), nb::arg("reference"),
-               nb::arg("reference_seconds"), nb::arg("max_flip").none(),
-               nb::arg("max_rmse").none(), nb::arg("max_ms").none(), nb::arg("share"),
-               nb::arg("confidence"), nb::arg("training_views"), nb::arg("cameras_per_instant"),
-               nb::arg("proof_views"), nb::arg("proof_seed"), nb::arg("costs"),
+               nb::arg("reference_seconds"), nb::arg("max_flip").none(), nb::arg("max_rmse").none(),
+               nb::arg("max_ms").none(), nb::arg("share"), nb::arg("confidence"),
+               nb::arg("training_views"), nb::arg("cameras_per_instant"), nb::arg("proof_views"),
+               nb::arg("proof_seed"), nb::arg("costs"),
                "Chooses a plan. Use catoptric.choose() instead.");
     module.def("create_folder", &report::create_folder, nb::arg("folder"),
                "Makes a folder with its parents. Existing folders are accepted.");

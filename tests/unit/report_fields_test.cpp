@@ -273,8 +273,7 @@ TEST(ReportFields, JsonReportHoldsRoundsAndLoad) {
 
 TEST(ReportFields, SetupTimesAreInJsonAndAboveTheRows) {
     Comparison made = make_comparison_of_distinct_figures(DistinctRowFiller());
-    made.setup = std::make_shared<SetupFacts>(
-        SetupFacts{1.5, 2.25, 33.5, 444.5, 6, "used"});
+    made.setup = std::make_shared<SetupFacts>(SetupFacts{1.5, 2.25, 33.5, 444.5, 6, "used"});
     EXPECT_EQ(json::parse(to_json(made))["setup"],
               json::parse(R"({"load_ms": 1.5, "upload_ms": 2.25, "hierarchy_ms": 33.5,
                               "compile_ms": 444.5, "pipelines": 6, "pipeline_cache": "used"})"));

@@ -38,8 +38,7 @@ Row make_row_with_view_flips(const std::string& label, const std::vector<double>
         if (std::isnan(flip)) errors.error = {};
         row.views.push_back(errors);
     }
-    row.worst = std::make_shared<measure::WorstView>(
-        measure::WorstView{2, measure::Picture(9, 3)});
+    row.worst = std::make_shared<measure::WorstView>(measure::WorstView{2, measure::Picture(9, 3)});
     return row;
 }
 
