@@ -280,7 +280,7 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
     EXPECT_EQ(audit.plan(), kRunningPlan);
     EXPECT_THAT(audit.describe(),
                 testing::MatchesRegex("audit: [0-9]+ of [0-9]+ frames keep flip <= 0.08; assured "
-                                      "share 0.[0-9]+"));
+                                      "share 0.[0-9]+; [0-9.]+ % of the frames' time"));
 }
 
 TEST(PlanAudit, ImpossibleAuditsAreRefused) {
