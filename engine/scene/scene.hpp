@@ -157,8 +157,7 @@ struct Scene {
     std::optional<double> exposure;                 ///< stops, if the file gives them
     std::vector<UnsupportedFeature> unsupported;
     std::vector<std::string> warnings; ///< about features that the loader left out or repaired
-    /// Real paths of the scene's files, its own first, also of files that were not read. No output
-    /// may be written over them.
+    /// Real paths of the scene's files, its own first, read or not. No output may replace them.
     std::vector<std::filesystem::path> files;
 };
 
