@@ -26,9 +26,10 @@ cp "$source/../LICENSE" "$licenses/LICENSE"
 find "$tool/../lib" -path '*/nanobind-*/licenses/LICENSE' -exec cp {} "$licenses/nanobind.txt" ';'
 packages=(libglm-dev nlohmann-json3-dev spirv-tools)
 while read -r library; do
-    for path in "$library" "/usr$library"; do # the package may name either
-        package=$(dpkg-query --search "$path" 2>/dev/null) && packages+=("${package%%:*}") && break
-    done
+    # The package may name either path.
+    package=$(dpkg-query --search "$library" 2>/dev/null || dpkg-query --search "/usr$library" 2>/dev/null) ||
+        { echo "wheel.sh: wanted the package of $library, found none" >&2; exit 1; }
+    packages+=("${package%%:*}")
 done < <(find "$work/prefix" -name 'libcatoptric.so' -o -name 'catoptric-draco.so' | xargs ldd |
     awk '$3 ~ "^/" && $1 !~ /^lib(c|m|stdc\+\+|gcc_s|vulkan|catoptric)\.so/ {print $3}' | sort -u)
 for package in "${packages[@]}"; do cp "/usr/share/doc/$package/copyright" "$licenses/$package.txt"; done

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "lib/drawn.glsl"
 #include "lib/eye.glsl"
+#include "lib/glass_shadow.glsl"
 
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 from_eye;
@@ -11,6 +12,7 @@ layout(location = 2) in vec3 from_eye;
 layout(location = 0) out vec4 out_back;
 
 void main() {
+    if (!is_solid_glass(drawn_material_parameters())) discard; // a sheet has no back, and would hide those behind it
     View view = views[draw.first_view];
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye));
     if (dot(facet, normal) < 0.0) facet = -facet;

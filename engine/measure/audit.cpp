@@ -35,7 +35,9 @@ void Audit::count_frame(bool passed) {
         constexpr double kLargest = 1e100; // far above any threshold; a smaller sum stays valid
         ratios_[i] = std::min(kLargest, ratio * (ratios_[i] + 1 / (start * (start + 1))));
     }
-    is_alarmed_ = is_alarmed_ || alarm_evidence() >= threshold();
+    // One failing frame is no evidence of a share, however small the allowed share is. Waiting for
+    // a second one only delays an alarm.
+    is_alarmed_ = is_alarmed_ || (failures_ >= 2 && alarm_evidence() >= threshold());
 }
 
 double Audit::alarm_evidence() const {

@@ -54,7 +54,7 @@ public:
     double assured_share() const;
     /// Returns A, which depends on the order of the frames.
     double alarm_evidence() const;
-    /// Returns whether A has reached 1/d at any frame.
+    /// Returns whether A has reached 1/d at any frame after a second failure.
     bool is_alarmed() const { return is_alarmed_; }
     const AuditedShare& tested_share() const { return tested_; }
 

@@ -50,6 +50,12 @@ void check_choose_request(const ResolvedChooseRequest& request) {
     check_part("confidence", request.confidence);
     check(request.max_error || request.max_ms, Failure::usage,
           "a limit is missing: wanted one of error or of time");
+    check(!request.max_error || (*request.max_error >= 0 && *request.max_error <= 1),
+          Failure::usage, "limit of error: wanted a number from 0 to 1, found ",
+          request.max_error.value_or(0));
+    check(!request.max_ms || (*request.max_ms >= 0 && std::isfinite(*request.max_ms)),
+          Failure::usage, "limit of time: wanted milliseconds of at least 0, found ",
+          request.max_ms.value_or(0));
     check(request.training_views >= static_cast<int>(measure::kMinIntervalSamples), Failure::usage,
           "training views: wanted at least ", measure::kMinIntervalSamples, ", found ",
           request.training_views);

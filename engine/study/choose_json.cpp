@@ -129,10 +129,12 @@ Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
 
 Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
                            const PlanProof& proof, const std::string& scene) {
-    return {{"schema", "catoptric/plan/1"},
-            {"plan", make_plan_rules_json(plan)},
-            {"certificate", make_certificate_json(request, proof, scene)},
-            {"proofs", Json::array({make_proof_json(proof)})}};
+    Json document{{"schema", "catoptric/plan/1"}, {"plan", make_plan_rules_json(plan)}};
+    // A plan that is not proved has figures, and no statement.
+    document[proof.holds() ? "certificate" : "not_proved"] = make_certificate_json(request, proof,
+                                                                                   scene);
+    document["proofs"] = Json::array({make_proof_json(proof)});
+    return document;
 }
 
 ChosenPlan choose(Engine& engine, const ChooseRequest& request) {

@@ -12,7 +12,8 @@ namespace catoptric::app {
 /// `scene` is how the user names the scene.
 report::Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
                               const std::string& scene);
-/// Returns the file of a plan that was proved alone. `plan`: its text in Request::techniques; a
+/// Returns the file of a plan that was tested alone. Its `certificate` is named `not_proved` if the
+/// plan does not hold. `plan`: its text in Request::techniques; a
 /// file that it names must exist.
 report::Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
                                    const PlanProof& proof, const std::string& scene);

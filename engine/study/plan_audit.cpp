@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
+#include "core/text.hpp"
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
 #include "measure/masks.hpp"
@@ -29,7 +30,7 @@ double read_number_member(const AuditJson& object, const char* member, double lo
     const bool fits = value.is_number() && value.get<double>() >= low &&
                       value.get<double>() <= high;
     check(fits, Failure::bad_data, place, ".", member, ": wanted a number from ", low, " to ", high,
-          ", found ", value.is_null() ? "nothing" : value.type_name());
+          ", found ", value.is_null() ? "nothing" : value.dump());
     return value.get<double>();
 }
 
@@ -51,6 +52,12 @@ std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::s
     check(chosen > 0, Failure::bad_data, file,
           ": proofs: wanted a plan that keeps the limits, found none");
     plans.resize(chosen);
+    // The rules of the chosen plan are in this file, and those of other files may have changed.
+    if (plans.back().starts_with("plan:")) plans.back() = "plan:" + file;
+    for (std::size_t i = 0; i + 1 < plans.size(); ++i)
+        check(!plans[i].starts_with("plan:"), Failure::bad_data, file, ": proofs[", i,
+              "].technique: wanted a plan that depends on no other file, found ",
+              quote_text_with_escapes(plans[i]));
     return plans;
 }
 
@@ -98,8 +105,11 @@ PlanAuditRequest read_plan_audit(const std::filesystem::path& file) {
     const std::string place = name + ": certificate";
     PlanAuditRequest request;
     request.plans = list_proved_plans(member("proofs", true), name);
-    if (certificate.value("quantity", AuditJson()) == "rmse")
-        request.quantity = ErrorQuantity::rmse;
+    const AuditJson quantity = certificate.value("quantity", AuditJson());
+    check(quantity == "flip" || quantity == "rmse", Failure::bad_data, place,
+          ".quantity: wanted \"flip\" or \"rmse\", found ",
+          quantity.is_null() ? "nothing" : quantity.dump());
+    if (quantity == "rmse") request.quantity = ErrorQuantity::rmse;
     const bool has_limit = !certificate.value("max_error", AuditJson()).is_null();
     request.max_error = read_number_member(certificate, has_limit ? "max_error" : "error_bound", 0,
                                            1, place);

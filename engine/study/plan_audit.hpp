@@ -84,7 +84,7 @@ public:
     /// Returns the audit of the present plan, since it runs.
     const measure::Audit& audit() const { return audit_; }
     const measure::AuditSchedule& schedule() const { return schedule_; }
-    /// Returns a line such as "audit: 37 of 37 frames keep flip <= 0.05; assured share 0.904; 4.1 %
+    /// Returns a line such as "audit: 37 of 37 frames keep flip <= 0.05; assured share 0.885; 4.1 %
     /// of the frames' time".
     std::string describe() const;
 

@@ -40,14 +40,20 @@ std::optional<std::string> describe_certificate(const Json& certificate) {
                  views = find_number(certificate, "views"),
                  failures = find_number(certificate, "failures"),
                  limit = find_number(certificate, "max_error"),
-                 bound = find_number(certificate, "error_bound");
+                 bound = find_number(certificate, "error_bound"),
+                 proved = find_number(certificate, "share_bound"),
+                 width = find_number(certificate, "width"),
+                 height = find_number(certificate, "height");
     const double error = std::isnan(limit) ? bound : limit; // with a limit of time alone
     const std::string quantity = find_text(certificate, "quantity");
-    if (quantity.empty() || !std::isfinite(share + confidence + views + failures + error))
+    if (quantity.empty() ||
+        !std::isfinite(share + confidence + views + failures + error + width + height))
         return std::nullopt;
+    if (!std::isnan(limit) && !(proved >= share)) return std::nullopt; // it proves less
     return fmt::format("at least {:.4g} % of views have {} <= {:.4g}, with {:.4g} % confidence "
-                       "({:.0f} views, {:.0f} failures)",
-                       100 * share, quantity, error, 100 * confidence, views, failures);
+                       "({:.0f} views, {:.0f} failures), at {:.0f}x{:.0f}",
+                       100 * share, quantity, error, 100 * confidence, views, failures, width,
+                       height);
 }
 
 /// Returns the certificate of a row as the row has it, or null.
@@ -117,11 +123,9 @@ void add_plan_certificates(const std::vector<std::string>& texts, measure::Compa
         if (!certificate.is_object()) continue;
         const std::optional<std::string> statement = describe_certificate(certificate);
         if (!statement) continue;
-        std::string size = fmt::format("{:.0f}x{:.0f}", find_number(certificate, "width"),
-                                       find_number(certificate, "height"));
         std::vector<measure::NamedMetricValueParts> list{
             {"statement",
-             *statement + ", at " + size,
+             *statement,
              {{"of_this_scene", find_text(certificate, "scene_hash") == comparison.scene.hash}}}};
         measure::set_row_metric_of_study(comparison.rows[i], kCertificateMetricName,
                                          std::move(list));

@@ -43,6 +43,16 @@ void check_rows_of_times(const CompareRequest& request, int /*count*/,
     }
 }
 
+/// Returns the times in at most `count` rounds of neighbouring frames, as our rows have them.
+std::vector<std::vector<double>> split_into_rounds(const std::vector<double>& list,
+                                                   std::size_t count) {
+    count = std::min(count, list.size());
+    std::vector<std::vector<double>> rounds(count);
+    for (std::size_t i = 0; i < list.size(); ++i)
+        rounds[i * count / list.size()].push_back(list[i]);
+    return rounds;
+}
+
 /// Adds the times to their rows. A time on the comparison's own device ranks its row.
 void add_row_times(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
@@ -52,9 +62,8 @@ void add_row_times(const StudyInput& input) {
         for (const auto& [name, list] : times.rows) {
             const auto row = std::ranges::find(rows, name, &report::Row::label);
             check(row != rows.end(), Failure::internal, "times of rows: no row ", name);
-            std::vector<std::vector<double>> rounds;
-            for (const double ms : list) rounds.push_back({ms});
-            const measure::SampleSummary summary = measure::summarise_samples(rounds);
+            const measure::SampleSummary summary = measure::summarise_samples(
+                split_into_rounds(list, static_cast<std::size_t>(input.comparison.rounds)));
             if (times.device == input.comparison.device.name) row->gpu_ms = row->frame_ms = summary;
             lists[static_cast<std::size_t>(row - rows.begin())].push_back(
                 {"device",

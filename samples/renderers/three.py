@@ -47,8 +47,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
     def do_GET(self):
         path = self.path.split("?")[0]
         for prefix, folder in self.places:
-            file = folder / path.removeprefix(prefix)
-            if path.startswith(prefix) and ".." not in path and file.is_file():
+            file = (folder / path.removeprefix(prefix).lstrip("/")).resolve()
+            if path.startswith(prefix) and file.is_relative_to(folder.resolve()) and file.is_file():
                 data = file.read_bytes()
                 self.send_response(200)
                 self.send_header("Content-Type", KINDS.get(file.suffix, "application/octet-stream"))

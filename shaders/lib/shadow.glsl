@@ -26,11 +26,14 @@ float compare_with_shadow_map(vec2 place, float layer, float depth) {
     float sum = dot(weights, vec4(1));
     if (!(sum > 0.0)) return visible;
     vec3 passed = vec3(0);
+    bool is_tinted = false; // a tint of exactly 1 needs no shadow ray (find_light_share_by_shadow_map)
     for (int i = 0; i < 4; ++i) {
         vec2 texel = clamp(low + vec2(i == 1 || i == 2, i < 2), vec2(0), size - 1.0);
-        passed += weights[i] * share_behind_glass(texelFetch(glass_depths, ivec3(texel, layer), 0).rgb);
+        vec3 glass_depth = texelFetch(glass_depths, ivec3(texel, layer), 0).rgb;
+        is_tinted = is_tinted || glass_depth != vec3(0);
+        passed += weights[i] * share_behind_glass(glass_depth);
     }
-    light_tint = passed / sum;
+    light_tint = is_tinted ? passed / sum : vec3(1);
     return visible;
 }
 

@@ -1,6 +1,6 @@
 // The script of report.html: the comparer, sortable tables, plot marks that choose a row, the choice of a device, and
 // tabs of scenes.
-// The page works from disk. Pictures are in the page; their linear values are in images/*.js beside it, which the
+// The page works from disk. Pictures are in the page, or beside it if they are many; their linear values are in images/*.js beside it, which the
 // comparer loads when it shows a row. Without these files the comparer shows the values of the 8-bit pictures.
 "use strict";
 (() => {
