@@ -96,6 +96,7 @@ TEST(Reflection, BindingsOfTheRayTracerAreFound) {
                                                                     "samples_lamps",
                                                                     "shadow",
                                                                     "texels_in_storage",
+                                                                    "tints_shadows",
                                                                     "traces_lobes",
                                                                     "traces_paths",
                                                                     "without"}));
