@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "measure/interval.hpp"
 #include "measure/statistics.hpp"
 #include "report/costs.hpp"
 #include "report/text.hpp"
@@ -43,7 +44,7 @@ void check_rows_of_times(const CompareRequest& request, int /*count*/,
     }
 }
 
-/// Returns the times in at most `count` rounds of neighbouring frames, as our rows have them.
+/// Returns the times in at most `count` rounds of neighbouring frames.
 std::vector<std::vector<double>> split_into_rounds(const std::vector<double>& list,
                                                    std::size_t count) {
     count = std::min(count, list.size());
@@ -63,7 +64,8 @@ void add_row_times(const StudyInput& input) {
             const auto row = std::ranges::find(rows, name, &report::Row::label);
             check(row != rows.end(), Failure::internal, "times of rows: no row ", name);
             const measure::SampleSummary summary = measure::summarise_samples(
-                split_into_rounds(list, static_cast<std::size_t>(input.comparison.rounds)));
+                split_into_rounds(list, std::max(static_cast<std::size_t>(input.comparison.rounds),
+                                                 measure::kMinIntervalSamples)));
             if (times.device == input.comparison.device.name) row->gpu_ms = row->frame_ms = summary;
             lists[static_cast<std::size_t>(row - rows.begin())].push_back(
                 {"device",

@@ -134,7 +134,7 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
     const json& mine = report["rows"][1];
     EXPECT_EQ(mine["gpu_ms"]["median"], .002);
     EXPECT_EQ(mine["gpu_ms"]["ci95"], json::parse("[0.001, 0.004]"));
-    EXPECT_EQ(report["pareto"], json::parse("[1]")) << "equal pictures, and it is faster";
+    EXPECT_EQ(report["pareto"][0], 1) << "the fastest of the front";
     ASSERT_EQ(mine["row_times"].size(), 2U);
     EXPECT_EQ(mine["row_times"][1], json::parse(R"({"device": "card", "ms": 4.5, "low_ms": null,
                                                     "high_ms": null, "frames": 1})"));
@@ -144,7 +144,7 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
     EXPECT_EQ(report["rows"][0]["costs"][0]["ms"], 5);
     EXPECT_EQ(report["rows"][0]["costs"][0]["on_front"], false);
     EXPECT_THAT(read_output_file("out/report.md"),
-                testing::ContainsRegex("mine \\| card \\| 4\\.500? \\| – \\| 1 \\|"));
+                testing::ContainsRegex("mine *[|] card +[|] +4[.]50 [|] +– [|] +1 [|]"));
 
     write_input_file("bad.json", R"({"schema": "catoptric/row-times/1", "device": "card",
                                      "rows": [{"row": "mine", "ms": [1, 0]}]})");
