@@ -96,14 +96,17 @@ TEST_F(ViewAuditTest, InvalidPlansAreRefused) {
     refused({"--audit", path_in_test_folder("none.json")}, Failure::missing_input, "none.json");
     refused_file(json::array(),
                  "certificate: wanted the one that 'catoptric choose' writes, found nothing");
-    json plan{{"certificate", {{"max_error", .1}, {"share", .95}, {"confidence", .95}}},
+    json plan{{"certificate",
+               {{"quantity", "flip"}, {"max_error", .1}, {"share", .95}, {"confidence", .95}}},
               {"proofs", {{{"technique", "reuse"}, {"keeps_error", true}, {"keeps_time", false}}}}};
     refused_file(plan, "proofs: wanted a plan that keeps the limits, found none");
     plan["proofs"][0]["keeps_time"] = true;
     plan["certificate"]["share"] = 1;
-    refused_file(plan, "certificate.share: wanted a number from 0.5 to 0.9999, found number");
+    refused_file(plan, "certificate.share: wanted a number from 0.5 to 0.9999, found 1");
     plan["certificate"]["share"] = .95, plan["certificate"].erase("max_error");
     refused_file(plan, "certificate.error_bound: wanted a number from 0 to 1, found nothing");
+    plan["certificate"]["quantity"] = "mae";
+    refused_file(plan, R"(certificate.quantity: wanted "flip" or "rmse", found "mae")");
     plan["proofs"][0]["technique"] = 1;
     refused_file(plan, "proofs[0].technique: wanted text, found number");
     Words rough = audit_words(1, "1");
