@@ -58,7 +58,7 @@ protected:
         EXPECT_EQ(count_occurrences(read_output_file("out/report.html"), "<article id=\"row-"), 4U);
         EXPECT_EQ(count_occurrences(read_output_file("out/rows.csv"), "\r\n"), 5U);
         const auto pictures = fs::directory_iterator(folder / "out/images");
-        EXPECT_EQ(std::distance(begin(pictures), end(pictures)), 3 + 4 * 4);
+        EXPECT_EQ(std::distance(begin(pictures), end(pictures)), 3 + 4 * 5);
     }
 
     /// Sends a signal during the frame of the fifth row, and the same signal again after
