@@ -152,7 +152,7 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
                                        "rows": [{"row": "yours", "ms": 1}]})");
     const std::pair<Words, std::string> refused[] = {
         {{"--row-times", "bad.json"},
-         "bad.json: rows[0].ms[1]: wanted milliseconds above 0, found 0"},
+         "bad.json: rows[0].ms[1]: wanted milliseconds above 0, found '0'"},
         {{"--row-times", "other.json"},
          "--row-times other.json: wanted the name of a row of --row, found 'yours'"},
         {{"--row-times", "card.json", "--row-times", "card.json"},
