@@ -92,12 +92,14 @@ public:
         resolve_auto_exposure(shared_session_, compare_request_.base);
         list_rows_to_measure();
         prepare_comparison();
+        // Read now, because a file may change or vanish while rows are measured.
+        const auto certificates = read_plan_certificates(compare_request_.base.techniques);
         try {
             if (!compare_request_.reference_file.empty())
                 truths_.keep_reference_in_file(compare_request_.reference_file);
             fill_reference_facts();
             measure_all_rounds();
-            add_plan_certificates(compare_request_.base.techniques, comparison_);
+            add_plan_certificates(certificates, comparison_);
             reduce_reference_noise();
             measure_pixel_centre_sampling_error();
             truths_.write_file();

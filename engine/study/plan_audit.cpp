@@ -118,6 +118,8 @@ PlanAuditRequest read_plan_audit(const std::filesystem::path& file) {
     if (const AuditJson reference = certificate.value("reference", AuditJson());
         reference.is_string())
         request.reference = reference.get<std::string>();
+    if (const AuditJson hash = certificate.value("scene_hash", AuditJson()); hash.is_string())
+        request.scene_hash = hash.get<std::string>();
     return request;
 }
 
@@ -239,7 +241,9 @@ PlanAuditOutcome PlanAudit::watch_frame(Session& session, const Frame& frame, co
     const bool is_of_plan = !spec.techniques.empty() && spec.techniques.front() == plan();
     if (is_of_plan && !is_prepared_) prepare(session, spec);
     const Clock::time_point begin = Clock::now();
-    const bool is_counted = shows_new_picture(session, spec) && is_of_plan &&
+    if (Access::session_counters(session).updates != updates_) // an edit may change a surface
+        is_rough_ = scene::has_rough_reflector(session.scene());
+    const bool is_counted = shows_new_picture(session, spec) && is_of_plan && !is_rough_ &&
                             ++frames_of_plan_ > kUncountedFramesOfPlan;
     if (is_counted && schedule_.count_frame(milliseconds_between(ended_, begin))) {
         if (request_.before_audit) request_.before_audit();
@@ -257,11 +261,12 @@ std::string PlanAudit::describe() const {
     const double share = schedule_.frames_ms() > 0 ? schedule_.audits_ms() / schedule_.frames_ms()
                                                    : 0;
     return fmt::format("audit: {} of {} frames keep {} <= {:g}; assured share {:.3f}; {:.1f} % of "
-                       "the frames' time{}",
+                       "the frames' time{}{}",
                        frames - audit_.failure_count(), frames,
                        error_quantity_name(request_.quantity), request_.max_error,
                        audit_.assured_share(), 100 * share,
-                       audit_.is_alarmed() ? "; alarm: too many frames fail" : "");
+                       audit_.is_alarmed() ? "; alarm: too many frames fail" : "",
+                       is_rough_ ? "; paused, because a surface is rough" : "");
 }
 
 } // namespace catoptric::app

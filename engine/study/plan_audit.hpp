@@ -21,6 +21,7 @@ struct PlanAuditRequest {
     ErrorQuantity quantity = ErrorQuantity::flip;
     double max_error = 0;                        ///< limit of mirror_error_of_view in a frame, 0..1
     std::string reference = "raytrace:depth=16"; ///< a technique that traces without noise
+    std::string scene_hash; ///< of the scene that the plans were proved for; empty: not known
     measure::AuditedShare tested;
     measure::AuditPace pace;
     /// Called before a frame is audited, while results of the frames before it can still be read.
@@ -75,11 +76,14 @@ public:
     /// Counts a frame, and audits it if it is drawn. Call it after each frame and before the next.
     /// `spec` is the frame's specification, and `seconds` a time that never falls. Frames are not
     /// counted if `spec` does not begin with `plan`, if they show the same camera, instant and
-    /// scene as the frame before, or within 8 frames after a change of plan. Results of the
-    /// session's earlier frames cannot be read after a frame was audited. Throws as prepare and
-    /// Session::frame do.
+    /// scene as the frame before, if a surface is rough, or within 8 frames after a change of plan.
+    /// Results of the session's earlier frames cannot be read after a frame was audited. Throws as
+    /// prepare and Session::frame do.
     PlanAuditOutcome watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                                  double seconds);
+
+    /// Counts no frame until captures can have settled again: after a cut, and with a new session.
+    void wait_until_settled() { frames_of_plan_ = 0; }
 
     /// Returns the audit of the present plan, since it runs.
     const measure::Audit& audit() const { return audit_; }
@@ -103,7 +107,8 @@ private:
     measure::AuditSchedule schedule_;
     measure::PlanLadder ladder_;
     bool is_prepared_ = false, was_alarmed_ = false;
-    int frames_of_plan_ = 0;           ///< frames counted since the plan began
+    bool is_rough_ = false;  ///< whether the scene has a rough surface, whose reference has noise
+    int frames_of_plan_ = 0; ///< frames counted since the plan began
     std::optional<FrameSpec> watched_; ///< of the last frame
     std::uint64_t updates_ = 0;        ///< of the session's scene data after the last frame
     Clock::time_point ended_;          ///< end of the last call

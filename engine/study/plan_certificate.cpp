@@ -112,21 +112,30 @@ const report::RegisteredReportPart kCertificatePart{{.name = kCertificateMetricN
 
 } // namespace
 
-void add_plan_certificates(const std::vector<std::string>& texts, measure::Comparison& comparison) {
-    for (std::size_t i = 0; i < std::min(texts.size(), comparison.rows.size()); ++i) {
+std::vector<std::optional<PlanCertificate>>
+read_plan_certificates(const std::vector<std::string>& texts) {
+    std::vector<std::optional<PlanCertificate>> certificates(texts.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
         if (!texts[i].starts_with(kPlanFilePrefix)) continue;
         const std::string file = texts[i].substr(kPlanFilePrefix.size());
-        const Json document = parse_json<Json>(file,
-                                               read_file(file)); // a plan that was read before
-        if (!document.is_object()) continue;
-        const Json certificate = document.value("certificate", Json());
+        const Json document = parse_json<Json>(file, read_file(file));
+        const Json certificate = document.is_object() ? document.value("certificate", Json())
+                                                      : Json();
         if (!certificate.is_object()) continue;
-        const std::optional<std::string> statement = describe_certificate(certificate);
-        if (!statement) continue;
+        if (const std::optional<std::string> statement = describe_certificate(certificate))
+            certificates[i] = {*statement, find_text(certificate, "scene_hash")};
+    }
+    return certificates;
+}
+
+void add_plan_certificates(const std::vector<std::optional<PlanCertificate>>& certificates,
+                           measure::Comparison& comparison) {
+    for (std::size_t i = 0; i < std::min(certificates.size(), comparison.rows.size()); ++i) {
+        if (!certificates[i]) continue;
         std::vector<measure::NamedMetricValueParts> list{
             {"statement",
-             *statement,
-             {{"of_this_scene", find_text(certificate, "scene_hash") == comparison.scene.hash}}}};
+             certificates[i]->statement,
+             {{"of_this_scene", certificates[i]->scene_hash == comparison.scene.hash}}}};
         measure::set_row_metric_of_study(comparison.rows[i], kCertificateMetricName,
                                          std::move(list));
         if (std::ranges::find(comparison.studies, kCertificateMetricName) ==

@@ -102,7 +102,7 @@ app::Request make_request(const scene::Scene& scene, const std::vector<std::stri
                           const std::pair<std::int64_t, std::int64_t>& size,
                           const std::optional<scene::Camera>& camera, double time,
                           std::optional<double> exposure, std::optional<double> ambient,
-                          std::uint64_t seed, const std::string& model) {
+                          std::uint64_t seed, const std::string& model, int frames, int warmup) {
     const SceneDefaults defaults = choose_defaults(scene, camera, ambient, exposure);
     app::Request request;
     request.scene = scene;
@@ -115,6 +115,8 @@ app::Request make_request(const scene::Scene& scene, const std::vector<std::stri
     request.ambient = defaults.ambient;
     request.seed = seed;
     request.model = parse_model(model);
+    request.frames = frames;
+    request.warmup = warmup;
     return request;
 }
 
@@ -141,9 +143,7 @@ compare(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::
         int warmup, const std::string& reference, double reference_seconds, int views) {
     app::CompareRequest request;
     request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
-                                model);
-    request.base.frames = frames;
-    request.base.warmup = warmup;
+                                model, frames, warmup);
     request.reference = reference;
     request.reference_seconds = reference_seconds;
     if (views > 0) request.studies.push_back({"views", views});
@@ -164,9 +164,7 @@ choose(SharedEngine& shared, const scene::Scene& scene, const std::vector<std::s
        int proof_views, std::uint64_t proof_seed, const std::string& costs) {
     app::ChooseRequest request;
     request.base = make_request(scene, techniques, size, camera, time, exposure, ambient, seed,
-                                model);
-    request.base.frames = frames;
-    request.base.warmup = warmup;
+                                model, frames, warmup);
     request.reference = reference;
     request.reference_seconds = reference_seconds;
     if (max_rmse) request.quantity = app::ErrorQuantity::rmse;

@@ -4,6 +4,7 @@
 #include "catoptric/signals.hpp"
 #include "core/error.hpp"
 #include "loop_impl.hpp"
+#include "scene/hash.hpp"
 #include "scene/pose.hpp"
 #include "session/exposure.hpp"
 
@@ -44,6 +45,9 @@ void ViewLoop::start_audit() {
     audit_.reset();
     if (view_options_.audit.empty()) return;
     app::PlanAuditRequest request = app::read_plan_audit(view_options_.audit);
+    if (!request.scene_hash.empty() && request.scene_hash != scene::hash_scene(request_.scene))
+        cli::print_warning("--audit " + view_options_.audit +
+                           ": its plans were proved for another scene");
     for (std::string& plan : request.plans) plan = technique_text_of_plan(parse_plan_text(plan));
     request.pace.every = view_options_.audit_every;
     request.pace.most_time = view_options_.audit_percent / 100;
@@ -56,6 +60,8 @@ void ViewLoop::start_audit() {
 void ViewLoop::audit_last_frame(const UserInput& inputs) {
     seconds_ += is_user_simulated() ? kFrameStepSeconds : inputs.seconds;
     if (!audit_) return;
+    if (viewer_->cut_count() != audited_cuts_) audit_->wait_until_settled();
+    audited_cuts_ = viewer_->cut_count();
     const app::PlanAuditOutcome outcome = viewer_->audit_last_frame(*audit_, seconds_);
     if (outcome.has_new_plan) state_.plan = parse_plan_text(audit_->plan());
     if (!outcome.message.empty()) show_message(outcome.message);
@@ -132,6 +138,7 @@ void ViewLoop::recover_from_error(const Error& error) {
     if (!is_lost) return show_message(error.what());
     cli::print_warning(std::string(error.what()) + "; a new session is made");
     open(SceneChangeOrigin::same);
+    if (audit_) audit_->wait_until_settled();
     state_.said = std::string("the device was lost: ") + error.what();
 }
 

@@ -118,7 +118,8 @@ void pass_triangle_of_glass(uint record, Ray ray, uint object, uint corner, vec3
 void pass_sphere_of_glass(Ray ray, uint object, vec3 centre, float radius, float t_max);
 
 // Returns whether a triangle owns the points on its side from `a` to `b`. Of two triangles that share a side, in opposite
-// directions, one does, and so does one of all those around a corner. Others would count a surface twice there.
+// directions, one does, and at most one of all those around a corner. Others would count a surface twice there. No triangle
+// owns a corner that lies furthest of its neighbours along an axis: a ray exactly through it misses one surface.
 bool owns_side(vec3 a, vec3 b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }

@@ -133,6 +133,38 @@ TEST(PlanAudit, ErrorIsThatOfAComparison) {
     }
 }
 
+/// The reference of rough surfaces has noise, so an edit that makes a surface rough pauses the
+/// audit.
+TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
+    const scene::Scene scene = make_audited_room();
+    const std::size_t shiny = scene.objects[scene::mirrors(scene).front()].material;
+    scene::Material rough = scene.materials[shiny];
+    rough.mirror = false, rough.metallic = 1, rough.roughness = .3f;
+    rough.albedo = vec3(.9f);
+    app::Session session(test::get_test_engine(), scene);
+    app::PlanAudit audit(make_request_of_every_frame());
+    app::FrameSpec spec = make_audited_spec(scene);
+    int k = 0;
+    const auto count_audited_frames = [&](int frames) {
+        const std::size_t before = audit.audit().frame_count();
+        for (int i = 0; i < frames; ++i, ++k) {
+            spec.camera = camera_of_frame(scene.cameras.front(), k);
+            const app::Frame frame = session.frame(spec);
+            audit.watch_frame(session, frame, spec, k / 60.);
+        }
+        return audit.audit().frame_count() - before;
+    };
+    EXPECT_EQ(count_audited_frames(8), 0u);
+    EXPECT_GT(count_audited_frames(30), 0u);
+    session.change(scene::set_material(shiny, rough));
+    EXPECT_EQ(count_audited_frames(30), 0u);
+    EXPECT_THAT(audit.describe(), testing::HasSubstr("; paused, because a surface is rough"));
+    session.change(scene::set_material(shiny, scene.materials[shiny]));
+    EXPECT_GT(count_audited_frames(30), 0u);
+    audit.wait_until_settled();
+    EXPECT_EQ(count_audited_frames(8), 0u);
+}
+
 /// The audit's frames are outside the sequence: each running picture keeps its bytes. The picture
 /// is large enough to be sampled, and choices for the first frame of the sequence stay.
 TEST(PlanAudit, RunningPicturesKeepTheirBytes) {

@@ -76,24 +76,16 @@ TEST_F(ViewAuditTest, StillSceneIsNotAudited) {
 }
 
 TEST_F(ViewAuditTest, InvalidPlansAreRefused) {
-    const auto refused = [&](const Words& words, Failure failure, const std::string& text) {
-        try {
-            run_view_in_test(words);
-            ADD_FAILURE() << text;
-        } catch (const Error& error) {
-            EXPECT_EQ(error.failure, failure);
-            EXPECT_THAT(error.what(), HasSubstr(text));
-        }
-    };
     const auto refused_file = [&](const json& plan, const std::string& text) {
         write_input_file("bad.json", plan.dump());
-        refused({"--audit", path_in_test_folder("bad.json"), "--frames", "1"}, Failure::bad_data,
-                "bad.json: " + text);
+        expect_view_refused({"--audit", path_in_test_folder("bad.json"), "--frames", "1"},
+                            Failure::bad_data, "bad.json: " + text);
     };
     Words both = audit_words(1, "1");
     both.insert(both.end(), {"--technique", "reuse"});
-    refused(both, Failure::usage, "wanted no --technique and no --plan beside it");
-    refused({"--audit", path_in_test_folder("none.json")}, Failure::missing_input, "none.json");
+    expect_view_refused(both, Failure::usage, "wanted no --technique and no --plan beside it");
+    expect_view_refused({"--audit", path_in_test_folder("none.json")}, Failure::missing_input,
+                        "none.json");
     refused_file(json::array(),
                  "certificate: wanted the one that 'catoptric choose' writes, found nothing");
     json plan{{"certificate",
@@ -111,7 +103,7 @@ TEST_F(ViewAuditTest, InvalidPlansAreRefused) {
     refused_file(plan, "proofs[0].technique: wanted text, found number");
     Words rough = audit_words(1, "1");
     rough.front() = "cornell-rough";
-    refused(rough, Failure::usage, "audit: wanted a scene without rough surfaces");
+    expect_view_refused(rough, Failure::usage, "audit: wanted a scene without rough surfaces");
 }
 
 } // namespace

@@ -55,25 +55,19 @@ TEST_F(ViewLifetimeTest, MemoryStaysConstantOverFrames) {
 }
 
 TEST_F(ViewLifetimeTest, InvalidOptionsAndMissingDisplayAreRefused) {
-    const auto refused = [&](const Words& words, Failure failure, const std::string& text) {
-        try {
-            run_view_in_test(words);
-            ADD_FAILURE() << text;
-        } catch (const Error& error) {
-            EXPECT_EQ(error.failure, failure);
-            EXPECT_THAT(error.what(), HasSubstr(text));
-        }
-    };
-    refused({"--screenshot", path_in_test_folder("a.png")}, Failure::usage,
-            "--screenshot is of the last frame: wanted --frames N, found none");
-    refused({"--frames", "1", "--screenshot", path_in_test_folder("a.gif")}, Failure::usage,
-            "--screenshot: wanted a name ending in .exr or .png, found '");
-    refused({"--technique", "secand"}, Failure::usage, "did you mean 'secant'?");
-    refused({"--sise", "4x4"}, Failure::usage, "'catoptric-view' has no option '--sise'");
+    expect_view_refused({"--screenshot", path_in_test_folder("a.png")}, Failure::usage,
+                        "--screenshot is of the last frame: wanted --frames N, found none");
+    expect_view_refused({"--frames", "1", "--screenshot", path_in_test_folder("a.gif")},
+                        Failure::usage,
+                        "--screenshot: wanted a name ending in .exr or .png, found '");
+    expect_view_refused({"--technique", "secand"}, Failure::usage, "did you mean 'secant'?");
+    expect_view_refused({"--sise", "4x4"}, Failure::usage,
+                        "'catoptric-view' has no option '--sise'");
     const std::string shown = std::getenv("DISPLAY");
     ::unsetenv("DISPLAY");
-    refused({"--frames", "1"}, Failure::no_device,
-            "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures");
+    expect_view_refused(
+        {"--frames", "1"}, Failure::no_device,
+        "no display: a window needs one (is DISPLAY set?); 'catoptric render' makes pictures");
     ::setenv("DISPLAY", shown.c_str(), 1);
 }
 

@@ -31,6 +31,16 @@ protected:
         })();
         return run_view_window(options, driver);
     }
+    /// Expects that the window program refuses the command line with this failure and text.
+    static void expect_view_refused(const Words& words, Failure failure, const std::string& text) {
+        try {
+            run_view_in_test(words);
+            ADD_FAILURE() << text;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.failure, failure);
+            EXPECT_THAT(error.what(), testing::HasSubstr(text));
+        }
+    }
     std::string path_in_test_folder(const std::string& name) const {
         return (folder / name).string();
     }
