@@ -57,15 +57,16 @@ CATOPTRIC_API Picture read_picture(const std::filesystem::path& path);
 CATOPTRIC_API Mask read_mask(const std::filesystem::path& path, int width, int height);
 
 /// Returns an OpenEXR file: 32-bit float R, G, B with each value bit-exact. The same picture always
-/// gives the same bytes, because the date in the header is fixed.
-CATOPTRIC_API std::string encode_exr(const Picture& picture);
+/// gives the same bytes, because the date in the header is fixed. `text`: attribute `comments`.
+CATOPTRIC_API std::string encode_exr(const Picture& picture, const std::string& text = {});
 /// Returns a PNG file with 8 bits a channel. Values must already be as displayed (see
 /// `to_display`). Others are clamped to [0,1] and NaN becomes 0. The same picture gives the same
 /// bytes.
 CATOPTRIC_API std::string encode_picture_png(const Picture& display);
 
 /// Write these files. A file is replaced as a whole or not at all.
-CATOPTRIC_API void write_exr(const Picture& picture, const std::filesystem::path& path);
+CATOPTRIC_API void write_exr(const Picture& picture, const std::filesystem::path& path,
+                             const std::string& text = {});
 CATOPTRIC_API void write_png(const Picture& display, const std::filesystem::path& path);
 
 /// Returns the LDR-FLIP map of two pictures as displayed (sRGB-encoded, [0,1], see

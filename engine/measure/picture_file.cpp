@@ -182,12 +182,14 @@ Mask read_mask(const std::filesystem::path& path, int width, int height) {
     return mask;
 }
 
-std::string encode_exr(const Picture& picture) {
+std::string encode_exr(const Picture& picture, const std::string& text) {
     std::vector<float> values;
     values.reserve(3 * picture.pixels.size());
     for (const vec3& pixel : picture.pixels)
         values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
-    return encode_openexr(rgb_float_image_shape(picture), values);
+    ImageSizeAndChannels shape = rgb_float_image_shape(picture);
+    shape.description = text;
+    return encode_openexr(shape, values);
 }
 
 std::string encode_picture_png(const Picture& display) {
@@ -202,8 +204,8 @@ std::string encode_picture_png(const Picture& display) {
     return catoptric::encode_png(rgb_float_image_shape(display), values);
 }
 
-void write_exr(const Picture& picture, const std::filesystem::path& path) {
-    write_file(path, encode_exr(picture));
+void write_exr(const Picture& picture, const std::filesystem::path& path, const std::string& text) {
+    write_file(path, encode_exr(picture, text));
 }
 
 void write_png(const Picture& display, const std::filesystem::path& path) {

@@ -11,10 +11,13 @@
 #include "options.hpp"
 #include "output_checks.hpp"
 #include "progress.hpp"
+#include "report/picture_origin.hpp"
+#include "scene/hash.hpp"
 #include "session/capture_budget.hpp"
 #include "session/exposure.hpp"
 #include "session/frames.hpp"
 #include "session/run.hpp"
+#include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "technique_option.hpp"
@@ -47,7 +50,9 @@ for --frames. The file is {"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"t
 With --animate, --camera-path, --frames, --warmup, --profile or --trace, frames are counted and timed as in compare.
 The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its name, one picture per measured
 frame is written, numbered from 1.
-EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.)";
+EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.
+--origin writes JSON of schema catoptric/picture/1 into the EXR attribute `comments` (in OpenImageIO:
+ImageDescription). Without it, equal pictures are equal files.)";
 
 struct RenderOptions {
     CommonOptions common;
@@ -57,6 +62,7 @@ struct RenderOptions {
     std::string trace;
     std::string profile;
     std::string camera_path; ///< file; empty: the camera stands still
+    bool origin = false;     ///< whether the picture's header says how it was made
 };
 
 bool writes_to_stdout(const RenderOptions& options) { return options.output == "-"; }
@@ -102,6 +108,8 @@ void check_output_options(const RenderOptions& options) {
         check(writes_exr(options) || options.output.ends_with(".png"), Failure::usage,
               "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
     }
+    check(!options.origin || writes_exr(options), Failure::usage,
+          "--origin: wanted -o with a name ending in .exr, found '", options.output, "'");
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) check_file_can_be_made(file);
 }
@@ -130,8 +138,28 @@ app::Request make_render_request(const RenderOptions& options) {
     return request;
 }
 
-void write_picture(const app::TechniqueResult& part, const std::string& file) {
-    if (file.ends_with(".exr")) return measure::write_exr(part.hdr, file);
+/// Returns what pictures of the request are made of, but for the camera and the instant. Empty
+/// without --origin.
+std::optional<report::PictureOrigin> make_picture_origin(const RenderOptions& options,
+                                                         const app::Request& request,
+                                                         const app::DeviceInfo& device) {
+    if (!options.origin) return std::nullopt;
+    return report::PictureOrigin{.version = app::version(),
+                                 .commit = app::commit(),
+                                 .device = device.name,
+                                 .driver = device.driver,
+                                 .scene = request.scene.name,
+                                 .scene_hash = scene::hash_scene(request.scene),
+                                 .technique = app::parse_technique(options.technique).label,
+                                 .model = rendered_work_name(request.model),
+                                 .exposure = request.exposure};
+}
+
+void write_picture(const app::TechniqueResult& part,
+                   const std::optional<report::PictureOrigin>& origin, const std::string& file) {
+    if (file.ends_with(".exr"))
+        return measure::write_exr(part.hdr, file,
+                                  origin ? report::format_picture_origin(*origin) : "");
     measure::write_png(part.display, file);
 }
 
@@ -154,10 +182,11 @@ std::optional<CameraPath> read_camera_path_of_request(const RenderOptions& optio
     return path;
 }
 
-/// Renders all frames. In a sequence, each measured frame is written to its file.
+/// Renders all frames. In a sequence, each measured frame is written to its file. Sets the camera
+/// and the instant of `origin` to those of the last frame.
 void render_all_frames(app::FrameLoop& frames, const app::Request& request,
                        const std::optional<CameraPath>& path, const std::vector<std::string>& files,
-                       const app::Watcher& watcher) {
+                       std::optional<report::PictureOrigin>& origin, const app::Watcher& watcher) {
     const int warmup = request.warmup;
     const auto find_camera = [&] {
         const int next = frames.rendered_frame_count() + 1 -
@@ -165,10 +194,14 @@ void render_all_frames(app::FrameLoop& frames, const app::Request& request,
         return path ? path->camera_after((next - 1) / kFramesPerSecond) : request.camera;
     };
     throw_if_stopped(watcher);
-    while (frames.render_next(find_camera())) {
+    for (scene::Camera camera = find_camera(); frames.render_next(camera); camera = find_camera()) {
         const int measured = frames.rendered_frame_count() - warmup;
+        if (origin) {
+            origin->camera = app::make_camera_facts(camera);
+            origin->time = request.instant(frames.rendered_frame_count());
+        }
         if (files.size() > 1 && measured > 0)
-            write_picture(frames.current_frame().read(),
+            write_picture(frames.current_frame().read(), origin,
                           files[static_cast<std::size_t>(measured - 1)]);
         report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     }
@@ -226,19 +259,22 @@ int run_render(const RenderOptions& options) {
     ProgressPrinter progress(manners);
     const app::Watcher watcher = make_progress_watcher(progress);
     report_row_to_watcher(watcher, choice.label, 0, 1);
+    std::optional<report::PictureOrigin> origin = make_picture_origin(options, request,
+                                                                      engine.device());
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     app::Session session(engine, std::move(scene));
     app::resolve_auto_exposure(session, request);
+    if (origin) origin->exposure = request.exposure;
     app::FrameLoop frames(session, request);
-    render_all_frames(frames, request, path, files, watcher);
+    render_all_frames(frames, request, path, files, origin, watcher);
     const app::RunResult result = frames.result();
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);
     if (files.empty())
         print_picture_bytes(measure::encode_picture_png(result.parts.front().display));
-    if (files.size() == 1) write_picture(result.parts.front(), files.front());
+    if (files.size() == 1) write_picture(result.parts.front(), origin, files.front());
     if (!options.trace.empty())
         write_file(options.trace, make_trace_json(result.frames.back(),
                                                   choice.label + " on " + engine.device().name));
@@ -266,6 +302,8 @@ void add_render_verb(CommandLine& program) {
     verb.option("--camera-path", "FILE",
                 "file with a motion of the camera, in place of --camera; see the notes below",
                 options->camera_path);
+    verb.flag("--origin", "write into the header of OUT.exr how it was made, see the notes below",
+              options->origin);
     verb.heading(kMeasuringOptions);
     verb.option("--trace", "T.json",
                 "file for the times of the last frame's passes, for chrome://tracing or Perfetto",

@@ -1,7 +1,12 @@
 // Tests of successful commands: lists, pictures, JSON, traces and reports.
 #include "cli/program.hpp"
+#include "core/byte_source.hpp"
+#include "core/image_codec.hpp"
 #include "measure/lag.hpp"
 #include "measure/metric.hpp"
+#include "measure/picture.hpp"
+
+#include <fmt/format.h>
 
 namespace {
 
@@ -167,6 +172,47 @@ TEST_F(CommandLineTest, SeededCameraCanBeRepeatedFromItsPrintedText) {
     EXPECT_EQ(read_output_file("a.exr"), read_output_file("c.exr")) << camera;
     EXPECT_NE(read_output_file("a.exr"), read_output_file("d.exr"));
     EXPECT_EQ(render("e.exr", {"--camera", "seeded", "--quiet"}), "");
+}
+
+TEST_F(CommandLineTest, OriginInThePicturesHeaderIsEnoughToMakeThePictureAgain) {
+    const Words seeded{"--camera", "seeded", "--seed",   "7", "--animate",
+                       "--frames", "3",      "--warmup", "0"};
+    const auto render = [&](const std::string& file, Words words) {
+        words.insert(words.begin(), {"render", "--size", "32x24", "-o", file});
+        const test::ProcessResult ended = run_cli(words);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    };
+    Words words = seeded;
+    words.insert(words.end(), {"--time", ".5", "--technique", "raytrace:depth=3", "--origin"});
+    render("a_%d.exr", words);
+    const auto read_header_text = [&](const std::string& file) {
+        const auto bytes = catoptric::open_file_bytes(folder / file);
+        return catoptric::ImageReader(*bytes, "openexr", file)
+            .image_size_and_channels()
+            .description;
+    };
+    const json origin = json::parse(read_header_text("a_3.exr"));
+    EXPECT_EQ(origin["schema"], "catoptric/picture/1");
+    EXPECT_EQ(origin["scene"], "cornell-mirrors");
+    EXPECT_EQ(origin["device"],
+              json::parse(run_cli({"list", "devices", "--json"}).out)["devices"][0]["name"]);
+    EXPECT_NEAR(origin["time"], .5 + 2 / 60., 1e-12);
+    EXPECT_NE(read_header_text("a_2.exr"), read_header_text("a_3.exr")); // another instant
+    const auto join = [](const json& point) {
+        return fmt::format("{},{},{}", point[0].get<double>(), point[1].get<double>(),
+                           point[2].get<double>());
+    };
+    const json& camera = origin["camera"];
+    render("b.exr", {"--technique", origin["technique"], "--model", origin["model"], "--time",
+                     fmt::format("{}", origin["time"].get<double>()), "--frames", "1", "--warmup",
+                     "0", "--camera",
+                     fmt::format("{}:{}:{}", join(camera["eye"]), join(camera["target"]),
+                                 camera["vertical_fov_degrees"].get<double>())});
+    EXPECT_EQ(catoptric::measure::read_picture(folder / "a_3.exr").pixels,
+              catoptric::measure::read_picture(folder / "b.exr").pixels);
+    EXPECT_EQ(read_header_text("b.exr"), "");
+    expect_usage_refused({"render", "--technique", "reuse", "--origin", "-o", "x.png"}, 2,
+                         {"--origin", ".exr", "'x.png'"});
 }
 
 TEST_F(CommandLineTest, RenderWritesJsonAndATraceOfItsPasses) {
