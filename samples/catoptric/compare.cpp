@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/image_module.hpp"
 #include "core/text.hpp"
+#include "figure_options.hpp"
 #include "measure/budget.hpp"
 #include "measure/causes.hpp"
 #include "measure/interval.hpp"
@@ -47,7 +48,8 @@ constexpr const char* kCompareExamples = R"(Examples:
   catoptric compare -o out --lag --size 256x256 --techniques reuse parallax
 
 SCENE comes before --techniques; several scenes make one report with a section and a front for each. The folder DIR
-gets report.html, report.md, report.json, rows.csv and images/.)";
+gets report.html, report.md, report.json, rows.csv and images/. --figures writes plot.svg (time against FLIP),
+passes.svg (time by pass), causes.svg (with --causes), crop-*.png, and figures.tex, which says how to make PDF.)";
 
 struct CompareOptions {
     CommonOptions common; ///< options for all scenes
@@ -63,6 +65,7 @@ struct CompareOptions {
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
     bool inlines_pictures = false; ///< in report.html, however large it becomes
+    FigureOptions figures;
     report::PagePictures page_pictures() const {
         return inlines_pictures ? report::PagePictures::inlined : report::PagePictures::automatic;
     }
@@ -163,6 +166,9 @@ void check_output_places(const CompareOptions& options,
         for (const std::filesystem::path& file : report::list_report_files(images, request.images))
             if (is_first || file.has_parent_path()) // the documents cover all scenes
                 outputs.push_back(std::filesystem::path(options.folder) / file);
+        if (!options.figures.folder.empty())
+            for (const std::filesystem::path& file : report::list_figure_files(images))
+                outputs.push_back(options.figures.scene_folder(request.images) / file);
         const std::vector<std::filesystem::path>& files = request.base.scene.files;
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
@@ -266,6 +272,7 @@ int run_compare(const CompareOptions& options) {
                               "the folder for the report");
     check_folder_can_be_made(options.folder);
     check_folder_can_be_made(std::filesystem::path(options.folder) / "images");
+    check_figure_options(options.figures, options.common.size);
     check_baseline_options(options.baseline);
     BaselineGate gate(options.baseline);
     std::vector<app::CompareRequest> requests = make_compare_requests(options);
@@ -276,6 +283,9 @@ int run_compare(const CompareOptions& options) {
     report::create_folder(options.folder);
     for (const app::CompareRequest& request : requests)
         report::create_folder(std::filesystem::path(options.folder) / "images" / request.images);
+    if (!options.figures.folder.empty())
+        for (const app::CompareRequest& request : requests)
+            report::create_folder(options.figures.scene_folder(request.images));
 
     ProgressPrinter progress(manners, ProgressPrinter::ProgressOffTerminal::tenths);
     CompareReportOutput output(options, requests.size());
@@ -288,6 +298,9 @@ int run_compare(const CompareOptions& options) {
         if (!comparison.stopped && i + 1 == requests.size())
             print_note_unless_quiet(manners, "written: " + options.folder);
         check_not_stopped(options, comparison);
+        if (!options.figures.folder.empty())
+            report::write_figures(comparison, options.figures.scene_folder(requests[i].images),
+                                  options.figures.crop);
         gate.judge_scene_against_baseline(comparison);
         for (const std::string& row : find_broken_rows(comparison)) broken.push_back(row);
         keeps_budgets = keeps_budgets && (!measure::has_time_or_flip_budget(comparison) ||
@@ -423,6 +436,7 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
               "put all pictures into report.html, also if they take more than 16 MiB; otherwise it "
               "loads so many from images/",
               options->inlines_pictures);
+    add_figure_options(verb, options->figures);
 }
 
 } // namespace

@@ -1,0 +1,51 @@
+#include "figure_options.hpp"
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "output_checks.hpp"
+#include "parse.hpp"
+
+#include <array>
+#include <sstream>
+
+namespace catoptric::cli {
+
+namespace {
+
+constexpr std::int64_t kMaxCropCoordinate = 1 << 20; ///< far above any picture's size
+
+report::PixelRectangle parse_crop(const std::string& text) {
+    std::array<int, 4> numbers{};
+    std::istringstream words(text);
+    std::size_t count = 0;
+    for (std::string word; std::getline(words, word, ','); ++count)
+        if (count < numbers.size())
+            numbers[count] = static_cast<int>(
+                parse_integer("--crop", word, count < 2 ? 0 : 1, kMaxCropCoordinate));
+    check(count == numbers.size() && !text.ends_with(','), Failure::usage,
+          "--crop: wanted X,Y,WIDTH,HEIGHT in pixels, found ", quote_text_with_escapes(text));
+    return {{numbers[0], numbers[1]}, {numbers[2], numbers[3]}};
+}
+
+} // namespace
+
+void add_figure_options(CommandVerb& verb, FigureOptions& options) {
+    verb.option(
+        "--figures", "DIR",
+        "folder for figures of a paper: plots as SVG, enlarged crops, and a LaTeX file with "
+        "captions and a table",
+        options.folder);
+    verb.option("--crop", "X,Y,W,H",
+                "pixels that --figures enlarges; X,Y is their corner at the top left (where rows "
+                "differ most)",
+                [&options](const std::string& text) { options.crop = parse_crop(text); });
+}
+
+void check_figure_options(const FigureOptions& options, uvec2 size) {
+    check(!options.crop || !options.folder.empty(), Failure::usage,
+          "--crop: wanted --figures with it, found none");
+    if (!options.folder.empty()) check_folder_can_be_made(options.folder);
+    if (options.crop) report::check_crop(*options.crop, ivec2(size));
+}
+
+} // namespace catoptric::cli
