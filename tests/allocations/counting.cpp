@@ -1,5 +1,5 @@
-// These operators have their own source file, because a compiler that sees both `new` and `delete`
-// warns about free().
+// The program's own operators new and delete have a separate source file, because a compiler that
+// sees both warns about free().
 #include "allocations/counting.hpp"
 
 #include <atomic>

@@ -41,7 +41,8 @@ TEST_F(BaselineGate, SamePicturesPassAndMoreErrorFails) {
     EXPECT_THAT(worse.out, HasSubstr("baseline: 1 worse, "));
     EXPECT_THAT(read_output_file("s.md"), HasSubstr("### flat: worse than the baseline"));
     EXPECT_THAT(read_output_file("j.xml"), HasSubstr("<failure message=\"FLIP "));
-    EXPECT_TRUE(std::filesystem::exists(folder / "new/report.html")); // the report is kept
+    EXPECT_TRUE(std::filesystem::exists(folder / "new/report.html")); // the report of the new
+                                                                      // comparison is kept
     EXPECT_EQ(compare_into("new", {"--baseline", "better.json", "--max-time-ratio", "1000",
                                    "--max-flip-rise", "0.06"})
                   .exit_code,

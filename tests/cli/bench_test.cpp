@@ -55,7 +55,7 @@ TEST_F(CommandLineTest, BenchMeasuresFramesAndLoadingAndSetup) {
     const test::ProcessResult same = run_cli({"bench", "--compare", "out.json", "out.json"});
     EXPECT_EQ(same.exit_code, 0) << same.err;
     EXPECT_THAT(same.out, testing::ContainsRegex("counted work: all [0-9]+ counts are equal"));
-    // More visited nodes are found even if the times are equal.
+    // If a run visits more BVH nodes, it counts as worse even if its times are equal.
     json grown = document;
     double nodes = 0;
     for (json& entry : grown["benchmarks"])
@@ -163,7 +163,7 @@ TEST_F(BenchTuneCliTest, TuningWritesAProfileThatLaterRunsUse) {
         EXPECT_THAT(tuned.out, testing::ContainsRegex(one["variant"].get<std::string>() + " .*" +
                                                       (below ? "  taken" : "not taken")));
     }
-    info.erase("lanes"); // `list devices` runs no dispatch that counts lanes
+    info.erase("lanes"); // `list devices` does not count lanes
     EXPECT_EQ(read_device_json({"list", "devices", "--json"}), info);
     const json none = read_device_json({"info", "--json", "--device-profile", "none"});
     EXPECT_TRUE(none["profile"].is_null());

@@ -86,7 +86,7 @@ TEST_F(Cache, SpecialisedShadersAreReadAgain) {
     ASSERT_GT(files.size(), 2u);
     std::map<fs::path, std::string> contents;
     for (const fs::path& file : files) contents[file] = read_file_at_path(file);
-    // Two broken files are made again, and no other file is written.
+    // The program writes the two broken cache files again, and no other file.
     std::ofstream(files[0], std::ios::binary) << contents[files[0]].substr(0, 40);
     std::ofstream(files[1], std::ios::binary) << contents[files[1]] + "x";
     const fs::file_time_type before = fs::last_write_time(files[2]);

@@ -176,7 +176,7 @@ TEST_F(CameraPathCliTest, InvalidPathIsRefusedWithItsPlace) {
     expect_path_refused(R"({"keys": [)" + first + "," +
                             R"({"time": 1, "camera": "0,1,1:0,1,2:40"}],)" + R"("loop": true})",
                         {"wanted only 'keys', found 'loop'"});
-    // Half way the eye passes through the target.
+    // Halfway along this path the eye passes through the target, so the path is refused.
     expect_path_refused(R"({"keys": [)" + first + R"(, {"time": 1, "camera": "0,1,-3:0,1,0:40"}]})",
                         {"path.json: after 0.5 s", "beside its up axis"});
     expect_usage_refused({"render", "--technique", "raytrace", "--camera-path", "path.json",

@@ -11,7 +11,8 @@ using testing::HasSubstr;
 
 class Choose : public CommandLineTest {
 protected:
-    /// Runs `choose` on a scene of flat mirrors with few views: 6 prove a share of .5.
+    /// Runs `choose` on a scene of flat mirrors. A plan is proved on 6 views, which prove that a
+    /// share of .5 of all views keeps the limit.
     test::ProcessResult run_choose(const Words& more) const {
         Words words{"choose", "flat", "--size", "32x32", "--frames", "6", "--warmup", "1"};
         words.insert(words.end(), more.begin(), more.end());
@@ -28,7 +29,7 @@ protected:
     }
     json read_plan() const { return json::parse(read_file_at_path(folder / "plan.json")); }
 
-    /// Returns the FLIP over the mirrors of the plan in the file, in views drawn from this seed.
+    /// Returns the FLIP over the mirrors in each view drawn from `seed`, for the plan in the file.
     std::vector<double> measure_plan_errors(int views, int seed) const {
         const test::ProcessResult ended = run_cli(
             {"compare", "flat", "--size", "32x32", "--frames", "6", "--warmup", "1", "--views",
@@ -46,14 +47,17 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
     EXPECT_THAT(ended.out, HasSubstr("chosen: "));
     const json plan = read_plan(), &certificate = plan["certificate"];
     EXPECT_EQ(plan["schema"], "catoptric/plan/1");
-    ASSERT_EQ(certificate["views"], 6); // 4 views prove .5 with .9; 6 are the least
+    ASSERT_EQ(certificate["views"], 6); // at least 4 views prove a share of .5 with confidence .9;
+                                        // 6 is the least accepted number
     const std::vector<double> errors = measure_plan_errors(6, certificate["proof_seed"]);
     const auto failures = std::ranges::count_if(errors, [](double error) { return error > .5; });
     EXPECT_EQ(certificate["failures"], failures);
     EXPECT_NEAR(certificate["share_bound"], std::pow(.1, 1.0 / 6), 1e-9);
-    // Two of six may lie above: P(Binomial(6, .5) <= 1) = 7/64 > .1 allows none.
+    // If the error bound were the second largest of six errors, its confidence would be too small:
+    // P(Binomial(6, .5) <= 1) = 7/64 > .1. The bound is therefore the largest error.
     EXPECT_NEAR(certificate["error_bound"], std::ranges::max(errors), 1e-6);
-    // A report with the plan quotes its certificate, and says if it is for another scene.
+    // A report with a plan of `choose` quotes the plan's certificate, and states if the certificate
+    // is for another scene.
     const std::string statement =
         "at least 50 % of views have flip <= 0.5, with 90 % confidence (6 "
         "views, " +
@@ -69,7 +73,7 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
         0);
     EXPECT_THAT(read_output_file("out/report.html"),
                 HasSubstr("plan:plan.json was chosen for another scene: at least 50 %"));
-    // The plans were proved from the surest to the cheapest.
+    // Plans are proved in the order from the smallest error to the lowest cost.
     const json& proofs = plan["proofs"];
     for (std::size_t i = 0; i + 1 < proofs.size(); ++i)
         EXPECT_GE(proofs[i]["ms"], proofs[i + 1]["ms"]);
@@ -98,7 +102,7 @@ TEST_F(Choose, LimitOfTimeAsksForTheLeastErrorAndProvesItsBound) {
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json plan = read_plan();
     EXPECT_EQ(plan["plan"][0]["technique"],
-              "raytrace:depth=4"); // it errs less than a small capture
+              "raytrace:depth=4"); // rays err less than a small capture
     EXPECT_EQ(plan["certificate"]["max_error"], json());
     const std::vector<double> errors = measure_plan_errors(6, plan["certificate"]["proof_seed"]);
     EXPECT_NEAR(plan["certificate"]["error_bound"], std::ranges::max(errors), 1e-6);
@@ -129,7 +133,7 @@ TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
 
     EXPECT_FALSE(std::filesystem::exists(folder / "failed.json"));
 
-    // The views of the certificate and of its training are not fresh.
+    // Views that chose or proved the plan are not fresh, so `--certify` refuses them.
     write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "planar"}],
         "certificate": {"max_error": 1, "training_seed": 5, "proof_seed": 6, "share": 0.5}})");
     EXPECT_EQ(certify({"--proof-seed", "5"}).exit_code, 2);
@@ -145,7 +149,7 @@ TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
 
     write_input_file("plan.json", R"([{"mirror": "*", "technique": "reuse"}])");
     EXPECT_EQ(certify({"--max-error", "flip=1"}).exit_code,
-              0); // a list of rules has no certificate
+              0); // a plan without a certificate
     const test::ProcessResult bare = certify({});
     EXPECT_EQ(bare.exit_code, 2);
     EXPECT_THAT(bare.err, HasSubstr("plan.json: has no certificate with a limit"));

@@ -1,4 +1,5 @@
-// Tests of `catoptric completion`. tests/install/deb.sh tries the script for bash in a shell.
+// Tests of `catoptric completion`, which prints completion scripts for shells. tests/install/deb.sh
+// runs the script for bash in a shell.
 #include "cli/program.hpp"
 
 #include <regex>

@@ -1,11 +1,11 @@
-// Tests of the user's file of options.
+// Tests of config.json, the user's file of default options.
 #include "cli/program.hpp"
 
 namespace {
 
 class ConfigFileTest : public CommandLineTest {
 protected:
-    /// Runs the program with a config.json of this text.
+    /// Runs the program in an environment whose config.json contains `text`.
     test::ProcessResult run_with_config(const std::string& text, const Words& words) const {
         std::filesystem::create_directories(folder / "home" / "catoptric");
         write_input_file("home/catoptric/config.json", text);

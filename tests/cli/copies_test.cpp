@@ -92,7 +92,8 @@ TEST_F(CommandLineTest, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
         for (const std::string file : {"many.obj", "many.gltf"}) {
             std::vector<std::vector<std::string>> commands{
                 with_small_quick_frame({"render", file, "--technique", "hybrid", "-o", "x.png"})};
-            // The other commands need less memory than `hybrid`, and most in one place.
+            // `hybrid` needs the most memory of all commands, so the others are tested only with
+            // objects side by side.
             if (!apart) {
                 commands.push_back({"info", file});
                 commands.push_back(with_small_quick_frame(

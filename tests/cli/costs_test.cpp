@@ -1,5 +1,5 @@
-// Tests of counted work and predicted times on the command line: what a user reads back from the
-// files, and what is refused.
+// Tests of counted work and of predicted times on the command line: figures in the written files,
+// and refused options.
 #include "cli/program.hpp"
 
 namespace {
@@ -39,7 +39,7 @@ TEST_F(Costs, CountedWorkIsInAllFilesAndRepeats) {
     EXPECT_EQ(find_work_count(naive, "camera_rays"), 0);
     EXPECT_GT(find_work_count(naive, "vertices"), 100);
     EXPECT_EQ(find_work_count(naive, "frames"), 1);
-    // The passes add up to the row.
+    // The counts of all passes add up to the count of the row.
     for (const json& row : {naive, traced})
         for (const char* kind : {"fragments", "draws", "bytes", "passes"}) {
             double sum = 0;
@@ -68,13 +68,14 @@ TEST_F(Costs, TimeOnAnotherDeviceFollowsFromTheCounts) {
         EXPECT_NEAR(device["low_ms"].get<double>(), 1e-6 * (50 * rays + other), 1e-9);
         EXPECT_NEAR(device["high_ms"].get<double>(), 1e-6 * (200 * rays + other), 1e-9);
     }
-    // Black mirrors take no part, so the traced row is the front.
+    // The row with black mirrors is never on the front, so only the traced row is.
     EXPECT_EQ(document["rows"][0]["costs"][0]["on_front"], false);
     EXPECT_EQ(document["rows"][1]["costs"][0]["on_front"], true);
     EXPECT_THAT(
         read_output_file("out/report.md"),
         HasSubstr("Front on card (given): raytrace:depth=1 (0 of 1 not ray traced alone)."));
-    // The page has the sentences of both devices, and shows those of the measuring one.
+    // The page has the first sentences for both devices, and shows those of the device on which
+    // times were measured.
     const std::string page = read_output_file("out/report.html");
     EXPECT_THAT(page, HasSubstr("<option value=\"1\">card (given), predicted from counted work<"));
     EXPECT_THAT(page, HasSubstr("<div data-device=\"1\" hidden><p class=\"lede\">On card (given), "
@@ -87,8 +88,9 @@ TEST_F(Costs, BudgetIsAnsweredForEachDevice) {
     Words words{"compare", "-o", "out", "--costs", "card.json", "--max-ms", "1.15"};
     for (const char* word : {"--techniques", "reuse:face=16", "raytrace:depth=1", "raytrace"})
         words.emplace_back(word);
-    run_cli(with_small_quick_frame(words)); // the exit code tells of the measured times
-    // Rays cost .05 to .2 ms beside 1 ms a frame, so the time is not sure at its upper end.
+    run_cli(with_small_quick_frame(words)); // the exit code depends on measured times
+    // By the cost file, a frame takes 1 ms and its rays take .05 to .2 ms. The longest predicted
+    // time exceeds the budget, so the answer is not certain.
     EXPECT_THAT(
         read_output_file("out/report.html"),
         HasSubstr("<div data-device=\"1\" hidden><p class=\"lede answer\"><strong>"
@@ -128,12 +130,12 @@ TEST_F(Costs, BenchFitsTheTimesOfAnotherDevice) {
     EXPECT_EQ(read_output_file("costs.json"), ended.out);
     EXPECT_EQ(document["device"], "old card");
     EXPECT_EQ(document["origin"], "fitted");
-    // 12 ms = frame + 1024 rays, 2 ms = frame.
+    // The given times are 12 ms for a frame with 1024 rays, and 2 ms for a frame without rays.
     EXPECT_EQ(document["costs"][0]["work"], "camera_rays");
     EXPECT_NEAR(document["costs"][0]["ns"].get<double>(), 10e6 / 1024, 1);
     EXPECT_NEAR(document["costs"][1]["ns"].get<double>(), 2e6, 200);
     EXPECT_EQ(document["fit"]["rows"], 3);
-    // A comparison takes the file.
+    // A comparison can predict times by the cost file that `bench` wrote.
     const json predicted = run_comparison_with_costs({"--costs", "costs.json"});
     EXPECT_NEAR(predicted["rows"][1]["costs"][0]["ms"].get<double>(), 12, .01);
 }

@@ -21,7 +21,7 @@ protected:
                       0);
     }
 
-    /// Compares with the rows given as NAME=PICTURES.
+    /// Runs a comparison with pictures of another renderer as rows. Each word is NAME=PICTURES.
     test::ProcessResult compare_picture_rows(const Words& rows) const {
         Words words{"compare", "-o", "out", "--techniques", "parallax:face=16", "reuse:face=16"};
         for (const std::string& row : rows) words.insert(words.end(), {"--row", row});
@@ -60,7 +60,8 @@ TEST_F(PictureRowsCliTest, OwnPictureHandedBackHasTheSameFigures) {
     EXPECT_TRUE(std::filesystem::exists(folder / "out/images/picture1-mine.png"));
 }
 
-/// A PNG is read with the comparison's exposure taken off.
+/// A PNG file holds displayed colours, so its values are divided by 2^exposure when the file is
+/// read.
 TEST_F(PictureRowsCliTest, PngHoldsWhatIsDisplayedAtTheExposure) {
     ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "parallax:face=16",
                                               "--exposure", "1", "-o", "bright.png"}))
@@ -108,7 +109,8 @@ TEST_F(PictureRowsCliTest, PictureThatDoesNotFitIsRefusedBeforeMeasuring) {
     refused({"parallax:face=16=own.exr"}, 66, "16=own.exr");
 }
 
-/// Times of one device rank the row among ours only if our rows were measured on it.
+/// A row with stated times is ranked among the measured rows only if they were measured on the
+/// device that the file of times names.
 TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
     ASSERT_EQ(compare_picture_rows({"mine=own.exr"}).exit_code, 0);
     const json before = json::parse(read_output_file("out/report.json"));
@@ -138,7 +140,8 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
     ASSERT_EQ(mine["row_times"].size(), 2U);
     EXPECT_EQ(mine["row_times"][1], json::parse(R"({"device": "card", "ms": 4.5, "low_ms": null,
                                                     "high_ms": null, "frames": 1})"));
-    // On the card it takes 4.5 ms, and our row takes 5 ms by its costs.
+    // On the named device, the other renderer takes 4.5 ms, and the predicted time of our row is 5
+    // ms.
     EXPECT_EQ(mine["costs"][0]["ms"], 4.5);
     EXPECT_EQ(mine["costs"][0]["on_front"], true);
     EXPECT_EQ(report["rows"][0]["costs"][0]["ms"], 5);
@@ -167,8 +170,9 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
     }
 }
 
-/// Another renderer gets the views from `views`. Here it is this program itself, so the row of its
-/// pictures must have the errors of the row that draws them.
+/// Fixture for tests of another renderer that draws the views of `catoptric views`. Here Catoptric
+/// itself draws the pictures, so their row must have the same errors as the row of the technique
+/// that drew them.
 class ViewPictureRowsCliTest : public PictureRowsCliTest {
 protected:
     void SetUp() override {
@@ -266,8 +270,8 @@ TEST_F(ViewPictureRowsCliTest, MissingDoubleAndTurnedPicturesAreNamed) {
     EXPECT_THAT(compare_views().err, testing::HasSubstr("view-006.exr: wanted a picture of 48x32"));
 }
 
-/// The cameras of views.gltf, turned into eye and direction by the rules of glTF 2.0, are those of
-/// views.json.
+/// views.gltf and views.json hold the same cameras. The test computes eye and direction of each
+/// camera in views.gltf by the rules of glTF 2.0.
 TEST_F(PictureRowsCliTest, ViewsAsGltfAreThoseOfTheJson) {
     ASSERT_EQ(
         run_cli({"views", "courtyard", "--count", "8", "--size", "64x48", "-o", "v"}).exit_code, 0);
@@ -291,7 +295,8 @@ TEST_F(PictureRowsCliTest, ViewsAsGltfAreThoseOfTheJson) {
             wanted[k] = camera["target"][k].get<double>() - camera["eye"][k].get<double>();
             length += wanted[k] * wanted[k];
         }
-        // The camera's own y axis points up: it lies in the plane of the view and the up vector.
+        // The y axis of the camera points up: this axis lies in the plane of the view direction and
+        // the scene's up vector.
         const double up_y = 1 - 2 * (q[0] * q[0] + q[2] * q[2]);
         EXPECT_GT(up_y, 0);
         for (std::size_t k = 0; k < 3; ++k)

@@ -130,7 +130,7 @@ TEST_F(Places, OutputThatIsAlsoStdoutIsRefused) {
     EXPECT_EQ(test::run_process(process).exit_code, 0);
 }
 
-/// Two outputs may both name /dev/null.
+/// /dev/null may be named for two outputs, because it is no regular file.
 TEST_F(Places, DeviceFileMayBeNamedForTwoOutputs) {
     fs::create_symlink("/dev/null", folder / "null.png");
     const test::ProcessResult ended = run_cli(

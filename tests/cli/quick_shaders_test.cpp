@@ -1,12 +1,12 @@
-// Test of what QUICK_SHADERS of tests/CMakeLists.txt relies on: pictures have the same bytes
-// whether the software driver optimises shaders or not. Other drivers ignore GALLIVM_PERF.
+// Test that pictures have the same bytes whether or not the software driver optimises shaders
+// (GALLIVM_PERF=nopt). Most tests of pictures rely on this (QUICK_SHADERS in tests/CMakeLists.txt).
 #include "cli/program.hpp"
 
 namespace {
 
 class QuickShaders : public CommandLineTest, public testing::WithParamInterface<const char*> {
 protected:
-    /// Returns the bytes of a small picture with linear colours. The driver keeps no shaders.
+    /// Returns the bytes of a small picture with linear colours. The driver's shader cache is off.
     std::string render_with_driver_options(const std::string& scene, const std::string& options) {
         test::ProcessStartOptions asked = make_process_start(
             {"render", scene, "--technique", GetParam(), "--size", "48x32", "-o", "a.exr", "-q"});

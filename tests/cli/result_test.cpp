@@ -95,8 +95,8 @@ TEST_F(CommandLineTest, SameRenderCommandWritesTheSameBytes) {
         }
 }
 
-/// The answer stands on the terminal, in each file and in JSON; the exit code says whether a row
-/// keeps the budget.
+/// `compare --max-ms` and `--max-flip` print the best row within the budget, also in each report
+/// file. The exit code says whether any row keeps the budget.
 TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
     const auto compare = [&](const Words& more) {
         Words words{"compare", "-o", "out", "--techniques", "reuse:face=8", "raytrace:depth=2"};

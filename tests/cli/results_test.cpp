@@ -1,5 +1,5 @@
-// Tests of `catoptric results`: pages must show the figures of the reports, and depend on nothing
-// else.
+// Tests of `catoptric results`: pages show the figures of the reports, and depend only on the
+// reports.
 #include "cli/program.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,8 @@ using nlohmann::json;
 
 class ResultsSite : public CommandLineTest {
 protected:
-    /// Compares two rows on two scenes, once for all tests.
+    /// Returns the report of a comparison of two rows on two scenes. The comparison runs once for
+    /// all tests.
     const json& report_of_two_scenes() const {
         static const json report = [&] {
             Words words = with_small_quick_frame({"compare", "cornell-mirrors", "flat", "-o", "out",
@@ -38,7 +39,7 @@ protected:
         const test::ProcessResult ended = run_cli({"results", "build", site, "--quiet"});
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
     }
-    /// Returns the pages of a site by name.
+    /// Returns all pages of a site, by file name.
     std::map<std::string, std::string> read_pages(const std::string& site) const {
         std::map<std::string, std::string> pages;
         for (const auto& entry : std::filesystem::directory_iterator(folder / site))
@@ -46,7 +47,7 @@ protected:
                 pages[entry.path().filename().string()] = read_file_at_path(entry.path());
         return pages;
     }
-    /// Returns the page with this text in its title.
+    /// Returns the page whose title contains the given text.
     std::string find_page(const std::string& site, const std::string& title) const {
         for (const auto& [name, text] : read_pages(site))
             if (text.find("<title>Reflections compared: " + title) != std::string::npos)
@@ -79,7 +80,7 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
         EXPECT_THAT(page,
                     testing::HasSubstr("<tr class=\"front\"><th scope=\"row\" class=\"text\">" +
                                        one["rows"][front]["label"].get<std::string>()));
-        // The front's rows are numbered from the fastest, in the plot and in the table.
+        // Rows on the front have numbers from the fastest row on, in the plot and in the table.
         std::vector<std::pair<double, std::string>> rows;
         for (const std::size_t index : one["pareto"])
             rows.emplace_back(one["rows"][index]["gpu_ms"]["median"], one["rows"][index]["label"]);
@@ -95,7 +96,8 @@ TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
     }
 }
 
-/// A report with both models names the model in its labels, another report only in its own member.
+/// If a report compares both models (`everything` and `required`), each row's label names its
+/// model. Otherwise only the report's member `model` names it.
 TEST_F(ResultsSite, LabelsNameTheModelOnce) {
     for (const bool both : {false, true}) {
         json report = report_of_one_scene();
@@ -126,7 +128,7 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     EXPECT_THAT(page, testing::HasSubstr("the latest 2 of 2 reports"));
     EXPECT_LT(page.find("0ldc0de, 2026-01-02"), page.find("1a7ec0de, 2026-02-03"));
     EXPECT_LT(page.find("111.500 / "), page.find("222.250 / "));
-    // Other light or another camera is another setting, with a page of its own.
+    // Reports with another light or camera belong to another setting, which has its own page.
     json other = late;
     other["exposure"] = 3;
     other["size"] = {64, 32};

@@ -25,7 +25,7 @@ TEST_F(CommandLineTest, StressReportsMeasuredValuesAndThresholds) {
     EXPECT_THAT(read_output_file("out/stress.html"), testing::HasSubstr("N10"));
 }
 
-/// Every row of rough surfaces passes for another seed than the default, too.
+/// All rows of rough surfaces must also pass with another seed than the default.
 TEST_F(CommandLineTest, StressMeasuresRoughSurfaces) {
     const std::vector<std::string> ids{"S1", "S2", "S3", "S4", "S5"};
     Words words{"stress", "--json", "--seed", "2", "--size", "32x32", "--only"};

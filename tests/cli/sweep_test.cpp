@@ -1,5 +1,5 @@
-// Tests of `catoptric sweep`: results must equal those of `compare`, in one process or in several
-// that are killed, and every other result must be refused.
+// Tests of `catoptric sweep`: results equal those of `compare`, whether one process or several
+// processes that are killed run the pieces. All other results are refused.
 #include "cli/program.hpp"
 
 #include <fmt/format.h>
@@ -40,14 +40,15 @@ protected:
     json read_output_json(const std::string& name) const {
         return json::parse(read_output_file(name));
     }
-    /// Returns the ids of the pieces in plan.json.
+    /// Returns the ids of all pieces in the sweep's plan.json.
     std::vector<std::string> list_piece_ids(const std::string& folder_name) const {
         std::vector<std::string> ids;
         const json plan = read_output_json(folder_name + "/plan.json");
         for (const json& piece : plan["pieces"]) ids.push_back(piece["id"]);
         return ids;
     }
-    /// Expects that planning refuses the sweep with these words.
+    /// Expects that `sweep plan` refuses the sweep, with this exit code and a message that contains
+    /// `words`.
     void expect_plan_refused(const json& sweep, int exit_code, const Words& parts) const {
         expect_exit_code(plan_sweep(sweep, "refused"), exit_code, parts);
         EXPECT_FALSE(std::filesystem::exists(folder / "refused"));
@@ -88,7 +89,7 @@ TEST_F(Sweep, ErrorsEqualThoseOfCompareOverTheSameViews) {
     EXPECT_THAT(table, testing::HasSubstr("scene,view,seed,time,label,"));
 }
 
-// The seed of views is also that of the patterns of rays, as by compare.
+// As in `compare`, the seed of drawn views is also the seed of random rays.
 TEST_F(Sweep, ErrorsOfRowsWithNoiseEqualThoseOfCompare) {
     json sweep = make_small_sweep();
     const std::string mirror = "ball*=.9,roughness=.3", row = "raytrace:rays=2,first=raster",
@@ -165,8 +166,8 @@ TEST_F(Sweep, AxesMultiplyAndReachThePictures) {
                 testing::StartsWith("scene,option_mirror,option_size,"));
 }
 
-/// Workers that are killed again and again must leave what one undisturbed process writes. Each
-/// kill may cost at most the piece in work.
+/// Workers that are killed again and again must write the same results as one process that is never
+/// killed. Each kill may only cost the piece in work.
 TEST_F(Sweep, KilledWorkersLoseAtMostThePieceInWork) {
     json sweep = make_small_sweep();
     sweep["views"]["count"] = 12;
@@ -188,7 +189,8 @@ TEST_F(Sweep, KilledWorkersLoseAtMostThePieceInWork) {
     std::thread other(work, 1);
     work(0);
     other.join();
-    // The last worker may have left a piece to the other before that was killed.
+    // The last process to be killed may have left pieces to other processes, so one more run
+    // finishes the sweep.
     expect_success({"sweep", "run", "shared", "--quiet"});
     std::map<std::string, int> starts;
     for (const std::string& text : begun) {
@@ -236,13 +238,14 @@ TEST_F(Sweep, CheckNamesMissingBrokenAndUnknownResults) {
     expect_usage_refused({"sweep", "merge", "sweep", "-o", "merged"}, 65,
                          {"wanted the results of 6 pieces, found 1", "sweep check"});
     EXPECT_FALSE(std::filesystem::exists(folder / "merged"));
-    // A broken result is not replaced in silence: someone may have to look at it.
+    // A broken result is never replaced without a message, because a person may want to inspect the
+    // file.
     expect_usage_refused({"sweep", "run", "sweep", "--piece", ids[1]}, 65, {"another document"});
     std::filesystem::remove(folder / result_file(ids[1]));
     expect_success({"sweep", "run", "sweep", "--quiet", "--piece", ids[1]});
 }
 
-/// Documents of the right kind with a wrong member must be named by file, and never be merged.
+/// A result file with a wrong member is reported by its file name, and is never merged.
 TEST_F(Sweep, ResultsWithWrongMembersAreBroken) {
     json sweep = make_small_sweep();
     sweep.erase("views");
@@ -287,7 +290,7 @@ TEST_F(Sweep, ResultsWithWrongMembersAreBroken) {
         1, [](json& r) { r["rows"][0]["noisy"] = 1; }, "rows[0]: times");
     expect_success({"sweep", "merge", "sweep", "-o", "again", "--quiet"});
     EXPECT_EQ(read_output_file("again/merged.json"), read_output_file("merged/merged.json"));
-    // A plan whose pieces lack a member, or that has none.
+    // Plans with an incomplete piece, or without pieces, are refused.
     const json plan = read_output_json("sweep/plan.json");
     json empty = plan;
     empty["pieces"] = json::array(), empty["common"] = json::array();
@@ -320,7 +323,8 @@ TEST_F(Sweep, FinishedPieceEndsAtOnceWithoutADevice) {
     EXPECT_EQ(run_without_driver(ids[1]).exit_code, 69);
 }
 
-// Drivers with another vector width round otherwise, so their results are not mixed in silence.
+// A driver with another vector width rounds differently, so results of two vector widths are merged
+// only on request.
 TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
     const json sweep = make_small_sweep();
     ASSERT_EQ(plan_sweep(sweep, "sweep").exit_code, 0);
@@ -331,7 +335,8 @@ TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
             start.command.emplace_back("--piece");
             start.command.push_back(ids[i]);
         }
-        // The driver's disk cache does not distinguish widths.
+        // The driver's shader cache does not distinguish vector widths, so each width gets a cache
+        // of its own.
         start.environment = {{"LP_NATIVE_VECTOR_WIDTH", width},
                              {"MESA_SHADER_CACHE_DIR", (folder / ("cache" + width)).string()}};
         const test::ProcessResult ended = test::run_process(start);
@@ -349,7 +354,7 @@ TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
     const json& difference = merged["identity_difference"];
     EXPECT_EQ(difference["pixels"], 3 * 32 * 32) << "two rows and the reference";
     EXPECT_LE(difference["share"].get<double>(), .005);
-    // Pictures count only if their list is there, which is written last.
+    // The list of common pictures is written last. Common pictures without this list are ignored.
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "sweep/common"))
         if (entry.path().filename() == "pictures.json") {
             const std::string list = read_file_at_path(entry.path());
@@ -359,7 +364,7 @@ TEST_F(Sweep, ResultsOfTwoKindsOfMachinesAreMergedOnlyOnRequest) {
             std::ofstream(entry.path()) << list;
             break;
         }
-    // A picture that was changed must be found.
+    // A common picture that was changed after the run must be detected.
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "sweep/common"))
         if (entry.path().filename() == "0.png") {
             expect_success({"render", "room", "--size", "68x32", "-o", entry.path().string(),

@@ -1,5 +1,6 @@
-// encode_draco METHOD BITS: writes the bent grid of the tests to stdout, compressed by Draco. A
-// program of its own, because Debian's libdraco exports the symbols of another tinygltf.
+// Program `encode_draco METHOD BITS`: writes the test mesh `BentGrid` to stdout, compressed by
+// Draco. The code is a separate program, because Debian's libdraco exports symbols of another
+// version of tinygltf.
 #include "support/bent_grid.hpp"
 
 #include <cstdlib>

@@ -11,7 +11,8 @@ using json = nlohmann::json;
 
 class SecondDriverSweepTest : public CommandLineTest {
 protected:
-    /// Runs `count` pieces of the sweep from piece `first` on, in this environment.
+    /// Runs `count` pieces of the sweep in this environment. The first of these pieces is piece
+    /// number `first`.
     void run_pieces(std::size_t first, std::size_t count,
                     const std::map<std::string, std::string>& environment) const {
         test::ProcessStartOptions start = make_process_start({"sweep", "run", "sweep", "--quiet"});
@@ -36,7 +37,7 @@ TEST_F(SecondDriverSweepTest, PicturesOfTwoDriversAreMergedOnRequestWithTheirDif
                      {"timing", {{"repeats", 0}}}};
     write_input_file("sweep.json", sweep.dump());
     ASSERT_EQ(run_cli({"sweep", "plan", "sweep.json", "-o", "sweep"}).exit_code, 0);
-    // Pieces are in the order of scenes, so each driver runs pieces of both.
+    // Pieces are listed scene by scene, so each of the two drivers runs pieces of both scenes.
     run_pieces(0, 3, {}), run_pieces(3, 3, *second);
     run_pieces(6, 3, *second), run_pieces(9, 3, {});
     expect_usage_refused({"sweep", "merge", "sweep", "-o", "merged"}, 65,

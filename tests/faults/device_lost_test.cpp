@@ -68,7 +68,8 @@ TEST_F(DeviceLost, LossAtASubmitExitsWith76AndKeepsTheOldPicture) {
     });
 }
 
-/// Each wait of the run fails in turn, and so do the first and the last read of timestamps.
+/// In each run, another wait for the device fails. In further runs, the first or the last read of
+/// timestamps fails.
 TEST_F(DeviceLost, FailedWaitExitsWithAnErrorAndKeepsTheOldPicture) {
     const WatchedRun whole = watch(words, std::nullopt);
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 class DiskErrorTest : public CommandLineTest {
 protected:
-    /// The files of a comparison, in the order in which they are written.
+    /// The files that a comparison writes, in the order of writing.
     const Words files = {"images/reference.png",
                          "images/raytrace.exr",
                          "images/raytrace.png",

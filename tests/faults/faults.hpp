@@ -32,8 +32,8 @@ struct WatchedRun {
 
     /// Returns a text about objects that the run never destroyed or destroyed wrongly; empty: none.
     std::string leaks() const;
-    /// Returns a text about what the run destroyed after a lost device or a failed wait; empty:
-    /// nothing. After such a failure the engine must destroy nothing, not even device and instance.
+    /// Returns a text that lists the objects destroyed after a lost device or a failed wait; empty:
+    /// none. After such a failure the engine must destroy no object, not even device and instance.
     std::string unfit() const;
 };
 
@@ -44,8 +44,8 @@ protected:
     /// Fails the test if the Vulkan loader does not load the layer.
     void SetUp() override;
 
-    /// Runs the program in `place`, an existing folder below the folder of the test. `fault`: the
-    /// call that must fail, if any.
+    /// Runs the program with the fault layer in `place`, an existing folder below the folder of the
+    /// test. `fault`: the call that must fail, if any.
     WatchedRun watch(const Words& words, const std::optional<VulkanCallFault>& fault,
                      const std::string& place = ".") const;
 };

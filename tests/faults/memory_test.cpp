@@ -56,7 +56,7 @@ const std::map<std::string, std::string> kFailingCallsAndErrorTexts = {
     {"vkQueueWaitIdle", "'"},
     {"vkGetQueryPoolResults", "time stamps"},
 };
-/// After a failure of one of these calls the device may still be at work.
+/// After a failure of one of these Vulkan calls, the device may still be running commands.
 const std::set<std::string> kWaitingVulkanCalls = {"vkWaitSemaphores", "vkQueueWaitIdle"};
 
 /// Returns the contents of all files below a folder, by relative path.
@@ -85,8 +85,8 @@ protected:
         request.frames = 1, request.warmup = warmup;
         return request;
     }
-    /// Returns a text about what a run with a fault did wrong; empty: nothing. `speaker`: the
-    /// program's name at the start of its message.
+    /// Returns a text that describes what a run with a fault did wrong; empty: nothing. `speaker`:
+    /// the program's name, with which its error message begins.
     static std::string describe_wrong_behaviour(const VulkanCallFault& fault,
                                                 const WatchedRun& watched,
                                                 const std::string& speaker) {

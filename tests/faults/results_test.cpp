@@ -161,7 +161,7 @@ TEST_F(Results, InterruptedStressKeepsItsFinishedRows) {
           std::tuple{VK_ERROR_OUT_OF_HOST_MEMORY, 75, "VK_ERROR_OUT_OF_HOST_MEMORY"}}) {
         fs::remove_all(folder / "out");
         const int images = one.counts.at("vkCreateImage").calls;
-        if (exit_code == 75) { // no verdict, although the device stays usable
+        if (exit_code == 75) { // an exhausted device is no lost device: it stays usable
             expect_one_row(watch(words({"N10", "N1", "N9"}),
                                  VulkanCallFault{"vkCreateImage", images + 1, result})
                                .ended,

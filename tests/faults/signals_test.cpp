@@ -33,7 +33,7 @@ TEST_F(StopSignalTest, SignalEndsCompareSoonAndKeepsItsRows) {
             longest = std::max(longest, ended.seconds_after_signal);
             const nlohmann::json document = nlohmann::json::parse(
                 read_output_file("out/report.json"));
-            if (document["complete"] == true) { // no row was done: the old report stays
+            if (document["complete"] == true) { // no row was finished, so the old report stays
                 EXPECT_EQ(at, "[1/20]");
                 EXPECT_EQ(read_output_file("out/report.json"), read_output_file("old/report.json"));
                 EXPECT_THAT(ended.err, testing::HasSubstr("0 of 4 rows; nothing was written"));

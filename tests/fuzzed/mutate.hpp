@@ -11,7 +11,7 @@
 namespace test::fuzzed {
 
 using Json = nlohmann::json;
-using Random = std::mt19937_64; // its numbers are standard; those of distributions are not
+using Random = std::mt19937_64; // generator with standardised numbers
 
 /// Returns a number from 0 to `count` - 1.
 std::size_t random_number_below(Random& random, std::size_t count);

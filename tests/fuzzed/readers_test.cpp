@@ -36,9 +36,9 @@ class Readers : public CommandLineTest {
 protected:
     using Change = std::function<std::string(Random&)>;
 
-    /// Writes each changed file under the name `file` and reads it with the command `words`.
-    /// `good`: the unchanged file, which must be accepted, because a file that is always refused
-    /// tests no change.
+    /// Writes each changed file under the name `file`, and runs the command `words`, which reads
+    /// the file. `good`: the unchanged file. The command must accept `good`, because otherwise it
+    /// would refuse every file and test nothing.
     void feed_changed_files_to_program(const std::string& file, const std::string& good,
                                        const Words& words, const Change& anywhere,
                                        const Change& in_structure) const {

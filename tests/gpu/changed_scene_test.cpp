@@ -1,5 +1,5 @@
-// Tests that switch off a lamp in the middle of a frame sequence. The session must keep the history
-// of the frames before, and nothing else of them.
+// Tests that switch off a lamp in the middle of a frame sequence. Only the history may still show
+// the light of the lamp.
 #include "support/rendering.hpp"
 
 namespace {

@@ -110,8 +110,8 @@ TEST(CubeFace, LookupAlongAWorldDirectionFindsTheSurfaceThere) {
         if (seen.margin < kTexelLookupError) continue;
         ++judged;
         wrong += vec3(answers[i]) != room.colour_of_wall_point(seen);
-        // A lookup of the nearest texel reads a distance at most half a texel's diagonal aside. The
-        // distance changes little over that length.
+        // A lookup of the nearest texel may read a distance up to half a texel's diagonal beside
+        // the given direction. Over this length, the distance changes only a little.
         EXPECT_NEAR(answers[i].w, gpu_scene.scene_units().world_to_scene_length(seen.distance),
                     0.02 * gpu_scene.scene_units().world_to_scene_length(seen.distance));
     }
@@ -185,8 +185,9 @@ TEST(CubeFace, CaptureLeavesOutItsOwnMirrorAndShowsOtherMirrors) {
                                         black[mirror] += colour == vec3(0);
                                         hot[mirror] += colour == test::kFurnaceWallRadiance;
                                     });
-    // The other ball is seen from outside. Its radius over its distance is the sine of the half
-    // angle under which it is seen, and gives its share of all directions.
+    // The mirror's capture shows another ball from outside. The sine of half the angle that this
+    // ball covers is its radius divided by its distance, which gives the ball's share of all
+    // directions.
     const double gap = glm::length(dvec3(-1.2, -0.3, 1) - dvec3(1.3, 0.4, 1.5)),
                  texels = 6.0 * kCubeFaceTexels * kCubeFaceTexels;
     const double radii[2] = {1.2, 1};

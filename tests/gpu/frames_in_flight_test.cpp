@@ -7,8 +7,8 @@ namespace {
 using namespace catoptric;
 using test::expect_error;
 
-/// Adds a frame of three passes. The frame computes a new `kept` image from that of the frame
-/// before, through an image `between`.
+/// Adds a frame of three passes. From the image `kept` of the last frame, the frame computes a new
+/// image `kept`, by way of an image `between`.
 graph::ImageHandle add_frame_of_three_passes(graph::Graph& graph, int frame) {
     const graph::ImageHandle kept = test::add_step_image(graph, "kept");
     const graph::ImageHandle between = test::add_step_image(graph, "between");
@@ -67,7 +67,7 @@ TEST_P(InFlight, WaitReturnsTheTimesOfItsOwnFrame) {
         const graph::ImageHandle image = test::add_step_image(graph, "image");
         test::add_start_pass(graph, image, 1);
         graph.mark_as_graph_output(image);
-        // Each frame has one pass more than the frame before.
+        // Each frame of this test has one pass more than the frame before.
         for (std::uint32_t i = 1; i < frame; ++i) {
             const graph::ImageHandle next = test::add_step_image(graph,
                                                                  "image" + std::to_string(i));
@@ -126,8 +126,8 @@ TEST(InFlight, RunnerCanBeDestroyedWithFramesInFlight) {
     }
 }
 
-/// Adds a chain of `kind` passes and returns its last image. The number of passes and images makes
-/// the shape of the graph.
+/// Adds a chain of `kind` passes and returns the last image of the chain. Graphs with different
+/// numbers of passes and images have different shapes.
 graph::ImageHandle add_chain_of_kind(graph::Graph& graph, int kind) {
     graph::ImageHandle last = test::add_step_image(graph, "start");
     test::add_start_pass(graph, last, 1);

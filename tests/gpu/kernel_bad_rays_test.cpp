@@ -54,8 +54,8 @@ TEST(KernelBadRays, N16_NanAndInfinityMissInBoundedTime) {
     const std::vector<DeviceRay> normal = make_ordinary_rays(10000, 0.5f);
     const TraversalStepCounts usual = count_traversal_steps(kernel.find_closest_hits(normal));
     std::vector<DeviceRay> bad;
-    // The words are quiet and signalling NaN of both signs and the two infinities. An infinite
-    // t_max is skipped below, because that is a valid ray.
+    // The bit patterns are quiet and signalling NaNs of both signs, and the two infinities. The
+    // loop skips an infinite t_max, because a ray with infinite t_max is valid.
     for (const std::uint32_t word : {0x7fc00000u, 0xffc00000u, 0x7f800001u, 0xff800001u,
                                      0x7fffffffu, 0x7f800000u, 0xff800000u})
         for (std::size_t i = 0; i < 7; ++i)

@@ -44,8 +44,8 @@ std::vector<bvh::Triangle> repair_triangles_as_loader(const std::vector<bvh::Tri
     return result;
 }
 
-/// Returns rays of which every second consists of random bits. The others start at random points
-/// and aim at corners of the triangles.
+/// Returns rays for tests of invalid input. Every second ray consists of random bits. The other
+/// rays start at random points and aim at corners of the triangles.
 std::vector<DeviceRay> make_rays_at_triangles(const std::vector<bvh::Triangle>& triangles,
                                               test::RandomNumbers& numbers) {
     std::vector<DeviceRay> rays(128);
@@ -121,7 +121,8 @@ std::vector<bvh::Triangle> make_triangle_copies(std::size_t count, bool of_one_o
     return result;
 }
 
-/// Returns rays that start on either side of the triangle. Some hit the triangle, others pass it.
+/// Returns rays that start on either side of the triangle. Some of the rays hit the triangle, and
+/// the other rays pass beside it.
 std::vector<DeviceRay> make_rays_at_triangle_copies() {
     test::RandomNumbers numbers(21);
     std::vector<DeviceRay> rays(256);

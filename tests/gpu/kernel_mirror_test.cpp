@@ -53,7 +53,7 @@ TEST(KernelMirror, HitsInTheBuiltInSceneEqualTheCppTraversal) {
     }
 }
 
-/// A few triangles cast no shadow, so they have a tree of their own.
+/// The tree stores triangles that cast no shadow in a separate subtree.
 TEST(KernelMirror, HitsWithATreeOfShadowlessTrianglesEqualTheCppTraversal) {
     test::RandomNumbers numbers(6);
     std::vector<bvh::Triangle> triangles(2000);

@@ -1,5 +1,5 @@
-// Tests of the lobe and of random numbers on the device: the shader must give what the same code
-// gives in C++.
+// Tests of the GGX lobe and of random numbers on the device. The shader must compute the same
+// values as the same code in C++.
 #include "core/shader_math.hpp"
 #include "support/device.hpp"
 #include "support/numbers.hpp"
@@ -57,13 +57,14 @@ TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
         const vec3 to_eye(asked[i]), white(1), half(.5f);
         float u, v;
         f32::sample_pattern_point(i % 97, i, i % 5, 7, u, v);
-        // Random numbers are arithmetic of integers, so they are equal.
+        // Random numbers are computed with integers only, so device and C++ must agree exactly.
         ASSERT_EQ(found[i].u, u) << i;
         ASSERT_EQ(found[i].v, v) << i;
         const float alpha = f32::roughness_to_alpha(asked[i].w);
         const vec3 wanted = f32::sample_lobe(alpha, to_eye, u, v);
         EXPECT_LT(length(found[i].to_light - wanted), 2e-4f) << i << " roughness " << asked[i].w;
-        // The functions of the direction are compared at the device's own direction.
+        // The test evaluates the C++ functions at the direction that the device drew, so that only
+        // their own rounding errors count.
         const vec3 to_light = found[i].to_light;
         const auto near = [](float a, float b) {
             return std::abs(a - b) <= 2e-3f * std::abs(b) + 1e-6f;
@@ -72,7 +73,8 @@ TEST(Lobe, DeviceGivesWhatTheSameCodeGivesInCpp) {
             near(found[i].weight, f32::lobe_sample_weight(alpha, half, white, to_eye, to_light).x))
             << i;
         if (asked[i].w < .1f)
-            continue; // a narrow lobe turns roundings of the direction into factors
+            continue; // in a narrow lobe, rounding errors of the direction change the density by
+                      // large factors
         EXPECT_TRUE(near(found[i].density, f32::lobe_pdf(alpha, to_eye, to_light))) << i;
         EXPECT_TRUE(near(found[i].lobe, f32::evaluate_lobe(alpha, half, white, to_eye, to_light).x))
             << i;

@@ -147,14 +147,16 @@ TEST(NextMirror, TreeTraversalEqualsATestOfAllMirrors) {
     }
 }
 
-// Tests twenty equal spheres beside ten others. The nearest sphere is met. Among equal spheres the
-// lowest number wins that the ray does not leave.
+// Tests twenty equal spheres beside ten other spheres. A ray must meet the nearest sphere. Among
+// equal spheres it must meet the sphere with the lowest number, except the sphere on which the ray
+// starts.
 TEST(NextMirror, LowestNumberWinsAmongEqualSpheres) {
     std::vector<shared::Probe> probes;
     for (int i = 0; i < 10; ++i) probes.push_back(make_sphere_probe({0, float(i - 5), 0}, .25f));
     for (int i = 0; i < 20; ++i) probes.push_back(make_sphere_probe({2, 0, 0}, .5f));
-    // The rays in turn: to the equal spheres; the same from the first of them; to the sixth sphere;
-    // the same from the sixth sphere; and to nothing.
+    // The rays of the test: a ray to the equal spheres, the same ray starting on the first of them,
+    // a ray to the sixth sphere, the same ray starting on the sixth sphere, and a ray that meets
+    // nothing.
     const std::vector<NextMirrorRay> rays{{{6, 0, 0}, 3, {-1, 0, 0}, 0},
                                           {{6, 0, 0}, 9, {-1, 0, 0}, 10},
                                           {{-4, 0, 0}, 3, {1, 0, 0}, 29},

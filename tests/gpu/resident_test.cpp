@@ -228,7 +228,8 @@ std::vector<std::uint32_t> read_buffer_words(const gpu::GpuBuffer& buffer, std::
     return result;
 }
 
-/// The buffer that a slot binds must keep its content until that slot writes again.
+/// A buffer that a frame in flight binds must keep its contents until the next frame in the same
+/// slot is written.
 TEST(Resident, FramesInFlightKeepTheirRecordedBuffers) {
     constexpr std::size_t kListSlotCount = 3, kListWordCount = 9000;
     render::DoubleBufferedDeviceList list("list", gpu::BufferUsage::plain, kListSlotCount);

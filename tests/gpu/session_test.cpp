@@ -141,7 +141,8 @@ TEST(Session, HistorySurvivesAChangeAndEndsAtACut) {
     EXPECT_TRUE(test::have_equal_pixel_bytes(session.frame(spec).hdr(), first));
 }
 
-/// Several sequences take turns in one session. Each must show what it shows alone.
+/// Several sequences of frames take turns in one session. Each sequence must show the same pictures
+/// as when it runs alone.
 TEST(Session, ResumedSequenceContinues) {
     const scene::Scene scene = test::make_lit_room(3, 1);
     app::Session session(test::get_test_engine(), scene), alone(test::get_test_engine(), scene);
@@ -323,8 +324,8 @@ TEST(Session, WaitingTimeIsNotHostWork) {
     }
 }
 
-/// A caller that asks after the frame has ended waits for nothing. A new frame for which no slot is
-/// free waits for an older frame.
+/// If a caller asks for times after the frame has ended, the call does not wait. A new frame waits
+/// for an older frame if all slots are in use.
 TEST(Session, FrameWaitsOnlyForUnfinishedFrames) {
     const scene::Scene scene = scene::make_cornell_mirrors();
     app::FrameSpec spec = make_frame_spec(scene, "raytrace");

@@ -1,5 +1,5 @@
-// Tests of the cache of specialised shaders: it returns what specialise_shader returns, whatever
-// its files hold.
+// Tests of the disk cache of specialised shaders. Whatever its files contain, the cache must return
+// the same code as specialise_shader().
 #include "gpu/shader.hpp"
 #include "gpu/shader_cache.hpp"
 #include "gpu/specialise.hpp"
@@ -32,7 +32,8 @@ protected:
     static std::span<const std::uint32_t> parallax_words() {
         return gpu::find_shader("reflect/parallax.frag").words;
     }
-    /// Returns the constant_id of a switch of reflect/parallax.frag.
+    /// Returns the constant_id of a named switch (a specialisation constant) of
+    /// reflect/parallax.frag.
     static std::uint32_t find_constant_id(const char* name) {
         for (const auto& constant :
              gpu::reflect_spirv("reflect/parallax.frag", parallax_words()).constants)
@@ -66,9 +67,9 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
     EXPECT_EQ(find_in(next, off), without);
     EXPECT_EQ(next.count_loaded(), 2u);
     EXPECT_EQ(next.count_stored(), 0u);
-    // Another shader with the same constants has its own file.
+    // A different shader with the same constants has its own file in the cache.
     ShaderWords other(parallax_words().begin(), parallax_words().end());
-    other[2] ^= 1; // number of the generator (SPIR-V specification, 2.3)
+    other[2] ^= 1; // the word of the SPIR-V header that names the generator
     const ShaderWords of_other = next.find_or_specialise("other", other, on);
     EXPECT_EQ(of_other, gpu::specialise_shader("other", other, on));
     EXPECT_EQ(next.count_stored(), 1u);
@@ -119,7 +120,7 @@ TEST_F(ShaderCache, FilesThatWereWrittenFirstAreRemoved) {
     constexpr std::uintmax_t kNoLimit = std::uintmax_t{1} << 40;
     store(1, kNoLimit);
     const fs::path oldest = list_stored_files()[0];
-    // Values of a switch that are true give files of the same size.
+    // Every value of a switch that counts as true gives a file of the same size.
     for (std::uint32_t value = 2; value < 6; ++value) store(value, kNoLimit);
     ASSERT_EQ(list_stored_files().size(), 5u);
     fs::last_write_time(oldest, fs::file_time_type::clock::now() - std::chrono::hours(1));

@@ -119,7 +119,7 @@ TEST(Timing, FirstRoundIsReplacedByLaterFrames) {
 
 TEST(Timing, FourTimesTheWorkTakesAboutFourTimesAsLong) {
     graph::GraphRunner runner(test::get_test_device().device, test::get_test_device().pipelines);
-    // Enough for a graphics card of 10,000 lanes to be busy all the time.
+    // This number of work groups keeps a graphics card of 10,000 lanes busy.
     const std::uint32_t kWorkGroupCount = test::get_test_device().device.is_cpu_device() ? 256
                                                                                          : 16384;
     std::vector<double> one, four;

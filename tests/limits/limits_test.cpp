@@ -41,8 +41,8 @@ TEST_F(SmallDeviceLimitsTest, HalfFloatDistancesGiveTheSamePicture) {
     expect_same_picture({"render", "cornell-mirrors", "--technique", "layered:face=32"});
 }
 
-/// The small device cannot filter 32-bit floats, so the shader filters distances. Its rounding
-/// differs from the driver's.
+/// The device with small limits cannot filter 32-bit floats, so the shader filters distances
+/// itself, with other rounding errors than the driver.
 TEST_F(SmallDeviceLimitsTest, FilteredDistancesGiveNearlyTheSamePicture) {
     for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
         Words words = with_small_quick_frame(
@@ -69,8 +69,9 @@ TEST_F(SmallDeviceLimitsTest, SceneOfManyTrianglesIsDrawn) {
     expect_same_picture({"render", "many.obj", "--technique", "raytrace"});
 }
 
-/// The small device blends all attachments of a pass alike, so surfaces of an alpha below .5 are
-/// cut out, in rasterised and in traced pictures.
+/// The device with small limits cannot blend attachments of a pass in different ways. Blended
+/// surfaces are therefore cut out where their alpha is below .5, in rasterised and in traced
+/// pictures.
 TEST_F(SmallDeviceLimitsTest, BlendedSurfacesAreCutAtHalf) {
     const std::string wall = "mtllib m.mtl\nv -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\n"
                              "usemtl white\nf 1 2 3 4\n",

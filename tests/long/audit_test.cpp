@@ -1,5 +1,5 @@
-// Tests a long loop under audit: a plan within its limit raises no alarm. The loop prints the times
-// of frames with and without the audit.
+// Runs a long loop of frames with an audit. If the plan keeps its limit, no alarm may be raised.
+// The test prints the times of frames with and without the audit.
 #include "study/plan_audit.hpp"
 #include "support/rendering.hpp"
 
@@ -22,11 +22,12 @@ app::FrameSpec make_spec_of_loop_frame(const scene::Scene& scene, int k, uvec2 s
     return spec;
 }
 
-/// The loops with and without audit take turns, so that both see the same load of the machine.
+/// A loop with audit and a loop without audit take turns, so that other load of the machine affects
+/// both.
 void run_audited_loop(uvec2 size) {
     const scene::Scene scene = test::replace_balls_by_coarse_balls(test::make_lit_room(2, 1));
     app::Session audited(test::get_test_engine(), scene), plain(test::get_test_engine(), scene);
-    for (app::Session* session : {&audited, &plain}) // compiles shaders
+    for (app::Session* session : {&audited, &plain}) // the first frames compile shaders
         for (int k = 0; k < 16; ++k)
             static_cast<void>(session->frame(make_spec_of_loop_frame(scene, k, size)).times());
     app::PlanAuditRequest request;

@@ -55,7 +55,8 @@ std::pair<std::size_t, std::size_t> count_lamp_pixels(const scene::Scene& scene,
     return found;
 }
 
-/// Tests a lamp with one side. Cameras, reflected rays and captures behind the lamp see through it.
+/// Tests a lamp that shines to one side only. Cameras, reflected rays and captures behind the lamp
+/// look through the lamp.
 TEST(Lamp, OneSidedLampIsSeenFromItsFrontOnly) {
     for (const bool faces_eye : {true, false}) {
         scene::Scene scene = test::make_lit_room(1, 0);

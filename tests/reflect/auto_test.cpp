@@ -44,7 +44,8 @@ TEST(Auto, PlanIsChosenAgainAfterAnEditOrACut) {
         .techniques = {"auto"}, .camera = hall.cameras.front(), .size = kAutoPictureSize};
     EXPECT_EQ(session.frame(frame_spec).read().plan.size(), 3u);
     const std::size_t block = scene::mirrors(hall).at(1);
-    // The block is no mirror any more, so the panel gets another number.
+    // This edit makes the block a surface that is no mirror. The panel therefore gets another
+    // mirror number.
     session.change(scene::paint(block, 0));
     const std::vector<PlanEntry> plan = session.frame(frame_spec).read().plan;
     ASSERT_EQ(plan.size(), 2u);

@@ -1,5 +1,4 @@
-// Tests of surfaces that cover a part of what is behind them (Material::blended), against closed
-// forms and against rays.
+// Tests of blended surfaces (Material::blended), against formulas and against ray tracing.
 #include "scene/build.hpp"
 #include "scene/pattern.hpp"
 #include "support/lit.hpp"
@@ -24,8 +23,8 @@ scene::Material make_veil(const char* name, vec3 emission, float alpha) {
             .blended = true};
 }
 
-/// Two glowing veils before a glowing wall, all across the view. They are listed from the nearest
-/// to the farthest, so that drawing them in the order of the list would be wrong.
+/// Returns a scene of two emitting, half-transparent sheets ("veils") in front of an emitting wall.
+/// The nearest sheet is listed first, so drawing objects in the order of the list would be wrong.
 scene::Scene make_two_veils() {
     scene::Scene scene{.name = "veils"};
     const auto add = [&](const char* name, scene::Material material, double z) {
@@ -51,7 +50,8 @@ TEST(Blending, VeilsCoverWhatIsBehindThemInOrder) {
     }
 }
 
-/// Veils of any alpha between 1/512 and 1, drawn places, seen directly.
+/// Returns a room with half-transparent sheets ("veils") at random places, with alpha from 1/512 to
+/// 1.
 scene::Scene make_room_with_veils(std::uint64_t seed, bool has_mirrors) {
     scene::Scene scene = test::make_lit_room(has_mirrors ? 2 : 0, 1);
     test::RandomNumbers numbers(seed);
@@ -86,7 +86,7 @@ TEST(Blending, RasterShowsWhatRaysShow) {
         scene::Scene scene = make_room_with_veils(seed, false);
         scene::Scene without = scene;
         for (scene::Material& material : without.materials)
-            if (material.blended) material.blended = false; // cut at half of the alpha
+            if (material.blended) material.blended = false; // cut out where alpha is below .5
         const measure::Picture raster = test::render_technique(scene, "naive:bounces=0", size).hdr,
                                cut = test::render_technique(without, "naive:bounces=0", size).hdr,
                                traced = test::render_technique(scene, "raytrace", size).hdr,
@@ -101,11 +101,11 @@ TEST(Blending, RasterShowsWhatRaysShow) {
     }
     std::cout << "[ MEASURED ] " << off << " of " << all << " pixels off, " << other
               << " other than cut at half\n";
-    EXPECT_LE(off, all / 50); // outlines and shadow edges
+    EXPECT_LE(off, all / 50); // pixels at outlines and shadow edges
     EXPECT_GT(other, all / 30);
 }
 
-/// A mirror shows a veil and what is behind it.
+/// A capture shows a half-transparent sheet (a "veil") together with the surface behind it.
 TEST(Blending, CapturesShowVeils) {
     const uvec2 size{64, 48};
     const scene::Scene scene = make_room_with_veils(5, true);
@@ -122,10 +122,11 @@ TEST(Blending, CapturesShowVeils) {
     EXPECT_LE(off, mirrors / 5);
 }
 
-/// A veil before the sky, which is drawn after all opaque surfaces.
+/// A half-transparent sheet (a "veil") must cover the sky, although the sky is drawn after all
+/// opaque surfaces.
 TEST(Blending, VeilsCoverTheSky) {
     scene::Scene scene = make_two_veils();
-    scene.objects.pop_back(); // the wall
+    scene.objects.pop_back(); // removes the wall
     auto sky = std::make_shared<scene::Environment>();
     sky->size = {16, 8};
     sky->texels.assign(16 * 8, vec3(.1f, .2f, .8f));
@@ -144,7 +145,8 @@ TEST(Blending, VeilsCoverTheSky) {
     }
 }
 
-/// Rays that start at the triangle that the rasteriser drew must not start at a veil's.
+/// Rays of `first=raster` start at the triangle that the rasteriser drew. This must not be a
+/// triangle of a half-transparent sheet (a "veil").
 TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
     const uvec2 size{64, 48};
     scene::Scene scene = test::make_lit_room(2, 1);
@@ -168,7 +170,8 @@ TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
     }
 }
 
-/// Parallel rays meet the veils in the same order, whatever the camera's place in its plane.
+/// For an orthographic camera, the order of half-transparent sheets ("veils") does not depend on
+/// the camera's position.
 TEST(Blending, VeilsAreSortedInParallelViews) {
     scene::Scene scene = make_two_veils();
     const vec3 wanted = .25f * vec3(.8f, 0, 0) +
@@ -185,8 +188,8 @@ TEST(Blending, VeilsAreSortedInParallelViews) {
     }
 }
 
-/// A mirrored view is cut at the mirror's plane: a veil before the mirror is seen in it, one behind
-/// it is not.
+/// A mirrored view is clipped at the mirror's plane. The mirror must show a half-transparent sheet
+/// (a "veil") in front of it, and no sheet behind it.
 TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
     scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "flat", .mirror = true});
@@ -214,8 +217,8 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
     EXPECT_LT(found, .1 * invisible);
 }
 
-/// What is opaque in a blended surface hides what is behind it and writes depth, whatever the
-/// order.
+/// Where a blended surface has an alpha of 1, it hides all objects behind it, in whatever order
+/// objects are drawn.
 TEST(Blending, AlphaOfOneIsOpaque) {
     scene::Scene scene = make_two_veils();
     scene.materials[0].alpha = 1;

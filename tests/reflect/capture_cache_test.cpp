@@ -135,8 +135,8 @@ TEST_F(CaptureCacheFramesTest, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
     drawn({"capture.keep", "capture/1.6-6"}, {0, 0}, {32, 32});
 }
 
-// Tests the pyramid, a tree of bounds of the captured distances. It must be made again for all six
-// faces of a mirror when a frame draws one of them.
+// Tests the pyramid, a tree of bounds of the captured distances. If a frame draws one face of a
+// capture, the pyramid of all six faces must be computed again.
 TEST_F(CaptureCacheFramesTest, PyramidIsMadeAgainWhenAFaceIsDrawn) {
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     const std::string pyramid = "pyramid:face=8";
@@ -154,8 +154,8 @@ TEST_F(CaptureCacheFramesTest, PyramidIsMadeAgainWhenAFaceIsDrawn) {
     }
 }
 
-// Tests the filtered levels of captures: a frame filters the levels of redrawn captures alone, and
-// nothing is filtered at rest.
+// Tests the filtered levels of captures. A frame filters only the captures that it draws again. At
+// rest no capture is filtered.
 TEST_F(CaptureCacheFramesTest, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
     test::make_mirrors_rough(room_, .3f);
     render::GpuScene rough(bench_.device, room_);
@@ -213,8 +213,8 @@ TEST_F(CaptureCacheFramesTest, MirrorsThatAreCapturedLaterAreAdded) {
     std::vector<std::vector<std::byte>> late;
     for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
         late.push_back(read_capture_colours(mirror));
-    // A mirror that is out of sight again needs no passes, and the arrays of captures keep their
-    // size.
+    // If a mirror goes out of sight again, its capture is not drawn any more, and the arrays of
+    // captures keep their size.
     model_.mirrors[1].is_captured = false;
     render_until_kept();
     model_.mirrors[1].is_captured = true;
@@ -281,7 +281,7 @@ TEST_F(CaptureCacheFramesTest, MirrorsThatWaitAreDrawnThoughTheirCauseHasEnded) 
 TEST_F(CaptureCacheFramesTest, BudgetIsRefusedBeforeChangesAreKnown) {
     render_and_list_passes();
     learns_ = false;
-    render_and_list_passes(); // this frame compares captures, and no one reads the result
+    render_and_list_passes(); // the result of this frame's comparison is never read
     most_ = 1;
     test::expect_error([&] { render_and_list_passes(); }, Failure::internal,
                        {"captures 'capture' are put off before it is known what changed"});

@@ -143,10 +143,9 @@ TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
                  "mirrors of any shape");
 }
 
-// The error that is split must be the error that the report gives for the row.
-/// Rays of the ablation stop at blended surfaces and follow reflections alone, so no cause is
-/// removed from pixels that show such a surface or glass. Removing all causes must not make them
-/// worse.
+// The split error must equal the error in the row's report. Rays that remove causes of error end at
+// blended surfaces and follow only reflections. Therefore no cause is removed in pixels that show a
+// blended surface or glass. Removing all causes must not increase the error of these pixels.
 TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
     const scene::Scene plain = test::make_lit_room(2, 1);
     scene::Scene veiled = plain, glass = plain;
@@ -156,7 +155,7 @@ TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
                                                          .unlit = true,
                                                          .alpha = .4f,
                                                          .blended = true});
-    for (const double x : {-1.7, 1.7}) // beside the camera's view, seen in the mirrors
+    for (const double x : {-1.7, 1.7}) // outside the camera's view, but visible in the mirrors
         test::add_quad(veiled, "veil", veil, {x, -1.8, -2.8}, {x, -1.8, 1.5}, {x, 1.5, 1.5},
                        {x, 1.5, -2.8});
     scene::add_mesh(glass, scene::ball("glass", 4),

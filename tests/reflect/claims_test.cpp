@@ -82,7 +82,7 @@ TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
 TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
     for (const bool exact : {true, false})
         for (const dvec3& board : {dvec3(0, 1.1, 0), dvec3(-4, 0, 0), dvec3(4, 0, 0)}) {
-            // Choose the ball that has the board behind the other ball.
+            // Selects the ball that has the board behind the other ball, as seen from the camera.
             const std::size_t seen = board.x > 0 ? 0 : 1;
             const scene::Scene scene = make_two_ball_scene(seen, board, .35, exact);
             const app::TechniqueResult truth = trace_claims_scene(scene, exact);
@@ -178,10 +178,10 @@ scene::Scene make_screened_mirror_scene(bool exact, bool from_aside) {
     return scene;
 }
 
-/// Counts of the pixels that the mirror's own capture cannot answer and the capture of another
-/// mirror does. `off` are wrong ones, `mirrors` those whose ray meets a second mirror, and
-/// `mirrors_off` wrong ones of these. `black` are pixels that became black because the answer shows
-/// a mirror without history.
+/// Numbers of pixels for which the mirror's own capture has no answer, but the capture of another
+/// mirror has one. `off`: wrong pixels. `mirrors`: pixels whose ray meets a second mirror.
+/// `mirrors_off`: wrong pixels among `mirrors`. `black`: pixels that became black, because the
+/// other capture shows a mirror without history.
 struct CaptureAnswerCounts {
     std::size_t all = 0, off = 0, mirrors = 0, mirrors_off = 0, black = 0;
 };

@@ -41,8 +41,8 @@ dvec3 direction_to_viewer(const scene::Scene& scene, int x, int y) {
     return {-ray.x, ray.z, -ray.y};
 }
 
-/// In a white furnace a sharp coat reflects its share of white, and the diffuse surface below it
-/// loses that share of its own light.
+/// In a white furnace, a sharp coat reflects its Fresnel share of the white light. The diffuse
+/// surface below the coat loses the same share of its own light.
 TEST(ClearCoat, SharpCoatOverDiffuseHasAClosedForm) {
     scene::Material paint{.name = "paint", .albedo = {.5f, .2f, .1f}, .clearcoat = .7f};
     scene::Scene scene = make_coated_floor(paint);
@@ -64,8 +64,8 @@ TEST(ClearCoat, SharpCoatOverDiffuseHasAClosedForm) {
     }
 }
 
-/// A coat with a lobe over a rough metal. Rays choose one of both layers, so their mean is the sum
-/// of two integrals.
+/// Tests a rough coat on a rough metal. Rays choose one of the two layers at random, so the mean of
+/// a pixel is the sum of the integrals over both lobes.
 TEST(ClearCoat, RoughCoatOverMetalIsTheSumOfTwoLobes) {
     constexpr double kStrength = .8, kCoatRoughness = .25, kMetalRoughness = .5;
     const dvec3 f0(.9, .6, .3);
@@ -99,7 +99,8 @@ TEST(ClearCoat, RoughCoatOverMetalIsTheSumOfTwoLobes) {
     }
 }
 
-/// The highlight of a point light in the coat, in both worlds, as a mirror and not.
+/// The highlight of a point light in the coat must have the expected radiance, rasterised and ray
+/// traced, on a mirror and on a surface that is no mirror.
 TEST(ClearCoat, CoatHasItsOwnHighlight) {
     scene::Material paint{.name = "paint",
                           .albedo = {.9f, .6f, .3f},
@@ -142,7 +143,7 @@ TEST(ClearCoat, CoatHasItsOwnHighlight) {
         }
 }
 
-/// Before an environment alone, a coated ball looks the same drawn and traced.
+/// In a scene with only an environment, a coated ball must look the same rasterised and ray traced.
 TEST(ClearCoat, RasterEqualsRays) {
     for (const float metallic : {0.f, 1.f})
         for (const float coat_roughness : {0.f, .3f}) {
@@ -181,8 +182,8 @@ TEST(ClearCoat, RasterEqualsRays) {
         }
 }
 
-/// A rough metal ball with a sharp coat: the capture is looked up twice, blurred and sharp. What
-/// the coat adds to a technique's picture is what it adds to the reference.
+/// Tests a rough metal ball with a sharp coat, whose capture is looked up both blurred and sharp.
+/// The coat must add the same light to a technique's picture as to the reference.
 TEST(ClearCoat, CapturesShowBothLayers) {
     const auto draw = [](float clearcoat, const char* technique, int warmup) {
         scene::Scene scene = test::make_lit_room(1, 1);
@@ -220,14 +221,14 @@ TEST(ClearCoat, CapturesShowBothLayers) {
     }
 }
 
-/// A coated metal whose texture makes every second texel too rough for a mirror. There the metal
-/// shows the environment as a surface that is no mirror, and its coat is looked up in the capture.
+/// Tests a coated metal whose roughness texture makes every second texel too rough for a mirror. In
+/// these texels the metal reflects only the environment, but the coat is looked up in the capture.
 TEST(ClearCoat, TexturedMirrorShowsItsCoatWhereTheMetalIsTooRough) {
     scene::Material paint{
         .name = "paint", .albedo = {.9f, .7f, .5f}, .metallic = 1, .roughness = 1, .clearcoat = 1};
     auto image = std::make_shared<scene::Image>();
     image->size = {2, 1};
-    image->texels = {0xff000000u, 0xffffff00u}; // roughness in green: 0 and 1; metal in blue
+    image->texels = {0xff000000u, 0xffffff00u}; // green is roughness (0 and 1), blue is metallic
     image->texels[0] |= 0x00ff0000u;
     paint.roughness_texture = scene::Texture{.image = image, .nearest = true};
     scene::Scene scene{.name = "floor"};
@@ -250,8 +251,9 @@ TEST(ClearCoat, TexturedMirrorShowsItsCoatWhereTheMetalIsTooRough) {
     }
 }
 
-/// Reflections of a rough coat are looked up in blurred levels, which must be those of the drawn
-/// mirror, even if the path goes on to a second mirror. Also for rough metal, from the first frame.
+/// A rough coat looks up blurred levels of the mirror's capture, also if a ray continues at a
+/// second mirror. With the model `required`, these levels must be ready from the first frame on,
+/// also for rough metal.
 TEST(ClearCoat, RequiredWorkDrawsThePictureOfAllWork) {
     scene::Scene room = test::make_lit_room(2, 1);
     scene::Material& metal = room.materials[room.objects.back().material];

@@ -43,8 +43,9 @@ ColourError measure_continued_search_error(const scene::Scene& scene,
     return error;
 }
 
-// The scene has a ball, a block and a flat mirror. Rays to the block and the flat mirror, which are
-// not exact spheres, are continued with the surfaces in their captures.
+// In this scene of a ball, a block and a flat mirror, searches also follow rays through mirrors
+// that are no exact spheres: the block and the flat mirror. For such mirrors a search uses the
+// surfaces in their captures.
 TEST(Continue, MirrorsInMirrorsOfAnyShapeAreFollowed) {
     for (const std::string search : {"secant", "march", "pyramid", "layered", "hybrid"}) {
         const ColourError without = measure_continued_search_error(test::make_mirror_hall(),

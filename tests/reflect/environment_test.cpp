@@ -13,7 +13,8 @@ namespace {
 
 using namespace catoptric;
 
-/// Returns an environment map whose texels hold `radiance` of the direction of their centres.
+/// Returns an environment map in which each texel holds `radiance(direction)` for the direction of
+/// its centre.
 template <typename Radiance>
 std::shared_ptr<scene::Environment> make_environment_map(uvec2 size, Radiance&& radiance) {
     auto map = std::make_shared<scene::Environment>();

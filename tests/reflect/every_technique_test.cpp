@@ -109,8 +109,8 @@ TEST_P(EveryTechniqueTest, SceneIsRenderedAsOftenAsTheTechniqueDeclares) {
                 if (value == "float" && !test::has_float_colour()) continue;
                 const std::string text = technique_with_small_captures(
                     {{knob.name, knob.name == "shadow_map" ? "64" : value}});
-                // Determine the technique that draws balls, because some techniques leave them to
-                // another technique.
+                // The techniques of some mirrors are left to another technique, so the test asks
+                // which technique draws balls.
                 const std::size_t balls = static_cast<std::size_t>(mirrors);
                 const reflect::TechniqueChoice choice =
                     reflect::replace_techniques_unfit_for_mirror(

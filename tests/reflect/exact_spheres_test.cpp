@@ -46,7 +46,8 @@ TEST(ExactSpheres, MovedSpheresAreSeenAtTheirNewPlaces) {
     }
 }
 
-/// Exact spheres, as their meshes, cast shadows even if the camera does not see them.
+/// An exact sphere that the camera does not see must cast a shadow, as the mesh of such a sphere
+/// does.
 TEST(ExactSpheres, SpheresHiddenFromTheCameraStillCastShadows) {
     scene::Scene scene = test::make_lit_room(2, 1), without = scene;
     without.objects.erase(without.objects.end() - 1);

@@ -51,8 +51,9 @@ TEST(AutoFace, MirrorsOutsideThePictureNeedNothing) {
     EXPECT_EQ(part.auto_face->edge, 16u);
 }
 
-/// A lobe hides what is finer than it, so a finer capture would not bring a better picture. A
-/// texture may make some parts smooth.
+/// The lobe of a rough mirror blurs details that are smaller than the lobe, so a finer capture
+/// would not improve the picture. If a texture varies the roughness, some parts of the mirror may
+/// be smooth.
 TEST(AutoFace, RoughFlatMirrorsNeedTheTexelsOfTheirLobe) {
     scene::Scene scene = test::make_furnace_scene(0);
     std::erase_if(scene.objects, [&](const auto& object) { return is_mirror(scene, object); });

@@ -1,5 +1,6 @@
-// Tests of ray tracing from the triangles that the rasteriser draws (raytrace:first=raster, and
-// hybrid). The picture must be the traced one, although few camera rays and shadow rays are traced.
+// Tests of ray tracing that starts at the triangles drawn by the rasteriser (raytrace:first=raster,
+// and hybrid). The picture must equal the ray-traced picture, although only few camera rays and
+// shadow rays are traced.
 #include "reflect/technique.hpp"
 #include "scene/build.hpp"
 #include "support/drawn_hall.hpp"
@@ -25,7 +26,8 @@ std::size_t count_pixels_off(const measure::Picture& a, const measure::Picture& 
     return count;
 }
 
-/// Expects the traced picture, with a camera ray in at most 2 % of the pixels.
+/// Expects that the picture equals the ray-traced one, and that camera rays are traced in at most 2
+/// % of the pixels.
 void expect_same_as_traced(const scene::Scene& scene, const std::string& what,
                            std::size_t most_off) {
     const app::TechniqueResult wanted = test::render_technique(scene, "raytrace:depth=4",
@@ -56,8 +58,8 @@ TEST(FirstRaster, PictureOfDrawnHallsIsTheTracedOne) {
         expect_same_as_traced(test::make_random_hall(seed, 5), "hall " + std::to_string(seed), 8);
 }
 
-/// Returns a room with masked, two-sided and smooth surfaces, none of which is a mirror, a sun and
-/// sixty copies of a mesh in object spaces.
+/// Returns a room without mirrors. It has masked, two-sided and smooth surfaces, a sun, and sixty
+/// copies of a mesh in object space.
 scene::Scene make_room_without_mirrors() {
     scene::Scene scene = test::make_lit_room(0, 1);
     scene::Material masked{.name = "net", .albedo = vec3(.8f), .two_sided = true};
@@ -101,7 +103,7 @@ TEST(FirstRaster, OrthographicPictureIsTheTracedOne) {
     expect_same_as_traced(scene, "orthographic", 8);
 }
 
-/// Triangles have other places in the hierarchy after an object has moved.
+/// After an object has moved, its triangles have other positions in the hierarchy.
 TEST(FirstRaster, PictureFollowsMovedObjects) {
     for (scene::Scene scene : {test::make_mirror_hall(), make_room_without_mirrors()}) {
         app::Session session(test::get_test_engine(), scene);

@@ -1,5 +1,6 @@
-// Tests of the light behind glass (--glass-shadow tint), in shadow maps and in shadow rays, against
-// closed forms: at each surface Fresnel's equations and the tint, inside solid glass e^-absorption.
+// Tests of tinted light behind glass (`--glass-shadow tint`), by shadow maps and by shadow rays.
+// The expected share of light is the product of Fresnel's equations and the base colour at each
+// surface, and of e^-absorption per unit of length inside solid glass.
 #include "core/shader_math.hpp"
 #include "measure/lines.hpp"
 #include "scene/classify.hpp"
@@ -18,7 +19,7 @@ using namespace catoptric;
 
 const dvec3 kGlassTint(.9, .6, .3), kGlassAbsorption(.2, .7, 1.5);
 constexpr double kGlassIor = 1.5;
-/// `naive` lights the floor by a shadow map, `raytrace` by shadow rays.
+/// The row `naive` lights the floor by a shadow map, and the row `raytrace` by shadow rays.
 const char* const kShadowMapRow = "naive:bounces=0,face=16,shadow_map=512";
 const std::array<const char*, 2> kRowsOfBothWorlds{kShadowMapRow, "raytrace"};
 
@@ -47,7 +48,8 @@ scene::Mesh make_closed_box(const dvec3& lo, const dvec3& hi) {
     return box;
 }
 
-/// Adds glass that the camera does not see, so that its shadow alone changes the picture.
+/// Adds glass that the camera does not see, so that only the shadow of the glass changes the
+/// picture.
 void add_unseen_glass(scene::Scene& scene, scene::Mesh mesh, bool solid = true) {
     scene::add_mesh(scene, std::move(mesh), test::add_material(scene, make_shading_glass(solid)));
     scene.objects.back().seen_by_camera = false;
@@ -64,8 +66,8 @@ scene::Scene make_lit_floor(scene::PunctualLight::Kind kind, const dvec3& from, 
     return scene;
 }
 
-/// Returns the mean over the picture, by how much the floor is darker with `tint` than with `none`.
-/// All pixels must agree.
+/// Returns the factor by which `--glass-shadow tint` darkens the floor, as a mean over the picture.
+/// Expects the same factor in all pixels.
 dvec3 measure_share_on_floor(scene::Scene scene, const std::string& technique) {
     const measure::Picture lit = test::render_without_ambient(scene, technique, {9, 9}).hdr;
     scene.tints_glass_shadows = true;
@@ -99,14 +101,14 @@ void expect_share(const scene::Scene& scene, const dvec3& wanted, const std::str
     }
 }
 
-/// The middle of the picture lies below the diagonal of the pane's triangles, where a ray meets two
-/// triangles of each surface.
+/// The middle of the picture lies under the diagonal of the pane. A shadow ray there meets two
+/// triangles of each surface, but each surface must count only once.
 TEST(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
     const double thickness = .4;
     for (const dvec3& axis : {dvec3(0, -1, 0), dvec3(1, -1, 0), dvec3(.3, -1, .2)}) {
         scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::directional, {0, 9, 0},
                                             axis);
-        const dvec3 above = -axis / -axis.y; // per unit of height
+        const dvec3 above = -axis / -axis.y; // length of the way for each unit of height
         add_unseen_glass(
             scene, make_closed_box(above - dvec3(.5, 0, .5), above + dvec3(.5, thickness, .5)));
         const double cosine = -glm::normalize(axis).y, passing = 1 - reflected_at(cosine);
@@ -124,7 +126,8 @@ TEST(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
                  "point light");
 }
 
-/// A sheet is one surface without an inside.
+/// A thin sheet of glass is one surface without an inside, so it tints the light once and absorbs
+/// nothing.
 TEST(GlassShadow, SheetTakesTintAndFresnelOnce) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(
@@ -132,8 +135,8 @@ TEST(GlassShadow, SheetTakesTintAndFresnelOnce) {
     expect_share(scene, kGlassTint * (1 - reflected_at(1)), "sheet");
 }
 
-/// Glass that touches the light's near distance is not cut off: the near distance of a shadow map
-/// follows from the nearest object in it.
+/// Glass close to a light is not clipped by the near plane of the shadow map, because the near
+/// plane follows from the nearest object.
 TEST(GlassShadow, PaneNearTheLightCounts) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(scene, make_closed_box({-.5, 1.89, -.5}, {.5, 1.99, .5}));
@@ -143,7 +146,8 @@ TEST(GlassShadow, PaneNearTheLightCounts) {
                  "pane near the light");
 }
 
-/// A light in a ball of glass shines through half of it, and so does light on a board in the ball.
+/// Light from a point inside a glass ball passes only half of the ball. The light on a board inside
+/// the ball does, too.
 TEST(GlassShadow, LightAndSurfaceInABody) {
     const dvec3 half_way = kGlassTint * (1 - reflected_at(1));
     scene::Scene bulb = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
@@ -160,7 +164,7 @@ TEST(GlassShadow, LightAndSurfaceInABody) {
     expect_share(board, half_way * glm::exp(-kGlassAbsorption * .5), "surface in a box");
 }
 
-/// Rays may meet the exact sphere in place of its mesh.
+/// Shadow rays may hit the exact sphere instead of its mesh.
 TEST(GlassShadow, BallTakesTheChordThroughIt) {
     for (const double beside : {0., .3}) {
         scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::directional, {0, 9, 0},
@@ -181,7 +185,8 @@ TEST(GlassShadow, BallTakesTheChordThroughIt) {
     }
 }
 
-/// Two bodies, one turned, one scaled; a wall and a block cast shadows, too.
+/// Shadow maps and shadow rays must agree on the light behind two glass bodies, of which one is
+/// rotated and one is scaled, beside a wall and a block that cast shadows.
 TEST(GlassShadow, ShadowMapAgreesWithShadowRays) {
     for (const auto kind :
          {scene::PunctualLight::Kind::directional, scene::PunctualLight::Kind::point}) {
@@ -202,7 +207,8 @@ TEST(GlassShadow, ShadowMapAgreesWithShadowRays) {
         };
         const measure::Picture raster = render("naive:bounces=0,face=16"),
                                traced = render("raytrace"), lit = render("raytrace:shadow=none");
-        // Sides of glass are edges, too: there the light falls in one step.
+        // The outlines of glass in the shadow are edges as well, because light changes there in one
+        // step.
         measure::Mask edges = test::mask_shadow_edges(lit, traced);
         scene.tints_glass_shadows = false;
         const measure::Picture untinted = render("raytrace");
@@ -224,7 +230,7 @@ TEST(GlassShadow, ShadowMapAgreesWithShadowRays) {
     }
 }
 
-/// The rows that rasterise first and trace the rest trace what lies behind glass.
+/// Techniques that trace only some pixels must trace the pixels behind glass.
 TEST(GlassShadow, RowsThatMixRasterAndRaysAgreeWithRays) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     scene.cameras.front().vertical_fov_degrees = 40;
@@ -254,7 +260,8 @@ TEST(GlassShadow, OverrideSetsTheSceneAndItsGap) {
     EXPECT_EQ(scene.unsupported.front().id, "glass-shadow-straight");
 }
 
-/// Without glass, or with `none`, nothing changes, and scenes keep their hash.
+/// The option `--glass-shadow` must not change scenes without glass. With the value `none` it
+/// changes neither pictures nor scene hashes.
 TEST(GlassShadow, ChangesNothingElse) {
     scene::Scene scene = test::make_lit_room(1, 1), glassy = scene;
     scene::add_mesh(glassy, make_closed_box({-.5, 0, -.5}, {.5, .2, .5}),

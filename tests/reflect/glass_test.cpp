@@ -1,4 +1,4 @@
-// Tests of glass in rays against closed forms, and against a ray tracer in double precision.
+// Tests of ray-traced glass, against formulas and against a ray tracer in double precision.
 #include "core/shader_math.hpp"
 #include "scene/surroundings.hpp"
 #include "support/lit.hpp"
@@ -27,8 +27,8 @@ scene::Material make_glass(float ior, bool solid) {
             .solid = solid};
 }
 
-/// Returns the light that a ray brings from a glass ball around the origin, of radius 1, and from
-/// the environment. `inside`: whether the ray is in the ball.
+/// Returns the light that a ray brings from a glass ball and from the environment around it. The
+/// ball has radius 1 and its centre at the origin. `inside`: whether the ray starts in the ball.
 dvec3 trace_ball(const scene::Scene& scene, const dvec3& origin, const dvec3& direction,
                  bool inside, double weight, int depth) {
     const scene::Material& glass = scene.materials[0];
@@ -90,8 +90,8 @@ TEST(GlassBall, EqualsATracerInDoublePrecision) {
     }
 }
 
-/// glTF's formula for the three indices: half of (n - 1) / V away from that of green, where V is
-/// the Abbe number 20 / dispersion.
+/// Returns the indices of refraction by glTF's formula. The indices of red and blue differ from the
+/// index of green by (n - 1) / (2 V), where V = 20 / dispersion is the Abbe number.
 TEST(GlassBall, DispersionBendsEachColourByItsOwnIndex) {
     scene::Material glass = make_glass(1.5f, true);
     glass.dispersion = 2;
@@ -122,7 +122,7 @@ TEST(GlassBall, DispersionBendsEachColourByItsOwnIndex) {
 }
 
 /// Single scattering loses light that meets several microfacets. With multiple scattering, rough
-/// glass in a white furnace is invisible.
+/// glass in a white furnace must be as bright as its surroundings.
 TEST(GlassBall, RoughGlassInAWhiteFurnace) {
     for (const auto& [roughness, least_single] :
          {std::pair(.1f, .99), std::pair(.3f, .95), std::pair(.6f, .75), std::pair(1.f, .3)}) {
@@ -152,8 +152,9 @@ TEST(GlassBall, RoughGlassInAWhiteFurnace) {
     }
 }
 
-/// Returns the light that a rough pane shows to a viewer at `o`, by quadrature. The pane's normal
-/// is z. Light passes a sheet as if a mirror's lobe were turned to the other side.
+/// Returns the light that a rough pane with normal z shows to a viewer in direction `o`, by
+/// quadrature. Light that passes a thin sheet has a mirror's lobe, turned to the other side of the
+/// sheet.
 dvec3 integrate_rough_pane(const scene::Scene& scene, double roughness, const dvec3& o) {
     dvec3 sum(0);
     const auto light_from = [&](const dvec3& i) {
@@ -170,7 +171,8 @@ dvec3 integrate_rough_pane(const scene::Scene& scene, double roughness, const dv
             const double fresnel = f64::fresnel_dielectric(glm::dot(o, glm::normalize(o + i)), 1.5,
                                                            behind),
                          lobe = test::textbook_lobe_reflectance(roughness, o, i);
-            // The lobe has height-correlated masking, what passes has a factor for each side.
+            // The reflecting lobe has height-correlated masking. The transmitting lobe has a
+            // separate masking factor for each side.
             const double correlated = 1 / (1 / masking(o.z) + 1 / masking(i.z) - 1);
             return lobe * (fresnel * light_from(i)[channel] +
                            (1 - fresnel) * masking(o.z) * masking(i.z) / correlated *
@@ -197,7 +199,7 @@ TEST(GlassPane, RoughSheetSpreadsLightByItsLobe) {
     }
 }
 
-/// Returns the scene with a sun that shines along `direction`, and no other light.
+/// Returns the scene with a directional light along `direction` as its only light.
 scene::Scene lit_by_sun_alone(scene::Scene scene, const dvec3& direction) {
     scene.environment.reset();
     scene::PunctualLight sun{
@@ -207,8 +209,8 @@ scene::Scene lit_by_sun_alone(scene::Scene scene, const dvec3& direction) {
     return scene;
 }
 
-/// Lights without a surface do not shine through rough glass (gap `rough-glass`): a ball before
-/// the sun is black, and no highlight appears on its inner side.
+/// Lights without a surface do not shine through rough glass (gap `rough-glass`). A rough ball in
+/// front of a directional light must be black, without a highlight on its inner side.
 TEST(GlassBall, RoughBallBeforeTheSunIsBlack) {
     scene::Material glass = make_glass(1.5f, true);
     glass.roughness = .4f;
@@ -223,7 +225,7 @@ TEST(GlassBall, RoughBallBeforeTheSunIsBlack) {
                 scene::find_mirrors(lit);
                 const measure::Picture seen =
                     test::render_without_ambient(lit, technique, {24, 24}, 2).hdr;
-                float most = 0; // outlines are left out: they do reflect light from behind them
+                float most = 0; // outlines are not tested: they reflect light from behind the ball
                 for (int y = 8; y < 16; ++y)
                     for (int x = 8; x < 16; ++x) most = std::max(most, seen.at(x, y).x);
                 return most;
@@ -233,7 +235,8 @@ TEST(GlassBall, RoughBallBeforeTheSunIsBlack) {
         }
 }
 
-/// A sheet has the highlight of a light on the viewer's side, whichever side its normal points to.
+/// A thin sheet of rough glass shows the highlight of a light on the viewer's side, to whichever
+/// side the normal of the sheet points.
 TEST(GlassPane, RoughSheetHasAHighlightOnBothSides) {
     scene::Material glass = make_glass(1.5f, false);
     glass.roughness = .4f;
@@ -257,8 +260,9 @@ TEST(GlassPane, RoughSheetHasAHighlightOnBothSides) {
     for (const float highlight : seen) EXPECT_NEAR(highlight, seen.front(), .01 * seen.front());
 }
 
-/// Rays below 1/512 are dropped, so a little light is missing. In a mesh, whose normals are
-/// interpolated, some rays are reflected inside until their depth ends.
+/// Paths with a weight below 1/512 are dropped, so a little light is missing. In a mesh with
+/// interpolated normals, some paths are also reflected inside the mesh until the largest depth ends
+/// them.
 TEST(GlassBall, IsInvisibleInAWhiteFurnace) {
     scene::Scene scene = make_glass_ball(make_glass(1.5f, true), 4);
     auto white = std::make_shared<scene::Environment>();
@@ -284,7 +288,7 @@ TEST(GlassBall, IsInvisibleInAWhiteFurnace) {
     }
 }
 
-/// Returns a pane of glass before a glowing wall, seen head-on.
+/// Returns a pane of glass in front of an emitting wall, seen head-on.
 scene::Scene make_pane_before_wall(const scene::Material& glass) {
     scene::Scene scene{.name = "pane"};
     const std::size_t pane = test::add_material(scene, glass),
@@ -297,7 +301,8 @@ scene::Scene make_pane_before_wall(const scene::Material& glass) {
 }
 
 TEST(GlassPane, ThinPaneTintsWhatPassesIt) {
-    scene::Material glass = make_glass(1.5f, true); // an open mesh is no solid body
+    scene::Material glass = make_glass(1.5f, true); // an open mesh counts as a sheet, not as a
+                                                    // solid body
     glass.albedo = {1, .5f, .25f};
     const vec3 seen =
         test::render_without_ambient(make_pane_before_wall(glass), "raytrace", {1, 1}).hdr.at(0, 0);
@@ -313,18 +318,21 @@ TEST(GlassPane, SolidSlabAbsorbsByItsThickness) {
     scene.materials[0] = glass;
     scene.meshes[0] = scene::box("slab", {-9, -9, -.7}, {9, 9, 0});
     const vec3 seen = test::render_without_ambient(scene, "raytrace", {1, 1}).hdr.at(0, 0);
-    // Between both faces light is reflected again and again: (1 - r)^2 a (1 + (r a)^2 + ...).
+    // Between both faces of the pane, light is reflected again and again. The share that passes is
+    // (1 - r)^2 a (1 + (r a)^2 + ...), for the reflectance r of a face and the share a that is not
+    // absorbed.
     const auto passes = [](double absorption) {
         const double r = .04, a = std::exp(-.7 * absorption);
         return (1 - r) * (1 - r) * a / (1 - r * r * a * a);
     };
-    EXPECT_NEAR(seen.x, .8 * passes(0), .002); // rays below 1/512 are dropped
+    EXPECT_NEAR(seen.x, .8 * passes(0), .002); // paths with a weight below 1/512 are dropped
     EXPECT_NEAR(seen.y, .4 * passes(.5), .002);
     EXPECT_NEAR(seen.z, .2 * passes(2), .002);
 }
 
-/// A pane reflects a lamp, and the path that passes the pane ends at a diffuse wall. The reflected
-/// ray must count the whole lamp, because no ray to the lamp accompanies it.
+/// A pane of glass reflects a lamp. The path that passes the pane ends at a diffuse wall, where a
+/// ray goes to the lamp. The reflected path must add the light of the lamp in full, because no ray
+/// to the lamp belongs to the reflected path.
 TEST(GlassPane, ReflectedLampCountsOnce) {
     scene::Scene scene{.name = "pane"};
     const std::size_t glass = test::add_material(scene, make_glass(1.5f, false)),

@@ -1,5 +1,5 @@
-// Tests of mirrors in mirrors, in surroundings of radiance 1. Each mirror reduces its own colour
-// channels. The colour of a pixel therefore tells which mirrors its ray met, how often, and whether
+// Tests of mirrors in mirrors, in surroundings of radiance 1. Each mirror reduces another colour
+// channel. The colour of a pixel therefore tells which mirrors its ray met, how often, and whether
 // the ray was ended early.
 #include "support/paths.hpp"
 
@@ -24,8 +24,8 @@ measure::Picture render_with_search(const scene::Scene& scene, const std::string
         .hdr;
 }
 
-/// Wrong pixels, by the number of mirrors that the traced ray met: any number, at least two, or at
-/// least three. `black`: rays that were ended early and are black.
+/// Numbers of wrong pixels, by the number of mirrors that the traced ray met: any number, at least
+/// two, or at least three. `black`: number of black pixels, whose rays were ended early.
 struct WrongPixelsByMirrorCount {
     test::PixelComparison all, two, three, black;
 };

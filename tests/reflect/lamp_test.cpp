@@ -70,8 +70,8 @@ double rectangle_form_factor(double x, double z, double height) {
     return (x / a * std::atan(z / a) + z / b * std::atan(x / b)) / (2 * test::kPi);
 }
 
-/// A board with a straight edge hides a part of a square lamp. What a point of the floor sees of
-/// the lamp is a rectangle.
+/// A board with a straight edge hides a part of a square lamp. The part of the lamp that a point of
+/// the floor sees is a rectangle, whose form factor is known.
 TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
     constexpr int kLampPictureEdge = 32;
     constexpr double kLampHeight = 2, kBoardHeight = 1, kHalfBoardWidth = .5, kLampEmission = 8;
@@ -127,7 +127,7 @@ TEST(Lamp, SoftShadowOfASquareLampIsItsVisibleFormFactor) {
         EXPECT_LT(few, one / 4) << technique;
         EXPECT_LT(many, .012) << technique;
     }
-    // Paths meet the lamp as an area, whose points are drawn for each pixel.
+    // Path tracing samples points on the area of the lamp, other points in each pixel.
     const double paths = rmse("raytrace:indirect=paths,depth=1,rays=1024", 1);
     std::cout << "[ MEASURED ] 1024 paths: rmse " << paths << '\n';
     EXPECT_LT(paths, .003);

@@ -1,5 +1,5 @@
-// Tests of light between surfaces by light probes (knob `indirect=captures`), against closed forms,
-// path tracing, and rooms into which no light may leak.
+// Tests of light between surfaces by light probes (knob `indirect=captures`), against formulas and
+// path tracing. In some test rooms no light may leak through a wall.
 #include "render/light_probes.hpp"
 #include "scene/classify.hpp"
 #include "support/lit.hpp"
@@ -35,7 +35,7 @@ measure::Picture render_by_probes(const scene::Scene& scene, const char* techniq
     return test::render_without_ambient(scene, technique, size, frames).hdr;
 }
 
-/// Returns a white ball before an environment, without a floor.
+/// Returns a scene of a white ball in an environment, without a floor.
 scene::Scene make_ball_in_environment(std::shared_ptr<scene::Environment> environment) {
     scene::Scene scene{.name = "ball"};
     test::add_ball(scene, "ball",
@@ -46,7 +46,7 @@ scene::Scene make_ball_in_environment(std::shared_ptr<scene::Environment> enviro
     return scene;
 }
 
-/// A convex body in a white environment reflects its albedo everywhere.
+/// In a white environment, a convex body must show its albedo at every point.
 TEST(LightProbes, ConvexBodyInAWhiteFurnaceReflectsItsAlbedo) {
     auto white = std::make_shared<scene::Environment>();
     white->size = {16, 8};
@@ -56,8 +56,8 @@ TEST(LightProbes, ConvexBodyInAWhiteFurnaceReflectsItsAlbedo) {
     for (const vec3& pixel : seen.pixels) EXPECT_NEAR(pixel.y, .5, .025);
 }
 
-/// Nothing hides the environment from a convex body, so captures of the environment give the light
-/// that its own coefficients give.
+/// No part of a convex body hides the environment from another part. Light probes must therefore
+/// give the same light as the spherical harmonics of the environment.
 TEST(LightProbes, ConvexBodyIsLitAsByTheWholeEnvironment) {
     const scene::Scene scene = make_ball_in_environment(test::make_smooth_environment());
     const measure::Picture ambient = render_by_probes(scene, "reuse", {24, 24}, 1),
@@ -73,7 +73,8 @@ TEST(LightProbes, ConvexBodyIsLitAsByTheWholeEnvironment) {
                 << i;
 }
 
-/// In a room of black walls no light passes between surfaces, and the lamp is not counted again.
+/// In a room with black walls, no light goes from surface to surface. Light probes must not add the
+/// light of the lamp again.
 TEST(LightProbes, BlackRoomHasTheDirectLightOfItsLampAlone) {
     scene::Scene room = test::make_lit_room(0, 1);
     for (scene::Material& material : room.materials)
@@ -86,8 +87,8 @@ TEST(LightProbes, BlackRoomHasTheDirectLightOfItsLampAlone) {
     EXPECT_LT(rms_difference(direct, probes), 1e-3);
 }
 
-/// A closed room with a mirror: probes are far nearer to a path tracer than any constant ambient
-/// light is, and so is their mean.
+/// In a closed room with a mirror, the picture with light probes must be far closer to path tracing
+/// than with any constant ambient light. The mean brightness must be closer as well.
 TEST(LightProbes, ClosedRoomIsNearerToPathsThanWithAnyAmbientLight) {
     scene::Scene room = test::make_lit_room(1, 1);
     scene::find_mirrors(room);
@@ -112,9 +113,9 @@ TEST(LightProbes, ClosedRoomIsNearerToPathsThanWithAnyAmbientLight) {
     EXPECT_NEAR(mean_green(probes), mean_green(truth), .15 * mean_green(truth));
 }
 
-/// A wall .05 thick stands between a room with a lamp and a dark one.
+/// A wall of thickness .05 separates a room with a lamp from a dark room.
 TEST(LightProbes, NoLightLeaksThroughAWall) {
-    scene::Scene scene = test::make_lit_room(0, 1); // x from -2 to 2
+    scene::Scene scene = test::make_lit_room(0, 1); // the room reaches from x = -2 to x = 2
     const std::size_t white = 0;
     for (int face = 0; face < 6; ++face)
         test::add_mesh(scene, scene::make_box_wall(face, {2.05, -2, -3}, {6, 2, 2}), white);
@@ -133,7 +134,8 @@ TEST(LightProbes, NoLightLeaksThroughAWall) {
     EXPECT_LT(mean_green(dark), .005 * mean_green(lit));
 }
 
-/// Where a search ends unknown, rays find the surface. It is lit by the same probes.
+/// Pixels that `hybrid` traces, because its search answers unknown, are lit by the same light
+/// probes.
 TEST(LightProbes, TracedPixelsAreLitByProbesToo) {
     scene::Scene room = test::make_lit_room(1, 1);
     scene::find_mirrors(room);
@@ -161,7 +163,8 @@ TEST(LightProbes, RequiredWorkDrawsThePictureOfAllWork) {
         all, app::run(test::get_test_engine(), asked).parts.front().hdr));
 }
 
-/// A room below a sky has probes inside, although others lie around it.
+/// In a room with an environment, light probes inside the room must light it, although other probes
+/// lie around the room.
 TEST(LightProbes, RoomBelowASkyHasLightBetweenSurfaces) {
     scene::Scene room = test::make_lit_room(0, 1);
     auto black = std::make_shared<scene::Environment>();
@@ -173,7 +176,7 @@ TEST(LightProbes, RoomBelowASkyHasLightBetweenSurfaces) {
     EXPECT_NEAR(mean_green(under_sky), mean_green(indoors), .1 * mean_green(indoors));
 }
 
-/// Ambient light is what probes replace, also in the lobes of rough metal.
+/// Light probes replace ambient light, also in the reflections of rough metal.
 TEST(LightProbes, AmbientLightIsNotAdded) {
     scene::Scene room = test::make_lit_room(1, 1);
     room.materials[room.objects.back().material] = {
@@ -188,7 +191,7 @@ TEST(LightProbes, AmbientLightIsNotAdded) {
     EXPECT_TRUE(test::have_equal_pixel_bytes(pictures[0], pictures[1]));
 }
 
-/// Light passes a pane of glass to probes behind it and back.
+/// Light must pass a pane of glass to the light probes behind the pane, and back.
 TEST(LightProbes, GlassDoesNotHideSurfacesFromProbes) {
     scene::Scene room = test::make_lit_room(0, 1);
     const measure::Picture open = render_by_probes(room, "secant:indirect=captures,face=32",
@@ -199,7 +202,7 @@ TEST(LightProbes, GlassDoesNotHideSurfacesFromProbes) {
                                                         .dielectric_f0 = vec3(.04f),
                                                         .dielectric_f90 = vec3(1),
                                                         .transmission = 1});
-    for (int face = 0; face < 6; ++face) // a case around everything that the camera sees
+    for (int face = 0; face < 6; ++face) // a box around everything that the camera sees
         test::add_mesh(room, scene::make_box_wall(face, {-1.9, -1.9, -2.8}, {1.9, 1.9, 1.9}),
                        glass);
     scene::find_mirrors(room);
@@ -208,7 +211,8 @@ TEST(LightProbes, GlassDoesNotHideSurfacesFromProbes) {
     EXPECT_GT(mean_green(cased), .6 * mean_green(open));
 }
 
-/// Paths that leave diffuse surfaces find the light between surfaces themselves.
+/// In a plan with path tracing, paths compute the light between surfaces themselves, so light
+/// probes must not add it again.
 TEST(LightProbes, PathsInAPlanDoNotCountProbesToo) {
     scene::Scene room = test::make_lit_room(1, 1);
     scene::find_mirrors(room);

@@ -1,5 +1,5 @@
-// Pixels of raytrace:rays=N against an integrator of its own in double precision: brute-force
-// quadrature over the lobe's half vectors, with rays that meet a wall in closed form.
+// Tests pixels of raytrace:rays=N against an integral in double precision: brute-force quadrature
+// over the half vectors of the lobe. Hits of rays with the wall are computed by a formula.
 #include "scene/build.hpp"
 #include "scene/surroundings.hpp"
 #include "support/lobe_witness.hpp"
@@ -17,12 +17,12 @@ using namespace catoptric;
 
 constexpr int kIntegralPictureEdge = 16;
 constexpr double kGlowingWallZ = -4,
-                 kGlowingWallHeight =
-                     5; ///< the wall covers |x| <= kGlowingWallHeight, 0 <= y <= kGlowingWallHeight
+                 kGlowingWallHeight = 5; ///< the wall covers |x| <= kGlowingWallHeight and 0 <= y
+                                         ///< <= kGlowingWallHeight
 
 enum class WallPresence { none, glowing, mirror };
 
-/// A floor at y = 0 below an environment, with a wall behind it or without.
+/// A scene of a floor at y = 0 below an environment, with or without a wall behind the floor.
 struct IntegralScene {
     const char* name;
     dvec3 colour;
@@ -46,7 +46,8 @@ scene::Scene make_integral_scene(const IntegralScene& wanted) {
     test::add_quad(scene, "floor", floor, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}, {-50, 0, -50});
     if (wanted.wall != WallPresence::none) {
         scene::Material material{.name = "wall", .two_sided = true};
-        if (wanted.wall == WallPresence::glowing) // seen, but no light for the diffuse part
+        if (wanted.wall == WallPresence::glowing) // the wall is visible, but does not light diffuse
+                                                  // surfaces
             material.emission = vec3(kWallGlowColour), material.light = vec3(0);
         else
             material.mirror = true, material.reflectance = vec3(float(kWallReflectance));
@@ -76,7 +77,8 @@ dvec3 radiance_arriving_at_floor(const scene::Scene& scene, const IntegralScene&
     return weight * scene::environment_radiance(*scene.environment, along);
 }
 
-/// Returns the radiance of the floor's pixel, or nothing where the camera ray meets the wall.
+/// Returns the expected radiance of a pixel that shows the floor; nothing if the camera ray meets
+/// the wall.
 std::optional<dvec3> integrate_floor_pixel(const scene::Scene& scene, const IntegralScene& wanted,
                                            int x, int y, const dvec3& irradiance) {
     constexpr int kPolarSteps = 400, kAzimuthSteps = 300;
@@ -85,7 +87,8 @@ std::optional<dvec3> integrate_floor_pixel(const scene::Scene& scene, const Inte
                                                       kIntegralPictureEdge);
     const dvec3 met = eye - eye.y / ray.y * ray;
     if (ray.y >= 0 || met.z < kGlowingWallZ + .1) return {};
-    const dvec3 o(-ray.x, ray.z, -ray.y); // in tangent space: x, -z, y
+    const dvec3 o(-ray.x, ray.z, -ray.y); // direction to the viewer in tangent space, whose axes
+                                          // are x, -z and y
     const double alpha = wanted.roughness * wanted.roughness;
     dvec3 lobe(0), albedo(0);
     for (int k = 0; k < kPolarSteps; ++k) {
@@ -99,8 +102,8 @@ std::optional<dvec3> integrate_floor_pixel(const scene::Scene& scene, const Inte
             if (cosine <= 0) continue;
             const dvec3 i = 2 * cosine * h - o;
             if (i.z <= 0) continue;
-            // Density of half vectors: D h.z. A solid angle of them is 1 / (4 o.h) of that of
-            // light.
+            // The density of half vectors is D h.z. The solid angle of half vectors is that of
+            // light directions divided by 4 o.h.
             const double slope = 1 + tan2 / (alpha * alpha);
             const double density = 1 / (test::kPi * alpha * alpha * z * z * z * slope * slope);
             const double weight = test::textbook_lobe_reflectance(wanted.roughness, o, i) * 4 *
@@ -118,8 +121,9 @@ std::optional<dvec3> integrate_floor_pixel(const scene::Scene& scene, const Inte
     return lobe + diffuse;
 }
 
-/// The share of values more than 3 standard errors apart is that of chance. The errors come from 12
-/// seeds, so the statistic has Student's distribution with 11 degrees of freedom: 1.2 %.
+/// The share of values that differ by more than 3 standard errors must be as expected by chance.
+/// Standard errors come from 12 seeds, so the statistic has Student's distribution with 11 degrees
+/// of freedom, and the expected share is 1.2 %.
 TEST(LobeIntegral, TwoHundredPixelsAgreeWithAnotherIntegrator) {
     constexpr int kSeedCount = 12, kPixelsPerScene = 50;
     int apart = 0, compared = 0;
@@ -162,7 +166,7 @@ TEST(LobeIntegral, TwoHundredPixelsAgreeWithAnotherIntegrator) {
                                                (kSeedCount - 1));
                 const double off = std::abs(mean - (*radiance)[channel]);
                 ++compared;
-                apart += off > 3 * error + 5e-4; // the quadrature's own error
+                apart += off > 3 * error + 5e-4; // 5e-4: error of the quadrature itself
                 largest = std::max(largest, off);
             }
         }

@@ -1,5 +1,5 @@
-// Tests of comparisons with a reference that draws rays from lobes: its noise, and the error bars
-// of the rows.
+// Tests of comparisons with a noisy reference, whose rays have random directions in lobes. The
+// tests check the noise of the reference and the error bars of the rows.
 #include "compare.hpp"
 #include "measure/halves.hpp"
 #include "measure/metric.hpp"
@@ -31,7 +31,8 @@ std::shared_ptr<scene::Environment> make_patched_environment() {
     return map;
 }
 
-/// Returns a metal floor of this roughness below patches, which fills the picture.
+/// Returns a scene of a metal floor of the given roughness, below an environment of patches. The
+/// floor fills the picture.
 scene::Scene make_metal_floor_below_patches(float roughness) {
     scene::Scene scene{.name = "patched floor"};
     scene.mirror_max_roughness = 1;
@@ -99,7 +100,8 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
     EXPECT_NEAR(predicted[2] / rmse[2], 1, .05);
 }
 
-/// The true error is that against 16 times the rays, with other seeds.
+/// The test takes the error against a picture with 16 times as many rays and other seeds as the
+/// true error.
 TEST(NoisyReference, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     constexpr int kRaysPerPixel = 16;
     SeededTracer tracer(make_metal_floor_below_patches(.4f), {64, 64});
@@ -136,8 +138,8 @@ app::CompareRequest make_rough_floor_request(const std::vector<std::string>& row
     return request;
 }
 
-/// The row would be the first half itself if the reference took the same seed. Its error would then
-/// be 0.
+/// If the reference used the seed of a row, its first half would equal the row's picture, and the
+/// row's error would be 0.
 TEST(NoisyReference, SharesNoSeedWithARow) {
     app::CompareRequest request = make_rough_floor_request(
         {"raytrace:depth=2,rays=4,seed=1", "raytrace:depth=2,rays=4,seed=2"}, 0);
@@ -146,7 +148,8 @@ TEST(NoisyReference, SharesNoSeedWithARow) {
     ASSERT_TRUE(found.noise);
     EXPECT_EQ(found.noise->frames, 1);
     for (const report::Row& row : found.rows) {
-        // The noise of a picture of 4 rays; a half has the same.
+        // Computes the noise of a picture with 4 rays per pixel. A half of the reference with one
+        // frame has the same noise.
         const double noise = found.noise->halves_rmse / std::sqrt(2.);
         EXPECT_NEAR(row.error.rmse, noise, .25 * noise) << row.label;
     }
@@ -192,7 +195,7 @@ TEST(NoisyReference, IsTheDefaultForRoughMirrorsOnly) {
     request.reference = "";
     const report::Comparison sharp = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(sharp.reference_label, app::kReference);
-    // A perfect mirror has no noise, even if rays are drawn from lobes.
+    // A scene of perfect mirrors has no noise, even if the reference has the knob `rays`.
     request.reference = "raytrace:depth=16,rays=2";
     const report::Comparison drawn = app::compare(test::get_test_engine(), request);
     for (const report::Comparison* without : {&sharp, &drawn}) {
@@ -214,7 +217,7 @@ TEST_F(NoisyReferenceInFolder, FileContinuesTheHalves) {
                              again = app::compare(test::get_test_engine(), request);
     EXPECT_EQ(again.noise->frames, 1);
     EXPECT_EQ(again.rows[0].error.rmse, first.rows[0].error.rmse);
-    request.reference_seconds = .2; // one frame a half more, at least
+    request.reference_seconds = .2; // enough for at least one more frame of each half
     const report::Comparison longer = app::compare(test::get_test_engine(), request);
     EXPECT_GT(longer.noise->frames, 1);
     EXPECT_LT(longer.noise->halves_rmse, first.noise->halves_rmse);

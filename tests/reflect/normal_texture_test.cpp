@@ -1,4 +1,4 @@
-// Tests of textures of normals: both worlds against formulas.
+// Tests of normal maps, rasterised and ray traced, against formulas.
 #include "support/rendering.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -55,7 +55,7 @@ double expected_diffuse_radiance(const dvec3& normal, const dvec3& light) {
 
 TEST(NormalTexture, FlatMapChangesNoPixel) {
     scene::Scene plain = make_lit_square({-.3, -.4, -1});
-    // Both scenes have a texture, so that both run the same code.
+    // Both compared scenes have a texture, so that the shaders run the same code for both.
     plain.materials[0].albedo_texture = scene::Texture{
         .image = make_one_texel_image(255, 255, 255)};
     scene::Scene mapped = plain;
@@ -67,7 +67,8 @@ TEST(NormalTexture, FlatMapChangesNoPixel) {
             << world;
 }
 
-/// Red bends the normal along u, green against v, whichever way the texture lies on the square.
+/// The red channel of a normal map bends the normal along u, and the green channel bends it against
+/// v, for any rotation of the texture on the square.
 TEST(NormalTexture, RedBendsAlongUAndGreenAgainstV) {
     struct NormalTextureCase {
         std::uint32_t red, green, blue;
@@ -100,7 +101,7 @@ TEST(NormalTexture, RedBendsAlongUAndGreenAgainstV) {
     }
 }
 
-/// The frame turns with the object, for a single object and for instances of one mesh.
+/// Normal maps turn with their object, for a single object and for instances of one mesh.
 TEST(NormalTexture, NormalsTurnWithTheObject) {
     const dvec3 light{.4, -.2, -1};
     scene::Scene scene = make_lit_square(light);
@@ -124,7 +125,7 @@ TEST(NormalTexture, NormalsTurnWithTheObject) {
                         expected_diffuse_radiance(wanted, light), 4e-4)
                 << world << ' ' << is_instance;
     }
-    // Seen from behind, a two-sided surface is the same relief from its other side.
+    // From behind, a two-sided surface shows the same relief from its other side.
     scene.cameras.front().eye = {0, 0, -4};
     scene.punctual.clear();
     const scene::Scene behind = make_lit_square(-light);
@@ -135,8 +136,8 @@ TEST(NormalTexture, NormalsTurnWithTheObject) {
             << world;
 }
 
-/// A mirror with such a texture reflects along the bent normal, in captures and by rays. It is
-/// neither flat nor a sphere.
+/// A mirror with a normal map reflects along the bent normal, in captures and by rays. Such a
+/// mirror counts neither as flat nor as a sphere.
 TEST(NormalTexture, MirrorsReflectAlongTheBentNormal) {
     scene::Scene scene = make_lit_square({0, 0, -1});
     scene.punctual.clear();

@@ -1,4 +1,4 @@
-// Tests of path tracing (indirect=paths) against closed forms of light between surfaces.
+// Tests of path tracing (`indirect=paths`) against formulas for light between surfaces.
 #include "core/error.hpp"
 #include "scene/surroundings.hpp"
 #include "support/numbers.hpp"
@@ -17,7 +17,8 @@ using namespace catoptric;
 constexpr int kPathEdge = 8;
 constexpr uvec2 kPathSize{kPathEdge, kPathEdge};
 
-/// Mean over all pixels and channels of pictures with different seeds, and its standard error.
+/// Mean of all pixels and channels, over pictures with different seeds, with the standard error of
+/// this mean.
 struct SeedMean {
     double mean = 0, error = 0;
 };
@@ -35,8 +36,8 @@ SeedMean mean_of_seeds(const scene::Scene& scene, const std::string& technique, 
     return {mean, std::sqrt(std::max(squares / seeds - mean * mean, 0.) / (seeds - 1))};
 }
 
-/// Expects the mean of pictures within 4 standard errors and the relative `slack` of `wanted`, and
-/// a standard error below 1 % of it.
+/// Expects that the mean of pictures equals `wanted` within 4 standard errors plus the relative
+/// error `slack`. The standard error must be below 1 % of `wanted`.
 void expect_mean_radiance(const scene::Scene& scene, const std::string& technique, double wanted,
                           double slack = 1e-5) {
     const SeedMean found = mean_of_seeds(scene, technique);
@@ -70,9 +71,9 @@ TEST(PathTracing, FurnaceShowsTheGeometricSeriesOfItsReflections) {
     }
 }
 
-/// A point light in the middle of a diffuse sphere lights all of the sphere equally, and so does
-/// the light that the sphere reflects: E (1 + a + a^2 ...) a / pi with the irradiance E and the
-/// albedo a.
+/// A point light in the middle of a diffuse sphere lights all points of the sphere equally. So does
+/// the light that the sphere reflects. The radiance of the sphere is E (1 + a + a^2 ...) a / pi,
+/// for the irradiance E and the albedo a.
 TEST(PathTracing, SphereAroundAPointLightReflectsEquallyEverywhere) {
     constexpr double kAlbedo = .6, kPunctualLightIntensity = 3, kRadius = 2;
     scene::Scene scene{.name = "sphere"};
@@ -114,10 +115,11 @@ TEST(PathTracing, WhiteSurfacesBelowAWhiteSkyAreWhite) {
                                                          .dielectric_f0 = vec3(.04f),
                                                          .dielectric_f90 = vec3(1)}),
                              "raytrace:indirect=paths,rays=256,depth=4", 1,
-                             2e-4); // of the table of the lobe's albedo
+                             2e-4); // 2e-4: error of the table of lobe albedos
 }
 
-/// A black board above a floor hides the part of the sky that its form factor tells.
+/// A black board above a floor hides a part of the sky. The form factor of the board gives the size
+/// of this part.
 TEST(PathTracing, ObjectsHideTheEnvironment) {
     scene::Scene scene = make_floor_below_white_sky({.name = "grey", .albedo = vec3(.5f)});
     const std::size_t black = test::add_material(scene, {.name = "black", .albedo = vec3(0)});
@@ -128,7 +130,7 @@ TEST(PathTracing, ObjectsHideTheEnvironment) {
     expect_mean_radiance(scene, "raytrace:indirect=paths,rays=256,depth=3", .5 * (1 - 4 * quarter));
 }
 
-/// Returns a room with a small lamp, a rough metal, a plastic and a mirror.
+/// Returns a room with a small lamp, a rough metal object, a plastic object and a mirror.
 scene::Scene make_mixed_room() {
     scene::Scene scene = test::make_lit_room(1, 1);
     scene.mirror_max_roughness = 1;
@@ -182,7 +184,8 @@ TEST(PathTracing, ErrorFallsWithTheRootOfTheNumberOfPaths) {
     EXPECT_NEAR(factor, 2, .15);
 }
 
-/// Light between the walls is nothing that point lamps and ambient light show.
+/// Light from coloured walls must reach the floor between them. Without path tracing, pictures lack
+/// this light.
 TEST(PathTracing, ColouredWallsTintTheFloorBetweenThem) {
     const scene::Scene scene = test::make_lit_room(0, 1);
     const SeedMean direct = mean_of_seeds(scene, "raytrace:indirect=paths,rays=64,depth=1"),

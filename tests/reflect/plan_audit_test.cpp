@@ -1,5 +1,6 @@
-// Tests of the audit of running frames: that its samples are the running picture's, that its errors
-// are those of a comparison, and that it notices a wrong law and stale reflections.
+// Tests of the audit of running frames. Its sampled pixels must be those of the running picture,
+// its errors must equal those of a comparison, and it must notice a wrong technique and outdated
+// reflections.
 #include "study/plan_audit.hpp"
 
 #include "compare.hpp"
@@ -18,7 +19,7 @@ using namespace catoptric;
 
 constexpr uvec2 kAuditedSize{64, 64};
 constexpr const char* kRunningPlan = "parallax:face=64,shadow_map=64";
-constexpr double kAuditedLimit = .08; ///< of FLIP; the plan errs by .04 to .06
+constexpr double kAuditedLimit = .08; ///< limit of FLIP; the audited plan has a FLIP of .04 to .06
 
 scene::Scene make_audited_room() {
     return test::replace_balls_by_coarse_balls(test::make_lit_room(2, 1));
@@ -30,7 +31,7 @@ app::FrameSpec make_audited_spec(const scene::Scene& scene) {
     return spec;
 }
 
-/// Returns the camera of frame k on a small circle.
+/// Returns the camera of frame k. The cameras of successive frames move on a small circle.
 scene::Camera camera_of_frame(const scene::Camera& first, int k) {
     scene::Camera camera = first;
     camera.eye += dvec3(.3 * std::sin(.11 * k), .2 * std::sin(.07 * k),
@@ -46,7 +47,7 @@ app::PlanAuditRequest make_audit_request(std::vector<std::string> plans = {kRunn
     return request;
 }
 
-/// Audits every frame that is counted.
+/// Returns a request that audits every frame that is counted.
 app::PlanAuditRequest make_request_of_every_frame() {
     app::PlanAuditRequest request = make_audit_request();
     request.pace.every = 1;
@@ -64,11 +65,13 @@ TEST(PlanAudit, SampledViewKeepsPixelCentresForAnySize) {
         ASSERT_GE(std::min(view.size.x, view.size.y), 1u);
         EXPECT_LE(view.size.x * view.size.y, 40'000u);
         const uvec2 last = view.first + view.step * (view.size - uvec2(1));
-        // The margins at both ends are equal, and smaller than two steps.
+        // The sampled pixels leave margins of equal width at both ends of a row, narrower than two
+        // sampling steps.
         EXPECT_EQ(view.first, size - uvec2(1) - last);
         EXPECT_LT(view.first.x, 2 * view.step);
         EXPECT_LT(view.first.y, 2 * view.step);
-        // The direction through the first sample, down from the axis, is the same in both pictures.
+        // The direction through the first sample must be the same in the sampled view and in the
+        // whole picture.
         const auto slope = [](double degrees, double y, double height) {
             return std::tan(glm::radians(degrees) / 2) * (1 - 2 * (y + .5) / height);
         };
@@ -83,8 +86,8 @@ TEST(PlanAudit, SampledViewKeepsPixelCentresForAnySize) {
     EXPECT_EQ(app::choose_sampled_view(camera, {200, 200}, 40'000).camera, camera);
 }
 
-/// The traced picture of the sampled view must show what the pixels of the whole traced picture
-/// show, but for pixels where the last bit of a direction decides.
+/// The ray-traced picture of the sampled view must equal the same pixels of the whole ray-traced
+/// picture, except in pixels where the last bit of a ray's direction decides which surface is hit.
 TEST(PlanAudit, TracedSamplesEqualThePixelsOfTheWholePicture) {
     for (const char* name : {"room", "courtyard"}) {
         SCOPED_TRACE(name);
@@ -122,7 +125,8 @@ TEST(PlanAudit, ErrorIsThatOfAComparison) {
         app::FrameSpec spec = make_audited_spec(scene);
         std::optional<double> error;
         for (int k = 0; k < 18; ++k) {
-            // The instant changes and the picture does not, so that each frame counts.
+            // The scene stands still and only the frame's time changes, so that each frame counts
+            // as new.
             spec.time = k;
             const app::Frame frame = session.frame(spec);
             if (const auto found = audit.watch_frame(session, frame, spec, k).error) error = found;
@@ -133,8 +137,8 @@ TEST(PlanAudit, ErrorIsThatOfAComparison) {
     }
 }
 
-/// The reference of rough surfaces has noise, so an edit that makes a surface rough pauses the
-/// audit.
+/// The reference of a scene with rough surfaces has noise. An edit that makes a surface rough
+/// therefore pauses the audit.
 TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
     const scene::Scene scene = make_audited_room();
     const std::size_t shiny = scene.objects[scene::mirrors(scene).front()].material;
@@ -165,8 +169,9 @@ TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
     EXPECT_EQ(count_audited_frames(8), 0u);
 }
 
-/// The audit's frames are outside the sequence: each running picture keeps its bytes. The picture
-/// is large enough to be sampled, and choices for the first frame of the sequence stay.
+/// The frames of the audit are outside the sequence of running frames, so all running pictures must
+/// keep their bytes. The picture of this test is large enough to be sampled. Choices that were made
+/// in the first frame of the sequence, such as `face=auto`, must stay.
 TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
     const scene::Scene scene = make_audited_room();
     app::FrameSpec spec = make_audited_spec(scene);
@@ -198,29 +203,29 @@ TEST(PlanAudit, UnchangedPicturesAndOtherPlansAreNotAudited) {
         for (int k = 0; k < frames; ++k) audit.watch_frame(session, session.frame(spec), spec, k);
         return audit.audit().frame_count();
     };
-    EXPECT_EQ(run(30), 0u); // one picture, which counts as one frame
+    EXPECT_EQ(run(30), 0u); // the picture does not change, so it counts once
     for (int k = 1; k <= 20; ++k) spec.camera = camera_of_frame(scene.cameras.front(), k), run(1);
     const std::size_t moving = audit.audit().frame_count();
     EXPECT_GE(moving, 4u);
     EXPECT_EQ(run(10), moving);
     session.change(scene::set_material(1, {.name = "red", .albedo = {.6f, .2f, .1f}}));
-    EXPECT_EQ(run(10), moving + 1); // the edited scene is seen without another specification
+    EXPECT_EQ(run(10), moving + 1); // a changed scene counts as a new frame
     spec.techniques = {"reuse:face=16"};
     spec.camera.eye.x += .1;
-    EXPECT_EQ(run(1), moving + 1); // not the audited plan
+    EXPECT_EQ(run(1), moving + 1); // another plan than the audited plan
     spec.techniques = {kRunningPlan};
-    spec.camera.target = spec.camera.eye + dvec3(0, 0, -1); // no mirror is seen
+    spec.camera.target = spec.camera.eye + dvec3(0, 0, -1); // a view without mirrors
     EXPECT_EQ(run(1), moving + 1);
 }
 
 struct CaughtFault {
-    bool is_early = false;  ///< whether the alarm sounded before the fault
+    bool is_early = false;  ///< whether an alarm was raised before the fault began
     int frames = 0;         ///< frames from the fault until the alarm
     std::size_t audits = 0; ///< audited frames among them
 };
 
-/// Runs a loop in which a fault begins at a frame, until the alarm. `fault` returns what the fault
-/// shows instead of the frame.
+/// Runs frames in which a fault begins at some frame, until the audit raises an alarm. `fault`
+/// returns the faulty picture that is shown instead of the frame.
 template <typename ShowFault>
 CaughtFault run_until_alarm(app::Session& session, int faulty, std::uint64_t seed,
                             const ShowFault& fault) {
@@ -250,7 +255,8 @@ void expect_fault_is_caught_for_20_seeds(app::Session& session, const ShowFault&
         const int faulty = 30 + static_cast<int>(seed * 7 % 20);
         const CaughtFault caught = run_until_alarm(session, faulty, seed, fault);
         EXPECT_FALSE(caught.is_early) << seed;
-        // About 8 clean audits come before, after which 4 failures suffice.
+        // About 8 audited frames pass before the fault. After that, at most 4 failures raise an
+        // alarm.
         EXPECT_LE(caught.audits, 4u) << seed;
         most_frames = std::max(most_frames, caught.frames);
         most_audits = std::max(most_audits, caught.audits);
@@ -264,12 +270,13 @@ TEST(PlanAudit, WrongLawIsCaughtForEverySeed) {
     const scene::Scene scene = make_audited_room();
     app::Session session(test::get_test_engine(), scene), wrong(test::get_test_engine(), scene);
     expect_fault_is_caught_for_20_seeds(session, [&](app::FrameSpec spec) {
-        spec.techniques = {"reuse:face=64,shadow_map=64"}; // without the corrected direction
+        spec.techniques = {"reuse:face=64,shadow_map=64"}; // a technique without parallax
+                                                           // correction
         return wrong.frame(spec);
     });
 }
 
-/// A wall is painted over, and the mirrors keep showing what was captured before.
+/// A wall changes its colour, but the mirrors continue to show the old captures.
 TEST(PlanAudit, StaleReflectionsAreCaughtForEverySeed) {
     const scene::Scene scene = make_audited_room();
     app::Session session(test::get_test_engine(), scene), stale(test::get_test_engine(), scene);
@@ -299,7 +306,8 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
         if (!outcome.message.empty()) messages.push_back(outcome.message);
         if (!outcome.has_new_plan) continue;
         steps.push_back(k);
-        EXPECT_EQ(audit.audit().frame_count(), 0u); // the new plan begins without evidence
+        EXPECT_EQ(audit.audit().frame_count(), 0u); // the audit of the new plan begins without
+                                                    // evidence
     }
     ASSERT_EQ(steps.size(), 2u);
     EXPECT_EQ(alarms, 2);

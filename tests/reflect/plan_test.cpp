@@ -77,7 +77,8 @@ TEST(Plan, EachMirrorEqualsAFrameOfItsOwnTechnique) {
     asked.warmup = kFramesUntilFirstOrder - 1;
     const app::TechniqueResult mixed = std::move(
         app::run(test::get_test_engine(), asked).parts.front());
-    // Mirror 4 is traced, but has a capture, because the captures of other mirrors show it.
+    // Mirror 4 is ray traced. It has a capture nevertheless, because the captures of other mirrors
+    // show mirror 4.
     EXPECT_EQ(mixed.scene_passes, 4 + 2);
     const std::vector<std::string> uniform{"reuse:face=64", "hybrid", "secant",
                                            "raytrace:shadow=map"};

@@ -54,7 +54,7 @@ struct TwoMirrorRoom {
             const double t = ((low ? kProxyRoomLowCorner : kProxyRoomHighCorner)[axis] -
                               from[axis]) /
                              direction[axis];
-            // A ray that passes the open end has left the room, so it meets no wall beyond.
+            // A ray that passes the open end leaves the room, and meets no wall beyond the opening.
             if (axis != 0 && open && from.x + t * direction.x > kProxyRoomHighCorner.x) continue;
             nearest = std::min(nearest, t);
         }

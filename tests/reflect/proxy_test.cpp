@@ -113,8 +113,8 @@ TEST(Proxy, AllRaysMissWithoutSurroundings) {
         }
 }
 
-/// With rays followed through the other balls, the box of the room leaves only the objects in the
-/// room as an error.
+/// If rays are followed through the other balls, the box of `proxy` is wrong only for objects
+/// inside the room.
 TEST(Proxy, BoxReducesTheErrorInTheBuiltInScene) {
     const auto judged = test::measure_search_errors(scene::make_cornell_mirrors(),
                                                     test::list_search_test_views().front(),

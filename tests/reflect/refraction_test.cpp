@@ -1,5 +1,5 @@
-// Tests of glass whose light is looked up in captures (knob `refract`). Witnesses are closed forms
-// in double precision below an environment, which has no parallax, and the ray tracer.
+// Tests of glass that is looked up in captures (knob `refract`). Expected values are formulas in
+// double precision, for glass that shows only an environment, and ray-traced pictures.
 #include "core/shader_math.hpp"
 #include "measure/picture.hpp"
 #include "scene/classify.hpp"
@@ -34,7 +34,7 @@ scene::Material make_tinted_glass(bool solid = true) {
             .absorption = {.05f, .2f, .4f}};
 }
 
-/// Returns a body below a smooth sky. Rays that leave the body see the sky alone.
+/// Returns a scene of one body below a smooth sky. Rays that leave the body see only the sky.
 scene::Scene make_body_below_sky(scene::Mesh mesh, const scene::Material& glass, const dvec3& eye) {
     scene::Scene scene{.name = "body"};
     scene::add_mesh(scene, std::move(mesh), test::add_material(scene, glass));
@@ -44,25 +44,27 @@ scene::Scene make_body_below_sky(scene::Mesh mesh, const scene::Material& glass,
     return scene;
 }
 
-/// What a body does to a ray: where it is entered and left. Nothing: the ray misses the body.
+/// The way of a ray through a body: the points where the ray enters and leaves the body, with their
+/// normals. No value: the ray misses the body.
 struct BodyCrossing {
     dvec3 near_normal, far_normal; ///< unit, outwards
-    double way;                    ///< through the glass
+    double way;                    ///< length of the way through the glass
 };
-/// `into` bends a ray into the glass at a surface of the given normal.
+/// A function that returns the way of a ray through a body. Its parameter `into` computes the
+/// direction of a ray that enters glass at a surface with a given normal.
 using FindCrossing = std::function<std::optional<BodyCrossing>(
     const dvec3& eye, const dvec3& direction,
     const std::function<dvec3(const dvec3& normal)>& into)>;
 
-/// Returns the textbook's refracted direction, by the law of sines in vectors.
+/// Returns the refracted direction by Snell's law in vector form.
 dvec3 bend(const dvec3& direction, const dvec3& normal, double ratio) {
     const dvec3 across = (direction - glm::dot(direction, normal) * normal) / ratio;
     return across - std::sqrt(1 - glm::dot(across, across)) * normal;
 }
 
-/// Returns the radiance of a pixel of make_body_below_sky: the light reflected at the near surface
-/// and the light that passes both surfaces without being reflected inside. Nothing if light is
-/// totally reflected at the far surface.
+/// Returns the radiance of a pixel of make_body_below_sky(): the light that the near surface
+/// reflects, and the light that passes both surfaces. Light reflected inside the body is left out.
+/// Returns nothing if the far surface reflects all light.
 std::optional<dvec3> radiance_of_body(const scene::Scene& scene, const dvec3& direction,
                                       const BodyCrossing& crossing) {
     const scene::Material& glass = scene.materials[0];
@@ -86,14 +88,15 @@ std::optional<dvec3> radiance_of_body(const scene::Scene& scene, const dvec3& di
 std::optional<BodyCrossing> cross_ball(const dvec3& eye, const dvec3& direction,
                                        const std::function<dvec3(const dvec3&)>& into) {
     const double b = glm::dot(eye, direction), c = glm::dot(eye, eye) - 1;
-    // Near the outline a pixel of the mesh differs from one of the ball.
+    // Near the outline, a pixel of the mesh may differ from the same pixel of the exact ball, so
+    // such pixels are skipped.
     if (b * b - c < .05) return std::nullopt;
     const dvec3 near = eye + (-b - std::sqrt(b * b - c)) * direction, inside = into(near);
     const double way = -2 * glm::dot(near, inside);
     return BodyCrossing{near, near + way * inside, way};
 }
 
-/// Crossing of the box [-half, half].
+/// Returns the way of a ray through the box from -half to half.
 std::optional<BodyCrossing> cross_box(const dvec3& half, const dvec3& eye, const dvec3& direction,
                                       const std::function<dvec3(const dvec3&)>& into) {
     BodyCrossing crossing{};
@@ -118,7 +121,7 @@ std::optional<BodyCrossing> cross_box(const dvec3& half, const dvec3& eye, const
     return crossing;
 }
 
-/// `share`: of the pixels that may be off.
+/// Compares a picture with the expected radiances. `share`: largest allowed share of wrong pixels.
 void expect_radiance_by_closed_form(const scene::Scene& scene, const std::string& technique,
                                     double tolerance, const FindCrossing& find_crossing,
                                     double share = .01) {
@@ -168,8 +171,8 @@ TEST(Refraction, BoxBendsLightAsTheClosedForm) {
                                        });
 }
 
-/// The image of back faces has the picture's pixels, so the far edges of a box are off by up to
-/// one.
+/// The image of back faces has the resolution of the picture, so the far edges of a box may be
+/// wrong by up to one pixel.
 TEST(Refraction, BackFacesOfBallAndTurnedBoxBendLightAsTheClosedForm) {
     const scene::Scene ball = make_body_below_sky(scene::ball("ball", 6), make_tinted_glass(),
                                                   {.6, .5, 4.5});
@@ -197,7 +200,7 @@ TEST(Refraction, BackFacesOfBallAndTurnedBoxBendLightAsTheClosedForm) {
         .05);
 }
 
-/// Returns the FLIP of a row on one mirror of its scene, against rays.
+/// Returns the FLIP between a row and ray tracing, over the pixels of one mirror of the scene.
 double flip_on_mirror(const app::TechniqueResult& found, const app::TechniqueResult& traced,
                       std::size_t mirror) {
     measure::Mask shown(traced.hits.size(), 0);
@@ -208,7 +211,7 @@ double flip_on_mirror(const app::TechniqueResult& found, const app::TechniqueRes
     return measure::flip_mean(measure::flip(found.display, traced.display), shown);
 }
 
-/// Lens and bottle bend light at curved surfaces that no ball and no box stands for.
+/// A lens and a bottle bend light at curved surfaces that differ from a ball or a box.
 TEST(Refraction, BackFacesShowLensAndBottleBetterThanAnyBody) {
     const scene::Scene scene = scene::load("glass");
     const uvec2 size{128, 96};
@@ -228,7 +231,7 @@ TEST(Refraction, BackFacesShowLensAndBottleBetterThanAnyBody) {
     }
 }
 
-/// Without glass there is no image of back faces.
+/// In a scene without glass, no pass draws back faces.
 TEST(Refraction, BackFacesCostNothingWithoutGlass) {
     const scene::Scene room = test::make_lit_room(1, 1);
     const app::TechniqueResult with = test::render_technique(
@@ -239,7 +242,7 @@ TEST(Refraction, BackFacesCostNothingWithoutGlass) {
     EXPECT_EQ(with.memory_bytes, without.memory_bytes);
 }
 
-/// A wall before which a pane stands. Straight through the pane the wall is seen where it is.
+/// Through a pane of glass in front of a wall, the wall must appear at its true position.
 TEST(Refraction, ThinGlassShowsWhatIsBehindIt) {
     for (const bool solid : {false, true}) {
         scene::Scene scene{.name = "pane"};
@@ -276,12 +279,12 @@ TEST(Refraction, TracerTakesGlassOver) {
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const MirrorId mirror = measure::first_mirror_of_hit_word(hits[i]);
         if (!mirror || mirror == MirrorId::mirror_id_from_list_index(4))
-            continue; // the mirror ball
+            continue; // the mirror ball is no glass
         ++glass;
         off += test::max_channel_difference(traced.pixels[i], hybrid.pixels[i]) > .02f;
     }
     EXPECT_GT(glass, 1000);
-    EXPECT_LE(off, glass / 100); // outlines, which the rasteriser places on other pixels
+    EXPECT_LE(off, glass / 100); // at outlines the rasteriser may cover other pixels
 }
 
 TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
@@ -304,7 +307,7 @@ TEST(Refraction, GlassIsMoreThanItsDiffusePart) {
     EXPECT_LT(refracted, unbent);
 }
 
-/// A camera inside glass sees the world through it, not black.
+/// A camera inside glass must see the surroundings through the glass, and not black.
 TEST(Refraction, CameraInsideGlassSeesOut) {
     for (const bool two_sided : {false, true}) {
         scene::Material glass = make_tinted_glass();
@@ -322,7 +325,8 @@ TEST(Refraction, CameraInsideGlassSeesOut) {
     }
 }
 
-/// A capture of glass may be read in any direction, even that of a flat sheet, seen from one side.
+/// The capture of glass may be read in any direction. This is also true for a flat sheet that is
+/// seen from one side, so no face of its capture may be left out.
 TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
     scene::Scene room = test::make_lit_room(0, 1);
     test::add_quad(room, "sheet", test::add_material(room, make_tinted_glass(false)),
@@ -351,7 +355,7 @@ TEST(GlassBody, VolumeOfClosedMeshesIsThatOfTheirBody) {
               0);
 }
 
-/// A flat mirror shows a glass ball that stands before it.
+/// A flat mirror must show a glass ball in front of it.
 TEST(Refraction, FlatMirrorsShowGlassByItsTechnique) {
     scene::Scene scene = test::make_lit_room(0, 1);
     const std::size_t mirror = test::add_material(scene, {.name = "flat", .mirror = true});

@@ -282,7 +282,8 @@ TEST(ReportFigures, ReferenceStatesItsDistanceFromTheMeanOverPixels) {
         test::render_technique(request.base.scene, "raytrace:depth=1", kReportPictureSize).hits);
     EXPECT_GT(measure::flip_mean(map, mirrors), .001);
     EXPECT_NEAR(document["reference"]["area_flip"], measure::flip_mean(map, mirrors), 1e-7);
-    // The last two cannot trace 16 samples a pixel.
+    // The distance from the mean over pixels is not stated for other references: the first has four
+    // samples a pixel, and the other two cannot trace 16 samples a pixel.
     for (const char* other : {"raytrace:depth=16,samples=4", "raytrace:depth=4,first=raster",
                               "raytrace:depth=4,rays=8192"}) {
         request.reference = other;
@@ -381,9 +382,9 @@ TEST(ReportFigures, RowCostsItsOwnPassesWhenRowsShareAFrame) {
     }
 }
 
-/// Rows run in reverse order in every second round, so that no row always follows the same row.
-/// On a graphics card the first round is measured again at the end. Pictures, errors and calls of
-/// `on_finished_row` stay as they are without.
+/// In every second round, rows run in reverse order, so that no row always follows the same row. On
+/// a graphics card, the first round is measured again at the end. The repeated round must not
+/// change pictures, errors and calls of `on_finished_row`.
 TEST(Rounds, FirstRoundIsMeasuredAgainOnRequest) {
     app::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
     request.base.animate = true;
@@ -425,7 +426,8 @@ TEST(Rounds, FirstRoundIsMeasuredAgainOnRequest) {
     }
 }
 
-/// If a signal stops the run while the first round is measured again, rows keep their times.
+/// If a signal stops the run during the repeated first round, rows keep the times of the earlier
+/// rounds.
 TEST(Rounds, StopInTheRepeatedRoundKeepsAllRows) {
     app::CompareRequest request = make_report_request({"reuse:face=16", "raytrace:depth=1"});
     std::atomic<int> signal = 0;

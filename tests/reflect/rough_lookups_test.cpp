@@ -1,5 +1,5 @@
-// Tests of rough surfaces that are looked up in captures (knobs `rough` and `law`). Witnesses are
-// quadrature in double precision, and the ray tracer.
+// Tests of rough surfaces that are looked up in captures (knobs `rough` and `law`). Expected values
+// come from quadrature in double precision and from ray tracing.
 #include "core/shader_math.hpp"
 #include "scene/build.hpp"
 #include "scene/surroundings.hpp"
@@ -45,7 +45,7 @@ scene::Scene make_ball_below_sky(float roughness, bool is_white = false) {
     return scene;
 }
 
-/// A pixel whose ray meets the ball.
+/// A pixel of the picture in which the camera ray meets the ball.
 struct BallPixel {
     int x = 0, y = 0;
     dvec3 normal, to_eye;
@@ -126,10 +126,11 @@ TEST(RoughLookups, WhiteFurnaceShowsTheAlbedoOfTheLobe) {
     }
 }
 
-/// Kills a wrong level, roughness where alpha is meant, and faces that do not meet.
+/// Tests the filtered levels of a capture. The test fails for a wrong level, for roughness in place
+/// of alpha, and for seams between faces.
 TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
     constexpr double kCaptureFaceTexels = 128;
-    // Faces of 4 texels are too coarse to interpolate between.
+    // Levels with faces of 4 texels are not compared, because they are too coarse to interpolate.
     for (const auto& [level, tolerance] :
          {std::pair(1, .06), std::pair(2, .06), std::pair(3, .07), std::pair(4, .12)}) {
         const double alpha = f64::alpha_of_capture_level(double(level), kCaptureFaceTexels),
@@ -158,7 +159,8 @@ TEST(RoughLookups, LevelsShowTheFilteredSurroundings) {
     }
 }
 
-/// Searches in many directions of the lobe find what rays find, where the capture shows all.
+/// Where the capture shows all reflected surfaces, searches in many directions of the lobe must
+/// give the same light as traced rays.
 TEST(RoughLookups, SearchesAlongTheLobeFindWhatRaysFind) {
     const scene::Scene scene = make_ball_below_sky(.35f);
     const measure::Picture searched = test::render_technique(scene,
@@ -176,7 +178,8 @@ TEST(RoughLookups, SearchesAlongTheLobeFindWhatRaysFind) {
     EXPECT_LT(test::rmse_of_pictures(searched, traced), .01);
 }
 
-/// The filtered look-up is nearer to the rays than a sharp one, the more the rougher.
+/// A filtered look-up must be closer to ray tracing than a sharp look-up. The advantage must grow
+/// with the roughness.
 TEST(RoughLookups, FilteredLookupsAreNearerToRaysThanSharpOnes) {
     const scene::Scene scene = scene::load("cornell-rough");
     const measure::Picture traced =
@@ -229,8 +232,8 @@ TEST(RoughLookups, SearchesThatTheDriverStopsAreMarked) {
     EXPECT_EQ(count_marked("1024") > 0, test::get_test_device().device.is_cpu_device());
 }
 
-/// A mirrored view is sharp, so flat rough mirrors are drawn by another technique, and `auto` does
-/// not choose `planar` for them.
+/// A mirrored view shows sharp reflections. Flat rough mirrors are therefore drawn by another
+/// technique, and `auto` does not choose `planar` for them.
 TEST(RoughLookups, FlatRoughMirrorsAreNotDrawnByMirroredViews) {
     scene::Scene scene = scene::load("flat");
     test::make_mirrors_rough(scene, .3f);

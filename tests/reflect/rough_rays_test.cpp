@@ -1,5 +1,5 @@
-// Tests of rays from rough surfaces (raytrace:rays=N). The witness is an integral over the lobe in
-// double precision (support/lobe_witness.hpp).
+// Tests of rays from rough surfaces (`raytrace:rays=N`). The expected value is an integral over the
+// lobe in double precision (support/lobe_witness.hpp).
 #include "scene/build.hpp"
 #include "scene/classify.hpp"
 #include "scene/surroundings.hpp"
@@ -36,7 +36,8 @@ scene::Scene make_rough_floor(float roughness, std::shared_ptr<const scene::Envi
     return scene;
 }
 
-/// Returns the radiance of a pixel of the floor by quadrature. The floor's frame has z upwards.
+/// Returns the expected radiance of a pixel of the floor, by quadrature over the lobe. In tangent
+/// space of the floor, z points up.
 dvec3 expected_floor_radiance(const scene::Scene& scene, double roughness, int x, int y) {
     const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
                                                             kRoughPictureEdge);
@@ -60,7 +61,8 @@ measure::Picture trace_rough_rays_with_seed(const scene::Scene& scene, const std
     return app::run(test::get_test_engine(), asked).parts.front().hdr;
 }
 
-/// Pixels lie within their own error bars of the integral as often as chance allows.
+/// Pixels differ from the integral by more than their own error bars only as often as chance
+/// allows.
 TEST(RoughRays, RadianceIsTheIntegralOverTheLobe) {
     constexpr int kSeedCount = 8;
     for (const float roughness : {.1f, .3f, .6f}) {
@@ -106,7 +108,7 @@ TEST(RoughRays, ErrorFallsWithTheNumberOfRays) {
     const double few = error("4"), many = error("64");
     std::cout << "[ MEASURED ] difference of two seeds: " << few << " with 4 rays, " << many
               << " with 64\n";
-    EXPECT_LT(many, few / 3); // 4 for independent rays
+    EXPECT_LT(many, few / 3); // 16 times as many independent rays reduce the error by 4
     EXPECT_GT(few, 0);
 }
 
@@ -134,8 +136,8 @@ TEST(RoughRays, PictureIsAFunctionOfItsSeed) {
               trace_rough_rays_with_seed(scene, "raytrace:rays=3", 8).pixels);
 }
 
-/// A closed white furnace: the light that rough balls reflect between each other stays below that
-/// of perfect mirrors, because a single-scattering lobe loses light, and is never above it.
+/// In a closed white furnace, rough balls must not be brighter than perfect mirrors. They are
+/// darker, because a lobe with single scattering loses light.
 TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
     scene::Scene furnace = test::make_furnace_scene(2);
     for (scene::Material& material : furnace.materials)
@@ -163,8 +165,8 @@ TEST(RoughRays, RoughMirrorsInAFurnaceGainNoLight) {
     EXPECT_GT(rough_sum, .8 * sharp_sum);
 }
 
-/// A hall of rough metal with two lamps that rays of lobes seldom meet: a small quad with another
-/// colour than a far, large ball. A board hides the small lamp from a part of the floor.
+/// Returns a hall of rough metal with two lamps that rays of a lobe seldom hit: a small quad, and a
+/// distant large ball of another colour. A board hides the small lamp from a part of the floor.
 scene::Scene make_hall_with_small_lamps() {
     scene::Scene scene{.name = "hall"};
     scene.mirror_max_roughness = 1;
@@ -190,11 +192,12 @@ scene::Scene make_hall_with_small_lamps() {
     return scene;
 }
 
-/// Rays that aim at lamps change the noise of a picture but not its mean, in each block of pixels.
+/// Rays that aim at lamps must not change the mean of each block of pixels, and must reduce the
+/// noise.
 TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
     const scene::Scene scene = make_hall_with_small_lamps();
     constexpr int kSeedCount = 12, kBlock = 4, kBlocks = kRoughPictureEdge / kBlock;
-    /// Sums over the seeds of a block's red, and of its square.
+    /// Sums of a block's red value, and of its square, over all seeds.
     struct PixelBlockSums {
         double values = 0, squares = 0;
         double mean_of_block() const { return values / kSeedCount; }

@@ -1,5 +1,5 @@
-// Tests of rough surfaces that are no mirrors: highlights of lights, the environment by levels, and
-// lobes followed by rays. Witnesses are quadrature in double precision.
+// Tests of rough surfaces that are no mirrors: highlights of lights, filtered environments, and
+// rays of lobes. Expected values come from quadrature in double precision.
 #include "render/sky_levels.hpp"
 #include "scene/build.hpp"
 #include "scene/surroundings.hpp"
@@ -106,7 +106,8 @@ measure::Picture render_scene_without_ambient(const scene::Scene& scene,
     return app::run(test::get_test_engine(), asked).parts.front().hdr;
 }
 
-/// A point light on plastic and metal of each roughness, drawn and traced, as a mirror and not.
+/// Tests a point light on plastic and metal of each roughness, rasterised and ray traced, on
+/// surfaces that are mirrors and on surfaces that are not.
 TEST(RoughSurfaces, HighlightsOfPointLightsFollowTheLobe) {
     constexpr std::pair<int, int> kTestedPixels[] = {{8, 15}, {2, 11}, {14, 8}, {9, 5}};
     double largest = 0;
@@ -221,7 +222,8 @@ TEST(RoughSurfaces, MultipleScatteringLosesNoLight) {
                       << " scattering: largest difference " << largest << '\n';
 }
 
-/// Rays from plastic bring its lobe's share of the environment. The rest of the light is diffuse.
+/// Rays from plastic bring the part of the environment that the lobe reflects. All other light of
+/// the plastic is diffuse.
 TEST(RoughSurfaces, RaysFromPlasticBringTheIntegralOverTheLobe) {
     const FloorMaterial material{{.5, .4, .3}, kPlasticMetallic, .35};
     scene::Scene scene = make_rough_floor_scene(material);
@@ -310,7 +312,8 @@ TEST(RoughSurfaces, LevelsOfTheEnvironmentEqualAQuadrature) {
     }
 }
 
-/// Rays that start at the surface that the rasteriser drew bring the picture of traced camera rays.
+/// With `first=raster`, rays from rough surfaces must give the same picture as with traced camera
+/// rays.
 TEST(RoughSurfaces, RaysFromDrawnSurfacesAreThoseOfTracedOnes) {
     scene::Scene scene = make_rough_floor_scene({{.5, .4, .3}, kPlasticMetallic, .3});
     scene.environment = make_smooth_test_environment(false);
@@ -331,7 +334,7 @@ TEST(RoughSurfaces, RaysFromDrawnSurfacesAreThoseOfTracedOnes) {
               .01);
 }
 
-/// The first hit says whether a surface that is no mirror reflects sharply or by a lobe.
+/// The data of a first hit say whether a surface that is no mirror reflects sharply or by a lobe.
 TEST(RoughSurfaces, HitsTellRoughFromSmoothSurfaces) {
     for (const auto& [roughness, code] :
          {std::pair(.04, shared::kHitSmoothDielectric), std::pair(.05, shared::kHitRoughNonMirror),
@@ -351,8 +354,9 @@ TEST(RoughSurfaces, HitsTellRoughFromSmoothSurfaces) {
     }
 }
 
-/// Lamps light a rough metal that is no mirror as if it were diffuse, because nothing shows their
-/// reflection. Rays of the lobe show it, so there is no stand-in.
+/// Rasterised pictures show no reflections of lamps in rough metal that is no mirror. Lamps
+/// therefore light such metal as if it were diffuse. Rays of the lobe show the reflections, so
+/// ray-traced pictures have no such diffuse light.
 TEST(RoughSurfaces, LampsLightARoughMetalWhereNoRaysGo) {
     scene::Scene scene = make_rough_floor_scene({{.9, .6, .3}, kMetalMetallic, .9});
     const std::size_t lamp = test::add_material(scene, {.name = "lamp", .emission = vec3(50)});

@@ -349,8 +349,8 @@ TEST(CutOut, CutOutPartIsInvisibleAndCastsNoShadow) {
     }
 }
 
-/// Eye and lamp are on the same side of a board. With `away`, the board's front faces away from
-/// both.
+/// Eye and lamp are on the same side of a board. If `away` is true, the front of the board faces
+/// away from eye and lamp.
 TEST(Sides, SidesAreSeenAndLitAsTheMaterialSays) {
     const auto board = [](bool front_only, bool two_sided, bool away) {
         scene::Mesh mesh = make_unit_square({0, 0}, {1, 1});
@@ -372,7 +372,7 @@ TEST(Sides, SidesAreSeenAndLitAsTheMaterialSays) {
         };
         const float lit = colour(false, false, false);
         EXPECT_GT(lit, .1f) << world;
-        // Lit by ambient light only.
+        // This side of the board is lit by ambient light only.
         EXPECT_FLOAT_EQ(colour(false, false, true), .5f * .05f) << world;
         EXPECT_NEAR(colour(false, true, true), lit, 1e-5) << world;
         EXPECT_NEAR(colour(false, true, false), lit, 1e-5) << world;

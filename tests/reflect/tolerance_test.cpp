@@ -67,7 +67,7 @@ TEST(Tolerance, ContinuousSurfaceIsAHit) {
             EXPECT_GE(found.hits, found.pixels * 99 / 100) << search << settings;
             EXPECT_LE(found.wrong, found.pixels * 3 / 100) << search << settings;
         }
-    // This board is so close to the wall that either may count as the hit.
+    // This board is so close to the wall that a search may report either of the two surfaces.
     for (const std::string& search : kSearchTechniqueNames) {
         const HitCounts found = count_hits_between_slats(.02, search + ":shadow=none,face=128", 1);
         EXPECT_GE(found.hits, found.pixels * 95 / 100) << search;

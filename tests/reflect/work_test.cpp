@@ -1,5 +1,5 @@
-// Tests of counted work. The counts are compared with those of other code: the traversal on the
-// CPU, the tracer's own ray counters, masks of pixels, and the plan of the frame.
+// Tests of counted work. The counts are compared with independent counts: of the traversal on the
+// CPU, of the ray tracer's own ray counters, of masks of pixels, and of the planned frame.
 #include "bvh/closest_hit.hpp"
 #include "gpu/shader.hpp"
 #include "gpu/specialise.hpp"
@@ -55,8 +55,8 @@ bvh::BvhTraversalCounters count_traversal_work_on_cpu(const scene::Scene& scene)
 }
 
 TEST(Work, RaysVisitTheNodesAndTrianglesThatTheTraversalOnTheCpuVisits) {
-    // Without lights no object lacks a shadow, so the device has one tree for all triangles, as the
-    // CPU has.
+    // In a scene without lights, every object counts as casting a shadow. The device then has one
+    // tree for all triangles, like the CPU.
     for (const char* name : {"cornell-mirrors", "flat"}) {
         scene::Scene scene = scene::load(name);
         for (scene::Material& material : scene.materials)
@@ -145,16 +145,17 @@ TEST(Work, LookupsFollowFromTheMasks) {
     const auto mirror_pixels = static_cast<double>(
         std::ranges::count_if(mask, [](auto in) { return in != 0; }));
     ASSERT_GT(mirror_pixels, 100);
-    // One look-up a pixel. Rasterised outlines differ from traced ones by a few pixels.
+    // Each mirror pixel makes one look-up. Rasterised outlines differ from ray-traced ones by a few
+    // pixels.
     EXPECT_NEAR(double(total_work_of_kind(count_work_of_frame(scene, "planar"),
                                           CountedWorkKind::colour_lookups)),
                 mirror_pixels, .05 * mirror_pixels);
-    // One light at each traced point of a scene with one lamp.
+    // In a scene with one lamp, each traced point is lit once.
     const auto lit = count_work_of_frame(scene, "raytrace:depth=0,shadow=none");
     EXPECT_LE(total_work_of_kind(lit, CountedWorkKind::lights),
               kWorkPixelCount * scene::list_lights(scene).size());
     EXPECT_GT(total_work_of_kind(lit, CountedWorkKind::lights), kWorkPixelCount / 4);
-    // Each step of march reads at least one distance.
+    // Each step of `march` reads at least one captured distance.
     const auto march = count_work_of_frame(scene, "march"),
                parallax = count_work_of_frame(scene, "parallax");
     EXPECT_GE(double(total_work_of_kind(march, CountedWorkKind::distance_lookups)),
@@ -179,13 +180,13 @@ TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
     }
     EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::frames), 1u);
     EXPECT_EQ(total_work_of_kind(work, CountedWorkKind::passes), work.size());
-    // Composing draws one triangle, reads nothing by attachment and stores 4 bytes a pixel, which
-    // are cleared or loaded and stored.
+    // The pass `compose` draws one triangle, reads no attachment, and stores 4 bytes a pixel, which
+    // are also cleared or loaded.
     const PassWorkCounts& compose = work.back();
     EXPECT_EQ(compose.counts[CountedWorkKind::draws], 1u) << compose.name;
     EXPECT_EQ(compose.counts[CountedWorkKind::bytes], 2 * 4 * kWorkPixelCount) << compose.name;
     EXPECT_GE(compose.counts[CountedWorkKind::fragments].value_or(0), kWorkPixelCount);
-    // A capture's six faces: each draws the objects around the mirror.
+    // A capture has six faces, and each face draws the objects around the mirror.
     for (const PassWorkCounts& pass : work)
         if (pass.name.find("capture") != std::string::npos) {
             EXPECT_GE(pass.counts[CountedWorkKind::draws].value_or(0), 1u) << pass.name;

@@ -38,7 +38,7 @@ TEST(Searches, OrderOfTheSearchesHoldsFromEveryCamera) {
                                   &layered = seen[3];
         EXPECT_LE(march.flip, secant.flip);
         EXPECT_LE(layered.flip, 1.02 * pyramid.flip);
-        // Another rasteriser draws other pixels at the outlines of mirrors.
+        // Another rasteriser may cover other pixels at the outlines of mirrors.
         EXPECT_LE(secant.off, (test::computes_like_cpp() ? 1.5 : 2.5) * pyramid.off);
         for (const measure::Difference* search : {&secant, &march})
             EXPECT_LE(search->longest_line,

@@ -106,8 +106,8 @@ SceneSurfaceCaster::meet(f32::Ray ray, float farthest, std::uint32_t skipped, in
         met.alpha = material.alpha * colour.a;
         if (material.albedo_texture)
             met.alpha *= sample_texture_filtered(*material.albedo_texture, met.uv).a;
-        // Shadow rays stop where half of a blended surface is left. Other rays pass all that is not
-        // opaque.
+        // Shadow rays end at surfaces with an alpha of at least .5. Other rays pass all surfaces
+        // that are not opaque.
         constexpr float kOpaqueAlpha = 511.f / 512; // as in shaders/lib/material.glsl
         const bool is_blended = material.blended && skipped != bvh::kCastsNoShadowFlag;
         const float least = is_blended ? kOpaqueAlpha : material.alpha_cutoff;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-/// A witness for the lobe of rough surfaces: quadrature in double precision, with formulas that
-/// share nothing with shaders/lib/math/lobe.glsl. Directions are in tangent space, whose z is the
-/// normal.
+/// Independent reference for the lobe of rough surfaces: quadrature in double precision, with
+/// formulas that share nothing with shaders/lib/math/lobe.glsl. Directions are in tangent space,
+/// whose z axis is the normal.
 namespace test {
 
 using catoptric::dvec3;
@@ -28,8 +28,8 @@ inline double textbook_lobe_reflectance(double roughness, const dvec3& o, const 
     return d / (1 + lambda(o) + lambda(i)) / (4 * o.z);
 }
 
-/// Integrates a function of half vectors and light over the hemisphere of lights. The half vectors
-/// are spread by the distribution's own width, so that narrow lobes are resolved.
+/// Integrates a function of half vector and light direction over all light directions. The half
+/// vectors are spaced by the width of the distribution, so that narrow lobes are resolved.
 template <typename Function>
 double integrate_over_half_vectors(double roughness, const dvec3& o, Function&& function) {
     constexpr int kAzimuthSteps = 512, kPolarSteps = 2048;
@@ -47,7 +47,7 @@ double integrate_over_half_vectors(double roughness, const dvec3& o, Function&& 
             const double cosine = glm::dot(o, h);
             if (cosine <= 0) continue;
             const dvec3 i = 2 * cosine * h - o;
-            // A solid angle of half vectors is 1 / (4 o.h) of that of lights.
+            // The solid angle of light directions is 4 o.h times that of half vectors.
             const double angle = std::sin(theta) * step * 2 * std::numbers::pi / kAzimuthSteps;
             sum += function(i) * 4 * cosine * angle;
         }

@@ -19,7 +19,8 @@ inline app::TechniqueResult trace_cornell_mirrors(int depth, int samples) {
     return std::move(app::run(get_test_engine(), asked).parts.front());
 }
 
-/// Expects that `found` differs from `wanted` by at most `share` times `wanted`, and prints both.
+/// Expects that `found` differs from `wanted` by at most `share` times `wanted`, and prints both
+/// numbers.
 inline void expect_share_of_pixels_within(const std::string& what, double found, double wanted,
                                           double share) {
     std::cout << "[ MEASURED ] " << what << ": " << std::setprecision(8) << found << ", outside "

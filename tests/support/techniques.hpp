@@ -20,7 +20,7 @@ inline reflect::TechniqueOutputs add_technique(graph::Graph& graph,
             std::vector<std::string>(inputs.scene.mirror_count(), "mirror")));
 }
 
-/// Adds passes that capture all mirrors. Each capture shows the other mirrors black.
+/// Adds passes that capture all mirrors. Mirrors in these captures are black.
 inline render::CubeCaptureArray add_black_captures(graph::Graph& graph,
                                                    const render::FrameInputs& inputs,
                                                    const render::CaptureOptions& options) {

@@ -1,5 +1,5 @@
-// The audit of running frames: known values of its two tests, how often they err, and how soon they
-// notice a fault. Outcomes of frames are simulated.
+// Tests of the audit of running frames: known values of assurance and alarm, how often they are
+// wrong, and how soon they notice a fault. Whether frames pass or fail is simulated.
 #include "measure/audit.hpp"
 
 #include "core/error.hpp"
@@ -27,7 +27,7 @@ Audit audit_of_outcomes(const Outcomes& passed, const measure::AuditedShare& tes
     return audit;
 }
 
-/// Returns the mean of `integrand` over (0, 1), by a rule of 20,000 points.
+/// Returns the mean of the function `integrand` over (0, 1), by quadrature with 20,000 points.
 template <typename Integrand>
 double integrate_over_unit_interval(const Integrand& integrand) {
     constexpr int kPoints = 20'000;
@@ -36,7 +36,7 @@ double integrate_over_unit_interval(const Integrand& integrand) {
     return sum / kPoints;
 }
 
-/// Returns E by its closed form for clean frames.
+/// Returns the assurance value E of n frames that all passed, by its closed form.
 double assurance_of_clean_frames(double share, double n) {
     return (1 - std::pow(share, n + 1)) / ((n + 1) * (1 - share) * std::pow(share, n));
 }
@@ -60,8 +60,9 @@ TEST(Audit, CleanFramesAssureTheShareByTheClosedForm) {
     EXPECT_EQ(count_clean_frames_until_assured({.share = .9}), 43u);
     EXPECT_EQ(count_clean_frames_until_assured({.share = .99}), 449u);
     EXPECT_LT(count_clean_frames_until_assured({.confidence = .9}), 88u);
-    // Of a mixture over all failing shares from 0 to 1, half lie on the wrong side: 1 / ((n+1) q^n)
-    // reaches 20 after 158 frames. No test valid at all times needs fewer than q^n <= .05: 59.
+    // With a mixture over all failing shares from 0 to 1, E would be 1 / ((n + 1) q^n), because
+    // half of the mixture lies on the wrong side. This E reaches 20 only after 158 frames. No test
+    // that is valid at all times needs fewer frames than the least n with q^n <= .05, which is 59.
     EXPECT_LT(1 / (158 * std::pow(.95, 157)), 20);
     EXPECT_GT(1 / (159 * std::pow(.95, 158)), 20);
 }
@@ -76,9 +77,9 @@ TEST(Audit, EvidenceIsTheMixtureOfLikelihoodRatios) {
         });
         EXPECT_NEAR(audit.assurance() / known, 1, 1e-2) << failures;
     }
-    // The alarm after a failure, a pass and a failure, from its definition.
+    // The value of the alarm after a failure, a pass and a failure, computed from its definition.
     const Outcomes passed{0, 1, 0};
-    double known = 1 / 4.; // starts after the third frame
+    double known = 1 / 4.; // the term that starts after the third frame
     for (std::size_t j = 0; j < 3; ++j)
         known += 1. / static_cast<double>((j + 1) * (j + 2)) *
                  integrate_over_unit_interval([&](double t) {
@@ -95,7 +96,7 @@ TEST(Audit, EvidenceIsTheMixtureOfLikelihoodRatios) {
 TEST(Audit, AssuredShareIsWhereTheEvidenceReachesTheThreshold) {
     EXPECT_EQ(Audit().assured_share(), 0);
     EXPECT_EQ(audit_of_outcomes(Outcomes(20, 0)).assured_share(), 0);
-    // At the number of frames that assures .95, the bound has just passed .95.
+    // 88 passing frames are the least number that assures a share of .95.
     EXPECT_LT(audit_of_outcomes(Outcomes(87, 1)).assured_share(), .95);
     EXPECT_NEAR(audit_of_outcomes(Outcomes(88, 1)).assured_share(), .95, 1e-3);
     double before = 0;
@@ -107,10 +108,10 @@ TEST(Audit, AssuredShareIsWhereTheEvidenceReachesTheThreshold) {
         before = bound;
     }
     EXPECT_GT(before, .995);
-    EXPECT_LT(before, 1 - 3.0 / 3000); // no more than a test of a fixed number of frames proves
+    EXPECT_LT(before, 1 - 3.0 / 3000); // a test of a fixed number of frames proves at least as much
     Outcomes some(200, 1);
     double last = audit_of_outcomes(some).assured_share();
-    for (std::size_t i = 0; i < 20; ++i) { // a failure in place of a pass lowers the bound
+    for (std::size_t i = 0; i < 20; ++i) { // turning a pass into a failure must lower the bound
         some[i] = 0;
         const double bound = audit_of_outcomes(some).assured_share();
         EXPECT_LT(bound, last);
@@ -129,13 +130,14 @@ TEST(Audit, AssuranceDoesNotDependOnTheOrderAndTheAlarmDoes) {
         EXPECT_EQ(again.assurance(), first.assurance());
         EXPECT_EQ(again.assured_share(), first.assured_share());
     }
-    std::ranges::sort(passed); // failures first
+    std::ranges::sort(passed); // all failures first
     const double early = audit_of_outcomes(passed).alarm_evidence();
-    std::ranges::reverse(passed); // failures last
+    std::ranges::reverse(passed); // all failures last
     EXPECT_GT(audit_of_outcomes(passed).alarm_evidence(), 100 * early);
 }
 
-/// The alarm may sound in at most 5 % of all runs of any length, if the failing share is 1 - q.
+/// If the failing share is exactly 1 - q, the alarm may be raised in at most 5 % of all runs,
+/// however long they are.
 TEST(Audit, FalseAlarmsAndFalseAssurancesAreRareInLongRuns) {
     int alarms = 0, assurances = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -157,8 +159,9 @@ TEST(Audit, FalseAlarmsAndFalseAssurancesAreRareInLongRuns) {
     EXPECT_LE(assurances, 10);
 }
 
-/// The failing share changes along a run, and depends on the frames before. The assurance holds for
-/// the mean so far, and the alarm for a share that never exceeds 1 - q.
+/// In this test the failing share changes along a run and depends on earlier frames. The assurance
+/// must hold for the mean share so far. No alarm may be raised too often while the share stays at
+/// most 1 - q.
 TEST(Audit, ErrorRatesHoldForDependentFrames) {
     int alarms = 0, assurances = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -168,9 +171,11 @@ TEST(Audit, ErrorRatesHoldForDependentFrames) {
         double sum = 0;
         bool is_wrong = false;
         for (int n = 1; n <= 1000; ++n) {
-            // After a failure frames fail by 5 %, else by less: never above the limit.
+            // After a failure, frames fail with probability 5 %, and otherwise with a smaller
+            // probability. The failing share therefore never exceeds the limit.
             calm.count_frame(uniform(random) >= (calm.failure_count() % 2 == 1 ? .05 : .03));
-            const double failing = (n / 50) % 2 == 1 ? .1 : .0; // mean near .05
+            const double failing = (n / 50) % 2 == 1 ? .1 : .0; // failing shares of .1 and 0 in
+                                                                // turn, with the mean .05
             sum += failing;
             drifting.count_frame(uniform(random) >= failing);
             is_wrong = is_wrong || drifting.assurance_against(sum / n) >= 20;
@@ -181,8 +186,8 @@ TEST(Audit, ErrorRatesHoldForDependentFrames) {
     EXPECT_LE(assurances, 10);
 }
 
-/// Returns for 20 seeds the sorted number of failing-share frames until the alarm, after `before`
-/// frames of which `usual` fail.
+/// Returns the numbers of frames from the beginning of a fault until the alarm, for 20 seeds,
+/// sorted. Before the fault, `before` frames fail with the probability `usual`.
 std::vector<int> count_frames_until_alarm(int before, double usual, double failing) {
     std::vector<int> delays;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -220,7 +225,7 @@ TEST(Audit, FaultsAreNoticedInEveryRun) {
 TEST(Audit, AlarmStaysAndLongRunsStayFinite) {
     Audit audit;
     audit.count_frame(false);
-    EXPECT_FALSE(audit.is_alarmed()); // one failure of one frame says little
+    EXPECT_FALSE(audit.is_alarmed()); // one failing frame must not raise an alarm
     audit.count_frame(false);
     EXPECT_TRUE(audit.is_alarmed());
     for (int n = 0; n < 5000; ++n) audit.count_frame(true);
@@ -261,12 +266,12 @@ TEST(AuditSchedule, DrawsOneFrameOfEachBlock) {
     ASSERT_EQ(audited.size(), 200u);
     std::set<int> places;
     for (int i = 0; i < 200; ++i) {
-        const int place = audited[static_cast<std::size_t>(i)] - 7 - 10 * i; // 7 frames come before
+        const int place = audited[static_cast<std::size_t>(i)] - 7 - 10 * i; // 7 frames do not count
         EXPECT_GE(place, 0);
         EXPECT_LT(place, 10);
         places.insert(place);
     }
-    EXPECT_EQ(places.size(), 10u); // no frame of a period of 10 is spared
+    EXPECT_EQ(places.size(), 10u); // all ten positions of a block are drawn
     AuditSchedule other({.every = 10, .seed = 2}), same({.every = 10});
     EXPECT_NE(list_audited_frames(other, 2007, 10, .1), audited);
     EXPECT_EQ(list_audited_frames(same, 2007, 10, .1), audited);
@@ -278,11 +283,11 @@ TEST(AuditSchedule, KeepsTheLimitOfTime) {
         schedule.expect_audit_time(audit_ms);
         list_audited_frames(schedule, 20'000, 2, audit_ms);
         EXPECT_LE(schedule.audits_ms(), 1.01 * .05 * schedule.frames_ms() + audit_ms) << audit_ms;
-        EXPECT_GE(schedule.audits_ms(), audit_ms); // and yet audits
+        EXPECT_GE(schedule.audits_ms(), audit_ms); // audits become rarer but do not stop
         const double least = audit_ms / (.05 * 2);
         EXPECT_EQ(schedule.block_length(), static_cast<std::size_t>(std::max(60., least)));
     }
-    // Slower frames after a change allow more audits.
+    // If frames become slower, audits take a smaller share of the time and may be more frequent.
     AuditSchedule schedule({.every = 10});
     schedule.expect_audit_time(10);
     list_audited_frames(schedule, 1000, 1, 10);
@@ -296,13 +301,13 @@ TEST(AuditSchedule, CountsWhatTheNextFrameTakesLonger) {
     for (int k = 0; k < 7; ++k) EXPECT_FALSE(schedule.count_frame(2));
     EXPECT_TRUE(schedule.count_frame(2));
     schedule.add_audit_time(4);
-    schedule.count_frame(5); // 3 ms above the median
+    schedule.count_frame(5); // 3 ms longer than the median frame
     EXPECT_EQ(schedule.audits_ms(), 7);
     EXPECT_EQ(schedule.frames_ms(), 18);
-    schedule.count_frame(5); // no audit came before
+    schedule.count_frame(5); // no audit preceded this frame
     EXPECT_EQ(schedule.audits_ms(), 7);
     EXPECT_EQ(schedule.frames_ms(), 23);
-    schedule.count_frame(1000); // a pause
+    schedule.count_frame(1000); // a pause of the program
     EXPECT_EQ(schedule.frames_ms(), 43);
 }
 
@@ -318,7 +323,7 @@ TEST(PlanLadder, StepsToTheSurerSideAtMostTwiceASecond) {
     for (std::size_t i = 2; i < steps.size(); ++i) EXPECT_GE(steps[i] - steps[i - 2], 1 - 1e-9);
     PlanLadder two(2);
     EXPECT_TRUE(two.step_to_surer_plan(0));
-    EXPECT_FALSE(two.step_to_surer_plan(10)); // no surer plan
+    EXPECT_FALSE(two.step_to_surer_plan(10)); // the plan is already the one with the least error
     EXPECT_EQ(two.place(), 0u);
 }
 

@@ -1,4 +1,5 @@
-// A comparison beside the report.json of an earlier one: what is worse, kept, or cannot be told.
+// Tests of comparing a report with an earlier report.json. Each quantity of a row is worse, kept or
+// unknown.
 #include "measure/halves.hpp"
 #include "measure/statistics.hpp"
 #include "measure/work.hpp"
@@ -26,7 +27,8 @@ catoptric::measure::SampleSummary make_rounds(double ms) {
     return summarise_samples(rounds);
 }
 
-/// Two rows with a time of 10 and 20 ms, the second with passes of 5 and 15 ms.
+/// Returns a comparison of two rows of 10 ms and 20 ms. The second row has passes of 5 ms and 15
+/// ms.
 Comparison make_timed_comparison() {
     Comparison made = make_usual_comparison();
     made.rows.resize(2);
@@ -55,7 +57,7 @@ using Names = std::vector<std::string>;
 TEST(Baseline, EqualComparisonIsKept) {
     const Comparison made = make_timed_comparison();
     const std::vector<BaselineFinding> findings = judge(made, made);
-    EXPECT_EQ(findings.size(), 6U); // FLIP and time of two rows, two passes
+    EXPECT_EQ(findings.size(), 6U); // FLIP and time of two rows, and the times of two passes
     EXPECT_EQ(list_quantities(findings, BaselineVerdict::kept).size(), 6U);
     EXPECT_EQ(format_baseline_findings(findings), "baseline: 0 worse, 0 unknown, 6 kept\n");
 }
@@ -66,31 +68,34 @@ TEST(Baseline, SlowerPassIsNamedWithItsRow) {
     now.rows[1].passes[1].gpu_ms = make_rounds(15 * 1.2);
     now.rows[1].gpu_ms = make_rounds(20 * 1.15);
     const std::string row = before.rows[1].label;
-    // 1.2 * .98 / 1.02 = 1.153 and 1.15 * .98 / 1.02 = 1.105: both above 1.1.
+    // The least ratios of the intervals are 1.2 * .98 / 1.02 = 1.153 and 1.15 * .98 / 1.02 = 1.105.
+    // Both are above the limit 1.1.
     EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
               (Names{row + ": ms", row + ": ms of search"}));
     EXPECT_THAT(format_baseline_findings(judge(now, before)),
                 HasSubstr("worse: " + row +
                           ", ms of search: 18.0 ms, before 15.0 ms: 1.15 to 1.25 "
                           "times by both 95 % intervals; at most 1.1 times"));
-    // With a limit of 1.3 all is kept; with 1.2 the intervals reach over the limit.
+    // With a limit of 1.3 all times are kept. With a limit of 1.2, the intervals contain the limit,
+    // so the verdict is unknown.
     EXPECT_TRUE(list_quantities(judge(now, before, {.max_time_ratio = 1.3}), BaselineVerdict::worse)
                     .empty());
     EXPECT_EQ(
         list_quantities(judge(now, before, {.max_time_ratio = 1.2}), BaselineVerdict::unknown),
         (Names{row + ": ms of search"}));
-    // Faster is never worse.
+    // A row that became faster is never worse.
     EXPECT_EQ(list_quantities(judge(before, now), BaselineVerdict::kept).size(), 6U);
 }
 
 TEST(Baseline, ShortPassIsNotJudged) {
     Comparison before = make_timed_comparison();
-    before.rows[1].passes.push_back({"clear", make_rounds(.6)}); // of 20 ms
+    before.rows[1].passes.push_back({"clear", make_rounds(.6)}); // a pass of .6 ms in a row of 20
+                                                                 // ms
     Comparison now = before;
     now.rows[1].passes[2].gpu_ms = make_rounds(.9);
     EXPECT_EQ(judge(now, before).size(), 6U);
     EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
-    now.rows[1].passes[2].gpu_ms = make_rounds(1.2); // 6 % of the row now
+    now.rows[1].passes[2].gpu_ms = make_rounds(1.2); // now 6 % of the row's time
     EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
               (Names{before.rows[1].label + ": ms of clear"}));
 }
@@ -99,7 +104,7 @@ TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
     const Comparison before = make_timed_comparison();
     Comparison slow = before;
     for (Row& row : slow.rows) row.gpu_ms = make_rounds(row.gpu_ms.median * 1.3);
-    slow.clear_ms = make_rounds(1.3); // the constant work takes as much longer
+    slow.clear_ms = make_rounds(1.3); // constant work takes longer by the same factor
     EXPECT_TRUE(list_quantities(judge(slow, before), BaselineVerdict::worse).empty());
     EXPECT_TRUE(
         list_quantities(judge(slow, before, {.max_time_ratio = 1.2}), BaselineVerdict::unknown)
@@ -111,7 +116,8 @@ TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
     other.device.name = "another";
     EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
     EXPECT_EQ(list_quantities(judge(other, before), BaselineVerdict::unknown).size(), 4U);
-    other = slow, other.device.threads = 16; // a processor's name does not tell its size
+    other = slow, other.device.threads = 16; // a processor of the same name with another number of
+                                             // threads
     EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
     Comparison noisy = slow;
     noisy.rows[0].noisy = true;
@@ -136,13 +142,14 @@ TEST(Baseline, RiseOfFlipIsWorseAboveTheShareAndAboveTheNoise) {
     EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
     now.noise->flip_floor = before.rows[0].error.flip * .04;
     EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse), row);
-    // Any error is worse for a row that had none.
+    // If a row had no error before, any error is worse.
     Comparison exact = before, inexact = before;
     exact.rows[0].error.flip = 0, inexact.rows[0].error.flip = 1e-5;
     EXPECT_EQ(list_quantities(judge(inexact, exact), BaselineVerdict::worse), row);
 }
 
-/// Counts repeat exactly, so a count above the limit is worse on any device and beside any noise.
+/// Counts of work are the same in each run. A count above the limit is therefore worse, also on
+/// another device or a noisy machine.
 TEST(Baseline, MoreCountedWorkIsWorse) {
     const auto with_work = [](double nodes) {
         auto json = nlohmann::ordered_json::parse(to_json(make_timed_comparison()));

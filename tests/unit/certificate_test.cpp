@@ -1,4 +1,5 @@
-// Statements about all views from drawn ones: known values, and how often they hold.
+// Tests of statements about all views that are derived from drawn views: known values, and how
+// often the statements are true.
 #include "measure/certificate.hpp"
 #include "study/choose.hpp"
 
@@ -24,17 +25,19 @@ TEST(Certificate, NumbersOfViewsAreThoseOfTheTables) {
 }
 
 TEST(Certificate, BoundIsTheShareAtWhichTheFailuresBecomeUnlikely) {
-    // Without a failure the bound is the n-th root of 1 - confidence.
+    // If no view fails, the lower bound of the passing share is the n-th root of 1 - confidence.
     for (const std::size_t views : {1, 6, 59, 1000})
         EXPECT_NEAR(lower_bound_of_passing_view_share(0, views, .95),
                     std::pow(.05, 1.0 / static_cast<double>(views)), 1e-12);
-    // Two views, one failure: P(at most one failure) = 1 - p^2 = .05.
+    // For two views with one failure, the bound p solves P(at most one failure) = 1 - p^2 = .05.
     EXPECT_NEAR(lower_bound_of_passing_view_share(1, 2, .95), 1 - std::sqrt(.95), 1e-12);
-    // Clopper-Pearson for 2 of 30: one-sided 95 % bound of the failures is .19529.
+    // For 2 failures in 30 views, the one-sided 95 % Clopper-Pearson bound of the failing share is
+    // .19529.
     EXPECT_NEAR(lower_bound_of_passing_view_share(2, 30, .95), 1 - .19529, 2e-4);
     EXPECT_EQ(lower_bound_of_passing_view_share(0, 0, .95), 0);
     EXPECT_EQ(lower_bound_of_passing_view_share(5, 5, .95), 0);
-    // More failures never prove more, and more views never prove less.
+    // A larger number of failures never proves a larger share, and more views without failure never
+    // prove a smaller share.
     for (std::size_t failures = 0; failures < 20; ++failures) {
         EXPECT_GT(lower_bound_of_passing_view_share(failures, 50, .9),
                   lower_bound_of_passing_view_share(failures + 1, 50, .9));
@@ -42,7 +45,8 @@ TEST(Certificate, BoundIsTheShareAtWhichTheFailuresBecomeUnlikely) {
                   lower_bound_of_passing_view_share(failures, 51, .9));
     }
     const double many = lower_bound_of_passing_view_share(500, 10'000,
-                                                          .95); // logarithms, no overflow
+                                                          .95); // computed with logarithms, without
+                                                                // overflow
     EXPECT_GT(many, .945);
     EXPECT_LT(many, .95);
 }
@@ -66,12 +70,14 @@ TEST(Certificate, BoundCoversTheTrueShare) {
 TEST(Certificate, ToleranceLimitIsTheSmallestValueThatIsLargeEnough) {
     std::vector<double> values(59);
     for (std::size_t i = 0; i < 59; ++i) values[i] = static_cast<double>((i * 37) % 59);
-    EXPECT_EQ(upper_tolerance_limit(values, .95, .95), 58); // 59 views: only the largest
+    EXPECT_EQ(upper_tolerance_limit(values, .95, .95), 58); // with 59 views, the limit is the
+                                                            // largest value
     values.pop_back();
-    EXPECT_TRUE(std::isnan(upper_tolerance_limit(values, .95, .95))); // 58 views: none
+    EXPECT_TRUE(std::isnan(upper_tolerance_limit(values, .95, .95))); // 58 views are too few
     std::vector<double> more(93);
     for (std::size_t i = 0; i < 93; ++i) more[i] = static_cast<double>(i);
-    EXPECT_EQ(upper_tolerance_limit(more, .95, .95), 91); // 93 views: one may be larger
+    EXPECT_EQ(upper_tolerance_limit(more, .95, .95), 91); // with 93 views, one view may have a
+                                                          // larger error
     EXPECT_TRUE(std::isnan(upper_tolerance_limit({}, .5, .5)));
 }
 
@@ -92,7 +98,7 @@ TEST(Certificate, ToleranceLimitCoversTheQuantile) {
     }
 }
 
-/// A view of which half a mirror is NaN must not be judged by the other half.
+/// If half of a mirror's pixels are NaN, a view must not be judged by the other half alone.
 TEST(Certificate, ViewFailsIfAPixelIsNotFiniteAndKeepsIfItShowsNoMirror) {
     using catoptric::app::ErrorQuantity;
     using catoptric::app::mirror_error_of_view;

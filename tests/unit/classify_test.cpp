@@ -403,7 +403,8 @@ TEST(Classify, BallOnARigKeepsAnExactSphereWhileItsScaleIsUniform) {
         find_mirrors(stretched);
         EXPECT_FALSE(stretched.objects[0].sphere);
     }
-    // A program may set a sphere itself. The sphere is lost as soon as the rig stretches it.
+    // A program may mark an object as an exact sphere. The mark is removed as soon as an animation
+    // stretches the object.
     Scene marked = make_ball_on_rig(dvec3(1), dvec3(1, 2, 1));
     marked.objects[0].sphere = Sphere{dvec3(marked.objects[0].world_from_object[3]), 1};
     EXPECT_TRUE(scene_at_time(marked, 0).objects[0].sphere);

@@ -1,5 +1,5 @@
-// The data of the comparer in report.html: the linear values that the page reads, and the list of
-// pictures. A browser uses the page itself in tests/page/run.py.
+// Tests of the data of the comparer in report.html: the linear values that the page reads, and the
+// list of pictures. tests/page/run.py tests the page in a browser.
 #include "measure/picture.hpp"
 #include "report/html.hpp"
 #include "report_sample.hpp"
@@ -112,7 +112,7 @@ TEST(Comparer, ListsTheReferenceAndEveryRowAndBeginsWithTheClosestRowThatDiffers
         EXPECT_EQ(picture["first"], picture["label"] == closest->label) << picture;
     EXPECT_EQ(data["mirrors"].size(), made.scene.mirrors);
     EXPECT_EQ(data["width"], 4);
-    // Every picture that the data names is in the page.
+    // Every picture that the comparer's data names must be in the page.
     const std::string page = catoptric::report::to_html(made);
     for (const json& picture : data["pictures"])
         EXPECT_THAT(page, HasSubstr("id=\"" + picture["picture_id"].get<std::string>() + "\""));

@@ -167,7 +167,8 @@ TEST(Core, ObjectsBeyondTheReachOfFloatsAreNamed) {
                                                      "1e+18 sizes of the scene's core"));
     }
     scene::LoaderNotes notes;
-    // finish_loaded_scene(), which every loader calls, drops the object that floats cannot reach.
+    // finish_loaded_scene(), which every loader calls, removes an object whose distance from the
+    // core exceeds the range of floats.
     scene::finish_loaded_scene(scene, "file.obj", notes);
     EXPECT_EQ(scene.objects.size(), objects + 1);
     EXPECT_THAT(scene.warnings,

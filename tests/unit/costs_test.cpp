@@ -1,5 +1,5 @@
-// Tests of costs: the fit recovers known costs, predictions follow from them, and files are read
-// back or refused.
+// Tests of fitted unit costs and predicted times. A fit must find known costs, predictions must
+// follow from costs, and cost files are read or refused.
 #include "measure/costs.hpp"
 #include "measure/work.hpp"
 #include "report/costs.hpp"
@@ -25,8 +25,8 @@ WorkCountsByKind make_work_counts(std::uint64_t rays, std::uint64_t fragments,
 constexpr CountedWorkKind kFittedWorkKinds[] = {
     CountedWorkKind::camera_rays, CountedWorkKind::fragments, CountedWorkKind::passes};
 
-/// Returns rows of a device with 100 ns a ray, 2 ns a fragment and 50 us a pass, whose times are
-/// off by at most the share `noise`.
+/// Returns made-up rows of a device on which a ray costs 100 ns, a fragment 2 ns and a pass 50 us.
+/// The rows' times have random errors of at most the share `noise`.
 std::vector<measure::TimedWorkSample> draw_random_cost_samples(std::size_t count, double noise) {
     std::mt19937_64 random(7);
     const auto draw = [&](double most) { return most * double(random() >> 11) * 0x1p-53; };
@@ -70,7 +70,8 @@ TEST(Costs, FitOfNoisyTimesIsNear) {
 }
 
 TEST(Costs, NoCostIsNegative) {
-    // Rows with more fragments take less time, so the best cost of a fragment would be negative.
+    // In these samples, rows with more fragments take less time. The best cost of a fragment would
+    // therefore be negative, which is not allowed.
     std::vector<measure::TimedWorkSample> samples;
     for (std::uint64_t i = 1; i <= 8; ++i)
         samples.push_back({"row", make_work_counts(1000, 1000 * i, 1), 10.0 - double(i)});
@@ -81,7 +82,7 @@ TEST(Costs, NoCostIsNegative) {
 
 TEST(Costs, RowIsPredictedByTheOtherRows) {
     std::vector<measure::TimedWorkSample> samples = draw_random_cost_samples(20, 0);
-    samples[4].ms *= 3; // its own time does not help to predict it
+    samples[4].ms *= 3; // the time of a row is predicted without using this time
     const measure::DeviceCosts costs = measure::fit_unit_costs("d", samples, kFittedWorkKinds);
     EXPECT_NEAR(costs.fit->left_out_ms[4], samples[4].ms / 3, 1e-6 * samples[4].ms);
 }
@@ -131,7 +132,8 @@ TEST(Costs, FrontDependsOnTheCostsOfRaysAndOfOtherWork) {
                                          make_costed_row("worse", .03, 0, 7000)};
     const measure::PredictedParetoFront front = measure::find_predicted_pareto_front(
         make_device_costs(), rows);
-    // A traced frame costs 10 us and a searched one 6 us, but 5 and 24 us where rays are cheap.
+    // With the given costs, the traced frame costs 10 us and the searched frame 6 us. With cheap
+    // rays and dear look-ups, they cost 5 us and 24 us.
     EXPECT_EQ(front.rows, (std::vector<std::size_t>{1, 0}));
     EXPECT_EQ(front.rows_if_rays_are_cheap, (std::vector<std::size_t>{0}));
     EXPECT_EQ(front.rows_if_rays_are_dear, (std::vector<std::size_t>{1, 0}));

@@ -21,7 +21,8 @@ TEST(Glass, ReflectsTheTextbookShares) {
     for (const double ior : {1.0, 1.33, 1.5, 2.4}) {
         EXPECT_NEAR(reflected_share(1, ior), std::pow((ior - 1) / (ior + 1), 2), 1e-15);
         EXPECT_NEAR(reflected_share(1, 1 / ior), std::pow((ior - 1) / (ior + 1), 2), 1e-15);
-        // At Brewster's angle, tan = ior, only light polarised across the plane is reflected.
+        // At Brewster's angle, whose tangent is the index of refraction, only light polarised
+        // across the plane of incidence is reflected.
         const double brewster = std::atan(ior), across = std::cos(2 * brewster);
         EXPECT_NEAR(reflected_share(std::cos(brewster), ior), across * across / 2, 1e-12);
     }
@@ -35,8 +36,8 @@ TEST(Glass, ReflectsAllLightBeyondTheCriticalAngle) {
     EXPECT_LT(reflected_share(std::cos(critical - 1e-3), 1 / 1.5), 1);
 }
 
-/// A ray reflects the same share on its way in and on its way out, and leaves a slab in the
-/// direction in which it entered.
+/// A slab of glass reflects the same share of a ray on its way in and on its way out. The ray
+/// leaves the slab in the direction in which it entered.
 TEST(Glass, SlabGivesBackDirectionAndShare) {
     test::RandomNumbers numbers(3);
     for (int k = 0; k < 1000; ++k) {
@@ -68,7 +69,7 @@ RoughGlassShares integrate_rough_glass(double roughness, const dvec3& o, double 
     };
     RoughGlassShares sum;
     for (int k = 0; k < kPolarSteps; ++k) {
-        // Tilts of GGX facets that divide the distribution D, weighted by the cosine, into equal
+        // Angles of GGX facets that divide the distribution D, weighted by the cosine, into equal
         // shares.
         const double share = (k + .5) / kPolarSteps,
                      tilt = std::atan(alpha * std::sqrt(share / (1 - share)));
@@ -98,8 +99,9 @@ RoughGlassShares integrate_rough_glass(double roughness, const dvec3& o, double 
     return sum;
 }
 
-/// The mean weight of drawn microfacets is the integral. A masking term that is missing or of the
-/// wrong side, and normals that are not the visible ones, fail here.
+/// The mean weight of sampled microfacets must equal the integral. The test fails if a masking term
+/// is missing or on the wrong side, or if normals are sampled from another distribution than that
+/// of visible normals.
 TEST(RoughGlass, DrawnFacetsGiveTheSharesByQuadrature) {
     constexpr int kSamplesAcross = 320;
     double least = 1;

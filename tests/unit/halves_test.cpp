@@ -22,7 +22,7 @@ using testing::Not;
 
 constexpr int kTestPictureEdge = 128;
 
-/// The picture without noise: a slope in [.3, .7].
+/// Returns a pixel of the picture without noise: brightness changes linearly from .3 to .7.
 vec3 noise_free_pixel(int x, int y) {
     return vec3(.3f) + vec3(.2f, .1f, .2f) * (float(x + y) / kTestPictureEdge);
 }
@@ -81,7 +81,7 @@ TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
     }
     EXPECT_EQ(mean.picture_count(), 4);
     EXPECT_EQ(mean.mean().pixels[0], vec3(3, 6, 0));
-    // Squared deviations 4 + 1 + 1 + 4 = 10, divided by 3 and by 4.
+    // For the variance: the squared deviations 4 + 1 + 1 + 4 = 10 are divided by 3 and by 4.
     EXPECT_FLOAT_EQ(mean.variance().pixels[0].x, 10.f / 12);
     EXPECT_FLOAT_EQ(mean.variance().pixels[0].y, 40.f / 12);
     EXPECT_EQ(mean.variance().pixels[1], vec3(0));
@@ -91,8 +91,8 @@ TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
     EXPECT_THROW(one.add_picture(Picture(2, 1)), Error);
 }
 
-/// The interval holds the true error, which is known here, and the biased estimate from one half
-/// does not.
+/// The interval must contain the true error, which is known here. An estimate from one half alone
+/// is biased and must lie outside the interval.
 TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     const Picture truth = make_true_picture(), wrong = make_wrong_picture();
     int held = 0, biased_held = 0, held_by_deviation = 0;
@@ -123,8 +123,8 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     EXPECT_GE(held_by_deviation, 17);
     EXPECT_EQ(biased_held, 0);
     EXPECT_NEAR(mean, kTrueMeanSquaredError, 5e-5);
-    // 4 standard errors of the mean of 49152 products, whose variance is that of
-    // (e - n)(e - m) = e^2 - e(n + m) + nm: 2 e^2 s^2 + s^4.
+    // Computes 4 standard errors of the mean of 49152 products. The variance of the product (e -
+    // n)(e - m) = e^2 - e(n + m) + nm is 2 e^2 s^2 + s^4.
     const double e = kTrueMeanSquaredError, s = kNoiseDeviation * kNoiseDeviation;
     const double wanted = 4 * std::sqrt((2 * e * s + s * s) /
                                         (3. * kTestPictureEdge * kTestPictureEdge));
@@ -157,7 +157,8 @@ TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
     EXPECT_DOUBLE_EQ(found.unclamped, (3 * 2 - 3 * 1) / 12.);
 }
 
-/// A perfect picture with halves that lie on both sides of it.
+/// Returns the difference of a perfect picture from a reference whose halves lie on both sides of
+/// the picture.
 measure::Difference make_hidden_difference() {
     Picture x(kTestPictureEdge, kTestPictureEdge), a = x, b = x;
     for (std::size_t i = 0; i < x.pixels.size(); ++i)
@@ -240,7 +241,7 @@ TEST(Halves, DifferencesBelowTheFloorTie) {
     EXPECT_EQ(measure::find_closest_row(made), &made.rows[0]);
     EXPECT_EQ(measure::find_ties_with_closest_row(made),
               std::vector<const measure::Row*>{&made.rows[1]});
-    // Over views, a difference below the floor of each view counts as none.
+    // Over several views, a difference that is below the noise floor in each view counts as none.
     for (int k = 0; k < 6; ++k) {
         made.rows[0].views.push_back(made.rows[0]);
         made.rows[1].views.push_back(made.rows[1]);

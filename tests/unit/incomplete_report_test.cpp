@@ -160,7 +160,8 @@ TEST_F(GrowingReport, WorstViewPicturesAreWrittenAgainWhenTheyChange) {
     EXPECT_EQ(catoptric::read_file(folder / "out/report.html"), catoptric::report::to_html(made));
 }
 
-/// A page of many large pictures would take long to open.
+/// If a report has many bytes of pictures, the page loads them from files, because a large page
+/// would open slowly.
 TEST_F(GrowingReport, PageWithManyBytesOfPicturesLoadsThemFromFiles) {
     using catoptric::report::PagePictures;
     Comparison made = make_usual_comparison();

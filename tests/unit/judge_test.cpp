@@ -76,7 +76,8 @@ TEST(Judge, RowsWithBlackMirrorsAreNotOnTheFrontAndBeatNoRow) {
     EXPECT_TRUE(measure::rank_rows_by_time(made).beaten_by_beaten.empty());
 }
 
-/// A row whose picture is a file can be the closest row, but takes no place in the order of time.
+/// A row whose picture comes from a file can be the row with the least error, but has no place in
+/// the order of time.
 TEST(Judge, RowsWithoutATimeTakeNoPlaceFromOthers) {
     measure::Comparison made;
     measure::Row file = make_row_with_equal_times(1, .01);

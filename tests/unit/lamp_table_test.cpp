@@ -56,10 +56,10 @@ sum_alias_table_probabilities_by_object(const std::vector<vec4>& table) {
 TEST(LampTable, TrianglesAreDrawnByPower) {
     LampScene scene;
     add_right_triangle(scene, {0, 0, 0}, 1, {1, 0, 0});
-    add_right_triangle(scene, {2, 0, 0}, 1, {0, 0, 0});  // no lamp
-    add_right_triangle(scene, {4, 0, 0}, 3, {0, 1, 1});  // 18 times the first one's power
-    add_right_triangle(scene, {9, 0, 0}, 0, {1, 1, 1});  // no area
-    add_right_triangle(scene, {12, 0, 0}, 1, {0, 0, 7}); // 7 times
+    add_right_triangle(scene, {2, 0, 0}, 1, {0, 0, 0});  // this object emits no light
+    add_right_triangle(scene, {4, 0, 0}, 3, {0, 1, 1});  // 18 times the power of the first lamp
+    add_right_triangle(scene, {9, 0, 0}, 0, {1, 1, 1});  // this triangle has no area
+    add_right_triangle(scene, {12, 0, 0}, 1, {0, 0, 7}); // 7 times the power of the first lamp
     const std::vector<vec4> table = render::make_lamp_table(scene.geometry, scene.surfaces);
     ASSERT_EQ(count_table_triangles(table), 3u);
     ASSERT_EQ(table.size(), 10u);

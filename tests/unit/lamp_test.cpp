@@ -195,7 +195,8 @@ double corner_form_factor(double x, double z) {
     return (x / a * std::atan(z / a) + z / b * std::atan(x / b)) / (2 * test::kPi);
 }
 
-/// A square lamp close to a plane: many points light it as the whole square does, one does not.
+/// Tests a square lamp close to a plane. Many sample points must light the plane as the whole
+/// square does. A single point does not.
 TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
     const Mesh board = scene::quad("lamp", {-.5, 1, -.5}, {.5, 1, -.5}, {.5, 1, .5}, {-.5, 1, .5});
     for (const bool two_sided : {false, true}) {
@@ -226,7 +227,8 @@ TEST_F(Lamps, SampledSquareLightsAPlaneByItsFormFactor) {
     }
 }
 
-/// Whatever the shape, the points share its area, lie on it, and shine away from it.
+/// For a lamp of any shape, all sample points must lie on its surface, share its area equally, and
+/// shine outwards.
 TEST_F(Lamps, SampledClosedLampsShineLikeTheirClosedForms) {
     constexpr double kDistanceFromLamp = 2;
     for (const auto& [name, mesh, area] : make_closed_lamps())
@@ -275,8 +277,8 @@ TEST_F(Lamps, OpenTwoSidedTubeShinesByTheMeanCosineOfItsFacets) {
         "two.glb",
         make_glb_of_mesh(make_surface_of_revolution({{.05, -.1}, {.05, .1}}, 64), true)));
     ASSERT_EQ(list_lights(scene).size(), 1u);
-    // A facet at angle a around the tube appears |cos a| times the sine of the angle between view
-    // and axis. The mean of |cos a| over a turn is 2 / pi.
+    // A facet at the angle a around the tube covers |cos a| times the sine of the angle between
+    // view direction and axis. The mean of |cos a| over a full turn is 2 / pi.
     for (const double angle : {0.0, .4, .9, test::kPi / 2})
         EXPECT_NEAR(
             light_share_in_direction(list_lights(scene)[0], {std::sin(angle), std::cos(angle), 0}),

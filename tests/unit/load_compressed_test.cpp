@@ -1,5 +1,5 @@
-// Tests of glTF geometry that is compressed or shown many times. A compressed file must load like
-// its uncompressed twin, and damaged data must be refused.
+// Tests of glTF geometry that is compressed or instanced. A compressed file must load like the same
+// file without compression, and damaged data must be refused.
 #include "places.hpp"
 #include "scene/pose.hpp"
 #include "scene/transform.hpp"
@@ -28,8 +28,8 @@ protected:
     }
 };
 
-/// Returns a file of one node with the grid, uncompressed: accessors 0 to 2 are the attributes, and
-/// accessor 3 the indices.
+/// Returns a glTF file of one node that shows the grid without compression. Accessors 0 to 2 are
+/// the attributes, and accessor 3 holds the indices.
 GltfFileBuilder make_grid_gltf(const BentGrid& grid) {
     GltfFileBuilder gltf;
     gltf.add_accessor(grid.positions, "VEC3", 5126);
@@ -43,8 +43,8 @@ GltfFileBuilder make_grid_gltf(const BentGrid& grid) {
     return gltf;
 }
 
-/// Returns each corner of each triangle: position, normal and texture coordinate. Sorted, because
-/// encoders may reorder triangles and begin them at another corner.
+/// Returns position, normal and texture coordinate of each corner of each triangle. The list is
+/// sorted, because encoders may reorder triangles and their corners.
 std::vector<std::array<double, 8>> list_sorted_corners(const Scene& scene) {
     std::vector<std::array<double, 8>> list;
     const Mesh& mesh = scene.meshes[0];
@@ -53,7 +53,7 @@ std::vector<std::array<double, 8>> list_sorted_corners(const Scene& scene) {
             const std::uint32_t at = triangle[i];
             const dvec3 p = mesh.positions[at], n = dvec3(mesh.normals[at]);
             const dvec2 t = dvec2(mesh.uv[0][at]);
-            // Rounded, so that values with small errors are sorted alike.
+            // Values are rounded for sorting, so that small errors do not change the order.
             list.push_back({std::round(p.x * 700) / 700, std::round(p.y * 700) / 700, p.z, n.x, n.y,
                             n.z, t.x, t.y});
         }
@@ -69,7 +69,7 @@ void expect_equal_corners(const Scene& found, const Scene& wanted, double tolera
             ASSERT_NEAR(a[i][k], b[i][k], tolerance) << "corner " << i << ", number " << k;
 }
 
-/// Appends bytes to the binary chunk as a view of their own. Returns the view.
+/// Appends bytes to the binary chunk as a new buffer view. Returns the index of the view.
 std::size_t add_view_of_bytes(GltfFileBuilder& gltf, const std::string& bytes) {
     gltf.root["bufferViews"].push_back(
         {{"buffer", 0}, {"byteOffset", gltf.data.size()}, {"byteLength", bytes.size()}});
@@ -78,8 +78,8 @@ std::size_t add_view_of_bytes(GltfFileBuilder& gltf, const std::string& bytes) {
     return gltf.root["bufferViews"].size() - 1;
 }
 
-/// Returns the grid, encoded by Draco. `bits`: quantisation of each attribute; 0: floats are stored
-/// as they are. Attribute ids are 0, 1 and 2. Draco runs in a program of its own.
+/// Returns the grid, compressed by Draco in a separate program. `bits`: quantisation of each
+/// attribute; 0: floats are stored without quantisation. The attribute ids are 0, 1 and 2.
 std::string encode_by_draco(const std::string& method, int bits) {
     const test::ProcessResult ended = test::run_process(
         {.command = {CATOPTRIC_ENCODE_DRACO, method, std::to_string(bits)}});
@@ -93,7 +93,10 @@ GltfFileBuilder make_draco_gltf(const BentGrid& grid, const std::string& bytes) 
     gltf.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     gltf.root["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
         {"bufferView", view}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}};
-    for (Json& accessor : gltf.root["accessors"]) accessor.erase("bufferView"); // as files have it
+    for (Json& accessor : gltf.root["accessors"])
+        accessor.erase("bufferView"); // in compressed files,
+                                      // these accessors have no
+                                      // buffer view
     return gltf;
 }
 
@@ -107,13 +110,13 @@ TEST_F(LoadCompressedTest, DracoMeshesLoadLikeTheirUncompressedTwins) {
                          wanted, 1e-4);
     const Scene loaded = load_glb(make_draco_gltf(grid, encode_by_draco("edgebreaker", 16)));
     EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings.front();
-    // Decoding gives a list of triangles, whatever the mode of the file.
+    // Draco always decodes to a list of triangles, whatever mode the glTF file states.
     GltfFileBuilder strip = make_draco_gltf(grid, encode_by_draco("edgebreaker", 16));
     strip.root["meshes"][0]["primitives"][0]["mode"] = 5;
     EXPECT_EQ(triangle_count(load_glb(strip)), 98u);
     strip.root["meshes"][0]["primitives"][0]["mode"] = 0;
     EXPECT_THAT(refuse(strip), HasSubstr("mode: wanted 4 or 5 beside KHR_draco"));
-    // Accessors that only describe Draco's data take no memory of their own.
+    // Accessors that only describe compressed data take no memory of their own.
     const SceneFileOptions options{.budget = {.made_bytes = 400}};
     const std::string file = write_loaded_file(
         "x.glb", make_draco_gltf(grid, encode_by_draco("edgebreaker", 16)).glb_bytes());
@@ -139,7 +142,7 @@ TEST_F(LoadCompressedTest, DracoDataThatDoNotFitAreRefused) {
     EXPECT_THAT(refuse(make_draco_gltf(grid, "DRACO\2\2\1\1")), HasSubstr("bitstream 2.2"));
     EXPECT_THAT(refuse(make_draco_gltf(grid, bytes.substr(0, bytes.size() / 2))),
                 HasSubstr("cannot be decoded"));
-    // Counts of a few bytes must not make the decoder allocate gigabytes.
+    // A few bytes that claim a huge count must not make the decoder allocate gigabytes.
     std::string huge("DRACO\2\2\1\0\0\0", 11);
     huge += "\xff\xff\xff\xff\x04\xff\xff\xff\xff\x04";
     EXPECT_THAT(
@@ -149,7 +152,7 @@ TEST_F(LoadCompressedTest, DracoDataThatDoNotFitAreRefused) {
                 HasSubstr("wanted at most 97 triangles"));
 }
 
-/// Compresses the views of the grid in the form of EXT_meshopt_compression.
+/// Compresses the buffer views of the grid as EXT_meshopt_compression describes.
 GltfFileBuilder make_meshopt_gltf(const BentGrid& grid, bool with_fallback) {
     const GltfFileBuilder plain = make_grid_gltf(grid);
     GltfFileBuilder gltf;
@@ -198,9 +201,9 @@ TEST_F(LoadCompressedTest, MeshoptViewsLoadLikeTheirUncompressedTwins) {
     const Scene found = load_glb(make_meshopt_gltf(grid, true));
     expect_equal_corners(found, wanted, 0);
     EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
-    // Without the mark, a buffer without bytes is an error.
+    // If a buffer without bytes is not marked as a fallback buffer, the file is refused.
     EXPECT_THAT(refuse(make_meshopt_gltf(grid, false)), HasSubstr("buffers[1]: wanted a uri"));
-    // A view that is not compressed has nothing to read in a fallback buffer.
+    // An uncompressed view must not read from a fallback buffer, which has no data.
     GltfFileBuilder gltf = make_meshopt_gltf(grid, true);
     gltf.root["bufferViews"][0].erase("extensions");
     EXPECT_THAT(refuse(gltf), HasSubstr("bufferViews[0]: wanted 768 bytes"));
@@ -209,7 +212,8 @@ TEST_F(LoadCompressedTest, MeshoptViewsLoadLikeTheirUncompressedTwins) {
 TEST_F(LoadCompressedTest, MeshoptFiltersAreUndone) {
     const BentGrid grid;
     const Scene wanted = load_glb(make_grid_gltf(grid));
-    // Normals as octahedral bytes: exporters store them as normalised integers of a stride of 4.
+    // Exporters store normals with meshopt's octahedral filter as normalised integers with a stride
+    // of 4 bytes.
     std::vector<float> four;
     for (std::size_t i = 0; i < grid.normals.size(); i += 3)
         four.insert(four.end(), {grid.normals[i], grid.normals[i + 1], grid.normals[i + 2], 0.f});
@@ -261,7 +265,8 @@ TEST_F(LoadCompressedTest, MeshoptDataThatDoNotFitAreRefused) {
     EXPECT_THAT(change(0, [](Json& e) { e = 3; }), HasSubstr("wanted an object"));
 }
 
-/// Changed bytes give another mesh or a refusal, and never a crash or a hang.
+/// If bytes of a compressed file are changed, the file loads as another mesh or is refused, but
+/// never crashes or hangs.
 TEST_F(LoadCompressedTest, DamagedCompressedDataNeverCrash) {
     const BentGrid grid;
     const GltfFileBuilder whole[] = {make_draco_gltf(grid, encode_by_draco("edgebreaker", 12)),
@@ -291,7 +296,7 @@ TEST_F(LoadCompressedTest, DamagedCompressedDataNeverCrash) {
     EXPECT_GT(refused, 50);
 }
 
-/// Returns a file whose node shows a triangle at three places.
+/// Returns a file whose node shows one triangle at three places.
 GltfFileBuilder make_instanced_gltf() {
     GltfFileBuilder gltf = make_small_gltf();
     const std::size_t translations = gltf.add_accessor<float>({0, 0, 0, 5, 0, 0, 0, 7, 0}, "VEC3",

@@ -80,7 +80,8 @@ TEST_F(LoadFilesTest, FilesAboveTheSceneFolderAreRefused) {
     EXPECT_THAT(load_error_text("in/x.gltf", make_gltf_with_buffer_uri("../out/secret.bin"),
                                 Failure::bad_data, {.root = folder / "in"}),
                 HasSubstr("--root"));
-    // The file's path starts like folder "in", but the file is outside of that folder.
+    // The path of this file begins with the name of the folder "in", but the file is not in that
+    // folder.
     write_loaded_file("inside.bin", encode_triangle_positions(1));
     EXPECT_THAT(uri_error_text("../inside.bin"), HasSubstr("--root"));
 }

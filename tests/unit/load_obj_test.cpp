@@ -140,7 +140,8 @@ TEST_F(LoadObj, IlluminationModelDecidesTheKindOfReflection) {
     }
 }
 
-/// Ks and Ns of illum 2, which is the kind where nobody says, are a rough lobe.
+/// The statements Ks and Ns make a rough lobe with `illum 2`, which is also the default without
+/// `illum`.
 TEST_F(LoadObj, HighlightsAreRoughLobes) {
     for (const char* kind : {"illum 2\n", ""}) {
         const Material lobe = load_mtl_material(std::string("Ks .5 .25 .125\nNs 160\n") + kind);

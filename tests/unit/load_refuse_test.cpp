@@ -229,7 +229,7 @@ TEST_F(LoadRefusalTest, IndexValuesWithoutAVertexAreRefused) {
                 HasSubstr("found 4294967295"));
     EXPECT_THAT(indices(std::vector<std::uint8_t>{0, 1, 255}, 5121), HasSubstr("found 255"));
     EXPECT_THAT(indices(std::vector<std::uint16_t>{0, 1}, 5123), HasSubstr("three corners"));
-    // The highest index of a type restarts the primitive, even if a vertex has that number.
+    // In glTF, the largest value of an index type restarts the primitive, and is no vertex number.
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.add_accessor(
         std::vector<float>(3 * 256), "VEC3", 5126);

@@ -457,7 +457,7 @@ TEST_F(LoadSurfaceTest, GlassIsReadAsAnIndexOfRefractionAndAnAbsorption) {
     EXPECT_THROW(read({{"thicknessFactor", -1}}), Error);
     EXPECT_THROW(read({{"thicknessFactor", 1}, {"attenuationDistance", -1}}), Error);
 
-    // Both formats keep glass.
+    // Scene files of both formats, glTF and OBJ, keep the properties of glass.
     Scene scene{.name = "glass"};
     scene::add_quad(scene, "pane", scene::add_material(scene, body), {0, 0, 0}, {1, 0, 0},
                     {1, 1, 0}, {0, 1, 0});

@@ -444,7 +444,7 @@ TEST_F(Load, GltfParentTransformsApplyToTheMotionOfChildren) {
     expect_near_loaded_positions(bounds(moved).lo, {-2, 4, 0}, 1e-6);
 }
 
-// ---- damaged files cause no crash and no exception of another kind
+// ---- damaged files must not crash the loader or cause exceptions of other types
 
 void load_and_ignore_errors(const std::string& path) {
     try {

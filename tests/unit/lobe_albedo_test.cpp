@@ -1,4 +1,5 @@
-// Tests of the quadrature with which `catoptric stress` judges rough surfaces.
+// Tests of the quadrature that computes the expected albedo of rough surfaces in `catoptric
+// stress`.
 #include "stress/lobe_albedo.hpp"
 #include "support/lobe_witness.hpp"
 
@@ -24,7 +25,8 @@ TEST(LobeAlbedo, EqualsAQuadratureOfTheTextbookFormulas) {
         }
 }
 
-/// Head-on, the albedo of a lobe with roughness 0 is 1. With roughness 1, masking takes light.
+/// Seen head-on, the albedo of a lobe is 1 for roughness 0, and smaller for roughness 1, because
+/// masking removes light.
 TEST(LobeAlbedo, FallsWithTheRoughness) {
     EXPECT_NEAR(stress::compute_lobe_albedo(.01, 0), 1, 1e-4);
     EXPECT_LT(stress::compute_lobe_albedo(1, 0), .6);

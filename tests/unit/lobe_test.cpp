@@ -1,5 +1,5 @@
-// Tests of the specular lobe of rough surfaces (shaders/lib/math/lobe.glsl). The witness is an
-// integrator in double precision with formulas of its own.
+// Tests of the specular lobe of rough surfaces (shaders/lib/math/lobe.glsl). Expected values come
+// from an integrator in double precision with independent formulas.
 #include "core/shader_math.hpp"
 #include "support/lobe_witness.hpp"
 
@@ -76,7 +76,7 @@ TEST(Lobe, LightBelowTheSurfaceGivesNothing) {
     EXPECT_EQ(f64::lobe_sample_weight(.2, dvec3(1), dvec3(1), direction_at_angles(30), below).x, 0);
 }
 
-/// Sums over stratified samples of the lobe.
+/// Sums the values of a function over stratified samples of the lobe.
 template <typename Function>
 void sum_over_lobe_samples(double alpha, const dvec3& o, int across, Function&& function) {
     for (int a = 0; a < across; ++a)
@@ -84,9 +84,9 @@ void sum_over_lobe_samples(double alpha, const dvec3& o, int across, Function&& 
             function(f64::sample_lobe(alpha, o, (a + .5) / across, (b + .5) / across));
 }
 
-/// The mean weight is the share of light that a surface with reflectance 1 reflects in a white
-/// furnace. A density without the factor of the bound, a missing masking term or a squared
-/// roughness too many fails here.
+/// The mean weight of samples is the share of light that a surface with reflectance 1 reflects in a
+/// white furnace. The test fails if the density lacks the factor of the bound, if a masking term is
+/// missing, or if the roughness is squared once too often.
 TEST(Lobe, MeanWeightOfSamplesIsTheAlbedoByQuadrature) {
     constexpr int kSamplesAcrossLobe = 512;
     for (const double roughness : kTestedRoughnesses)
@@ -117,8 +117,8 @@ TEST(Lobe, WeightIsTheLobeDividedByTheDensity) {
     }
 }
 
-/// Half of the hemisphere beside the plane of reflection, and a cone around the mirror direction,
-/// get as many samples as the density says.
+/// One half of the hemisphere beside the plane of reflection, and a cone around the mirror
+/// direction, must each get as many samples as the density predicts.
 TEST(Lobe, SamplesFallWhereTheDensitySaysSo) {
     constexpr int kSamplesAcrossLobe = 512;
     for (const double roughness : {.15, .5, 1.})
@@ -142,7 +142,8 @@ TEST(Lobe, SamplesFallWhereTheDensitySaysSo) {
         }
 }
 
-/// Most samples of the bounded distribution lie above the surface, which is its purpose.
+/// The bounded distribution of visible normals exists to avoid samples below the surface, so only
+/// few samples may lie there.
 TEST(Lobe, FewSamplesLieBelowTheSurface) {
     int below = 0;
     sum_over_lobe_samples(1, direction_at_angles(80), 128,

@@ -1,4 +1,4 @@
-// The choice of a technique for each mirror, beside a search through all assignments.
+// Tests of choosing a technique for each mirror, against a search of all assignments.
 #include "measure/plan_mix.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct RandomMixProblem {
     double limit = 0;
 };
 
-/// Makes random candidate techniques. One that costs more usually has the smaller error.
+/// Returns random candidate techniques. Techniques that cost more usually have a smaller error.
 RandomMixProblem draw_random_mix_problem(std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -55,7 +55,8 @@ double largest_error(const RandomMixProblem& problem, const std::vector<std::siz
     return largest;
 }
 
-/// Returns the time of a mix: that of each mirror's technique by its share of the pixels.
+/// Returns the time of a mix: the sum of the times of each mirror's technique, weighted by the
+/// mirror's share of the pixels.
 double time_of_technique_mix(const RandomMixProblem& problem, const std::vector<std::size_t>& mix) {
     double ms = 0;
     for (const std::vector<double>& view : problem.pixels) {

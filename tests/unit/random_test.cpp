@@ -1,5 +1,5 @@
-// Tests of random numbers by counters (shaders/lib/math/random.glsl): stratification, independence,
-// repeatability.
+// Tests of random numbers that are computed from counters (shaders/lib/math/random.glsl):
+// stratification, independence and repeatability.
 #include "core/shader_math.hpp"
 
 #include <gmock/gmock.h>
@@ -31,15 +31,16 @@ TEST(Random, ReversesBits) {
 }
 
 TEST(Random, SecondCoordinateIsThatOfSobolsSequence) {
-    // The first points of the second dimension: 0, 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8 in Gray-code
-    // free order.
+    // The first points of the second dimension of the Sobol sequence, not in Gray-code order: 0,
+    // 1/2, 3/4, 1/4, 5/8, 1/8, 3/8, 7/8.
     const double wanted[] = {0, .5, .75, .25, .625, .125, .375, .875};
     for (std::uint32_t i = 0; i < 8; ++i)
         EXPECT_EQ(f32::sobol_second_dimension(i) * 0x1p-32, wanted[i]) << i;
 }
 
-/// Each elementary interval of area 2^-k has one of the first 2^k points, whatever its shape.
-/// Points that are merely random, or scrambled so that strata mix, fail.
+/// Of the first 2^k points, exactly one must lie in each elementary interval of area 2^-k, whatever
+/// the interval's shape. Independent random points fail this test, and so does a scrambling that
+/// mixes strata.
 TEST(Random, FirstPointsAreANet) {
     for (const std::uint32_t pixel : {0u, 17u, 262143u})
         for (const std::uint32_t seed : {1u, 99u})
@@ -74,7 +75,7 @@ double correlation_of_samples(const std::vector<double>& a, const std::vector<do
     return ab / std::sqrt(aa * bb);
 }
 
-/// Pixels, dimensions and seeds have patterns of their own.
+/// Different pixels, dimensions and seeds must have independent patterns.
 TEST(Random, PixelsDimensionsAndSeedsAreIndependent) {
     constexpr std::uint32_t kPatternPointCount = 4096;
     const auto sample_series = [&](auto&& point_at) {
@@ -91,7 +92,7 @@ TEST(Random, PixelsDimensionsAndSeedsAreIndependent) {
     EXPECT_LT(std::abs(correlation_of_samples(base, sample_series([](std::uint32_t i) {
                                                   return make_pattern_point(i, 1, 0, 1);
                                               }))),
-              1); // samples of one pixel are stratified, so they are not independent
+              1); // samples of one pixel are stratified and therefore not independent
     EXPECT_LT(std::abs(correlation_of_samples(base, sample_series([](std::uint32_t i) {
                                                   return make_pattern_point(i, 0, 1, 1);
                                               }))),
@@ -105,8 +106,8 @@ TEST(Random, PixelsDimensionsAndSeedsAreIndependent) {
     EXPECT_NEAR(sum / kPatternPointCount, .5, 4 * .2887 / std::sqrt(double(kPatternPointCount)));
 }
 
-/// The error of a mean of n stratified points falls faster than 1/sqrt(n), at which it falls for
-/// independent ones.
+/// The error of a mean over n stratified points must fall faster than 1/sqrt(n), the rate of
+/// independent points.
 TEST(Random, MeanOfASmoothFunctionConvergesFast) {
     const auto error = [](std::uint32_t count) {
         double squares = 0;
@@ -121,7 +122,8 @@ TEST(Random, MeanOfASmoothFunctionConvergesFast) {
         }
         return std::sqrt(squares / 64);
     };
-    EXPECT_LT(error(256), error(16) / 8); // 4 for independent points
+    EXPECT_LT(error(256), error(16) / 8); // independent points would reduce the error by a factor
+                                          // of 4
 }
 
 } // namespace

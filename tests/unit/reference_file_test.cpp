@@ -1,4 +1,4 @@
-// Tests of files that keep the halves of a reference with noise.
+// Tests of files that store the two halves of a noisy reference.
 #include "study/reference_file.hpp"
 
 #include "measure/layered_file.hpp"
@@ -44,7 +44,7 @@ TEST_F(ReferenceFileTest, KeepsHalvesVarianceSeedsAndTimes) {
     EXPECT_EQ(after.a.picture_count(), 2);
     EXPECT_EQ(after.a.mean().pixels, before.a.mean().pixels);
     EXPECT_EQ(after.b.mean().pixels, before.b.mean().pixels);
-    // Further frames continue the mean and the variance.
+    // Frames that are added later continue the stored mean and variance.
     app::StoredReference longer = before;
     for (measure::PictureMean* mean : {&after.b, &longer.b})
         mean->add_picture(draw_random_picture(30));

@@ -1,4 +1,4 @@
-// Tests of the seeds of a reference with noise, and of when a comparison has such a reference.
+// Tests of the seeds of a noisy reference, and of when a comparison has a noisy reference.
 #include "study/reference_seeds.hpp"
 
 #include "compare.hpp"
@@ -44,7 +44,8 @@ TEST(ReferenceSeeds, SeedIsSetWithoutOtherChanges) {
     EXPECT_FALSE(app::draws_rays_from_lobes("reuse"));
 }
 
-/// Returns a triangle of a metal of this roughness, found to be a mirror if it is sharp.
+/// Returns a scene of one triangle of a metal with this roughness. The metal is a mirror if its
+/// roughness is at most `limit`.
 scene::Scene make_metal_triangle_scene(float roughness, float limit) {
     scene::Scene scene{.name = "metal"};
     scene.mirror_max_roughness = limit;
@@ -82,7 +83,8 @@ TEST(RoughReflectors, ReflectByALobeAboveTheSharpLimit) {
     EXPECT_TRUE(scene::has_rough_reflector(lambertian)) << "a dielectric";
 }
 
-/// The texture multiplies the roughness by its green channel.
+/// The green channel of the texture multiplies the roughness. The whole range of the texture must
+/// count.
 TEST(RoughReflectors, TextureCountsByItsWholeRange) {
     scene::Scene scene = make_metal_triangle_scene(1, .3f);
     auto image = std::make_shared<scene::Image>();

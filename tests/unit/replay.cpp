@@ -9,8 +9,8 @@ namespace catoptric::graph {
 
 namespace {
 
-/// A past access to a cell (an image layer or a buffer), with the later accesses that barriers have
-/// ordered after it.
+/// An earlier access to a cell, which is an image layer or a buffer. Barriers order some later
+/// accesses after it.
 struct PastCellAccess {
     GraphContentCell cell;
     AccessState touch;

@@ -222,8 +222,8 @@ TEST(ReportHtml, HtmlPlotDrawsIntervalsOfTimes) {
     EXPECT_EQ(lengths[2], 0);
 }
 
-/// Three rows that differ in one knob are joined, in the order of its values. Two are not, and
-/// neither are rows that differ in two knobs.
+/// In the plot, three rows that differ in one knob are joined in the order of the knob's values.
+/// Two such rows are not joined, and neither are rows that differ in two knobs.
 TEST(ReportHtml, HtmlPlotJoinsRowsAlongAKnob) {
     using namespace catoptric::report::sample;
     const auto count_curves = [](const Comparison& made) {

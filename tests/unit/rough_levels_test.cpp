@@ -1,5 +1,5 @@
-// Tests of the mathematics of rough look-ups (shaders/lib/math/rough.glsl): levels of captures,
-// distance laws, and the directions from which levels are filtered.
+// Tests of the mathematics of rough look-ups (shaders/lib/math/rough.glsl): the levels of captures,
+// the distance laws, and the sample directions of the filter.
 #include "core/shader_math.hpp"
 #include "support/lobe_witness.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 using namespace catoptric;
 
 TEST(RoughLevels, WidthsOfLevelsDouble) {
-    // A texel in the middle of a face of 256 texels covers a 512th of pi.
+    // In a cube face of 256 texels, a texel in the middle covers an angle of pi / 512.
     EXPECT_DOUBLE_EQ(f64::alpha_of_capture_level(1., 256.), 4 * std::numbers::pi / 512);
     for (int level = 1; level < 8; ++level)
         EXPECT_DOUBLE_EQ(f64::alpha_of_capture_level(level + 1., 256.),
@@ -34,7 +34,7 @@ TEST(RoughLevels, LevelIsTheInverseOfItsWidth) {
     EXPECT_EQ(f64::capture_level_of_alpha(0., 256.), 0);
 }
 
-/// A mix of two levels has the mean of their mean square widths.
+/// The mean square width of a mix of two levels is the mean of their mean square widths.
 TEST(RoughLevels, MixOfTwoLevelsHasTheMeanSquareWidth) {
     const double edge = 256, first = f64::alpha_of_capture_level(1., edge);
     for (int k = 1; k < 300; ++k) {
@@ -49,7 +49,8 @@ TEST(RoughLevels, MixOfTwoLevelsHasTheMeanSquareWidth) {
 }
 
 TEST(RoughLevels, BoxesAreAsWideAsTheLobe) {
-    // By quadrature: the angle at which a reflected lobe, seen head-on, has half of its height.
+    // Finds by a search the angle at which a reflected lobe, seen head-on, has half of its largest
+    // value.
     for (const double alpha : {.02, .05, .1}) {
         const auto height = [&](double angle) {
             return f64::ggx_density(alpha, dvec3(std::sin(angle / 2), 0, std::cos(angle / 2)));
@@ -90,8 +91,8 @@ TEST(RoughLevels, LawsOfNearAndFarSurfaces) {
     EXPECT_DOUBLE_EQ(alpha(f64::kLawCone, .5, .25), .125) << "ignores the slope";
 }
 
-/// The witness cuts a narrow cone of rays with a slanted plane, and measures the solid angle of the
-/// cut as it appears from the capture's centre, triangle by triangle.
+/// The expected value is computed as follows: a narrow cone of rays is cut by a slanted plane. The
+/// solid angle of the cut, as seen from the capture's centre, is summed up triangle by triangle.
 TEST(RoughLevels, ExactLawIsTheSolidAngleSeenFromTheCentre) {
     const dvec3 surface(0), direction(0, 0, 1), end(0, 0, 2);
     const auto solid_angle = [](const dvec3& eye, const dvec3& a, const dvec3& b, const dvec3& c) {
@@ -128,14 +129,14 @@ TEST(RoughLevels, ExactLawIsTheSolidAngleSeenFromTheCentre) {
         }
 }
 
-/// The mean of a function over drawn directions equals its integral by quadrature.
+/// The mean of a function over sampled directions must equal its integral over the lobe.
 TEST(RoughLevels, DirectionsSeenHeadOnFollowTheLobe) {
     for (const double roughness : {.2, .5, .9}) {
         const double alpha = roughness * roughness;
         const dvec3 o(0, 0, 1);
         const auto shape = [](const dvec3& i) { return i.z > .2 ? 1 + i.x + i.z * i.y : 0; };
         const double wanted = test::integrate_over_half_vectors(
-            roughness, o, [&](const dvec3& i) { // density of light directions: D / 4
+            roughness, o, [&](const dvec3& i) { // density of light directions seen head-on: D / 4
                 const dvec3 h = glm::normalize(o + i);
                 return shape(i) * f64::ggx_density(alpha, h) / 4;
             });

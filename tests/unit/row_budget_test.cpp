@@ -1,4 +1,5 @@
-// Tests of the row that keeps a budget of time or error, and of the sentence that names it.
+// Tests of finding the best row within a budget of time or error, and of the sentence that names
+// this row.
 #include "measure/budget.hpp"
 
 #include "report/tables.hpp"
@@ -14,7 +15,8 @@ using report::sample::make_row;
 using report::sample::make_time_samples;
 using testing::HasSubstr;
 
-/// Returns rows from fast and far to slow and close, and a row with black mirrors.
+/// Returns rows in order from fast rows with large error to slow rows with small error, and a row
+/// with black mirrors.
 measure::Comparison make_rows_of_rising_quality() {
     measure::Comparison made;
     made.device.name = "card";
@@ -56,7 +58,7 @@ TEST(RowBudget, BothBudgetsChooseTheFastestRowThatKeepsBoth) {
 
 TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {
     measure::Comparison made = make_rows_of_rising_quality();
-    made.rows[2].gpu_ms = make_time_samples(5, .1); // 4.5 to 5.5
+    made.rows[2].gpu_ms = make_time_samples(5, .1); // rounds from 4.5 to 5.5 ms
     made.max_ms = 5.2;
     const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);
     EXPECT_EQ(label_of_row_or_none(found.row), "fast");
@@ -68,7 +70,8 @@ TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {
 
 TEST(RowBudget, RowsThatCannotBeToldApartAreNamed) {
     measure::Comparison made = make_rows_of_rising_quality();
-    made.rows.push_back(make_row("other", 5, .1, .1)); // in every second round the faster
+    made.rows.push_back(make_row("other", 5, .1, .1)); // this row is the faster one in every second
+                                                       // round
     made.rows[2].gpu_ms = make_time_samples(5, .1), made.rows[4].gpu_ms = make_time_samples(5, -.1);
     made.max_flip = .15;
     const measure::BestRowsWithinBudget found = measure::find_best_rows_within_budget(made);

@@ -69,7 +69,7 @@ TEST(Search, AddedSearchHasNoKnobWithoutEffect) {
     EXPECT_EQ(choice.settings.size() + 3, app::parse_technique("test_search").settings.size() - 1);
 }
 
-/// Returns what a picture of the built-in room by the technique demands.
+/// Returns whether a picture of the built-in scene by the technique requires complete captures.
 bool does_technique_read_all_captures(const std::string& technique) {
     const scene::Scene room = scene::make_cornell_mirrors();
     require::RequiredWorkModelInput question{.now = room, .camera = room.cameras.front()};

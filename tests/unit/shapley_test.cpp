@@ -1,4 +1,4 @@
-// Tests of ShapleyValues values in games whose answers are known.
+// Tests of Shapley values in games whose values are known.
 #include "measure/shapley.hpp"
 
 #include "support/refusal.hpp"
@@ -38,8 +38,9 @@ struct CoalitionBonus {
     double amount;
 };
 
-// Every game is a sum of such bonuses, and each bonus is shared equally by its members. Here are
-// single players, pairs, a triple with a loss, and all five players. Player 3 is only in the last.
+// The game of this test is a sum of bonuses. The members of a coalition share each bonus equally.
+// There are bonuses for single players, pairs, a triple (a loss) and all five players. Player 3
+// takes part in the last bonus only.
 const std::vector<CoalitionBonus> kCoalitionBonuses = {
     {0b00000, 7},  {0b00001, 1}, {0b00010, 2},   {0b00011, 4},  {0b10110, -6},
     {0b10001, .5}, {0b00100, 3}, {0b11111, 2.5}, {0b00111, .75}};

@@ -56,7 +56,7 @@ struct CapturedScene {
     std::vector<shared::View> make_capture_views(std::size_t object) const {
         return render::make_cube_views(geometry.ranges[object].bounds.centre(), .001f);
     }
-    /// Returns the faces that show each object, in the capture around one of them.
+    /// Returns, for each object, the faces that show it in the capture around the given object.
     std::vector<std::uint8_t> faces_showing_objects_around(std::size_t object,
                                                            std::uint32_t edge) const {
         return render::find_faces_showing_objects(make_capture_views(object), {edge, 8},

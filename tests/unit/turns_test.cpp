@@ -36,8 +36,8 @@ TEST(Turns, EachCaptureIsDrawnWithinOneRound) {
         for (int frame = 0; frame < 2000; ++frame) {
             std::vector<render::CaptureRedrawRequest> asking;
             for (std::uint32_t i = 0; i < kMirrorCount; ++i) {
-                // The share of requesting mirrors changes from none to all, so that each of them is
-                // tested.
+                // The share of mirrors that request a new capture changes from none to all, so that
+                // all shares are tested.
                 const bool asks = waited[i] > 0 ||
                                   numbers.random_number_between(0, 1) < (frame % 200) / 150.;
                 if (asks) asking.push_back({i, waited[i]});
@@ -57,7 +57,7 @@ TEST(CaptureCost, CaptureCostTellsHowManyMirrorsFitABudget) {
     EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "nothing was measured";
     pace.add(100, 0);
     EXPECT_EQ(pace.count_affordable_captures(1, 16), 16u) << "no mirror was drawn";
-    pace.add(16, 8); // 16 ms for 8 mirrors: 2 ms each
+    pace.add(16, 8); // 16 ms for 8 mirrors, which is 2 ms for each
     EXPECT_EQ(pace.count_affordable_captures(7.9, 16), 3u);
     EXPECT_EQ(pace.count_affordable_captures(.1, 16), 1u) << "one at least";
     EXPECT_EQ(pace.count_affordable_captures(1000, 16), 16u);

@@ -1,4 +1,5 @@
-// Tests of the audit in the window: what it shows, how it changes the plan, and what it refuses.
+// Tests of the audit in the window: what the window shows, how an alarm changes the plan, and which
+// files are refused.
 #include "view/window.hpp"
 
 #include <nlohmann/json.hpp>
@@ -13,7 +14,8 @@ using testing::Not;
 
 class ViewAuditTest : public test::ViewWindowTest {
 protected:
-    /// Writes a plan as `choose` does, with this limit of FLIP. The last of the plans is chosen.
+    /// Writes a file of plans as `choose` writes it, with `limit` as the limit of FLIP. The last
+    /// plan of the list is the chosen plan.
     std::string write_plan_file(double limit) const {
         json proofs = json::array();
         for (const char* plan : {"parallax:face=32", "reuse:face=32", "reuse:face=16"})
@@ -58,7 +60,7 @@ TEST_F(ViewAuditTest, AlarmChangesThePlanUpToTheSurest) {
     EXPECT_EQ(said[3], "audit: 2 of 2 frames break flip <= 0; no surer plan is proved");
 }
 
-/// A plan within its limit stays, and the audit changes no byte of the pictures.
+/// If the plan keeps its limit, it stays, and the audit changes no byte of the pictures.
 TEST_F(ViewAuditTest, AuditedWindowShowsThePicturesOfRender) {
     Words words = audit_words(1, "40");
     words.insert(words.end(), {"--animate", "--screenshot", path_in_test_folder("a.exr")});
@@ -71,7 +73,8 @@ TEST_F(ViewAuditTest, StillSceneIsNotAudited) {
     std::string said;
     SimulatedUser driver;
     driver.after = [&](const ViewReport& report) { said += report.state.said; };
-    EXPECT_EQ(run_view_in_test(audit_words(0, "60"), driver), 0); // any audit would fail
+    EXPECT_EQ(run_view_in_test(audit_words(0, "60"), driver), 0); // every audited frame would break
+                                                                  // the limit of 0
     EXPECT_EQ(said, "");
 }
 

@@ -228,7 +228,8 @@ TEST_F(ViewPictureTest, CopiedCommandRendersThePictureShown) {
     EXPECT_TRUE(read_output_file("shown.png") == read_output_file("view.png")) << command;
 }
 
-/// The roughness that the user sets for a mirror is shown at once, and is an option of the command.
+/// When the user sets the roughness of a mirror, the next picture shows it, and the copied command
+/// has an option for it.
 TEST_F(ViewPictureTest, RoughnessOfAMirrorIsShownAndCopied) {
     std::string command;
     std::vector<int> passes;
@@ -258,7 +259,8 @@ TEST_F(ViewPictureTest, RoughnessOfAMirrorIsShownAndCopied) {
     EXPECT_TRUE(read_output_file("shown.png") == read_output_file("view.png")) << command;
 }
 
-/// Errors of rough mirrors are measured against rays from their lobes, not against sharp mirrors.
+/// Errors of rough mirrors are measured against ray tracing with their lobes, and not against sharp
+/// mirrors.
 TEST_F(ViewPictureTest, ReferenceOfRoughMirrorsIsRough) {
     double error = 0;
     SimulatedUser driver;
@@ -307,7 +309,7 @@ TEST_F(ViewPictureTest, DroppedSceneFileIsLoaded) {
     EXPECT_EQ(scenes[3], "cornell-mirrors");
     EXPECT_EQ(said[4], "loaded: flat");
     EXPECT_EQ(scenes[4], "flat");
-    // The plan names mirrors that the dropped scene does not have.
+    // The plan names mirrors that do not exist in the dropped scene.
     EXPECT_EQ(run_view_in_test({"--plan", "ball1=reuse:face=16 *=secant:face=16", "--size", "32x32",
                                 "--frames", "6"},
                                driver),

@@ -65,8 +65,8 @@ namespace {
     X(DestroyPipelineLayout) X(DestroyPipeline) X(DestroyDescriptorPool)                           \
     X(DestroyCommandPool) X(DestroySemaphore) X(DestroyFence) X(DestroyEvent)                      \
     X(DestroyPipelineCache) X(DestroyQueryPool)
-// Calls that may fail and create no object. Sets and command buffers are destroyed with their
-// pools.
+// Vulkan calls that may fail and that create no object. Descriptor sets and command buffers are
+// destroyed with their pools.
 #define FOR_CALLS(X)                                                                               \
     X(AllocateDescriptorSets) X(AllocateCommandBuffers) X(BindBufferMemory)                        \
     X(BindImageMemory) X(MapMemory) X(BeginCommandBuffer) X(EndCommandBuffer)                      \
@@ -263,7 +263,8 @@ template <const auto& kName, typename... Args>
 struct Command<kName, void(VKAPI_PTR*)(VkCommandBuffer, Args...)> {
     static void hook(VkCommandBuffer buffer, Args... args) {
         constexpr std::string_view kThis = kName;
-        bool divides = false; // all later commands wait for all earlier ones
+        bool divides = false; // whether the barrier orders all later commands after all earlier
+                              // commands
         if constexpr (kThis == "vkCmdPipelineBarrier") {
             const std::tuple<Args...> list(args...);
             divides = std::get<0>(list) == VK_PIPELINE_STAGE_ALL_COMMANDS_BIT &&
