@@ -19,7 +19,7 @@ namespace {
 using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 
-/// Sums over the iterations of one round.
+/// Sums of measured costs over the iterations of one round.
 struct BenchmarkRoundSums {
     double real_ms = 0, host_ms = 0;
     ProcessorUsage process, caller;
@@ -64,8 +64,9 @@ public:
         const PinnedThreads held;
         for (int round = 0; round < rounds_; ++round)
             for (std::size_t place = 0; place < benchmark_subjects_.size(); ++place)
-                // Reverses every second round. No subject then always follows the same other, whose
-                // work may still have an effect.
+                // Every second round visits the subjects in reverse order. The same subject then
+                // never always comes before another, whose measurement its remaining work could
+                // disturb.
                 measure_subject_round(
                     round % 2 == 0 ? place : benchmark_subjects_.size() - 1 - place, round);
         for (BenchmarkResult& caller : callers_)

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// Measures benchmarks in rounds. Each round visits all benchmarks, so that a slow moment of the
-/// machine meets all of them.
+/// Functions that measure benchmarks in rounds. Each round visits all benchmarks, so that a slow
+/// moment of the machine affects all of them.
 namespace catoptric::app {
 
 /// Figures that one iteration reports. A round stores their mean.
@@ -24,7 +24,7 @@ struct BenchmarkSubject {
     std::string name;
     std::function<IterationMeasurements()> work; ///< runs one iteration; its costs are measured
     int warmup = 1; ///< iterations before the first round, not measured
-    /// Called after the warm-up and after each round, not measured; may be empty.
+    /// Called after the warm-up and after each round. Its time is not measured. May be empty.
     std::function<void()> leave;
     /// Name of a second benchmark, which holds the work of the calling thread alone. Empty: none.
     std::string caller;
@@ -41,7 +41,8 @@ struct BenchOptions {
 };
 
 /// Measures every subject in rounds, after all subjects have warmed up. Every second round visits
-/// the subjects in reverse order. Costs what the work costs. `meter`: counts the whole process.
+/// the subjects in reverse order. Takes as long as all iterations of the work. `meter`: counts the
+/// whole process.
 std::vector<measure::BenchmarkResult>
 measure_benchmarks_in_rounds(const std::vector<BenchmarkSubject>& subjects,
                              const ProcessorUsageMeter& meter, const BenchOptions& options);

@@ -15,15 +15,15 @@ namespace catoptric::app {
 
 namespace {
 
-/// Frames of one technique. Their history continues from round to round as if nothing ran in
-/// between.
+/// Benchmark of frames of one technique. The history of the frames continues from round to round,
+/// as if no other benchmark ran in between.
 class FrameBenchmark {
 public:
     FrameBenchmark(std::shared_ptr<Session> session, Request request)
         : benchmark_session_(std::move(session)), request_(std::move(request)) {}
 
     IterationMeasurements render_next_frames() {
-        // Only now, because Frames begins with a cut.
+        // Created here and not earlier, because a FrameLoop begins with a cut.
         if (!frames_) frames_.emplace(*benchmark_session_, request_);
         check(frames_->render_next(), Failure::internal,
               "a benchmark went on after its last frame");

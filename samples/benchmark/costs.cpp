@@ -53,7 +53,8 @@ void measure_cost_rows(Session& session, const Request& request, const DeviceInf
     std::vector<std::unique_ptr<RowMeasurement>> runs;
     for (int round = 0; round < rounds; ++round)
         for (std::size_t place = 0; place < rows.size(); ++place) {
-            // Every second round goes backwards, so that no row always follows the same other.
+            // Every second round measures the rows in reverse order, so that no row always follows
+            // the same row.
             const std::size_t i = round % 2 == 0 ? place : rows.size() - 1 - place;
             if (round == 0)
                 runs.push_back(std::make_unique<RowMeasurement>(session, rows[i], options.watcher,

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-/// Measures rows whose times and counted work determine the costs of a device.
+/// Functions that measure the rows from whose times and counted work the unit costs of a device are
+/// fitted.
 namespace catoptric::app {
 
 /// Measures each technique of the request in rounds, at the request's size and at half of it, with
@@ -22,8 +23,8 @@ std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const
 std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const Request& request,
                                                          const Watcher& watcher);
 
-/// Returns the kinds of work whose costs are fitted to times of this program: all but the numbers
-/// of lanes, of which the device's driver decides.
+/// Returns the kinds of work whose unit costs are fitted to measured times: all kinds except counts
+/// of lanes, because the number of lanes depends on the driver.
 std::vector<CountedWorkKind> list_fitted_kinds();
 
 } // namespace catoptric::app

@@ -4,15 +4,17 @@
 #include "measure/tuning.hpp"
 #include "session/run.hpp"
 
-/// Measures which variants of shaders (gpu/variants.hpp) suit a device.
+/// Functions that measure which variants of shaders (gpu/variants.hpp) are fastest on a device.
 namespace catoptric::app {
 
-/// Technique that variants are measured with. It consists of the tracer's shader alone.
+/// Technique with which shader variants are measured. Its frame consists of the ray tracer's shader
+/// alone.
 inline constexpr const char* kTuningTechnique = "raytrace:depth=4";
 
 struct TuningResult {
     std::vector<measure::ShaderVariantTrial> tried; ///< in the table's order
-    /// Other processes were at work and may have caused the ratios.
+    /// Other processes used the processors during the measurement, and may have changed the time
+    /// ratios.
     bool noisy = false;
 };
 

@@ -27,7 +27,8 @@ bool sets_knob(const std::string& text, const std::string& knob) {
         [&](const std::string& setting) { return setting.starts_with(knob + "="); });
 }
 
-/// Returns the technique with the values of all its knobs. Texts that mean the same give the same.
+/// Returns the technique as text with the values of all its knobs. Two texts that mean the same
+/// technique give the same result.
 std::string describe_choice(const std::string& text) {
     const app::TechniqueChoice choice = app::parse_technique(text);
     std::string all = choice.technique;
@@ -45,7 +46,8 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
         return has_knob_of_axis(app::parse_technique(text).technique, axis.knob) &&
                !sets_knob(text, axis.knob);
     };
-    // A new row may be equal to a row that is there, because a value may be the knob's default.
+    // A new row may equal an existing row, if the value is the knob's default. Such a row is left
+    // out.
     std::vector<std::string> known;
     for (const std::string& text : techniques)
         if (!varies(text)) known.push_back(describe_choice(text));

@@ -5,13 +5,15 @@
 
 namespace catoptric::cli {
 
-/// A knob, and the values with which each technique that has the knob is compared.
+/// A knob of `compare --axis`, with the values with which each technique that has the knob is
+/// compared.
 struct KnobAxis {
     std::string knob;
     std::vector<std::string> values;
 };
 
-/// Reads "KNOB=VALUE,VALUE[,...]". Throws `usage` if no two different values follow a name.
+/// Reads the text "KNOB=VALUE,VALUE[,...]". Throws `usage` unless the text gives a name and at
+/// least two different values.
 KnobAxis parse_knob_axis(const std::string& text);
 
 /// Returns the rows to compare: each technique that has the knob of an axis, once for each value.

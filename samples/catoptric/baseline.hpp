@@ -20,22 +20,24 @@ struct BaselineOptions {
 /// outlive the parsing.
 void add_baseline_options(CommandVerb& verb, BaselineOptions& options);
 
-/// Throws `usage` for options of a baseline without one, and as reading the file does. Call it
-/// before measuring.
+/// Throws `usage` if options of the baseline are given without --baseline. Also throws the errors
+/// of reading the baseline's file. Call it before measuring.
 void check_baseline_options(const BaselineOptions& options);
 
-/// The verdict of a comparison of one or several scenes.
+/// Judges a comparison of one or several scenes against an earlier report (`compare --baseline`).
 class BaselineGate {
 public:
     /// Reads the baseline, if there is one. `options` must outlive the gate.
     explicit BaselineGate(const BaselineOptions& options);
-    /// Throws `bad_data` if the baseline does not fit a scene, finished or not.
+    /// Throws `bad_data` if the baseline shows another scene or other settings than the comparison,
+    /// which may be unfinished.
     void check_baseline_scene(const report::Comparison& comparison) const;
-    /// Judges a finished scene. Throws `bad_data` if the baseline does not fit it.
+    /// Judges the finished comparison of one scene. Throws `bad_data` if the baseline shows another
+    /// scene or other settings.
     void judge_scene_against_baseline(const report::Comparison& comparison);
     /// Writes the files and returns the text for the terminal; empty without a baseline.
     std::string finish();
-    /// Returns whether nothing is worse than in the baseline.
+    /// Returns whether no row is worse than in the baseline.
     bool passes() const { return passes_; }
 
 private:

@@ -171,7 +171,8 @@ int run_measurement(const BenchArguments& options) {
     return 0;
 }
 
-/// Warns of reasons other than the program for a difference.
+/// Warns of circumstances other than the program, such as the device, that may cause different
+/// times.
 void warn_of_different_circumstances(const measure::BenchmarkRun& before,
                                      const measure::BenchmarkRun& after) {
     if (before.device.name != after.device.name || before.device.driver != after.device.driver)

@@ -57,7 +57,8 @@ measure::DeviceCosts fit_costs_of_this_device(const CostsArguments& arguments, a
                                    app::list_fitted_kinds());
 }
 
-/// Fits the costs of the device whose times the file has, to work that is counted on this device.
+/// Fits unit costs of another device. The file gives the times of rows on that device, and the work
+/// of the rows is counted on this device.
 measure::DeviceCosts fit_costs_of_other_device(const CostsArguments& arguments, app::Engine& engine,
                                                app::Request request, const app::Watcher& watcher) {
     const report::OtherDeviceTimes times = report::read_times_file(arguments.times);

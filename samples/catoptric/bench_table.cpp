@@ -52,7 +52,7 @@ std::string format_cost(double cost, BenchmarkCostKind of) {
     return format_benchmark_number(is_counted_cost(of) ? cost / 1e6 : cost);
 }
 
-/// Returns the kinds of cost that the list compares.
+/// Returns the kinds of cost (cycles, time) that a comparison of two measurements covers, as text.
 std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     std::string text;
     for (const BenchmarkCostKind cost : {BenchmarkCostKind::cycles, BenchmarkCostKind::instructions,
@@ -63,7 +63,8 @@ std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
     return text;
 }
 
-/// Returns a line for each count of work that differs, or a sentence if none differs.
+/// Returns a line for each count of work that differs between two measurements, or a sentence if
+/// none differs.
 std::string format_count_changes(const measure::BenchmarkChanges& changes) {
     std::size_t compared = 0;
     BenchmarkTableCells cells{{"counted work", "count", "before", "after", "ratio"}};

@@ -1,4 +1,5 @@
-// Measures which shader settings suit the device, and writes them to its profile.
+// Measures which shader settings are fastest on the device, and writes them to the device's
+// profile.
 #include "bench_tune.hpp"
 
 #include "bench_table.hpp"
@@ -22,7 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the path of the profile. Checks before the measurement that the file can be written.
+/// Returns the path of the device profile. Checks before the measurement that the file can be
+/// written.
 fs::path choose_profile_path(const std::string& output, const app::DeviceInfo& device,
                              const std::vector<fs::path>& inputs) {
     fs::path place = output;

@@ -66,7 +66,8 @@ scene::Camera CameraPath::camera_after(double seconds) const {
         const auto slope_a = find_tangent(keys_, from, member) * span,
                    slope_b = find_tangent(keys_, to, member) * span;
         const auto change = b - a;
-        // a + ... in place of the four Hermite polynomials: exact at both keys.
+        // The spline is written as a + (...) and not by the four Hermite polynomials, because this
+        // form is exact at both keys.
         camera.*member = t == 1 ? b
                                 : a + t * (slope_a + t * (3.0 * change - 2.0 * slope_a - slope_b +
                                                           t * (slope_a + slope_b - 2.0 * change)));
@@ -76,7 +77,8 @@ scene::Camera CameraPath::camera_after(double seconds) const {
     interpolate(&scene::Camera::up);
     interpolate(&scene::Camera::vertical_fov_degrees);
     interpolate(&scene::Camera::orthographic_height);
-    // A spline may leave the range between its keys.
+    // Between two keys, a spline may leave the range of the two values, so the value is clamped to
+    // the range.
     const auto [low, high] = std::minmax(keys_[from].camera.vertical_fov_degrees,
                                          keys_[to].camera.vertical_fov_degrees);
     camera.vertical_fov_degrees = std::clamp(camera.vertical_fov_degrees, low, high);

@@ -7,9 +7,9 @@
 
 namespace catoptric::cli {
 
-constexpr double kFramesPerSecond = 60; ///< of motions, as in app::Request::instant
+constexpr double kFramesPerSecond = 60; ///< frame rate of motions, as in app::Request::instant
 
-/// Camera that a path reaches `seconds` after its start.
+/// The camera at a time, in seconds after the start of a camera path.
 struct CameraKey {
     double seconds = 0;
     scene::Camera camera;
@@ -18,7 +18,8 @@ struct CameraKey {
 /// Smooth motion of a camera through keys, for `render --camera-path`.
 class CameraPath {
 public:
-    /// `keys`: at least two, with ascending seconds; all perspective or all orthographic.
+    /// `keys`: at least two keys, with ascending times. All cameras are perspective, or all are
+    /// orthographic.
     explicit CameraPath(std::vector<CameraKey> keys) : keys_(std::move(keys)) {}
 
     /// Returns the time from the first key to the last, in seconds.
@@ -28,8 +29,8 @@ public:
     /// tangents of Catmull and Rom for keys at unequal distances in time. Two keys give a straight
     /// line. Angle of view and orthographic height stay between those of the two keys around.
     scene::Camera camera_after(double seconds) const;
-    /// Throws `bad_data`, with `file` as the place, if the camera stands at its target or looks
-    /// along its up vector in one of so many frames of 1/60 s.
+    /// Checks the frames of the path, which are 1/60 s apart. Throws `bad_data`, with `file` as the
+    /// place, if in one of the frames the camera stands at its target or looks along its up vector.
     void check_frames(int frames, const std::string& file) const;
 
 private:

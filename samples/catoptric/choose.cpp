@@ -56,7 +56,7 @@ void read_error_limit(const std::string& text, app::ChooseRequest& limits) {
     limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
 }
 
-/// Takes what the options leave out from a plan's certificate: limits, share, confidence and seeds.
+/// Sets limits, share, confidence and seeds from a plan's certificate, where the options give none.
 void read_certificate(const ChooseOptions& options, app::ChooseRequest& request) {
     const std::string& file = options.certified;
     const auto document = parse_json<nlohmann::json>(file, read_file(file));
@@ -87,7 +87,7 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
     if (const std::optional<double> seed = number("training_seed", 0, kMaxSeed))
         request.base.seed = static_cast<std::uint64_t>(*seed);
     const std::optional<double> proved = number("proof_seed", 0, kMaxSeed);
-    if (!options.is_proof_seed_given) // other views than those that the certificate has seen
+    if (!options.is_proof_seed_given) // other views than those of the certificate
         request.proof_seed = std::max(static_cast<std::uint64_t>(proved.value_or(1)),
                                       request.base.seed) +
                              1;
@@ -141,7 +141,7 @@ int certify_plan_and_print_result(const ChooseOptions& options, const app::Choos
     return proof.holds() ? 0 : 1;
 }
 
-/// Throws `usage` if the plan's file would replace a file that is read.
+/// Throws `usage` if the file of the chosen plan would replace a file that the program reads.
 void check_output_place(const ChooseOptions& options, const app::ChooseRequest& request) {
     check_outputs_differ_from_inputs({options.output}, request.base.scene.files);
     std::vector<std::filesystem::path> read;

@@ -93,7 +93,8 @@ std::string remove_repeated_empty_lines(std::string text) {
     return text;
 }
 
-/// Refuses unknown words. CLI11 lets them pass, because this function suggests the nearest name.
+/// Throws `usage` for unknown words, with the nearest known name. CLI11 is told to accept unknown
+/// words, because its own message suggests no name.
 void refuse_unknown_words(const CLI::App& verb) {
     std::vector<std::string> names;
     for (const CLI::Option* option : verb.get_options())
@@ -123,7 +124,7 @@ const CLI::Option* find_option_in_message(const CLI::App& app, const std::string
     return longest;
 }
 
-/// Returns the parser's refusal in this program's words.
+/// Returns the error message for an error of the parser CLI11, in the wording of this program.
 std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::Option* option = find_option_in_message(app, error.what());
     if (option == nullptr) return "wanted one verb with options and arguments of its own";

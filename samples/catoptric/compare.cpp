@@ -114,8 +114,8 @@ std::vector<std::string> list_requested_rows(const app::CompareRequest& request)
     return base.techniques.empty() ? app::list_default_techniques(base) : base.techniques;
 }
 
-/// Returns the requests of all scenes. Making them before any work reports a fault of the last
-/// scene at once.
+/// Returns the requests for all scenes. All requests are made before any scene is measured, so that
+/// an error in the last scene is reported at once.
 std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& options) {
     check_round_limit(options);
     check_techniques_hold_no_scene(options.techniques);
@@ -123,7 +123,8 @@ std::vector<app::CompareRequest> make_compare_requests(const CompareOptions& opt
     const std::string& reference = options.common.reference;
     check(options.truth == app::ReferencePixelKind::centre || reference.empty(), Failure::usage,
           "--truth chooses the reference; wanted no --reference beside it, found ", reference);
-    // The reference of a scene without rough mirrors stands for those of all scenes.
+    // The report of several scenes names one reference: the reference of a scene without rough
+    // mirrors.
     const std::string judged_by = app::choose_reference(reference, scene::Scene(), options.truth);
     for (const app::StudyChoice& choice : options.studies) app::check_study(choice, judged_by);
     std::vector<app::CompareRequest> requests;
@@ -254,13 +255,16 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
     request.watcher = make_progress_watcher(progress);
     report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
-        if (so_far.rows.size() == 1) gate.check_baseline_scene(so_far); // before more time is spent
+        if (so_far.rows.size() == 1)
+            gate.check_baseline_scene(so_far); // before more time is spent
+                                               // on measuring
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);
     comparison.max_ms = budget.max_ms, comparison.max_flip = budget.max_flip;
     progress.clear();
-    // If no row was finished, an earlier report is worth more.
+    // If no row was finished, nothing is written, because an earlier report in the folder is worth
+    // more.
     if (!comparison.rows.empty()) output.write_scene_report(index, comparison);
     output.print_comparison_table(comparison);
     return comparison;

@@ -13,9 +13,9 @@ struct CompareWords {
     DeviceOptions device;
 };
 
-/// Returns what `catoptric compare` makes of these words, which are a scene and options, and loads
-/// the scene. Throws as `compare` does. Throws `usage` for several scenes, and for options such as
-/// --help that end the program.
+/// Parses the words of a `catoptric compare` command, which are a scene and options, and loads the
+/// scene. Returns the request that the command would run. Throws the same errors as `compare`.
+/// Throws `usage` for several scenes, and for options such as --help that end the program.
 CompareWords parse_compare_words(std::vector<std::string> words);
 
 /// Returns the options of `compare`.

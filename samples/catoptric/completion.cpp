@@ -54,8 +54,8 @@ std::vector<std::string> list_option_names(const CompletionVerb& verb) {
     return names;
 }
 
-/// Returns the text in single quotes, as all three shells read it: as words, without the marks
-/// that have a meaning there.
+/// Returns the text in single quotes in a form that bash, zsh and fish read as plain words, without
+/// characters that have a special meaning in one of them.
 std::string quote_for_shells(std::string text) {
     std::erase_if(text, [](char c) { return c == '\'' || c == '\\' || c == '[' || c == ']'; });
     std::ranges::replace(text, ':', ',');

@@ -31,7 +31,7 @@ const CompletionOption* find_option(const CompletionVerb& verb, const std::strin
     return found == verb.options.end() ? nullptr : &*found;
 }
 
-/// Returns the words that give the option this value.
+/// Returns the command-line words that set the option to this value.
 std::vector<std::string> make_option_words(const std::string& place, const CompletionOption& option,
                                            const nlohmann::json& value) {
     const auto refuse = [&](const char* wanted) {

@@ -39,7 +39,8 @@ Json make_times_json(const app::RunResult& result, const app::DeviceInfo& device
     app::fill_row_times(row, {result.frames}, result.parts.front().prefix, device.type == "cpu");
     const std::vector<app::PassTime>& last = result.frames.back().passes;
     std::erase_if(row.passes,
-                  [&](const report::PassFacts& pass) { // passes that only other frames had
+                  [&](const report::PassFacts& pass) { // passes that only other frames had are left
+                                                       // out
                       return std::ranges::find(last, pass.name, &app::PassTime::name) == last.end();
                   });
     return report::make_row_times_json(row);
@@ -73,7 +74,7 @@ Json make_settings_json(const std::vector<Setting>& list) {
     return settings;
 }
 
-/// Returns which direction is better, in one word; null if neither is.
+/// Returns in one word whether larger or smaller values of a metric are better; null if neither is.
 Json make_better_direction_json(measure::BetterDirection better) {
     switch (better) {
     case measure::BetterDirection::less: return "less";
@@ -130,7 +131,8 @@ std::string make_render_json(const app::Request& request, const app::DeviceInfo&
     document["captures"] = make_capture_budget_json(part.slices, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
-    // The frames of a still picture compile shaders at first use, so their times mean nothing.
+    // Frames of a still picture also compile shaders at their first use. The times of such frames
+    // are therefore left out.
     const Json times = make_times_json(result, device);
     for (const auto& [name, value] : times.items())
         document[name] = request.until_settled ? Json() : value;
@@ -152,7 +154,7 @@ std::string make_trace_json(const app::FrameTimes& frame, const std::string& pro
     };
     name_of("process_name", process);
     name_of("thread_name", "device");
-    for (const app::PassTime& pass : frame.passes) // the format uses microseconds
+    for (const app::PassTime& pass : frame.passes) // Chrome's trace format uses microseconds
         events.push_back({{"name", pass.name},
                           {"cat", "pass"},
                           {"ph", "X"},

@@ -88,9 +88,10 @@ void throw_unless_option_given(bool given, const std::string& verb, const std::s
 /// follow it.
 void check_techniques_hold_no_scene(const std::vector<std::string>& techniques);
 
-/// Returns the request to the engine, without techniques: scene, camera and numbers. Messages of
-/// the loader and additions to the scene go to stderr. `check`, if given, may refuse the scene
-/// before any other message. Without it, a scene without a mirror causes a warning.
+/// Returns the request to the engine, without techniques: scene, camera and numbers. Prints
+/// messages of the loader, and parts that were added to the scene, to stderr. `check`, if given,
+/// may refuse the scene before any other message. Without it, a scene without a mirror causes a
+/// warning.
 app::Request
 make_render_request_of_options(const CommonOptions& common,
                                const std::function<void(const scene::Scene&)>& check = {});

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the printable form of `text`, which may quote a file or a name. Our own further lines
-/// are indented. Therefore a quoted name cannot start a line that looks like a message.
+/// Returns the printable form of a message, which may quote a file or a name. All lines after the
+/// first are indented, so that a quoted name cannot begin a line that looks like a new message.
 std::string escape_message_text(std::string_view text) {
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -69,8 +69,8 @@ void prepare_standard_streams() {
     std::signal(SIGXFSZ, SIG_IGN);
     for (int stream = 0; stream <= 2; ++stream) {
         if (::fcntl(stream, F_GETFD) != -1) continue;
-        // `open` returns the lowest free number, which is this stream's. Opened for reading, stdout
-        // still refuses writes.
+        // `open` returns the lowest free number, which is the number of the closed stream. Stdout
+        // is opened for reading, so that writes to it still fail.
         const int opened = ::open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY);
         static_cast<void>(opened);
     }

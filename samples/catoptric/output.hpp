@@ -41,7 +41,7 @@ void print_detail_if_verbose(const OutputOptions& manners, const std::string& te
 void print_warning(const std::string& text);
 
 /// Throws the error that ended a run early, with the number of finished rows and their folder.
-/// `folder` is empty if there is none. The message has `where` after the rows.
+/// `folder` is the folder of the finished rows, or empty. The message has `where` after the rows.
 [[noreturn]] void throw_incomplete_run(const Error& stopped, std::size_t rows, std::size_t asked,
                                        const std::string& where,
                                        const std::filesystem::path& folder);

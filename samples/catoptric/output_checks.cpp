@@ -21,7 +21,8 @@ public:
         fs::path path; ///< path as the user named it
         bool is_input = false;
     };
-    /// Returns the known file that is the same file, or null. Devices and pipes are never the same.
+    /// Returns the known file to which `path` also leads; null if there is none. Devices and pipes
+    /// never count as the same file.
     const KnownFileIdentity* find_same_file(const fs::path& path) const {
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;

@@ -22,7 +22,7 @@ public:
     };
     explicit ProgressPrinter(const OutputOptions& manners,
                              ProgressOffTerminal off_terminal = ProgressOffTerminal::nothing);
-    /// Removes the line.
+    /// Removes the progress line from the terminal.
     ~ProgressPrinter();
     ProgressPrinter(const ProgressPrinter&) = delete;
     ProgressPrinter& operator=(const ProgressPrinter&) = delete;
@@ -31,12 +31,12 @@ public:
     void row(const std::string& label, std::size_t index, std::size_t count);
     /// Reports that frame `number` (from 1) of `total` of this row is done.
     void frame(int number, int total);
-    /// Removes the line until the next frame, to make room for other text.
+    /// Removes the progress line until the next frame, to make room for other text.
     void clear();
 
 private:
     void show(const std::string& text);
-    /// Writes a line if another tenth is done since the last line.
+    /// Writes a line if another tenth of the work is done since the last line.
     void show_progress_each_tenth();
     /// Returns the estimated remaining time from the time so far: "0:35".
     std::string format_estimated_time_left(double done) const;
@@ -44,7 +44,7 @@ private:
     bool is_active_ = false;
     bool rewrites_ = false;
     bool in_tenths_ = false;
-    std::size_t tenths_ = 0; ///< tenths that were written
+    std::size_t tenths_ = 0; ///< number of tenths for which a line was written
     std::string label_;
     std::size_t index_ = 0, count_ = 1;
     std::size_t shown_width_ = 0;

@@ -163,13 +163,14 @@ void write_picture(const app::TechniqueResult& part,
     measure::write_png(part.display, file);
 }
 
-/// Reads the path and sets the number of frames to that of the whole path, unless --frames is
-/// given.
+/// Reads the camera path. Unless --frames is given, sets the number of frames so that they cover
+/// the whole path.
 std::optional<CameraPath> read_camera_path_of_request(const RenderOptions& options,
                                                       app::Request& request) {
     if (options.camera_path.empty()) return std::nullopt;
     CameraPath path = read_camera_path(options.camera_path, request.scene);
-    // Up to the frame that shows the last key; seconds in decimals may be a little too long.
+    // The last frame shows the last key. A tiny amount is subtracted, because the decimal number of
+    // seconds may be rounded up.
     const double whole = std::ceil(path.duration() * kFramesPerSecond - 1e-6) + 1;
     check(options.common.frames || whole <= kMaxSequencePictures, Failure::usage, "--camera-path ",
           options.camera_path, ": wanted --frames or a path of at most ", kMaxSequencePictures,

@@ -1,4 +1,4 @@
-// catoptric results: a site of static pages on many reports.
+// catoptric results: writes a site of static pages about many reports.
 #include "core/error.hpp"
 #include "options.hpp"
 #include "output_checks.hpp"

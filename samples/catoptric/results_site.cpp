@@ -29,7 +29,7 @@ using SiteJson = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMaxReportBytes = 256U << 20U;
 constexpr double kMaxReportedMs = 1e9;
-constexpr std::size_t kMaxHistoryColumns = 12; // the latest reports
+constexpr std::size_t kMaxHistoryColumns = 12; // only the latest reports get a column
 constexpr std::size_t kIdCharacters = 12;
 constexpr std::string_view kPagePrefix = "scene-";
 
@@ -95,12 +95,13 @@ double read_number_of(const SiteJson& object, const std::string& name, const Rep
 SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
     SiteRow row;
     row.label = read_text_of(json, "label", place);
-    // Labels name the model only in reports with both, but a page may show reports of either.
+    // The label of a row names the model only in reports that compare both models. On a page with
+    // reports of both kinds, labels without a model must not be mixed up.
     constexpr std::string_view kModel = ", model=required";
     if (find_member(json, "model", place) == "required" && !row.label.ends_with(kModel))
         row.label += kModel;
     const SiteJson times = find_member(json, "gpu_ms", place);
-    if (!times.is_null()) { // null: a row of pictures from a file
+    if (!times.is_null()) { // null for a row whose pictures come from a file
         row.ms = read_number_of(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
         const SiteJson interval = find_member(times, "ci95", place.at("gpu_ms"));
         const bool has_interval = interval.is_array() && interval.size() == 2 &&
@@ -109,13 +110,14 @@ SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
     }
     const SiteJson error = find_member(json, "error", place);
     row.flip = read_number_of(error, "flip", place.at("error"), 0, 1);
-    // An estimate below the noise of the reference is negative.
+    // The rmse against a noisy reference is negative if its estimate is below the noise.
     row.rmse = read_number_of(error, "rmse", place.at("error"), -1, 1);
     row.is_reference = find_member(json, "is_reference", place) == true;
     return row;
 }
 
-/// Returns what must be equal for two comparisons to be beside each other.
+/// Returns the setting of a comparison as text: camera, instant, size and reference. Only
+/// comparisons with equal settings stand on one page.
 std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
     const SiteJson size = find_member(json, "size", place);
     place.at("size").check(size.is_array() && size.size() == 2 && size[0].is_number_unsigned() &&
@@ -217,7 +219,7 @@ std::vector<SiteComparison> read_report(const fs::path& file, const std::string&
     return list;
 }
 
-/// Comparisons of one scene with one setting, by device: the oldest first.
+/// Comparisons of one scene with one setting, by device, from the oldest to the newest.
 struct SitePage {
     std::string scene, setting, file;
     std::map<std::string, std::vector<SiteComparison>> devices;
@@ -249,7 +251,8 @@ std::string format_cell(double value, int decimals) {
     return report::format_fixed(value, decimals);
 }
 
-/// Returns the head of a table whose first columns hold text, and the others numbers.
+/// Returns the head row of a table whose first columns hold text and whose other columns hold
+/// numbers.
 std::string make_table_head(std::span<const std::string> titles, std::size_t text_columns = 1) {
     std::string html = "<thead><tr>";
     for (std::size_t i = 0; i < titles.size(); ++i)
@@ -317,8 +320,8 @@ std::string make_front_plot(const SiteComparison& run) {
                            x(row.ms), y(row.flip), row.on_front ? "var(--accent)" : "var(--card)",
                            escape_html(says));
     }
-    // Numbers of the front's rows, above their circles; a number that would cover the last moves
-    // up.
+    // Writes the numbers of the front's rows above their circles. A number that would cover the
+    // previous number moves up.
     dvec2 last(-INFINITY);
     for (std::size_t i = 0; i < front.size(); ++i) {
         dvec2 at(x(front[i]->ms), y(front[i]->flip) - 8);
@@ -330,7 +333,7 @@ std::string make_front_plot(const SiteComparison& run) {
     return svg + "</svg></figure>";
 }
 
-/// Returns the row's number on the front, "reference", or nothing.
+/// Returns the cell that tells a row's place: its number on the front, "reference", or empty text.
 std::string describe_place_on_front(const SiteRow& row, const std::vector<const SiteRow*>& front) {
     if (const auto found = std::ranges::find(front, &row); found != front.end())
         return fmt::format("number {}", found - front.begin() + 1);
@@ -363,7 +366,8 @@ std::string make_latest_table(const SiteComparison& run) {
     return html + "</tbody></table></div>";
 }
 
-/// Returns a table of each row's time and FLIP by report, the oldest of the latest first.
+/// Returns a table with each row's time and FLIP in the latest reports, from the oldest to the
+/// newest.
 std::string make_history_table(const std::vector<SiteComparison>& runs) {
     if (runs.size() < 2) return "";
     const std::span<const SiteComparison> shown(
@@ -409,7 +413,7 @@ std::string make_scene_page(const SitePage& page) {
     return report::make_html_page(page.scene, html + "</main>");
 }
 
-/// Hides the lines of the table that lack a word of the search field.
+/// Script of the search field: hides the lines of the table that lack a word of the search text.
 constexpr const char* kSearchScript = R"(<script>
 document.getElementById('search').addEventListener('input', event => {
   const words = event.target.value.toLowerCase().split(/\s+/);
@@ -451,7 +455,7 @@ std::string make_index_page(const std::vector<SitePage>& pages, std::size_t repo
                                   html + "</tbody></table></div></main>" + kSearchScript);
 }
 
-/// Removes pages of scenes whose reports were removed.
+/// Removes the pages of scenes that no report contains any more.
 void remove_other_pages(const fs::path& site, const std::vector<SitePage>& pages) {
     std::vector<fs::path> removed;
     std::error_code error;

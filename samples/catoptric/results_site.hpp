@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-// A site of static pages on many reports: a page for each scene, with a front for each device and
-// the history of each row.
+// Functions that write a site of static pages about many reports. The site has a page for each
+// scene, with a front for each device and the history of each row.
 namespace catoptric::cli {
 
 struct AddedReport {

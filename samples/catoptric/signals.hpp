@@ -10,9 +10,10 @@ namespace catoptric::cli {
 /// constructed.
 void exit_on_signals(const char* program);
 
-/// Makes the first of these signals be stored instead, so that work can end after its frame.
-/// Returns the stored number; 0 before a signal. Further signals within a second count as the same
-/// one (`timeout` sends two). A later one ends the program at once.
+/// After this call, the first SIGHUP, SIGINT or SIGTERM is stored and does not end the program, so
+/// that work can end after its frame. Returns the stored number; 0 before a signal. Further signals
+/// within a second count as the same one (`timeout` sends two). A later one ends the program at
+/// once.
 const std::atomic<int>& stop_on_signals();
 
 } // namespace catoptric::cli

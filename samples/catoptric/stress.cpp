@@ -51,14 +51,14 @@ std::string make_stress_text(const report::StressResults& stress) {
 
 int run_stress(const StressOptions& options) {
     for (const std::string& id : options.only)
-        stress::find_stress_property(id); // fails before any work
+        stress::find_stress_property(id); // an unknown id fails before any work
     if (!options.folder.empty()) {
         const std::filesystem::path folder = options.folder;
         check_folder_can_be_made(folder);
         check_folder_can_be_made(folder / "images");
         std::vector<std::filesystem::path> outputs{kStdoutPath, folder / "stress.json",
                                                    folder / "stress.html", folder / "stress.md"};
-        std::error_code none_yet; // failure pictures of earlier runs may be replaced
+        std::error_code none_yet; // earlier failure pictures may be replaced
         for (const auto& entry : std::filesystem::directory_iterator(folder / "images", none_yet))
             outputs.push_back(entry.path());
         check_outputs_differ_from_inputs(outputs, {});
@@ -80,7 +80,7 @@ int run_stress(const StressOptions& options) {
                  .watcher = make_progress_watcher(progress),
                  .on_finished_row = write});
     progress.clear();
-    if (!found.rows.empty()) write(found); // an earlier table is worth more than an empty one
+    if (!found.rows.empty()) write(found); // an empty table would replace an earlier one
     print_result(options.manners.json ? report::to_json(found) : make_stress_text(found));
     if (found.stopped)
         throw_incomplete_run(*found.stopped, found.rows.size(), found.asked, "", options.folder);

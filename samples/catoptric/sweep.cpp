@@ -89,7 +89,7 @@ report::Json make_state_json(const SweepState& state) {
     return json;
 }
 
-/// Returns a line for each of the first ids, and one for the others.
+/// Returns a line for each of the first ids, and a line with the number of all further ids.
 std::string list_first_pieces(const std::vector<std::string>& ids, const std::string& what,
                               bool all) {
     constexpr std::size_t kMaxListedPieces = 10;
@@ -149,7 +149,8 @@ int run_sweep(const SweepOptions& options) {
         check(!is_given, Failure::usage, "'sweep ", options.action, "' has no option '", option,
               "'");
     };
-    // --output may come from the user's file of defaults, so the other actions ignore it.
+    // The option --output may come from the user's file of default options, so actions that do not
+    // use it ignore it.
     refuse(action != 1 && !options.run.pieces.empty(), "--piece");
     refuse(action != 1 && options.run.kinds != SweepRunOptions::PieceKinds::all, "--kind");
     refuse(action != 2 && options.across_identities, "--across-identities");

@@ -27,13 +27,15 @@ int open_lock_file(const std::filesystem::path& file, int flags) {
     return opened;
 }
 
-/// Returns a folder of this machine that does not depend on the environment.
+/// Returns a folder for lock files that is the same for all processes of this machine, whatever
+/// their environment variables.
 std::filesystem::path find_machine_folder() {
     std::error_code ignored;
     return std::filesystem::is_directory("/dev/shm", ignored) ? "/dev/shm" : "/tmp";
 }
 
-/// Returns a lock of one byte. Locks of an open file belong to it, and not to the whole process.
+/// Returns a lock of the byte at `index`. The lock belongs to the open file and not to the whole
+/// process, so each thread can hold locks of its own.
 struct flock make_byte_lock(short type, std::size_t index) {
     struct flock lock {};
     lock.l_type = type;

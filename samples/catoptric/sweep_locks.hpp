@@ -3,36 +3,37 @@
 #include <atomic>
 #include <filesystem>
 
-// Locks between processes that work on one sweep. The system releases the locks of a process that
-// ends, also of one that was killed.
+// Locks between processes that run one sweep. The system releases the locks of a process that ends
+// or is killed.
 namespace catoptric::cli {
 
-/// A file of which each byte can be locked by one process.
+/// A file in which processes lock single bytes. Each byte stands for one piece of a sweep.
 class PieceLockFile {
 public:
     enum class Access { lock, look };
-    /// Opens the file. To lock bytes, it is made if it is missing. Throws `cannot_create`.
+    /// Opens the lock file. If `access` allows locking, a missing file is created. Throws
+    /// `cannot_create`.
     explicit PieceLockFile(const std::filesystem::path& file, Access access = Access::lock);
     ~PieceLockFile();
     PieceLockFile(const PieceLockFile&) = delete;
     PieceLockFile& operator=(const PieceLockFile&) = delete;
 
-    /// Locks a byte, and returns false if another process holds it.
+    /// Locks the byte at `index`. Returns false if another process holds the lock.
     bool try_lock(std::size_t index) const;
     void unlock(std::size_t index) const;
-    /// Returns whether another process holds the byte.
+    /// Returns whether another process holds the lock of the byte at `index`.
     bool is_locked_elsewhere(std::size_t index) const;
 
 private:
     int file_ = -1;
 };
 
-/// Lock of this user on this machine. Many processes may draw pictures at once, but a process that
-/// measures times holds the lock alone.
+/// A lock for all processes of this user on this machine. Many processes may draw pictures at once.
+/// A process that measures times must hold the lock alone.
 class MachineLock {
 public:
     enum class Use { shared, alone };
-    /// Waits for the lock. Throws as a watcher does if `stop` is no longer 0.
+    /// Waits for the lock. If `stop` becomes other than 0, throws the error of a stopped run.
     MachineLock(Use use, const std::atomic<int>& stop);
     ~MachineLock();
     MachineLock(const MachineLock&) = delete;

@@ -25,9 +25,11 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kPictureGapColumns = 4; // between the row and its reference in a common picture
+constexpr int kPictureGapColumns = 4; // between the row and the reference beside it in a common
+                                      // picture
 
-/// Results of the pieces of one scene with one set of options, in the order of the plan.
+/// The results of all pieces of a sweep that have the same scene and options, in the order of the
+/// plan.
 struct SweepGroup {
     SweepJson scene, options;
     std::vector<std::string> labels;
@@ -35,12 +37,13 @@ struct SweepGroup {
     std::vector<SweepJson> pictures, timings; ///< results of these pieces
 };
 
-/// Returns whether the identity is new, and adds it.
+/// Adds the identity (program, driver and processor) to the list if it is new. Returns whether it
+/// was new.
 void add_identity(std::vector<SweepJson>& identities, const SweepJson& identity) {
     if (std::ranges::find(identities, identity) == identities.end()) identities.push_back(identity);
 }
 
-/// Returns what differs between identities: "driver: A, B; lanes: 4, 8".
+/// Returns a text with the differences between identities, such as "driver: A, B; lanes: 4, 8".
 std::string describe_identity_differences(const std::vector<SweepJson>& identities) {
     std::set<std::string> names;
     for (const SweepJson& identity : identities)
@@ -61,7 +64,7 @@ std::string describe_identity_differences(const std::vector<SweepJson>& identiti
 /// beside it.
 enum class ComparedColumns { row, row_and_reference };
 
-/// Counts the pixels of which a channel differs by more than 1/255.
+/// Counts the pixels in which some channel differs by more than 1/255 between two picture files.
 IdentityDifference compare_pictures(const fs::path& a_file, const fs::path& b_file,
                                     ComparedColumns columns) {
     const measure::Picture a = measure::to_display(measure::read_picture(a_file)),
@@ -81,7 +84,8 @@ IdentityDifference compare_pictures(const fs::path& a_file, const fs::path& b_fi
     return difference;
 }
 
-/// Returns the names of the pictures that an identity drew for a common piece; empty: none yet.
+/// Returns the names of the pictures that machines of an identity drew for a common piece; empty if
+/// none were drawn yet.
 std::vector<std::string> list_common_pictures(const fs::path& folder) {
     std::error_code ignored;
     const fs::path file = folder / kCommonPicturesListFile;
@@ -95,8 +99,8 @@ std::vector<std::string> list_common_pictures(const fs::path& folder) {
     return names.get<std::vector<std::string>>();
 }
 
-/// Adds the differences of the common pictures of two identities of one device. Throws `bad_data`
-/// if they have none.
+/// Compares the common pictures of two identities on one device, and adds the numbers of different
+/// pixels. Throws `bad_data` if an identity has no common pictures.
 void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
                                   const SweepJson& device, const SweepJson& a, const SweepJson& b,
                                   IdentityDifference& whole) {
@@ -139,7 +143,8 @@ std::vector<SweepGroup> group_results(const fs::path& folder, const SweepPlan& p
     return groups;
 }
 
-/// Returns the metric of a row over its mirrors in each view; NaN where it has no value.
+/// Returns a metric of a row over its mirrors, one value for each view. Views without a value have
+/// NaN.
 std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
                                        const std::string& metric) {
     std::vector<double> values;
@@ -194,15 +199,15 @@ std::size_t count_instants(const SweepGroup& group) {
     return instants.size();
 }
 
-/// Returns whether views share an instant because the sweep asked for it. Views without a motion
-/// share one, too, but are independent.
+/// Returns whether several views share an instant because the sweep asked for it. In a scene
+/// without motion all views have the same instant, but they count as independent.
 bool has_dependent_views(const SweepGroup& group) {
     const std::size_t instants = count_instants(group);
     return instants > 1 && instants < group.pictures.size();
 }
 
-/// Returns the mean over the views of each instant, because views of one instant resemble each
-/// other.
+/// Returns the mean of the values over the views of each instant. Views of one instant resemble
+/// each other, so they count as one sample.
 std::vector<double> average_by_instant(const SweepGroup& group, const std::vector<double>& values) {
     std::map<double, std::vector<double>> instants;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -255,7 +260,7 @@ private:
     std::string text_;
 };
 
-/// Returns the options whose values differ between groups.
+/// Returns the options of the sweep that differ between groups of results.
 std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups) {
     std::vector<std::string> names;
     for (const auto& [name, value] : groups.front().options.items())
@@ -266,7 +271,7 @@ std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups) 
     return names;
 }
 
-/// Returns the fields that tell groups apart: the scene, then a value for each axis.
+/// Returns the table cells that tell groups apart: the scene, then a value for each axis.
 std::vector<std::string> make_scene_and_axis_fields(const SweepGroup& group,
                                                     const std::vector<std::string>& axes) {
     std::vector<std::string> fields{group.scene.get<std::string>()};
@@ -340,22 +345,23 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
     return table.text();
 }
 
-/// Times of a row on one machine, from the rounds of all repeats.
+/// The times of one row on one machine, from the rounds of all timing pieces.
 struct SweepTime {
     SweepJson machine, identity;
     std::string label;
-    std::vector<double> rounds; ///< of all pieces
-    std::vector<double> pieces; ///< the median of each piece
+    std::vector<double> rounds; ///< times of the rounds of all pieces
+    std::vector<double> pieces; ///< median time of each piece
     bool noisy = false;
 
-    /// Returns the median, with its interval over pieces if they are enough, else over rounds.
+    /// Returns the median time with its interval. The interval counts pieces if there are enough,
+    /// and otherwise rounds.
     SweepSummary summary() const {
         const bool has_pieces = pieces.size() >= measure::kMinIntervalSamples;
         return summarise(has_pieces ? pieces : rounds);
     }
 };
 
-/// Returns a member of an identity; empty if it is no text.
+/// Returns a member of an identity as text; empty if the member is no text.
 std::string get_text(const SweepJson& identity, const char* member) {
     const SweepJson value = identity.value(member, SweepJson());
     return value.is_string() ? value.get<std::string>() : "";

@@ -13,35 +13,39 @@ namespace catoptric::cli {
 /// State of the pieces of a sweep.
 struct SweepState {
     std::size_t pieces = 0, finished = 0;
-    std::vector<std::string> missing; ///< ids of pieces without a result, not in work
-    std::vector<std::pair<std::string, std::string>> broken; ///< id and what is wrong
+    std::vector<std::string> missing; ///< ids of pieces that have no result and that no process has
+                                      ///< locked
+    std::vector<std::pair<std::string, std::string>> broken; ///< ids of pieces with a broken
+                                                             ///< result, and the reason
     std::vector<std::string> in_work;                        ///< ids that a process has locked
     std::vector<std::string> unknown; ///< files in results/ that belong to no piece
-    /// Program, driver and processor of the results, each once.
+    /// Each different identity (program, driver and processor) of the results.
     std::vector<SweepJson> identities;
 
     bool is_complete() const { return finished == pieces; }
 };
 
-/// Reads all results of a sweep's folder.
+/// Reads all results in a sweep's folder, and returns which pieces are finished, missing, broken or
+/// in work.
 SweepState check_sweep(const std::filesystem::path& folder, const SweepPlan& plan);
 
 /// Pixels of the common pictures that differ by more than 1/255 between two identities.
 struct IdentityDifference {
     std::size_t pixels = 0; ///< pixels of rows and references, over all pairs of identities
-    std::size_t apart = 0;  ///< those that differ
+    std::size_t apart = 0;  ///< pixels that differ
     double share() const { return pixels ? double(apart) / double(pixels) : 0; }
 };
 
 enum class AcrossIdentities { refused, allowed };
 
 struct MergedSweep {
-    /// Files by name: merged.json, errors.csv and summary.csv, and times.json and times.csv if the
-    /// plan has timing pieces. All but the times depend only on the results' content.
+    /// Names and contents of the merged files: merged.json, errors.csv, summary.csv, and times.json
+    /// and times.csv if the plan has timing pieces. Except for times, contents depend only on the
+    /// results.
     std::vector<std::pair<std::string, std::string>> files;
-    /// Identities of the picture pieces, for each device that the options name.
+    /// The identities of the picture pieces, for each device that the sweep's options name.
     std::vector<SweepJson> identities;
-    bool is_mixed = false; ///< one device has several identities
+    bool is_mixed = false; ///< whether pictures of one device have several identities
     IdentityDifference difference;
 };
 

@@ -36,12 +36,13 @@ constexpr std::uintmax_t kMaxResultBytes = 64U << 20U;
 constexpr std::uint64_t kMaxPieceCount = 1'000'000;
 constexpr std::int64_t kMaxViewCount = 10'000, kMaxRepeatCount = 1'000, kMaxSeed = 1'000'000'000;
 
-/// Options whose value is a file or a folder, relative to the sweep's file.
+/// Options whose value is a file or folder. In a sweep's file, the path is relative to the folder
+/// of the sweep's file.
 constexpr std::array<std::string_view, 3> kPathOptions{"root", "environment", "device-profile"};
-/// Words that such an option takes in place of a file.
+/// Words that a path option accepts instead of a file name.
 constexpr std::array<std::string_view, 2> kPathOptionWords{"studio", "none"};
-/// Options of compare that the sweep decides itself, or that write files of their own. The options
-/// of studies count, too.
+/// Options of `compare` that a sweep refuses, because the sweep sets them itself or because they
+/// write files. Options of studies are refused, too.
 constexpr std::array<std::string_view, 20> kRefusedOptions{"output",        "techniques",
                                                            "axis",          "row",
                                                            "together",      "max-ms",
@@ -101,14 +102,14 @@ void check_members(const SweepJson& object, std::initializer_list<std::string_vi
                     quote_text_with_escapes(name));
 }
 
-/// Returns the value of a knob or an option as text.
+/// Returns the value of a knob or option as command-line text.
 std::string make_value_text(const SweepJson& value, const SweepPlace& place) {
     place.check(value.is_string() || value.is_number(), "wanted text or a number, found ",
                 describe(value));
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// Returns a path of the sweep's file as seen from the folder of the plan.
+/// Returns a path from the sweep's file, relative to the folder of the plan.
 std::string make_path_from_plan(const std::string& path, const fs::path& file,
                                 const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
@@ -116,7 +117,7 @@ std::string make_path_from_plan(const std::string& path, const fs::path& file,
     return whole.lexically_relative(resolve_real_path(folder)).string();
 }
 
-/// Returns such a path as seen from the working folder.
+/// Returns a path of the plan, relative to the working folder.
 std::string make_path_from_here(const std::string& path, const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
     return (resolve_real_path(folder) / path)
@@ -135,7 +136,7 @@ bool is_built_in_scene(const std::string& name) {
            scene::list_built_in_scenes().end();
 }
 
-/// What a sweep's file asks for, after its members were checked.
+/// The contents of a sweep's file, after all members were checked.
 struct SweepRequest {
     std::vector<std::string> scenes, techniques;
     std::vector<KnobAxis> knobs;
@@ -184,7 +185,8 @@ SweepJson read_option(const std::string& name, const SweepJson& value, const fs:
     return list.size() == 1 ? list.front() : list;
 }
 
-/// Returns the scenes, in which each path is seen from the folder of the plan.
+/// Returns the scenes of a sweep's file. Paths of scene files are relative to the folder of the
+/// plan.
 std::vector<std::string> read_scenes(const SweepJson& document, const fs::path& file,
                                      const fs::path& folder, const SweepPlace& place) {
     std::vector<std::string> scenes;
@@ -212,7 +214,8 @@ std::vector<std::string> read_techniques(const SweepJson& document, const SweepP
     return rows;
 }
 
-/// Throws for more pieces than a plan may have, before any is made.
+/// Throws an error if the sweep would have more pieces than a plan may have. Called before any
+/// piece is made.
 void check_piece_count(const SweepRequest& sweep, const SweepPlace& place) {
     std::uint64_t count = sweep.scenes.size();
     const auto multiply = [&](std::uint64_t factor) {
@@ -285,8 +288,8 @@ SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
     return sweep;
 }
 
-/// Returns all combinations of the axes' values, each with the options that are the same for all.
-/// The last axis varies fastest.
+/// Returns one set of options for each combination of the axes' values. Options without an axis are
+/// in every set. The last axis varies fastest.
 std::vector<SweepJson> list_option_sets(const SweepRequest& sweep) {
     std::vector<SweepJson> sets{sweep.options};
     for (const auto& [name, values] : sweep.axes) {
@@ -306,7 +309,7 @@ SweepPiece make_piece(SweepJson content) {
     return {std::move(id), std::move(content)};
 }
 
-/// Adds the pieces of one scene with one set of options.
+/// Adds the pieces of one scene with one set of options to the plan.
 void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
                          const SweepJson& options, const fs::path& folder,
                          std::vector<SweepPiece>& pieces) {
@@ -342,7 +345,8 @@ void add_pieces_of_scene(const SweepRequest& sweep, const std::string& scene,
     }
 }
 
-/// Returns the first picture piece of each scene on each device that the options name.
+/// Returns the index of the first picture piece for each scene and each device that the options
+/// name.
 std::vector<std::size_t> list_common_pieces(const std::vector<SweepPiece>& pieces) {
     std::vector<std::size_t> common;
     std::set<SweepJson> known;
@@ -542,7 +546,8 @@ std::vector<std::string> list_sweep_metrics() {
     std::vector<std::string> names;
     for (const measure::Metric& metric : measure::list_difference_metrics()) {
         const bool is_count = metric.name == "pixels" || metric.name == "nonfinite";
-        // The signal-to-noise ratio is infinite without an error, and follows from the RMSE.
+        // Without an error, the signal-to-noise ratio (psnr) is infinite, and otherwise it follows
+        // from the rmse. Therefore it is not merged.
         if (!is_count && metric.name != "psnr" && measure::is_scalar_metric(metric))
             names.emplace_back(metric.name);
     }

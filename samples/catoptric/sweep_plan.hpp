@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
-// The plan of a sweep: many comparisons, cut into pieces that machines can run in any order.
+// Functions for the plan of a sweep, which lists comparisons in pieces that machines run in any
+// order.
 namespace catoptric::cli {
 
-/// JSON whose members are sorted by name, so that equal values have equal text.
+/// JSON whose members are sorted by name. Equal values therefore have the same text.
 using SweepJson = nlohmann::json;
 
 /// A piece of a sweep. A picture piece holds the errors of all rows in one view. A timing piece
@@ -29,8 +30,8 @@ struct SweepPiece {
 struct SweepPlan {
     nlohmann::ordered_json sweep;   ///< content of the sweep's file
     std::vector<SweepPiece> pieces; ///< in the order of scenes, axes and views
-    /// Places in `pieces` of the picture pieces that each identity renders, so that `merge` can
-    /// compare their pictures. One for each scene on each device that the options name.
+    /// Indices in `pieces` of the common pieces: for each scene and device, one picture piece that
+    /// a machine of each identity draws. `merge` compares the pictures of these pieces.
     std::vector<std::size_t> common;
 };
 
@@ -45,13 +46,14 @@ void write_sweep_plan(const SweepPlan& plan, const std::filesystem::path& folder
 /// whose content does not have its id.
 SweepPlan read_sweep_plan(const std::filesystem::path& folder);
 
-/// Returns the options of a piece that choose its device and the device's profile.
+/// Returns the options of a piece that choose the device and the device profile.
 SweepJson find_device_options(const SweepJson& content);
-/// Returns the words of `catoptric compare` for a piece, without its view.
+/// Returns the command-line words of `catoptric compare` for a piece. The words do not choose the
+/// piece's view.
 std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                                                      const std::filesystem::path& folder);
 
-/// Returns the file that holds the result of a piece.
+/// Returns the path of the file for the result of a piece.
 std::filesystem::path find_sweep_result_file(const std::filesystem::path& folder,
                                              const std::string& id);
 /// Returns the result of a piece, or none if its file does not exist. Throws `bad_data` if the file
@@ -60,10 +62,11 @@ std::optional<SweepJson> read_sweep_result(const std::filesystem::path& folder,
                                            const SweepPiece& piece);
 
 inline constexpr const char* kResultSchema = "catoptric/sweep-result/1";
-/// Throws `bad_data`, beginning with `place`, unless the document is a result of this piece with
-/// all members that are merged.
+/// Throws `bad_data`, with `place` in front of the message, unless the document is a complete
+/// result of this piece.
 void check_sweep_result(const SweepJson& result, const SweepPiece& piece, const std::string& place);
-/// Returns the metrics of a row over its mirrors that results must have and that are merged.
+/// Returns the metrics of rows, over their mirrors, that each result must have and that `merge`
+/// summarises.
 std::vector<std::string> list_sweep_metrics();
 
 /// Returns the SHA-256 of a text, in hexadecimal.

@@ -33,14 +33,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kShortIdCharacters = 12; // of ids in messages
+constexpr std::size_t kShortIdCharacters = 12; // length of ids in messages
 
 std::string read_host_name() {
     char name[256] = {};
     return ::gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
 }
 
-/// Returns what decides the bits of a picture: program, driver and processor.
+/// Returns the identity of results: program, driver and processor, which decide the bits of a
+/// picture.
 SweepJson make_identity(const app::Engine& engine) {
     const measure::DeviceFacts device = app::make_device_facts(engine);
     const bool on_processor = device.type == "cpu";
@@ -52,7 +53,7 @@ SweepJson make_identity(const app::Engine& engine) {
             {"processor", on_processor ? SweepJson(app::read_processor_name()) : SweepJson()}};
 }
 
-/// Converts the report's JSON, which keeps the order of its members.
+/// Converts JSON of a report, whose members are in order of writing, to JSON with sorted members.
 SweepJson sort_members(const report::Json& json) { return SweepJson::parse(json.dump()); }
 
 std::string describe_piece(const SweepPiece& piece) {
@@ -67,10 +68,10 @@ std::string describe_piece(const SweepPiece& piece) {
                                                    content["view"]["index"].get<int>());
 }
 
-/// The scene and the session of the last picture piece. Pieces of one scene with the same options
-/// follow each other and share them.
+/// The scene and session of the last picture piece. Successive pieces with the same scene and
+/// options use them again.
 struct SweepScene {
-    SweepJson key; ///< content of a piece that does not depend on its view
+    SweepJson key; ///< the part of a piece's content that does not depend on its view
     app::CompareRequest request;
     std::unique_ptr<app::Session> session;
 };
@@ -113,14 +114,16 @@ public:
     }
 
 private:
-    /// Returns whether the pieces that follow would fail as well.
+    /// Returns whether a failure, such as a missing device, would also make all further pieces
+    /// fail.
     static bool ends_all_pieces(Failure failure) {
         return is_failure_by_stop_signal(failure) || failure == Failure::device_lost ||
                failure == Failure::no_device || failure == Failure::cannot_create ||
                failure == Failure::io || failure == Failure::internal;
     }
 
-    /// Returns the places of the pieces to run: pictures before times, in the order of the plan.
+    /// Returns the indices of the pieces to run: first picture pieces, then timing pieces, each in
+    /// the order of the plan.
     std::vector<std::size_t> list_pieces_to_run() const {
         using PieceKinds = SweepRunOptions::PieceKinds;
         const std::vector<std::string> ids = find_whole_ids();
@@ -135,8 +138,8 @@ private:
         return places;
     }
 
-    /// Returns the ids of the named pieces. A name may be the beginning of an id, as messages give
-    /// it.
+    /// Returns the full ids of the pieces that the user named. A name may be the beginning of an
+    /// id, as messages show it.
     std::vector<std::string> find_whole_ids() const {
         std::vector<std::string> ids;
         for (const std::string& name : options_.pieces) {
@@ -153,7 +156,7 @@ private:
         return ids;
     }
 
-    /// `left`: number of pieces from this one on, of which some may be finished.
+    /// `left`: number of pieces from this piece on. Some of them may already be finished.
     void run_one(const SweepPiece& piece, std::size_t place, std::size_t left,
                  SweepRunCounts& counts) {
         if (read_sweep_result(folder_, piece)) {
@@ -168,7 +171,8 @@ private:
             wait_for_other_process();
         }
         try {
-            if (read_sweep_result(folder_, piece)) { // finished while this process waited
+            if (read_sweep_result(folder_, piece)) { // another process finished the piece while
+                                                     // this process waited
                 ++counts.finished_before;
             } else {
                 progress_.row(describe_piece(piece), counts.run, counts.run + left);
@@ -199,7 +203,8 @@ private:
         write_file(find_sweep_result_file(folder_, piece.id), result.dump(1) + "\n");
     }
 
-    /// Makes the engine for a piece's device, unless it is that of the last piece.
+    /// Returns the engine for a piece's device. The engine of the last piece is used again if its
+    /// device is the same.
     app::Engine& prepare_engine(const DeviceOptions& device) {
         const SweepJson key{device.name, device.profile, device.validate};
         if (engine_ && key == engine_key_) return *engine_;
@@ -230,7 +235,7 @@ private:
         CompareWords words = parse_compare_words(make_compare_words_of_piece(key, folder_));
         check_scene_unchanged(piece, words.request.base.scene);
         app::Engine& engine = prepare_engine(words.device);
-        scene_ = {}; // frees the memory of the last scene, and stays empty if this one fails
+        scene_ = {}; // frees the last scene's memory; stays empty on failure
         SweepScene scene{key, std::move(words.request), nullptr};
         scene.session = std::make_unique<app::Session>(engine, scene.request.base.scene);
         app::resolve_auto_exposure(*scene.session, scene.request.base);
@@ -238,7 +243,7 @@ private:
         return scene_;
     }
 
-    /// Returns the view of a piece: drawn from its seed, or that of the options.
+    /// Returns the view of a piece: a view drawn from the piece's seed, or the view of the options.
     static measure::View make_view(const SweepJson& view, const app::Request& base) {
         if (view.is_null()) return {app::make_camera_facts(base.camera), base.time, base.seed};
         const auto seed = view["seed"].get<std::uint64_t>();
@@ -247,8 +252,8 @@ private:
                 seed};
     }
 
-    /// Returns a row for each technique with its errors in the piece's view. Writes the pictures of
-    /// a common piece.
+    /// Returns a row for each technique, with its errors in the piece's view. For a common piece,
+    /// also writes the pictures.
     report::Comparison judge_rows(const SweepPiece& piece) {
         SweepScene& scene = open_scene(piece);
         report::Comparison comparison;
@@ -264,8 +269,8 @@ private:
         return comparison;
     }
 
-    /// Draws the common pieces whose pictures this kind of machine has not drawn yet. Any result
-    /// then has such pictures beside it.
+    /// Draws the pictures of common pieces that no machine of this identity has drawn yet. Each
+    /// result then has common pictures of the same identity.
     void draw_common_pictures() {
         if (has_drawn_common_pictures_) return;
         has_drawn_common_pictures_ = true;
@@ -338,8 +343,8 @@ private:
                           ignored);
     }
 
-    /// Writes a picture for each row that has one, and last the list of them. Processes of one
-    /// identity would write the same files, so only one of them writes at a time.
+    /// Writes the picture of each row, and then the list of pictures. Processes of one identity
+    /// would write the same files, so only one process may write at a time.
     void write_common_pictures(const SweepPiece& piece,
                                const report::Comparison& comparison) const {
         const std::size_t place = plan_.pieces.size() +
@@ -362,7 +367,7 @@ private:
         SweepJson names = SweepJson::array();
         for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
             const auto& worst = comparison.rows[i].worst;
-            if (!worst) continue; // the view shows no mirror
+            if (!worst) continue; // the view shows no mirror, so it has no error
             names.push_back(fmt::format("{}.png", i));
             measure::write_png(worst->display, folder / names.back().get<std::string>());
         }
@@ -378,7 +383,8 @@ private:
     std::unique_ptr<app::Engine> engine_;
     SweepJson engine_key_;
     SweepJson identity_;                     ///< of the engine
-    bool has_drawn_common_pictures_ = false; ///< whether the engine has tried
+    bool has_drawn_common_pictures_ = false; ///< whether this process tried to draw the pictures
+                                             ///< for this engine
     bool is_validated_ = false;              ///< whether the engine reports validation messages
     SweepScene scene_;                       ///< destroyed before the engine
 };

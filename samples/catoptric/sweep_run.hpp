@@ -20,22 +20,24 @@ struct SweepRunOptions {
 /// Number of pieces by what `run_sweep_pieces` found or did.
 struct SweepRunCounts {
     std::size_t finished_before = 0, run = 0;
-    std::size_t elsewhere = 0; ///< another process works on them
+    std::size_t elsewhere = 0; ///< pieces that another process is running
 };
 
-/// Runs the pieces of a planned sweep that have no result yet: pictures first, then times. Several
-/// processes may share a folder. A process that is killed loses the piece in work. Times are
-/// measured by one process of this user and machine at a time, while no other draws pictures. With
-/// named pieces the function waits for pieces in work elsewhere; otherwise it leaves them out. A
-/// piece that fails is reported, and the others are run before its error is thrown, unless they
-/// would fail as well (no device, no place to write). Throws `usage` for an unknown id, and
-/// `bad_data` for a scene that changed after planning.
+/// Runs the pieces of a planned sweep that have no result yet: first picture pieces, then timing
+/// pieces. Several processes may run pieces of the same folder at once. A process that is killed
+/// loses only the piece in work. Only one process of this user and machine measures times, and only
+/// while no process draws pictures. If `pieces` names pieces that other processes run, the function
+/// waits for them. Without named pieces, it skips pieces that other processes run. If a piece
+/// fails, the function prints the error, runs the other pieces and throws the error at the end. It
+/// throws at once if the other pieces would fail as well (no device, no place to write). Throws
+/// `usage` for an unknown id, and `bad_data` for a scene that changed after planning.
 SweepRunCounts run_sweep_pieces(const std::filesystem::path& folder, const SweepPlan& plan,
                                 const SweepRunOptions& options);
 
-/// File that lists the pictures of a common piece. It is written last.
+/// Name of the file that lists the pictures of a common piece. The list is written after the
+/// pictures.
 inline constexpr const char* kCommonPicturesListFile = "pictures.json";
-/// Returns the folder with the pictures that an identity drew for a common piece.
+/// Returns the folder for the pictures of a common piece that machines of one identity drew.
 std::filesystem::path find_common_picture_folder(const std::filesystem::path& folder,
                                                  const SweepJson& identity,
                                                  const std::string& piece_id);

@@ -34,7 +34,7 @@ std::string format_flip(const measure::Difference& error) {
            (measure::is_below_noise(error) ? " below the noise" : "");
 }
 
-/// Returns a line on the reference's noise, or nothing.
+/// Returns a line of text about the noise of the reference; empty if the reference has no noise.
 std::string describe_noise(const report::Comparison& comparison) {
     if (!comparison.noise) return "";
     return fmt::format("noise: two halves of {} frames, FLIP {} between them; smaller differences "

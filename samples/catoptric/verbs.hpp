@@ -21,7 +21,8 @@ void add_info_verb(CommandLine& program);
 void add_views_verb(CommandLine& program);
 void add_sweep_verb(CommandLine& program);
 void add_results_verb(CommandLine& program);
-/// Add this verb last: it completes the verbs that are there.
+/// Adds the verb `completion`. Add it last, because it completes only the verbs that were added
+/// before.
 void add_completion_verb(CommandLine& program);
 
 } // namespace catoptric::cli

@@ -112,7 +112,8 @@ Json make_views_gltf(const std::vector<measure::View>& views, uvec2 size) {
     return document;
 }
 
-/// Returns a table with a header and a line for each view, of columns apart by a tab.
+/// Returns the table of views as text: a header and one line for each view, with tabs between the
+/// columns.
 std::string make_views_text(const std::vector<measure::View>& views) {
     std::string text = "name\ttime\teye_x\teye_y\teye_z\ttarget_x\ttarget_y\ttarget_z\tup_x\tup_y\t"
                        "up_z\tvertical_fov_degrees\torthographic_height\n";

@@ -1,5 +1,6 @@
-// On a Vulkan device of our own, into an image of our own: what an engine with a renderer does to
-// show reflections by this one. Reads the image back with commands of its own.
+// Sample: Catoptric renders on a Vulkan device that this program made, into an image of this
+// program. A program with its own renderer can use Catoptric in this way. The sample then reads the
+// image back.
 #include <catoptric/embed.hpp>
 #include <catoptric/picture.hpp>
 #include <catoptric/scene.hpp>
@@ -18,7 +19,8 @@ void throw_unless_vulkan_success(VkResult result) {
 }
 
 embed::Device make_vulkan_device() {
-    embed::Device made; // queue family 0: where all that is needed is on every driver that we met
+    embed::Device made; // made with queue family 0, which has all needed features on the drivers
+                        // tested so far
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                         .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo instance{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
@@ -61,7 +63,7 @@ VkDeviceMemory allocate_memory_for(const embed::Device& own, const VkMemoryRequi
     throw std::runtime_error("no memory of this kind");
 }
 
-/// What the image holds, which is in the layout TRANSFER_SRC_OPTIMAL.
+/// Reads back the contents of the image, which is in the layout TRANSFER_SRC_OPTIMAL.
 measure::Picture read_back_image(const embed::Device& own, VkImage image) {
     const VkBufferCreateInfo wanted{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                     .size = 4 * kPictureSideInPixels * kPictureSideInPixels,
@@ -142,7 +144,8 @@ int main() try {
         for (int k = 0; k < 5; ++k) embed::render_frame_into(session, spec, target);
         const app::Frame last = embed::render_frame_into(session, spec, target);
         const measure::Picture shown = read_back_image(own,
-                                                       image); // the queue puts it after the frame
+                                                       image); // the queue runs this copy after the
+                                                               // frame
         const bool same = shown.pixels == last.read().display.pixels;
         std::printf("our image %s the frame\n", same ? "holds" : "does NOT hold");
         measure::write_png(shown, "embedded.png");

@@ -10,7 +10,8 @@
 
 namespace catoptric::stress {
 
-/// Test bench of a property: renders pictures of scenes and adds results to the property's row.
+/// Renders pictures of test scenes for one property, and adds measured results to the property's
+/// row.
 class StressTestBench {
 public:
     StressTestBench(app::Engine& engine, const app::Watcher& watcher, uvec2 size,
@@ -39,7 +40,8 @@ public:
     void add_measured_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, false});
     }
-    /// Adds a measured value that only looks worse beyond its limit and is not wrong.
+    /// Adds a measured value with a limit. A value beyond the limit means that the picture looks
+    /// worse, but is not wrong.
     void add_quality_warning_case(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
@@ -53,15 +55,17 @@ public:
     void add_skipped_part(std::string what, const Error& error) {
         row_.not_run.push_back({std::move(what), error.what()});
     }
-    /// Adds a case (limit 0) that `work` succeeds. If it ends in an error that says what the device
-    /// allows, the part counts as not run. Returns whether `work` succeeded.
+    /// Adds a case with limit 0, which passes if `work` succeeds. If `work` throws an error about a
+    /// limit of the device, the part counts as not run. Returns whether `work` succeeded.
     bool add_case_of_success_or_refusal(const std::string& what, const std::function<void()>& work);
-    /// Adds a case (limit 0) that `work` ends in an error of this kind whose text contains `limit`.
+    /// Adds a case with limit 0, which passes if `work` throws an error of this kind whose text
+    /// contains `limit`.
     void add_expected_error(const std::string& what, Failure failure, const std::string& limit,
                             const std::function<void()>& work);
 
-    /// Returns whether an error ends the run and is not a property's finding: a signal came, the
-    /// device is lost or lacks something, or memory ran out below what the device allows.
+    /// Returns whether an error ends the whole run: a signal arrived, the device is lost or lacks a
+    /// feature, or memory ran out below the device's limit. Other errors are results of the
+    /// property.
     bool is_error_that_ends_run(const Error& error) const;
 
     app::Engine& bench_engine() { return bench_engine_; }
@@ -79,8 +83,8 @@ private:
     report::StressRow& row_;
 };
 
-/// Returns whether an error reports an exhausted resource and its text says how much the device
-/// allows.
+/// Returns whether an error reports that a resource is exhausted, with a text that states the
+/// device's limit.
 bool is_resource_refusal(const Error& error);
 /// Returns the number of pixels with a NaN or infinity.
 std::size_t count_nonfinite_pixels(const measure::Picture& picture);

@@ -1,4 +1,4 @@
-// Properties of mirrors that touch, vanish or are very many.
+// Stress properties of mirrors that touch, shrink to nothing or are very many.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -76,7 +76,8 @@ void judge_vanishing_ball(StressTestBench& bench) {
             scene::Object gone = with.objects.back();
             gone.sphere.reset();
             for (int axis = 0; axis < 3; ++axis) gone.world_from_object[axis][axis] = size[axis];
-            // The vanishing mirror comes first, so that it changes the numbers of the others.
+            // The vanishing mirror is first in the list, so that it changes the numbers of all
+            // other mirrors.
             with.objects.pop_back();
             with.objects.insert(with.objects.begin(), gone);
             bench.add_mean_flip_case(technique + ", " + what,
@@ -124,15 +125,15 @@ void judge_face_sizes(StressTestBench& bench) {
             const std::string text = technique + ":face=" + face;
             const app::TechniqueResult part = bench.render_technique(scene, text);
             bench.add_nonfinite_pixel_case(text, part);
-            // With a few texels, chance decides whether one of them sees the lamp.
+            // With captures of a few texels, it depends on chance whether a texel sees the lamp.
             const double mean = mean_of(part);
             bench.add_measured_case(text + ": mirrors are black", mean > 0 ? 0 : 1, 0);
             bench.add_quality_warning_case(
                 text + ": factor between the mean of mirrors and that of ray tracing",
                 std::max(mean / wanted, wanted / mean), 4);
         }
-    // A large capture must show the same as a small one. The plan says whether the device has the
-    // memory.
+    // A large capture must show the same picture as a small one. The plan of the frame states
+    // whether the device has enough memory.
     const app::TechniqueResult usual = bench.render_technique(scene, "naive:bounces=1,face=1024",
                                                               1);
     for (const char* face : {"4096", "16384"})

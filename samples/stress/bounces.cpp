@@ -1,5 +1,5 @@
-// Properties of light that arrives bounce by bounce: each bounce adds less than the last one, and
-// none removes light.
+// Stress properties of light that arrives bounce by bounce: each bounce changes the picture less
+// than the last one, and no bounce removes light.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -37,8 +37,8 @@ TracedBouncePictures render_bounces(StressTestBench& bench, app::Request request
 }
 
 /// Returns the rmse between the pictures with k and k + 1 bounces over mirror pixels, k = 0..5.
-/// Adds the case that no pixel gets darker with a further bounce. This holds because captures start
-/// black, and each capture is a weighted mean of captures of the bounce before.
+/// Adds the case that no pixel gets darker with a further bounce. No pixel can get darker because
+/// captures start black, and each capture is a weighted mean of captures of the bounce before.
 std::vector<double> compute_bounce_differences(StressTestBench& bench, const std::string& where,
                                                const TracedBouncePictures& bounces) {
     const std::vector<float> no_flip(bounces.pictures.front().pixels.size());
@@ -118,8 +118,8 @@ struct MirrorWedge {
     }
 };
 
-/// Judges the wedge, for which two facts hold with any seed. From the third bounce on, a step is
-/// the reflectance times the step before. A pixel that does not mix two bands shows a power of the
+/// Judges the wedge of two mirrors. From the third bounce on, a change must be the reflectance
+/// times the change before. Each pixel that does not mix two bands must show a power of the
 /// reflectance.
 void judge_mirror_wedge(StressTestBench& bench) {
     const MirrorWedge wedge{bench.draw_random_number(.2, .3), bench.draw_random_number(.05, .08)};

@@ -24,7 +24,7 @@ namespace catoptric::stress {
 
 namespace {
 
-/// Returns the built-in room with one of its mirrors (from 0), or with none.
+/// Returns the room of the built-in scene with only one of its mirrors (from 0), or with no mirror.
 scene::Scene make_room_with_one_mirror(std::size_t mirror) {
     scene::Scene scene = scene::make_cornell_mirrors();
     const std::vector<std::size_t> mirrors = scene::mirrors(scene);
@@ -81,8 +81,8 @@ void judge_captured_distances(StressTestBench& bench) {
         }
 }
 
-/// Judges a wall beside the ball, in each direction in turn, by the centre texel of the face that
-/// looks at it.
+/// Judges a wall close to the ball, in each of six directions in turn. The test reads the texel at
+/// the centre of the cube face that shows the wall.
 void judge_capture_near_wall(StressTestBench& bench) {
     constexpr std::uint32_t kCaptureFaceEdge = 65;
     constexpr double kNearWallDistance = .6;

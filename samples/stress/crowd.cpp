@@ -1,4 +1,5 @@
-// Property of more mirrors than one array of captures holds: each shows its own surroundings.
+// Stress property of more mirrors than one array of captures can hold: each mirror must show its
+// own surroundings.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 

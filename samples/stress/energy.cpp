@@ -1,5 +1,5 @@
-// Properties of light between mirrors: it never grows, falls by the reflectance, and arrives bounce
-// by bounce.
+// Stress properties of light between mirrors: light never grows, each mirror reduces it by its
+// reflectance, and it arrives bounce by bounce.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -41,9 +41,9 @@ void judge_white_furnace(StressTestBench& bench) {
     bench.add_measured_case("raytrace:depth=16: missing from 1", 1 - darkest, .002);
 }
 
-/// Judges techniques with captures in the corridor. A capture sees the other mirror from one place
-/// only, so a pixel may show another k than ray tracing. This counts as quality and not as an
-/// error. Additional light would be an error.
+/// Judges techniques with captures in a corridor of two mirrors. A capture sees the opposite mirror
+/// from one place only. A pixel may therefore show another number of reflections than ray tracing,
+/// which counts as a loss of quality and not as an error. Additional light would be an error.
 void judge_corridor_captures(StressTestBench& bench, const scene::Scene& scene) {
     const app::TechniqueResult truth = render_without_ambient(bench, scene, "raytrace:depth=16", 1);
     for (const std::string technique :
@@ -61,7 +61,8 @@ void judge_corridor_captures(StressTestBench& bench, const scene::Scene& scene) 
     }
 }
 
-/// Judges the pixels that show k mirrors, k up to `depth`. Pixels that would show more are black.
+/// Judges the pixels that show up to `depth` mirrors in a row. Pixels that would show more mirrors
+/// are black.
 void judge_corridor_depth(StressTestBench& bench, const scene::Scene& scene,
                           const std::string& technique, int depth) {
     double worst = 0;

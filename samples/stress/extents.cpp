@@ -1,5 +1,5 @@
-// Properties of objects of very different size in one scene: the object in view keeps its
-// precision.
+// Stress properties of scenes with objects of very different sizes: the visible object must keep
+// its precision.
 #include "scene/build.hpp"
 #include "stress/double_tracer.hpp"
 #include "stress/property.hpp"
@@ -12,7 +12,7 @@ namespace catoptric::stress {
 namespace {
 
 constexpr const char* kComparedTechniques[] = {"raytrace", "parallax", "pyramid"};
-constexpr double kMaxEqualFlip = .001; // FLIP
+constexpr double kMaxEqualFlip = .001; // largest FLIP of pictures that count as equal
 
 /// Judges a triangle of edge 1 far outside the room. The picture must not change.
 void judge_stray_triangle(StressTestBench& bench) {

@@ -1,4 +1,4 @@
-// Properties of cameras in extreme places, against a reference in doubles.
+// Stress properties of cameras in extreme places, compared with a ray tracer in double precision.
 #include "stress/double_tracer.hpp"
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
@@ -57,10 +57,10 @@ int count_rows_with_edge(const DoublePrecisionTracer& tracer, const scene::Camer
     return rows;
 }
 
-/// Returns a tilted, very narrow camera that looks at an edge of the far wall. Several places are
-/// tried, because a ball may hide the edge and the walls may look the same. If rays coincided, the
-/// picture would show the wrong side of the edge. `rows` gets the number of 32 rows that show the
-/// edge.
+/// Returns a tilted camera with a very narrow field of view, which looks at an edge of the far
+/// wall. If rounding errors made rays coincide, the picture would show the wrong side of the edge.
+/// Several edges are tried, because a ball may hide an edge and two walls may have the same colour.
+/// `rows` gets the number of rows, of 32, that show the edge.
 scene::Camera make_narrow_camera(const scene::Scene& scene, double ambient, int& rows) {
     const Bounds<double> walls = scene::bounds(scene);
     const DoublePrecisionTracer tracer(scene, ambient);

@@ -51,8 +51,8 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         const app::TechniqueResult plain = render("reuse");
         if (place.inside)
             bench.add_mean_flip_case(fmt::format("{}, reuse", place.what), plain, traced, .03);
-        // From outside, an uncorrected look-up is wrong for any eye, and most where the ball fills
-        // the picture.
+        // From outside, a look-up without parallax correction is wrong for every camera, and most
+        // wrong if the ball fills the picture.
         else
             bench.add_quality_warning_case(
                 fmt::format("{}, reuse", place.what),
@@ -60,7 +60,8 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
     }
 }
 
-/// Judges a ball that moves over the eye. Frames must be black exactly while the eye is inside.
+/// Judges a ball that moves over the camera. A frame must be black exactly while the camera is
+/// inside the ball.
 void judge_ball_over_eye(StressTestBench& bench, scene::Scene scene) {
     constexpr int kSettlingFrames = 16;
     scene::Object& object = scene.objects.back();

@@ -1,4 +1,5 @@
-// Properties of lights in extreme places, and of pictures and scenes of no or enormous size.
+// Stress properties of lights in extreme places, and of pictures and scenes of size zero or of
+// enormous size.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -42,7 +43,7 @@ void judge_lamp_position(StressTestBench& bench) {
         for (const std::string technique : {"raytrace", "parallax"})
             bench.add_nonfinite_pixel_case(std::string(what) + ", " + technique,
                                            bench.render_technique(moved, technique));
-    // The lamp is above the ceiling and turned upwards, so only the ambient term is left.
+    // The lamp is above the ceiling and shines upwards, so only ambient light remains in the room.
     scene::Scene away = move_lamp_corners(scene, [&](dvec3 p) { return flat(p, ceiling + 1); });
     for (const scene::Object& object : away.objects)
         if (away.materials[object.material].emission != vec3(0))

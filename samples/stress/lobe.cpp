@@ -1,5 +1,5 @@
-// Properties of the specular lobe of rough surfaces (shaders/lib/math/lobe.glsl): light may go
-// either way, and grazing directions keep their precision.
+// Stress properties of the specular lobe of rough surfaces (shaders/lib/math/lobe.glsl): viewer and
+// light may change places, and grazing directions keep their precision.
 #include "core/shader_math.hpp"
 #include "shared.h"
 #include "stress/lobe_albedo.hpp"
@@ -94,7 +94,7 @@ void judge_grazing_lobe(StressTestBench& bench, double roughness, double degrees
     GrazingLobeErrors errors;
     for (int k = 0; k < kRandomDrawCount; ++k) {
         const auto to_eye = draw_random_direction<f32::vec3>(bench, degrees, degrees);
-        // The light also lies opposite to the viewer, where a narrow lobe is brightest.
+        // Some light directions lie opposite to the viewer, where a narrow lobe is brightest.
         const auto anywhere = draw_random_direction<f32::vec3>(bench, k % 2 == 0 ? 0 : 89,
                                                                kMostGrazingDegrees);
         const f32::vec3 opposite = normalize(

@@ -1,4 +1,5 @@
-// Properties of a scene's position, size and rotation: none of them may be visible.
+// Stress properties of a scene's position, size and rotation: none of them may change the picture
+// visibly.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -12,8 +13,9 @@ namespace {
 
 constexpr const char* kCaptureTechniques[] = {"reuse", "parallax", "pyramid", "hybrid"};
 
-/// Compares the scene under each root transform with the original. `traced` is the limit for ray
-/// tracing, `cubes` that for the other techniques.
+/// Compares the picture of the scene under each root transform with the picture of the original
+/// scene. `traced` is the error limit of ray tracing, and `cubes` is the limit of all other
+/// techniques.
 void compare_scene_under_transforms(StressTestBench& bench,
                                     const std::vector<std::pair<std::string, dmat4>>& roots,
                                     double traced, double cubes) {

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-/// Table of the properties that pictures must have at the extremes of scenes and requests. A
-/// property is one row that registers itself, so no other file lists it.
+/// Table of stress properties, which pictures must have in extreme scenes and with extreme options.
+/// A property is one row that registers itself, so no other file lists it.
 namespace catoptric::stress {
 
 struct StressProperty {

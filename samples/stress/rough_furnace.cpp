@@ -30,7 +30,8 @@ void judge_metal_furnace(StressTestBench& bench, double degrees) {
     }
 }
 
-/// Technique, whether the surfaces are mirrors, and the largest difference allowed.
+/// A technique, whether the rough surfaces are mirrors, and the largest allowed difference from
+/// white.
 struct PlasticFurnaceRow {
     const char* technique;
     bool is_mirror;

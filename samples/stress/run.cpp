@@ -47,7 +47,7 @@ report::StressRow judge_stress_property(app::Engine& engine, const StressRequest
     } catch (const Error& error) {
         if (bench.is_error_that_ends_run(error)) throw;
         row.remark = error.what();
-        // Errors that were found before the device ran out stay errors.
+        // If the row has an error from before the device ran out of memory, the row stays an error.
         if (is_resource_refusal(error) && judge_stress_row(row) != report::StressVerdict::fail) {
             row.verdict = report::StressVerdict::unsupported;
             row.cases.clear(), row.pictures.clear(), row.not_run.clear();

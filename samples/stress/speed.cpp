@@ -1,4 +1,5 @@
-// Properties of a mirror that jumps in each frame: its history settles once it rests.
+// Stress properties of a mirror that jumps a large distance in each frame. After the mirror rests,
+// the picture must not depend on its motion.
 #include "stress/property.hpp"
 #include "stress/scenes.hpp"
 
@@ -11,7 +12,8 @@ namespace {
 constexpr int kMovingCameraFrames = 6, kRestingCameraFrames = 10; // numbers of frames
 constexpr double kBrightestRoomValue = 6;                         // brightest value of the room
 
-/// Returns the room whose last ball moves `distance` away and back, twice a second.
+/// Returns the room with a motion of its last ball, which moves by `distance` and back, twice a
+/// second.
 scene::Scene add_ball_motion(scene::Scene scene, double distance) {
     scene.objects.back().motion = scene::HarmonicMotion{dvec3(-.6, .7, .4) * distance / 2.0, .5};
     return scene;
@@ -39,8 +41,8 @@ CameraMotionMeasurement measure_technique_in_motion(StressTestBench& bench,
     return seen;
 }
 
-/// Judges one technique. If mirrors see each other, light travels on for some frames. Otherwise the
-/// first frame at rest must be as if nothing had moved.
+/// Judges one technique. If mirrors see each other, light of earlier positions remains for some
+/// frames. Otherwise the first frame at rest must equal the picture of a ball that never moved.
 void judge_speed_of_technique(StressTestBench& bench, const scene::Scene& scene, int balls,
                               const std::string& technique) {
     const int resting = technique == "raytrace" || balls == 1 ? 1 : kRestingCameraFrames;

@@ -1,4 +1,4 @@
-// Panels with the times of passes and host, and with facts about the scene.
+// Draws the panels with the times of passes and of the host, and with facts about the scene.
 #include "panels.hpp"
 
 #include <fmt/format.h>

@@ -43,7 +43,8 @@ std::filesystem::path find_free_file_name(const std::string& stem,
     }
 }
 
-/// Returns the part of a plan that fits another scene: nothing about single mirrors.
+/// Returns the plan without the settings for single mirrors, because another scene has other
+/// mirrors.
 EditedPlanState remove_mirror_settings(EditedPlanState plan) {
     plan.own.clear();
     return plan.typed.empty() || plan.typed == "auto" ? plan : EditedPlanState{};
@@ -142,7 +143,7 @@ void ViewLoop::load(const std::string& file) {
         common.root = defaults.root, common.seed = defaults.seed;
         common.use_scene_file = defaults.use_scene_file;
         view_options_.words = {file};
-        view_options_.audit.clear(); // its certificate is of the other scene
+        view_options_.audit.clear(); // the certificate of the plan is for the earlier scene
         for (const auto& [option, value] : {std::pair{"--device", common.device.name},
                                             {"--device-profile", common.device.profile}})
             if (!value.empty())

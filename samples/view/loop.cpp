@@ -40,7 +40,8 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
     start_audit();
 }
 
-/// Begins the audit that the options ask for, with plans as the controls write them.
+/// Starts the audit for which the options name a file of plans. The audit gets each plan as the
+/// text that the controls would write.
 void ViewLoop::start_audit() {
     audit_.reset();
     if (view_options_.audit.empty()) return;
@@ -56,7 +57,8 @@ void ViewLoop::start_audit() {
     audit_->prepare(viewer_->viewer_session(), request_);
 }
 
-/// Audits the last frame before the next one is rendered, and changes the plan after an alarm.
+/// Audits the last frame before the next frame is rendered. After an alarm, changes the plan of the
+/// window.
 void ViewLoop::audit_last_frame(const UserInput& inputs) {
     seconds_ += is_user_simulated() ? kFrameStepSeconds : inputs.seconds;
     if (!audit_) return;

@@ -15,7 +15,7 @@ struct ViewOptions {
     std::string technique; ///< as app::FrameSpec::techniques takes it
     std::string screenshot;
     std::string audit;        ///< file of `catoptric choose` whose plan is audited; empty: none
-    int audit_every = 60;     ///< least number of frames from which one is drawn for the audit
+    int audit_every = 60;     ///< frames of a block, from which one frame is drawn for the audit
     double audit_percent = 5; ///< limit of the audits' time, in percent of the frames' time
     std::vector<std::string> words; ///< all words without the program's name
 };

@@ -41,7 +41,8 @@ bool ProgressiveReference::render_one_pass(app::Session& session, const app::Fra
     if (passes_ == kMaxReferencePasses) return false;
     const auto pass = static_cast<std::uint64_t>(passes_);
     if (passes_++ > 0) {
-        // A row of rays has the seed 0 unless the user sets one.
+        // A row with random rays has the seed 0 unless the user sets a seed, so the reference takes
+        // other seeds.
         const std::string technique = is_rough_ ? "raytrace:depth=16,rays=16,seed=" +
                                                       std::to_string(kFirstReferenceSeed + pass)
                                                 : "raytrace:depth=16,samples=2";

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// Roughness of mirrors that the user sets in the window.
+/// Functions for the roughness of mirrors that the user sets in the window.
 namespace catoptric::view {
 
 /// Roughness by number of the mirror, from 1.
@@ -22,7 +22,8 @@ void separate_mirror_materials(scene::Scene& scene);
 std::optional<float> find_editable_roughness(const scene::Scene& scene, std::uint32_t mirror);
 /// Returns the material of a mirror with another roughness. The mirror must be editable.
 scene::Material change_roughness(const scene::Scene& scene, std::uint32_t mirror, float roughness);
-/// Returns the words of the options `--mirror` that make the mirrors of `scene` as rough.
+/// Returns the words of `--mirror` options that give the mirrors of another scene the same
+/// roughness as the mirrors of `scene`.
 std::vector<std::string> make_roughness_option_words(const scene::Scene& scene,
                                                      const MirrorRoughness& roughness);
 

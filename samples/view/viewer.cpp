@@ -130,7 +130,7 @@ void SceneViewer::measure_errors_when_camera_rests(const ViewState& state) {
         collect_finished_frames(0); // frames outside the sequence use the slots of earlier frames
         reference_.render_one_pass(*session_, spec_);
     }
-    // A picture of search answers has no error to measure.
+    // A picture that paints search answers has no error to measure.
     const bool waits = last_ && last_->waiting() > 0; // the capture budget has put off captures
     if (still_ >= kFramesUntilErrorsAreMeasured && !waits && state.judges &&
         state.mode != ViewMode::answers && !error_ && reference_.can_measure_errors()) {

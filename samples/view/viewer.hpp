@@ -41,7 +41,7 @@ public:
     /// Returns the number, from 1, of the mirror that a pixel of the last frame shows; 0: none.
     std::uint32_t mirror_number_at_pixel(uvec2 pixel);
     void discard_frame_history();
-    /// Audits the last frame, if it is drawn (app::PlanAudit::watch_frame).
+    /// Audits the last frame if the audit selects this frame (app::PlanAudit::watch_frame).
     app::PlanAuditOutcome audit_last_frame(app::PlanAudit& audit, double seconds);
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
@@ -70,7 +70,7 @@ private:
     app::WindowPictures showing_; ///< what the last frame showed
     app::FrameSpec spec_;
     scene::Scene given_;        ///< the scene without changes of roughness
-    MirrorRoughness roughness_; ///< as the session shows it
+    MirrorRoughness roughness_; ///< roughness of mirrors that the session's scene shows
     TimeStatistics times_;
     ProgressiveReference reference_;
     std::optional<measure::Difference> error_;

@@ -266,7 +266,8 @@ TEST(AuditSchedule, DrawsOneFrameOfEachBlock) {
     ASSERT_EQ(audited.size(), 200u);
     std::set<int> places;
     for (int i = 0; i < 200; ++i) {
-        const int place = audited[static_cast<std::size_t>(i)] - 7 - 10 * i; // 7 frames do not count
+        const int place = audited[static_cast<std::size_t>(i)] - 7 -
+                          10 * i; // 7 frames do not count
         EXPECT_GE(place, 0);
         EXPECT_LT(place, 10);
         places.insert(place);
