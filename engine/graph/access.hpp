@@ -45,7 +45,7 @@ private:
     std::vector<std::size_t> first_; // index of each pass's first access in `all_`, then the total
 };
 
-/// Returns the touch that the access of this pass leaves on the resource.
+/// Returns the access state that an access of this pass leaves on its image or buffer.
 AccessState make_access_state(const ResourceAccess& access, const Pass& pass);
 
 constexpr bool is_attachment(ResourceUse use) {
@@ -73,7 +73,7 @@ void for_each_contiguous_layer_range(const Part& part, std::uint32_t layers, con
         visit(m * layers + part.first_layer, m * layers + part.first_layer + part.layer_count);
 }
 
-/// A value for each layer of each mip of every image, and for every buffer.
+/// A value for each layer of each mip of every image of a graph, and for every buffer.
 template <typename T>
 class ValuesPerSubresource {
 public:
@@ -95,7 +95,8 @@ public:
         return mip_layer_values_of_resource(a).layers;
     }
 
-    /// Calls visit(first, end, value) for each run of equal values that the access meets.
+    /// Calls visit(first, end, value) for each run of layers with equal values among the layers of
+    /// the access.
     template <typename Visit>
     void for_each_subresource_value(const ResourceAccess& a, const Visit& visit) const {
         const ValuesPerMipAndLayer& e = mip_layer_values_of_resource(a);
@@ -143,9 +144,11 @@ private:
 
 /// Returns an access to a part of an image. Its use is left at the default.
 ResourceAccess make_access_to_image_part(const ImageHandle& image);
-/// Returns an access to all layers and mips of an image.
+/// Returns an access to all layers and mips of an image. The use of the access is left at the
+/// default.
 ResourceAccess make_access_to_whole_image(const Graph& graph, std::uint32_t image);
-/// Returns a ledger that is true for every layer and buffer that is an output of the graph.
+/// Returns a table that is true for each image layer and each buffer that is an output of the
+/// graph.
 ValuesPerSubresource<char> mark_output_image_parts(const Graph& graph);
 
 } // namespace catoptric::graph

@@ -8,13 +8,13 @@ namespace catoptric::graph {
 
 namespace {
 
-/// The touches of one layer of an image, or of a buffer, so far in this frame.
+/// The accesses so far in this frame to one layer of an image, or to a buffer.
 struct SubresourceAccessHistory {
     AccessStateCode write = kNoAccessState; // the last write in this frame; kNoAccessState: none
     AccessStateList readers; // distinct readers since that write or the last layout change
 
-    /// Returns the touches that the next write must wait for. For an image, all have its present
-    /// layout.
+    /// Returns the earlier accesses that the next write must wait for. For an image, all of them
+    /// have its present layout.
     AccessStateList accesses_to_wait_for_before_write() const {
         if (!readers.empty()) return readers;
         return write == kNoAccessState ? AccessStateList() : AccessStateList(write);
@@ -23,14 +23,15 @@ struct SubresourceAccessHistory {
                            const SubresourceAccessHistory&) = default;
 };
 
-/// Returns the touches that a read must wait for; empty if an earlier reader with this touch
-/// already waited.
+/// Returns the accesses that a read must wait for. The result is empty if an earlier read by the
+/// same kind of access already waited.
 AccessStateList accesses_to_wait_for_before_read(const SubresourceAccessHistory& state,
                                                  AccessStateCode touch, bool is_buffer) {
     if (state.readers.contains_access_state(touch)) return {};
     if (state.readers.empty() || is_buffer) return AccessStateList(state.write);
-    // The layout stays and only the stage differs. `before` must name the present layout. So the
-    // barrier waits for a reader, which itself waited for the write.
+    // The layout stays the same, and only the shader stage differs. The barrier names the earlier
+    // reader, because `before` must name the present layout. The earlier reader itself waited for
+    // the write.
     if (decode_access_use(state.readers.first_access_state()) == decode_access_use(touch))
         return AccessStateList(state.readers.first_access_state());
     return state.readers; // a layout change counts as a write
@@ -56,7 +57,8 @@ std::vector<AccessState> list_access_states(AccessStateSet set) {
     return touches;
 }
 
-/// Returns whether `next` only continues the layers, or the mips, of `last`.
+/// Returns whether barrier `next` covers only the layers, or only the mips, that follow those of
+/// barrier `last`, so that both can be merged.
 bool can_barriers_merge(const PlannedBarrier& last, const PlannedBarrier& next) {
     if (last.is_buffer || next.is_buffer || last.id != next.id || last.previous != next.previous)
         return false;
@@ -96,7 +98,8 @@ void for_each_subresource_rectangle(std::uint32_t first, std::uint32_t end, std:
     }
 }
 
-/// Returns the state of contents that every shader stage may use in this way when the frame begins.
+/// Returns the access history of an imported image at the beginning of a frame. Its contents are
+/// ready for every shader stage that accesses it by this use.
 SubresourceAccessHistory access_history_of_imported_resource(ResourceUse use) {
     const AccessState compute{.nothing = false, .use = use, .write = false, .raster = false};
     AccessState raster = compute;
@@ -117,7 +120,7 @@ SubresourceAccessHistory access_history_at_frame_start(const Graph& graph, std::
     return {};
 }
 
-/// Holds the state of every image and buffer while the frame is walked from first to last pass.
+/// Tracks the access state of every image and buffer from the first pass of a frame to the last.
 class BarrierPlanningTracker {
 public:
     BarrierPlanningTracker(const Graph& graph, const GraphPlan& plan)
@@ -152,7 +155,7 @@ public:
         (access.previous ? previous_ : states_).modify_each_subresource_value(access, visit);
     }
 
-    /// Called after the last pass that touches the resource of the access.
+    /// Records the last accesses to a resource, after the last pass that accesses it.
     void record_last_users_of_memory(const ResourceAccess& access) {
         if (memory_placement(access).alone) return; // no later resource uses its memory
         AccessStateSet touches = 0;
@@ -165,8 +168,9 @@ public:
         users_.record_last_accesses_to_memory(memory_placement(access), touches);
     }
 
-    /// Adds a barrier for each layer, even if it is not needed within the frame: the work after the
-    /// frame relies on it. `untouched`: also for layers that no pass touched.
+    /// Adds a barrier to this use for each layer of the access, even if the frame itself does not
+    /// need the barrier, because work after the frame relies on the layout. `untouched`: also for
+    /// layers that no pass accessed.
     void plan_layer_transition_to_use(const ResourceAccess& access, ResourceUse use, bool untouched,
                                       std::vector<PlannedBarrier>& barriers) {
         const SubresourceAccessHistory start = access.is_buffer ? SubresourceAccessHistory()
@@ -177,7 +181,7 @@ public:
                                                        const SubresourceAccessHistory& state) {
             if (!untouched && state == start) return;
             AccessStateList latest = state.accesses_to_wait_for_before_write();
-            // Never touched: the barrier discards the contents.
+            // No pass accessed these layers, so the barrier may discard their contents.
             if (latest.empty()) latest.add_access_state(kNoAccessState);
             add_barriers_for_pending_accesses(access, first, end, latest, touch, barriers);
         });

@@ -17,7 +17,7 @@ namespace catoptric::graph {
 
 class FrameRecorder;
 
-/// The most images that one name of a shader can be bound to, as an array of textures.
+/// The largest number of images that can be bound to one name of a shader, as an array of textures.
 inline constexpr std::size_t kMaxBoundImages = 8;
 
 /// How a sampled image is looked up. Coordinates clamp to the edge, and cubes are filtered across
@@ -58,7 +58,7 @@ public:
     void bind_resource(std::string_view name, TextureFilter sampler);
     void bind_resource(std::string_view name, BufferHandle buffer);
     void bind_resource(std::string_view name, const gpu::GpuBuffer& buffer);
-    /// Sets the push constants of the draws and dispatches that follow.
+    /// Sets the push constants for all later draws and dispatches of the pass.
     template <typename T>
     void push_constants(const T& value) {
         push_.assign(reinterpret_cast<const std::byte*>(&value),
@@ -68,14 +68,16 @@ public:
     /// Draws three vertices without attributes. screen.vert makes them a triangle that covers the
     /// whole picture.
     void draw_fullscreen_triangle();
-    /// Sets the vertices (as in shaders/shared.h) and the 32-bit indices of the draws that follow.
+    /// Sets the vertex buffer (vertices as in shaders/shared.h) and the buffer of 32-bit indices
+    /// for all later draws of the pass.
     void bind_vertex_and_index_buffers(const gpu::GpuBuffer& vertices,
                                        const gpu::GpuBuffer& indices);
     /// Draws indexed triangles into layers [first_layer, first_layer + layer_count) of the pass.
     /// gl_InstanceIndex is `first_instance` plus the layer.
     void draw(std::uint32_t first_index, std::uint32_t index_count, std::uint32_t first_layer = 0,
               std::uint32_t layer_count = 1, std::uint32_t first_instance = 0);
-    /// Limits the draws that follow to the area, in pixels, which must lie within the attachments.
+    /// Limits all later draws of the pass to the area, in pixels. The area must lie within the
+    /// attachments.
     void set_scissor(const PixelRectangle& area);
     void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z = 1);
     /// Dispatches with the group counts x, y, z read from `offset` bytes into the buffer, which the
@@ -83,8 +85,8 @@ public:
     void dispatch_indirect(BufferHandle arguments, std::uint64_t offset = 0);
     /// Makes the writes of earlier dispatches of this pass visible to later ones.
     void storage_barrier();
-    /// Copies an image to one of the same size and format, all layers of the handles. The pass
-    /// declares both.
+    /// Copies an image to an image of the same size and format, in all layers of the handles. The
+    /// pass must declare both images.
     void copy_image(ImageHandle from, ImageHandle to);
     /// Copies one mip of an image to a buffer: rows from the top down, one layer after another. The
     /// pass declares both.

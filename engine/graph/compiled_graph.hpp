@@ -28,26 +28,28 @@ struct PersistentImage {
     }
 };
 
-/// Images and buffers of a shape, indexed by their number in the graph. Entries whose memory lies
-/// elsewhere are empty.
+/// Device images and buffers of a graph, indexed by their number in the graph. Entries are empty if
+/// their memory is owned elsewhere.
 struct CompiledGraphResources {
     std::vector<PhysicalImage> images;
     std::vector<gpu::UniqueBuffer> buffers;
     bool made = false;
 };
 
-/// A shape with its plan and, once it has run, the resources that it runs with.
+/// A planned graph. After its first frame, it also has the images and buffers with which its frames
+/// run.
 struct CompiledRenderGraph {
     Graph outline; ///< without bodies
     std::uint64_t hash = 0;
     GraphPlan plan;
-    /// Whether a frame with this plan has run; other plans do not count for memory.
+    /// Whether a frame with this plan has run. Only such plans count for the size of memory.
     bool ran = false;
 
     CompiledGraphResources shared; ///< resources that live within a frame
     std::array<CompiledGraphResources, kMaxFramesInFlight>
         own; ///< outputs of a frame, a copy for each slot
-    /// Images that outlive frames, by image number, for the frame submitted last; null for others.
+    /// For each image number, the image that outlives frames, as the last submitted frame used it;
+    /// null for other images.
     std::vector<PersistentImage*> kept;
 
     /// Returns whether the image has its own memory across frames. A persistent image always does:
@@ -64,7 +66,7 @@ struct CompiledRenderGraph {
     bool is_buffer_allocated_by_runner(BufferHandle buffer) const {
         return plan.buffers[buffer.id].used && !outline.is_imported(buffer);
     }
-    /// Returns the device image that stands for `image` in a frame of the slot.
+    /// Returns the device image for `image` in a frame of this slot (frame in flight).
     PhysicalImage& physical_image_of_handle(ImageHandle image, std::size_t slot) {
         if (PersistentImage* const k = kept[image.id])
             return k->persistent_image_of_frame(image.previous);

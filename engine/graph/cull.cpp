@@ -33,8 +33,8 @@ std::uint32_t find_unread_attachments(std::span<const ResourceAccess> accesses,
     return bits;
 }
 
-/// Sweeps from the last pass to the first. `live` starts as the contents needed at the end of the
-/// frame.
+/// Goes through the passes from the last to the first, and culls those whose results are not
+/// needed. `live` begins as the contents that are needed at the end of the frame.
 std::vector<PassCullingDecision> cull_passes_backwards(const GraphAccesses& all, std::size_t passes,
                                                        ValuesPerSubresource<char> live) {
     std::vector<PassCullingDecision> fates(passes);
@@ -60,8 +60,8 @@ std::vector<PassCullingDecision> decide_which_passes_are_culled(const Graph& gra
     while (true) {
         std::vector<PassCullingDecision> fates = cull_passes_backwards(
             all, graph.list_passes().size(), at_end);
-        // Contents of the last frame that survivors read must be complete at the end of this frame,
-        // too.
+        // If passes that are kept read contents of the last frame, these contents must also be
+        // complete at the end of this frame.
         bool grew = false;
         for (std::size_t p = 0; p < fates.size(); ++p) {
             if (!fates[p].survives) continue;

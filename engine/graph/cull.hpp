@@ -11,13 +11,13 @@ struct PassCullingDecision {
     std::uint32_t unread = 0; ///< bits as in PlannedPass::unread
 };
 
-/// Returns the fate of each pass of a valid graph. A pass survives if an output depends on it, in
-/// this frame or, through `previous`, in the next. Persistent and imported images, and imported
-/// buffers, count as outputs.
+/// Returns for each pass of a valid graph whether it is culled. A pass is kept if an output depends
+/// on it, in this frame or, through `previous`, in the next. Persistent and imported images, and
+/// imported buffers, count as outputs.
 std::vector<PassCullingDecision> decide_which_passes_are_culled(const Graph& graph,
                                                                 const GraphAccesses& all);
 
-/// Returns the reason why a pass was culled: "nobody wants what it writes: 'x', 'y'".
+/// Returns the reason why a pass was culled, as text: "nobody wants what it writes: 'x', 'y'".
 std::string describe_cull_reason(const Graph& graph, std::span<const ResourceAccess> accesses);
 
 } // namespace catoptric::graph

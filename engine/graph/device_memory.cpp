@@ -41,7 +41,8 @@ MemoryRequirements make_memory_requirements(const gpu::GpuDevice& device,
     const int type = device.find_memory_type_index(needs.memoryTypeBits,
                                                    VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     check(type >= 0, Failure::internal, "no memory type for '", name, "'");
-    // Buffers and images share heaps. Aligning to the granularity keeps them on separate pages.
+    // Buffers and images are placed in the same heaps. Their offsets are aligned to
+    // bufferImageGranularity, so that a buffer and an image never share a page.
     const auto granularity = device.vulkan_limits().bufferImageGranularity;
     return {needs.size, std::max<std::uint64_t>(needs.alignment, granularity),
             static_cast<std::uint32_t>(type)};

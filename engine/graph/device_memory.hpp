@@ -6,7 +6,7 @@
 namespace catoptric::graph {
 
 /// Returns functions that tell how much memory the device needs for images and buffers of a graph.
-/// The device must outlive them.
+/// The device must outlive the returned functions.
 MemoryRequirementQueries make_device_requirement_queries(const gpu::GpuDevice& device);
 
 /// Creates a buffer of the graph without memory.

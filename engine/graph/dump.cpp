@@ -27,7 +27,7 @@ const Pass& pass_of_planned_pass(const Graph& graph, const PlannedPass& planned)
     return graph.list_passes()[planned.pass];
 }
 
-/// Tells which resources share memory.
+/// Finds which images and buffers of a plan share memory.
 class ResourcesSharingMemory {
 public:
     ResourcesSharingMemory(const Graph& graph, const GraphPlan& plan) {
@@ -49,7 +49,7 @@ public:
         return static_cast<std::size_t>(begun - heap.begins.begin()) -
                static_cast<std::size_t>(ended - heap.ends.begin()) - 1; // `mine` itself
     }
-    /// Returns the names of the first `limit` of these resources.
+    /// Returns the names of the first `limit` resources that share memory with `mine`.
     std::vector<std::string_view> names_of_resources_sharing_memory(const MemoryPlacement& mine,
                                                                     std::size_t limit) const {
         const std::size_t wanted = std::min(limit, count_resources_sharing_memory(mine));
@@ -92,7 +92,7 @@ void write_pass_uses(std::ostream& out, const Graph& graph, const Pass& pass) {
 void write_memory_placement_text(std::ostream& out, const ResourcesSharingMemory& sharers,
                                  const MemoryPlacement& placement) {
     constexpr std::size_t kMaxNamedResources =
-        32; // of the hundreds of resources whose memory may overlap in a large frame
+        32; // most names listed for one resource; in a large frame hundreds may share its memory
     if (!placement.used) {
         out << ", not used\n";
         return;

@@ -8,8 +8,8 @@ namespace catoptric::graph {
 
 namespace {
 
-/// Calls visit(placement) for each resource in the memory of frames whose `alone` is as given.
-/// Images that outlive frames are skipped.
+/// Calls visit(placement) for each image and buffer in the memory of frames whose member `alone`
+/// equals the given value. Images that outlive frames are skipped.
 template <typename Visit>
 void for_each_memory_placement(const CompiledRenderGraph& shape, bool alone, const Visit& visit) {
     for (std::uint32_t i = 0; i < shape.plan.images.size(); ++i) {
@@ -24,9 +24,9 @@ void for_each_memory_placement(const CompiledRenderGraph& shape, bool alone, con
             visit(shape.plan.buffers[b]);
 }
 
-/// Returns the offset in each heap of the plan at which the outputs begin. The plan puts outputs
-/// after the shared part. The runner puts them into a separate arena, at the same distance from one
-/// another.
+/// Returns the offset in each heap of the plan at which outputs begin. In a plan, outputs follow
+/// the memory that resources share. The runner allocates outputs separately, at the same distances
+/// from each other.
 std::vector<std::uint64_t> find_output_offsets_in_heaps(const CompiledRenderGraph& shape) {
     const std::vector<std::uint64_t>& heaps = shape.plan.heap_bytes;
     std::vector<std::uint64_t> begin = heaps, alignment(heaps.size(), 1);
@@ -38,7 +38,7 @@ std::vector<std::uint64_t> find_output_offsets_in_heaps(const CompiledRenderGrap
     return begin;
 }
 
-/// Returns the bytes that a shape needs of each heap.
+/// Returns the bytes of each heap that a planned graph needs.
 std::vector<std::uint64_t> count_needed_bytes_per_heap(const CompiledRenderGraph& shape,
                                                        bool alone) {
     std::vector<std::uint64_t> bytes(shape.plan.heap_bytes.size(), 0);
@@ -132,7 +132,7 @@ void SharedGraphMemoryArena::find_or_allocate_heap_memory(
         for (const auto& other : shapes) other->shared = {};
         allocate(shared_, std::move(bytes));
     }
-    // No frame in flight uses this slot's memory: its last frame has ended.
+    // No frame in flight uses the memory of this slot, because the slot's last frame has ended.
     if (std::vector<std::uint64_t> bytes = max_needed_bytes_per_heap(shapes, true);
         bytes != own_[slot].bytes) {
         for (const auto& other : shapes) other->own[slot] = {};

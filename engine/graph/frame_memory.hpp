@@ -7,16 +7,17 @@
 
 namespace catoptric::graph {
 
-/// Memory that the shapes of a runner use in turn, as large as the largest shape needs. Resources
-/// that live within a frame share one arena, because frames run one after another. Outputs of a
-/// frame have one arena per slot and stay until the slot's next frame is submitted.
+/// Device memory that all planned graphs of a runner use in turn. The memory is as large as the
+/// largest graph needs. Images and buffers that live within a frame share one block, because frames
+/// run one after another. Outputs have one block for each slot (frame in flight), and stay until
+/// the slot's next frame is submitted.
 class SharedGraphMemoryArena {
 public:
     explicit SharedGraphMemoryArena(const gpu::GpuDevice& device) : memory_device_(device) {}
 
-    /// Makes the resources that `shape` runs with in this slot, unless they exist. `shapes`: all
-    /// shapes that need memory. Calls `wait` before it destroys anything that frames in flight may
-    /// use.
+    /// Makes the images and buffers with which the planned graph `shape` runs in this slot, unless
+    /// they exist. `shapes`: all planned graphs that need memory. Calls `wait` before it destroys
+    /// an image or buffer that frames in flight may use.
     void find_or_allocate_heap_memory(CompiledRenderGraph& shape, std::size_t slot,
                                       std::span<const std::shared_ptr<CompiledRenderGraph>> shapes,
                                       const std::function<void()>& wait);

@@ -19,7 +19,7 @@ gpu::UniqueSampler make_sampler(const gpu::GpuDevice& device, TextureFilter filt
         create.maxLod = VK_LOD_CLAMP_NONE;
     }
     create.compareEnable = filter == TextureFilter::compare;
-    // Reversed depth: passes unless behind the stored depth.
+    // Depth is reversed: a fragment passes the test unless it lies behind the stored depth.
     create.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkSampler sampler = VK_NULL_HANDLE;
     gpu::throw_unless_vk_success(
@@ -59,8 +59,8 @@ BarrierSourceAndDestinationScopes make_barrier_scopes(const PlannedBarrier& barr
         sides.after.stages |= VK_PIPELINE_STAGE_2_HOST_BIT;
         sides.after.access |= VK_ACCESS_2_HOST_READ_BIT;
     }
-    // The first touch in a frame has no earlier touch to wait for. Equal stages on both sides chain
-    // it to the barrier that separates this frame from the last.
+    // The first access of a frame has no earlier access to wait for. With equal stages on both
+    // sides, it waits for the barrier that separates this frame from the last.
     if (sides.before.stages == VK_PIPELINE_STAGE_2_NONE) sides.before = sides.after;
     return sides;
 }

@@ -56,7 +56,7 @@ private:
     std::size_t slot_index_ = 0;
     WorkCounter* work_ = nullptr;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    // Members rather than locals, so that their memory is reused.
+    // These lists are members and no local variables, so that their memory is used again.
     std::vector<VkImageMemoryBarrier2> image_barriers_;
     std::vector<VkBufferMemoryBarrier2> buffer_barriers_;
     std::vector<VkRenderingAttachmentInfo> colours_;

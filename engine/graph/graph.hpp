@@ -26,7 +26,7 @@ namespace catoptric::graph {
 class PassCommands;   // records the commands of a pass: graph/commands.hpp
 struct PhysicalImage; // an image on the device: graph/physical.hpp
 
-/// How a pass touches an image or a buffer.
+/// How a pass accesses an image or a buffer.
 enum class ResourceUse {
     sampled,       ///< texture fetch, or a read-only buffer in a shader
     storage_read,  ///< imageLoad, or a storage buffer that is only read
@@ -84,11 +84,13 @@ struct ImageHandle {
     bool previous = false;
     std::uint32_t first_mip = 0;
     std::uint32_t mip_count = 1;
-    /// Returns a handle of some of the layers, counted from this handle's first.
+    /// Returns a handle of some of the image's layers. `first` counts from the first layer of this
+    /// handle.
     ImageHandle select_image_layers(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer + first, count, previous, first_mip, mip_count};
     }
-    /// Returns a handle of some of the mips, counted from this handle's first.
+    /// Returns a handle of some of the image's mips. `first` counts from the first mip of this
+    /// handle.
     ImageHandle select_image_mips(std::uint32_t first, std::uint32_t count) const {
         return {id, first_layer, layer_count, previous, first_mip + first, count};
     }
@@ -110,7 +112,8 @@ struct ImageUse {
     ImageHandle image;
     ResourceUse use = ResourceUse::sampled;
     bool write = false;
-    /// An attachment without a clear needs and keeps its earlier contents.
+    /// Value to which the attachment is cleared. An attachment without this value needs and keeps
+    /// its earlier contents.
     std::optional<ClearValue> clear;
     bool stays = false; ///< whether a clear keeps the contents outside the pass's area
 };

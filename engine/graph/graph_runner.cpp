@@ -86,11 +86,12 @@ GraphRunner::~GraphRunner() {
     try {
         finish_all_frames_in_flight();
     } catch (const std::exception&) {
-        // The device is abandoned now, so none of its objects is destroyed.
+        // The device counts as abandoned after a failed wait, so none of its objects is destroyed.
     }
 }
 
-/// Waits for all frames, and removes the references of ended frames to images that outlive frames.
+/// Waits for all frames in flight, and drops the ended frames' references to images that outlive
+/// frames.
 void GraphRunner::release_persistent_images() {
     finish_all_frames_in_flight();
     for (FrameInFlightResources& slot : slots_)
@@ -132,7 +133,8 @@ CompiledRenderGraph& GraphRunner::compile_render_graph(const Graph& graph) {
         made->outline = graph.copy_graph_without_record_callbacks();
         made->hash = hash;
         ++plans_made_;
-        // Frames in flight share ownership of their shape, so removing it here is safe.
+        // Frames in flight share ownership of their planned graph, so removing the graph from this
+        // list is safe.
         if (shapes_.size() == kMaxCachedGraphs) shapes_.pop_back();
         found = shapes_.insert(shapes_.end(), std::move(made));
     }
@@ -206,7 +208,7 @@ void GraphRunner::submit_frame(FrameInFlightResources& slot, const CompiledRende
     slot.ended = false;
 }
 
-/// Waits for the frame of the slot, unless it was waited for before.
+/// Waits for the end of the slot's frame, unless the host has waited for this frame before.
 void GraphRunner::finish_frame_in_flight(FrameInFlightResources& slot) {
     if (slot.ended) return;
     const SteadyClock::time_point begin = SteadyClock::now();

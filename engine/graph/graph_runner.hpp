@@ -39,21 +39,22 @@ public:
     /// Drops all contents of earlier frames, so that the next frame is like the first. Waits for
     /// the frames in flight.
     void discard_persistent_image_contents();
-    /// Takes out and returns all contents of earlier frames, so that the next frame is like the
-    /// first. Waits for the frames in flight.
+    /// Takes out and returns the contents of all images that outlive frames, so that the next frame
+    /// is like the first. Waits for the frames in flight.
     SuspendedPersistentImages suspend();
-    /// Puts back contents from `suspend`, from which the next frame continues, and drops the
-    /// present ones. Waits for the frames in flight.
+    /// Puts back contents that `suspend` returned, and drops the present contents. The next frame
+    /// continues from the restored contents. Waits for the frames in flight.
     void resume(SuspendedPersistentImages leavings);
     GraphLimits limits() const;
-    /// Returns the plan of the graph's shape. The plans of the last 8 shapes are cached; others are
-    /// made. Valid until 8 other shapes were asked for. Throws the errors of graph::plan_graph.
+    /// Returns the plan of the graph. The plans of the last 8 different graphs are cached. The
+    /// reference is valid until 8 other graphs were planned. Throws the errors of
+    /// graph::plan_graph.
     const GraphPlan& find_or_make_plan(const Graph& graph) {
         return compile_render_graph(graph).plan;
     }
     std::uint64_t compiled_graph_plan_count() const { return plans_made_; }
-    /// Returns the bytes of device memory for images and buffers of its graphs: as much as the
-    /// largest of the last 8 shapes that ran, plus all images that outlive frames.
+    /// Returns the bytes of device memory for images and buffers: as much as the largest of the
+    /// last 8 graphs that ran, plus all images that outlive frames.
     std::uint64_t allocated_device_bytes() const {
         return memory_.allocated_device_bytes() + kept_.allocated_device_bytes();
     }
@@ -80,8 +81,9 @@ public:
     std::vector<PassWorkCounts> work_counts_of_frame(SubmittedFrameTicket ticket);
 
     /// Waits for the frame and returns the texels of one of its outputs: rows from the top down,
-    /// layer after layer, mip after mip. An output can be read until a later frame takes the slot.
-    /// An image that outlives frames can be read until the next frame is submitted.
+    /// layer after layer, mip after mip. An output can be read until a later frame uses the same
+    /// slot (frame in flight). An image that outlives frames can be read until the next frame is
+    /// submitted.
     std::vector<std::byte> read_back_resource(SubmittedFrameTicket ticket, ImageHandle image);
     std::vector<std::byte> read_back_resource(SubmittedFrameTicket ticket, BufferHandle buffer);
     /// Reads from the frame that was submitted last.
@@ -91,8 +93,8 @@ public:
     std::vector<std::byte> read_back_resource(BufferHandle buffer) {
         return read_back_resource(SubmittedFrameTicket{frame_}, buffer);
     }
-    /// Returns the texels of all images with a `previous`, one after another: all that the next
-    /// frame can see of the last one. Empty if no such image exists.
+    /// Returns the texels of all images with `previous` contents, one after another. These are all
+    /// contents of the last frame that the next frame can read. Empty if no such image exists.
     std::vector<std::byte> read_history();
 
 private:

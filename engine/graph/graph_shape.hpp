@@ -4,12 +4,14 @@
 
 namespace catoptric::graph {
 
-/// Returns a hash that is equal for all graphs of one shape. A shape is all that a plan depends on:
-/// every declaration, and which parts of persistent images have contents. The shape excludes
-/// recorded commands, clear values, content hashes and which outside resources are imported.
+/// Returns a hash that is equal for all graphs with the same shape. The shape is everything on
+/// which a plan depends: every declaration, and which parts of persistent images have contents.
+/// Recorded commands, clear values, content hashes and the identity of imported resources are not
+/// part of the shape.
 std::uint64_t hash_graph_shape(const Graph& graph);
 
-/// Returns whether a plan of one graph is valid for the other. `known` need not have pass bodies.
+/// Returns whether the plan of graph `known` is also valid for `graph`. `known` need not have
+/// callbacks that record its passes.
 bool have_equal_graph_declarations(const Graph& graph, const Graph& known);
 
 } // namespace catoptric::graph

@@ -18,7 +18,8 @@ std::uint64_t align_up_to_multiple(std::uint64_t value, std::uint64_t alignment)
 
 std::uint64_t end_of_placement(const MemoryPlacement& p) { return p.offset + p.bytes; }
 
-/// The resources placed at one offset. They share memory, so no two are alive at once.
+/// The images and buffers that are placed at one memory offset. No two of them are in use at the
+/// same time.
 struct HeapOffsetSharedByResources {
     struct PassLifetimeInterval {
         std::uint32_t first, last;
@@ -27,8 +28,8 @@ struct HeapOffsetSharedByResources {
     std::uint64_t offset = 0;
     std::vector<PassLifetimeInterval> lives; ///< from the earliest
 
-    /// Returns the end, in the heap, of the members that are alive with `placement`; 0 if there are
-    /// none.
+    /// Returns the end, in the heap, of the memory of all resources at this offset that are in use
+    /// at the same time as `placement`; 0 if there are none.
     std::uint64_t find_last_use_at_shared_offset(const MemoryPlacement& placement) const {
         auto life = std::ranges::lower_bound(lives, placement.first, {},
                                              &PassLifetimeInterval::last);
@@ -41,7 +42,8 @@ struct HeapOffsetSharedByResources {
 using HeapOffsetAllocator =
     std::vector<HeapOffsetSharedByResources>; // shelves of one heap, from the lowest
 
-/// Returns the lowest aligned offset at which `item` overlaps nothing that is alive with it.
+/// Returns the lowest aligned offset at which `item` overlaps no resource that is in use at the
+/// same time.
 std::uint64_t find_first_fitting_offset(const ResourceToPlaceInHeap& item,
                                         const HeapOffsetAllocator& shelves) {
     std::uint64_t offset = 0;

@@ -8,8 +8,8 @@ namespace catoptric::graph {
 /// members `used`, `first` and `last` (passes), and `alone`: no other memory may overlap theirs.
 void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, GraphPlan& plan);
 
-/// Fills offsets, bytes and heap sizes. Needs lifetimes. Resources that are alive at the same time
-/// never overlap; others may.
+/// Fills the offsets and bytes of all images and buffers, and the sizes of the heaps. Lifetimes
+/// must be known. Resources that are in use at the same time never overlap in memory.
 void place_resources_in_memory(const Graph& graph, const MemoryRequirementQueries& sizer,
                                GraphPlan& plan);
 

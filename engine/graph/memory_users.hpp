@@ -4,15 +4,15 @@
 
 namespace catoptric::graph {
 
-/// The last touches of each part of the shared memory while a frame is walked from first to last
-/// pass. Each call costs O(log n) in the number of placements.
+/// Records the last accesses to each part of the shared memory, from the first pass of a frame to
+/// the last. Each call takes O(log n) for n placements.
 class LastUsersOfSharedMemory {
 public:
     explicit LastUsersOfSharedMemory(const GraphPlan& plan);
-    /// Records that the resource at this placement is not touched again. `touches` were its last
-    /// touches.
+    /// Records that no later pass uses the resource at this placement. `touches` are the last
+    /// accesses to the resource.
     void record_last_accesses_to_memory(const MemoryPlacement& placement, AccessStateSet touches);
-    /// Returns all touches that earlier resources left in this memory.
+    /// Returns the last accesses of all earlier resources that overlap this placement in memory.
     AccessStateSet unfinished_accesses_in_memory(const MemoryPlacement& placement) const;
 
 private:
@@ -20,8 +20,8 @@ private:
     /// 2n and 2n + 1.
     struct HeapAccessSegmentTree {
         std::vector<std::uint64_t> ends;   // sorted, each once
-        std::vector<AccessStateSet> whole; // touches left in all of the node
-        std::vector<AccessStateSet> below; // touches left in some part of the node
+        std::vector<AccessStateSet> whole; // accesses in all of the node
+        std::vector<AccessStateSet> below; // accesses in some part of the node
         std::size_t leaf(std::uint64_t offset) const;
         void resize_tree();
     };

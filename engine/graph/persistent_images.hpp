@@ -18,8 +18,8 @@ class PersistentImages {
 public:
     explicit PersistentImages(gpu::GpuDevice& device) : image_device_(device) {}
 
-    /// Finds or makes the persistent images of the shape. Calls `wait` before it destroys anything
-    /// that frames in flight may use.
+    /// Finds or makes the persistent images that the planned graph uses. Calls `wait` before it
+    /// destroys an image that frames in flight may use.
     void find_or_create_images(CompiledRenderGraph& shape, const std::function<void()>& wait);
     /// Stores the content hashes that the submitted frame sets.
     void write(const Graph& graph, const CompiledRenderGraph& shape);

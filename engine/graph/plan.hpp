@@ -6,7 +6,7 @@
 
 namespace catoptric::graph {
 
-/// Limits of a device. A graph that exceeds one is refused.
+/// Limits of a device. A graph that exceeds a limit is refused.
 struct GraphLimits {
     std::uint32_t max_size_2d = 16384;
     std::uint32_t max_size_cube = 16384;
@@ -43,8 +43,8 @@ struct AccessState {
     friend bool operator==(const AccessState&, const AccessState&) = default;
 };
 
-/// One dependency: the touches `before` and `shared` are complete and visible to `after`. The image
-/// changes from the layout of `before` to that of `after`.
+/// One dependency between passes. The accesses `before` and `shared` are complete and visible to
+/// the access `after`. The image changes from the layout of `before` to the layout of `after`.
 struct PlannedBarrier {
     bool is_buffer = false;
     std::uint32_t id = 0;
@@ -55,8 +55,8 @@ struct PlannedBarrier {
     std::uint32_t mip_count = 1;
     AccessState before; ///< `nothing`: the old contents are discarded
     AccessState after;
-    /// Further touches to wait for: other readers before a write or a change of layout. With
-    /// `before.nothing` also the last touches of earlier users of the same memory in the frame.
+    /// Further accesses to wait for: other readers before a write or a change of layout. If
+    /// `before.nothing` is set, also the last accesses to earlier resources in the same memory.
     std::vector<AccessState> shared;
 };
 

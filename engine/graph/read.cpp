@@ -1,4 +1,4 @@
-// Read-back of a runner's images and buffers.
+// Reads images and buffers of a graph runner back to the host.
 #include "graph/graph_runner.hpp"
 #include "graph/sync.hpp"
 
@@ -54,7 +54,8 @@ std::vector<std::byte> GraphRunner::read_back_resource(SubmittedFrameTicket tick
           " was submitted, which may have changed it");
     check(!kept || shape.kept[image.id], Failure::internal, "image '", desc.name,
           "' is read after it was forgotten");
-    // A frame with `stays` does not advance the history: its own copy is not yet the last frame.
+    // A frame with `stays` does not advance the history, so its images do not count as the last
+    // frame's yet.
     image.previous = kept && !slot.stays;
     const PhysicalImage& source = shape.physical_image_of_handle(image,
                                                                  slot_index_of_frame(ticket.frame));

@@ -5,7 +5,7 @@
 
 namespace catoptric::graph {
 
-/// The pipeline stages and memory accesses of a touch.
+/// The pipeline stages and kinds of memory access of an access to an image or buffer.
 struct SyncScope {
     VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
     VkAccessFlags2 access = VK_ACCESS_2_NONE;

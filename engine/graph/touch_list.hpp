@@ -8,7 +8,7 @@
 
 namespace catoptric::graph {
 
-/// A touch as a number from 1; 0 stands for `nothing`.
+/// An access state as a number from 1. The number 0 stands for no access.
 using AccessStateCode = std::uint8_t;
 constexpr AccessStateCode kNoAccessState = 0;
 constexpr int kAccessStateCodeCount = 64; ///< every code is smaller
@@ -42,8 +42,8 @@ public:
     bool contains_access_state(AccessStateCode touch) const {
         return std::find(codes_.begin(), codes_.begin() + count_, touch) != codes_.begin() + count_;
     }
-    /// Adds the touch unless it is contained. Reads of one resource have at most 8 kinds: 4 uses,
-    /// each by a raster pass or not.
+    /// Adds the access state unless the list contains it. A resource can have at most 8 kinds of
+    /// reads: 4 uses, each by a raster pass or another pass.
     void add_access_state(AccessStateCode touch) {
         if (contains_access_state(touch)) return;
         assert(count_ < codes_.size());
@@ -57,7 +57,7 @@ private:
     std::uint8_t count_ = 0;
 };
 
-/// A set of touches without order: a bit for each code.
+/// A set of access states: one bit for each AccessStateCode.
 using AccessStateSet = std::uint64_t;
 constexpr AccessStateSet access_state_set_of_code(AccessStateCode code) {
     return AccessStateSet{1} << code;

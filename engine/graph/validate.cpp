@@ -74,8 +74,8 @@ void check_image_limits(const ImageDesc& desc, const GraphLimits& limits) {
          resource_use_name(a.use), " before any pass writes ", missing);
 }
 
-/// Returns the contents that exist before the first pass: those of persistent and of imported
-/// resources.
+/// Returns the image layers and buffers that have contents before the first pass: those of
+/// persistent and of imported resources.
 ValuesPerSubresource<char> mark_contents_at_frame_start(const Graph& graph) {
     ValuesPerSubresource<char> there(graph, false);
     for (std::uint32_t i = 0; i < graph.list_images().size(); ++i) {

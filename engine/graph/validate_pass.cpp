@@ -61,7 +61,7 @@ void check_attachment_access(const Graph& graph, const Pass& pass, const Resourc
          is_depth_format(format) ? "depth" : "colour", " format");
 }
 
-/// Texts are built only on failure, because most passes are valid.
+/// Error texts are built only on failure, because most passes are valid.
 void check_use_is_allowed(const Graph& graph, const Pass& pass, const ResourceAccess& a) {
     if (a.write && a.previous)
         fail(kInvalidGraphFailure, "pass '", pass.name, "' writes ", describe_access(graph, a),
@@ -153,7 +153,7 @@ void check_two_accesses_of_pass(const Graph& graph, const Pass& pass, const Reso
 void check_all_access_pairs_of_pass(const Graph& graph, const Pass& pass,
                                     std::span<const ResourceAccess> all) {
     const auto key = [](const ResourceAccess* a) {
-        // Pointers sort in order of declaration.
+        // Pointers into the list of accesses sort in the order of declaration.
         return std::tuple(a->is_buffer, a->id, a->previous, a);
     };
     std::vector<const ResourceAccess*> sorted;

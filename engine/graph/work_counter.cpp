@@ -6,7 +6,7 @@ namespace catoptric::graph {
 
 namespace {
 
-// The order of the bits is the order of the results.
+// The results of the pipeline-statistics query have the order of these bits.
 constexpr VkQueryPipelineStatisticFlags kPipelineStatisticFlags =
     VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |

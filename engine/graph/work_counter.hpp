@@ -19,7 +19,7 @@ public:
     /// `passes`: names of the frame's passes, in order of execution.
     WorkCounter(gpu::GpuDevice& device, std::vector<std::string> passes);
 
-    /// Records the begin and the end of the next pass, outside of rendering.
+    /// Records the begin and the end of the query for the next pass, outside of a rendering scope.
     void begin_pass(VkCommandBuffer commands);
     void end_pass(VkCommandBuffer commands);
     /// Adds to a count of the pass that is being recorded.

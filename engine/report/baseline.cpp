@@ -87,15 +87,15 @@ const Json* find_baseline_row_with_same_settings(const Json& rows, const Json& r
     return nullptr;
 }
 
-/// Returns the smallest and the largest ratio of two quantities from their intervals.
+/// Returns the smallest and the largest possible ratio of two quantities, given their intervals.
 measure::Interval ratio_interval_of_two_intervals(const measure::Interval& now,
                                                   const measure::Interval& before) {
     if (!now.is_known() || !before.is_known() || !(before.low > 0)) return {};
     return {now.low / before.high, now.high / before.low};
 }
 
-// Share of a row's time that a pass must take to be judged. Times of shorter passes differ from run
-// to run by more than their intervals say.
+// A pass is judged only if it takes at least this share of its row's time. Times of shorter passes
+// differ from run to run by more than their intervals.
 constexpr double kMinJudgedPassShare = .05;
 
 /// Returns the median device time of a row or a pass, ms, or NaN.
@@ -169,8 +169,8 @@ private:
         return finding;
     }
 
-    /// Judges each kind of counted work that both reports have. Counts repeat exactly, so no
-    /// interval is needed.
+    /// Judges each kind of counted work that both reports have. Counts are the same in each run, so
+    /// no interval is needed.
     std::vector<BaselineFinding>
     judge_work_against_baseline(const std::string& row, const Json& before, const Json& now) const {
         std::vector<BaselineFinding> findings;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-// Compares a comparison with the report.json of an earlier one, for a pipeline that must stop at a
-// loss of quality or speed.
+// Functions that compare a comparison with the report.json of an earlier one. A build pipeline uses
+// the result to stop after a loss of quality or speed.
 namespace catoptric::report {
 
 struct BaselineLimits {
@@ -24,7 +24,7 @@ enum class BaselineVerdict : std::uint8_t {
 /// Returns "kept", "worse" or "unknown".
 const char* baseline_verdict_name(BaselineVerdict verdict);
 
-/// One quantity of one row, then and now.
+/// The verdict on one quantity of one row, with its earlier and its present value.
 struct BaselineFinding {
     std::string row;      ///< label, with ", model=required" if the row has that model
     std::string quantity; ///< "flip", "ms", "ms of NAME" for a pass, "work: KIND", or "row"
@@ -42,23 +42,25 @@ void check_baseline_matches_comparison(const Comparison& comparison, const std::
 /// Judges each row of the baseline against the row with the same label and model. A row that is
 /// missing now is worse. Device times of rows, and of passes with at least a twentieth of their
 /// row's time, are `worse` only if the ratio of the two 95 % intervals lies above the limit as a
-/// whole. If the time to clear the cubes, a constant work, has risen with confidence, that rise is
-/// divided out. Times are `unknown` on another device, if a row was noisy, or if the intervals
-/// reach over the limit. Counted work, if both reports have it, is held to the same factor. A rise
-/// of FLIP below the noise of the reference is kept. Throws as check_baseline_matches_comparison
-/// does.
+/// whole. Clearing the cube maps is constant work. If its time has risen with confidence, the
+/// machine is slower, and all times are divided by the same ratio. Times are `unknown` on another
+/// device, if a row was noisy, or if the intervals contain the limit. Counted work, if both reports
+/// have it, must not grow by more than the same factor. A rise of FLIP below the noise of the
+/// reference counts as kept. Throws as check_baseline_matches_comparison does.
 std::vector<BaselineFinding> judge_comparison_against_baseline(const Comparison& comparison,
                                                                const std::string& json,
                                                                const std::string& file,
                                                                const BaselineLimits& limits);
 
-/// Returns one line for each finding that is not kept, and a last line with the numbers of all.
+/// Returns one line for each quantity that is worse or unknown, and a last line with the number of
+/// each verdict.
 std::string format_baseline_findings(const std::vector<BaselineFinding>& findings);
-/// Returns a Markdown table of the findings that are not kept, under a heading with the verdict.
+/// Returns a Markdown table of the quantities that are worse or unknown, under a heading with the
+/// verdict.
 std::string make_baseline_markdown(const std::vector<BaselineFinding>& findings,
                                    const std::string& scene);
-/// Returns JUnit XML: a test suite of the scene with a test case for each finding. `worse` is a
-/// failure, and `unknown` is skipped.
+/// Returns JUnit XML: a test suite for the scene, with a test case for each quantity. A test case
+/// fails if its quantity is worse, and is skipped if the verdict is unknown.
 std::string make_baseline_junit(const std::vector<BaselineFinding>& findings,
                                 const std::string& scene);
 

@@ -1,4 +1,4 @@
-// The sentence that answers a budget of time or error.
+// Writes the sentence that names the best row within a budget of time or error.
 #include "measure/budget.hpp"
 
 #include "report/tables.hpp"

@@ -1,4 +1,5 @@
-// The comparer of report.html: its data in the page, and the linear values of pictures beside it.
+// Writes the data of the comparer in report.html: the list of rows in the page, and the linear
+// values of pictures in files beside the page.
 #include "measure/masks.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
@@ -33,8 +34,8 @@ Json make_picture_json(const Comparison& comparison, const std::string& label,
         {"first", is_first}};
 }
 
-/// Returns the row with the least FLIP over the mirrors that is not 0, or null without such a row:
-/// the row whose differences from the reference are worth a look.
+/// Returns the row with the smallest FLIP above 0 over the mirrors, or null if there is none. The
+/// comparer shows this row first.
 const Row* find_closest_row_with_error(const Comparison& comparison) {
     const Row* closest = nullptr;
     for (const Row& row : comparison.rows)
@@ -71,7 +72,7 @@ std::string make_html_comparer(const Comparison& comparison) {
                     {"mirrors", mirrors},
                     {"mirrors_file", report_image_path(comparison, "mirrors.js")},
                     {"pictures", pictures}};
-    // "<" would let a label end the script element.
+    // The character "<" is escaped, because a label with "</script>" would end the script element.
     std::string text;
     for (const char c : data.dump(-1, ' ', true, Json::error_handler_t::replace))
         text += c == '<' ? "\\u003c" : std::string(1, c);

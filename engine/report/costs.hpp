@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// Files of the costs of a device, schema "catoptric/costs/1", and of times measured elsewhere,
-/// schemas "catoptric/times/1" and "catoptric/row-times/1".
+/// Functions that read and write files of unit costs, schema "catoptric/costs/1", and of times
+/// measured elsewhere, schemas "catoptric/times/1" and "catoptric/row-times/1".
 namespace catoptric::report {
 
 /// Returns the costs as JSON. A fit is written with the measured and the predicted time of each
@@ -30,7 +30,7 @@ struct OtherDeviceTimes {
     };
     std::vector<TimedRowElsewhere> rows;
 };
-/// Reads such times. Throws as `read_costs_file` does.
+/// Reads a file of times that were measured on another device. Throws as `read_costs_file` does.
 OtherDeviceTimes read_times_file(const std::filesystem::path& file);
 
 /// Times that another renderer took for the pictures of its rows (`compare --row`).
@@ -42,7 +42,7 @@ struct PictureRowTimes {
     };
     std::vector<TimedPictureRow> rows;
 };
-/// Reads such times. Throws as `read_costs_file` does.
+/// Reads a file of times that another renderer took. Throws as `read_costs_file` does.
 PictureRowTimes read_row_times_file(const std::filesystem::path& file);
 
 } // namespace catoptric::report

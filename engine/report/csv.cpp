@@ -217,8 +217,8 @@ CsvLine make_csv_line(const Comparison& comparison, const Row& row, std::size_t 
     return line;
 }
 
-/// Adds the columns of a line. A column that only some lines have comes after the column that
-/// precedes it there.
+/// Adds the names of the columns of a line. A column that only some lines have is inserted after
+/// the column that precedes it in these lines.
 void add_column_names(std::vector<std::string>& columns, const CsvLine& line, CsvColumnSet which) {
     auto at = columns.begin();
     for (const CsvField& field : line.fields) {
@@ -258,7 +258,7 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
     std::vector<CsvLine> lines;
     std::vector<std::string> columns;
     for (const Comparison* comparison : comparisons) {
-        // An empty row gives all columns of values without parts.
+        // An empty row gives the columns of all metrics whose values are single numbers.
         add_column_names(columns, make_csv_line(*comparison, Row{}, mirrors), which);
         for (const Row& row : comparison->rows)
             lines.push_back(make_csv_line(*comparison, row, mirrors));

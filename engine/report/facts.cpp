@@ -1,4 +1,4 @@
-// Facts about the run, and cautions for the reader.
+// Writes facts about a run, and cautions for the reader, into reports.
 #include "measure/halves.hpp"
 #include "measure/judge.hpp"
 #include "report/tables.hpp"

@@ -176,7 +176,8 @@ std::string format_metrics_of_rows(const std::vector<const Row*>& rows) {
     return join_texts(texts, "; ");
 }
 
-/// Returns whether ray tracing beats the other rows. Empty if only one of the two kinds is there.
+/// Returns a sentence that says whether ray tracing beats the other rows. Empty if all rows are of
+/// the same kind.
 std::string describe_ray_tracing_verdict(const measure::RayTracingVerdict& verdict) {
     if (verdict.others == 0 || !verdict.any_traced) return "";
     if (verdict.unbeaten.size() == verdict.others) return "no ray-traced row beats any other row";

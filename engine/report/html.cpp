@@ -88,7 +88,8 @@ std::string make_html_headlines(const Comparison& comparison) {
     return html + "</dl>";
 }
 
-/// Returns the comparison on the devices that its parts know besides the one that measured it.
+/// Returns the comparison with the times of each other device that parts of the report know, such
+/// as devices of --costs.
 std::vector<ComparisonOnDevice> list_other_devices(const Comparison& comparison) {
     std::vector<ComparisonOnDevice> devices;
     for (const ReportPart& part : list_report_parts())
@@ -98,14 +99,15 @@ std::vector<ComparisonOnDevice> list_other_devices(const Comparison& comparison)
     return devices;
 }
 
-/// Returns a block that is shown while its device is chosen; 0: the device that measured.
+/// Returns HTML that the page shows while the given device is chosen. Device 0 is the device that
+/// measured.
 std::string make_html_device_block(std::size_t device, const std::string& html) {
     return fmt::format("<div data-device=\"{}\"{}>{}</div>", device, device == 0 ? "" : " hidden",
                        html);
 }
 
-/// Returns the choice of a device, or nothing if there is only one. The page's script shows the
-/// blocks of the chosen device.
+/// Returns HTML with the list of devices, or nothing if there is only one device. When the user
+/// chooses a device, the page's script shows the HTML of this device.
 std::string make_html_device_switch(const Comparison& comparison,
                                     const std::vector<ComparisonOnDevice>& others) {
     if (others.empty()) return "";
@@ -118,8 +120,8 @@ std::string make_html_device_switch(const Comparison& comparison,
     return html + "</select></label></p>";
 }
 
-/// Returns the sentences and headlines that begin the page, for one device. `where` begins the
-/// sentence on ray tracing.
+/// Returns the first sentences and headlines of the page for one device. `where` is the beginning
+/// of the sentence on ray tracing.
 std::string make_html_first_sentences(const Comparison& comparison, const std::string& where) {
     std::string html;
     if (measure::has_time_or_flip_budget(comparison))
@@ -234,7 +236,7 @@ std::string make_html_pictures(const Comparison& comparison, const EncodedPictur
     return make_html_titled_section("Pictures", html + "</div>");
 }
 
-/// Returns the tables, sentences and pictures of a part.
+/// Returns the HTML of one part of the report: its tables, sentences and pictures.
 std::string make_html_report_part(const Comparison& comparison, const EncodedPictures& encoded,
                                   const ReportPart& part) {
     std::string html;

@@ -33,8 +33,8 @@ extern const char* const kPageScript;
 /// the anchor with "-picture" and "-error".
 std::string make_html_anchor_of_row(const Comparison& comparison, std::size_t row);
 
-/// Returns the comparer of the reference and the rows, which the page's script fills, or nothing
-/// without a reference or a row.
+/// Returns HTML of the comparer of the reference and the rows. The page's script fills it. Returns
+/// nothing without a reference or a row.
 std::string make_html_comparer(const Comparison& comparison);
 /// Returns a script that gives the comparer these bytes in base64. `file` is its path relative to
 /// the page.

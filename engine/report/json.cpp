@@ -140,7 +140,8 @@ void add_metric_json(Json& json, const measure::Metric& quantity, const Row& row
         json[std::string(quantity.name)] = make_metric_value_json(value);
 }
 
-/// Adds all metrics of the table. Those of differences stand at the place of the first of them.
+/// Adds all metrics of the table to a row. Metrics of differences are written together, at the
+/// place of the first of them.
 void add_row_metrics_json(Json& json, const Comparison& comparison, const Row& row) {
     for (const measure::Metric& quantity : measure::list_metrics()) {
         if (!measure::is_metric_shown(quantity, comparison)) continue;

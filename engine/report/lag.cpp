@@ -1,4 +1,4 @@
-// The lag of rows with history: JSON, tables, sentences and plots.
+// Writes the lag of rows with history into reports, as JSON, tables, sentences and plots.
 #include "measure/lag.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
@@ -87,7 +87,7 @@ std::string describe_lag_limits(const LagResults& lag) {
     return note;
 }
 
-/// Returns the FLIP of the instants: mean, median and largest.
+/// Returns the FLIP of lag over all instants as text: mean, median and largest.
 std::array<std::string, 3> format_flip_values(const LagAtSpeed& at) {
     return {
         format_picture_error(measure::mean_error_over_instants(at.errors, kFlipMemberOfDifference)),

@@ -1,4 +1,4 @@
-// The part of a report on errors against a reference with noise.
+// Writes the part of a report on errors against a noisy reference.
 #include "measure/halves.hpp"
 #include "measure/metric.hpp"
 #include "report/report_part.hpp"
@@ -20,7 +20,7 @@ std::string format_squared_error(double square) {
     return square < 0 ? std::string(kBelowNoiseText) : fmt::format("{:.2e}", square);
 }
 
-/// Returns the entry of a row over the mirrors.
+/// Returns the entry of a row's list `noise` for the mask of mirrors.
 const measure::NamedMetricValueParts* find_mirror_noise(const measure::MetricValue& value) {
     const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
     if (list == nullptr) return nullptr;

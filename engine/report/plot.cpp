@@ -20,7 +20,7 @@ namespace {
 /// Approximate letter width and line height of an 11 px label, pixels.
 constexpr double kLabelLetterWidth = 6.6, kTextLineHeight = 13;
 
-/// Mapping from the logarithm of a value to pixels.
+/// Maps the logarithm of a value to pixels.
 struct LogarithmicAxisScale {
     double low, high; ///< logarithms to base 10
     double from, to;  ///< pixels
@@ -192,8 +192,8 @@ std::string make_svg_front_staircase(std::vector<RowPlotPoint> points) {
            "\"/>";
 }
 
-/// Returns one line through all rows that differ in the value of one knob alone, in the order of
-/// its values. Less than three rows make no line.
+/// Returns a line through all rows that differ only in the value of one knob, in the order of the
+/// values. There is no line for fewer than three rows.
 std::string make_svg_knob_curves(const std::vector<RowPlotPoint>& points) {
     std::map<std::string, std::map<double, const RowPlotPoint*>> curves; // by all but the knob
     for (const RowPlotPoint& point : points)

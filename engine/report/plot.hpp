@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// SVG drawings to embed in a page.
+// Functions that draw plots as SVG, to embed in a page.
 namespace catoptric::report {
 
 struct PlotLine {
@@ -31,7 +31,8 @@ std::string make_line_plot(const LinePlot& plot);
 /// has a separate lane and the Pareto front is drawn. Empty if no row can be placed.
 std::string make_comparison_plot(const Comparison& comparison);
 
-/// Returns the curves of the lag as a section of a page, or an empty string without curves.
+/// Returns plots of the lag as a section of a page; empty if no lag was measured at several
+/// instants.
 std::string make_lag_plots(const Comparison& comparison);
 
 } // namespace catoptric::report

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// Reports of the results of `stress`.
+/// Functions that write reports about the results of `stress`.
 namespace catoptric::report {
 
 using measure::SkippedStressTestPart;
@@ -21,7 +21,7 @@ using measure::StressVerdict;
 std::string to_json(const StressResults& stress);
 /// Returns the results as one self-contained HTML page.
 std::string to_html(const StressResults& stress);
-/// Returns the same table as Markdown.
+/// Returns the table of results as Markdown.
 std::string to_markdown(const StressResults& stress);
 /// Returns "2 of 27 rows: ..." for a run that goes on or was stopped, or an empty text if it is
 /// complete.

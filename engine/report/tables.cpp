@@ -26,7 +26,8 @@ std::string format_median_interval(const measure::SampleSummary& times, int deci
     return format_fixed(times.ci95.low, decimals) + "–" + format_fixed(times.ci95.high, decimals);
 }
 
-/// Returns places as "3" or "3–5"; an empty cell for a row without a time.
+/// Returns the places of a row in the order of time, as "3" or "3–5"; an empty cell for a row
+/// without a time.
 std::string format_time_places(const measure::TimeRankRange& places) {
     if (places.first == 0) return std::string(kEmptyCellText);
     const std::string first = std::to_string(places.first);
@@ -109,7 +110,8 @@ std::string format_metric_cell(const measure::MetricColumn& column,
     return format_metric_number(*number, column, decimals);
 }
 
-/// Returns a cell of FLIP, which says whether the noise of the reference hides it.
+/// Returns a cell with the FLIP of a row. If the FLIP is not larger than the noise of the
+/// reference, the cell says so.
 std::string format_flip_cell(const measure::Difference& error) {
     return std::isfinite(error.flip) ? format_flip(error) : make_empty_cell();
 }

@@ -96,13 +96,14 @@ std::vector<std::string> list_report_cautions(const Comparison& comparison);
 std::vector<std::string> list_findings(const Comparison& comparison);
 std::string make_findings_title(const Comparison& comparison);
 
-/// Returns the answer to the budgets of the comparison, or an empty text if it has none: the row to
-/// take on this device, what ties with it, or what comes nearest.
+/// Returns sentences that answer the budgets of the comparison: the best row on this device, rows
+/// that tie with it, or the rows that come nearest. Empty if the comparison has no budget.
 std::string describe_budget_answer(const Comparison& comparison);
 /// Returns one sentence that names the device and says whether ray tracing beats the other rows on
 /// it. If all rows are of one kind, it names the fastest and the closest row.
 std::string summarise_ray_tracing_verdict(const Comparison& comparison);
-/// Returns the same sentence with other words for "on this device, NAME", which begin it.
+/// Returns the sentence on whether ray tracing beats the other rows. The given words replace "on
+/// this device, NAME" at its beginning.
 std::string summarise_ray_tracing_verdict(const Comparison& comparison, const std::string& where);
 
 /// Returns sentences that compare the measured lag with the seed report's statement that parts one

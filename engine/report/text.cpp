@@ -104,7 +104,7 @@ std::string describe_incomplete_run(const Comparison& comparison) {
     auto measured = static_cast<std::size_t>(comparison.rounds); // rounds that all rows have
     for (const Row& row : comparison.rows)
         if (measure::has_known_time(row) &&
-            row.technique != "picture") // a file has no rounds of ours
+            row.technique != "picture") // rows of files have no rounds
             measured = std::min(measured, row.gpu_ms.rounds.size());
     const bool in_rounds = has_all && measured < static_cast<std::size_t>(comparison.rounds);
     const bool in_views = has_all && !in_rounds &&

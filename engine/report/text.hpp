@@ -41,7 +41,8 @@ std::string format_row_settings(const Row& row);
 /// Returns how many of the requested rows a run has, and why it has no more: "4 of 8 rows: ...".
 std::string describe_incomplete_run(std::size_t rows, std::size_t asked,
                                     const std::optional<Error>& stopped);
-/// Returns the same for a comparison, its lag included. Empty if it is complete.
+/// Returns how much of a comparison, including its lag, is finished, and why it ended early. Empty
+/// if the comparison is complete.
 std::string describe_incomplete_run(const Comparison& comparison);
 /// Returns text escaped for Markdown, on one line.
 std::string escape_markdown(const std::string& text);

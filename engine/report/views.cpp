@@ -1,4 +1,4 @@
-// Errors over drawn views: JSON, table and sentences.
+// Writes errors over drawn views into reports, as JSON, a table and sentences.
 #include "measure/views.hpp"
 
 #include "report/html.hpp"
@@ -60,7 +60,8 @@ std::string format_tied_rows(const measure::MetricRowOrder& order) {
     return text;
 }
 
-/// Returns all metrics that are one number, over one mask.
+/// Returns a JSON object with the summary over views of each metric that is one number, for one
+/// mask of pixels.
 Json make_view_metrics_json(const Row& row, const measure::RowPixelMask& mask) {
     Json figures = Json::object();
     for (const measure::Metric& quantity : measure::list_difference_metrics()) {
@@ -74,7 +75,7 @@ Json make_view_metrics_json(const Row& row, const measure::RowPixelMask& mask) {
     return figures;
 }
 
-/// Returns each row at its worst view.
+/// Returns HTML with the pictures of each row in its worst view.
 std::string make_html_worst_pictures(const Comparison& comparison, const EncodedPictures& encoded) {
     std::string html = "<p>Each row at its view of the largest FLIP, beside the reference.</p>";
     for (std::size_t i = 0; i < comparison.rows.size(); ++i) {

@@ -57,7 +57,7 @@ void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet
     write_file(folder / "rows.csv", report::to_csv(shown, csv));
     write_file(folder / "report.md", report::to_markdown(shown));
     write_file(folder / "report.html", html);
-    // Written last, so that all files it names exist when a reader sees it.
+    // report.json is written last, so that all files that it names exist when a reader finds it.
     write_file(folder / "report.json", report::to_json(shown));
 }
 
@@ -74,7 +74,7 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
                             const std::string& file) {
         std::string bytes = picture.pixels.empty() ? "" : measure::encode_picture_png(picture);
         if (!images.empty() && !bytes.empty()) write_file(images / file, bytes);
-        png = std::move(bytes); // a picture that could not be written stays new
+        png = std::move(bytes); // after a failed write, the picture still counts as new
     };
     const int noise_frames = comparison.noise ? comparison.noise->frames : 0;
     const auto write_values = [&](const std::string& name, const measure::Picture& picture) {
@@ -163,7 +163,8 @@ void MultiSceneReportWriter::write_scene_comparison(std::size_t index,
     encode_new_pictures(pictures_.at(index), comparison,
                         make_images_folder(multi_scene_folder_, comparison));
     scenes_.list[index] = copy_without_pictures(comparison);
-    // Sections of earlier scenes stay as they are: they hold their pictures if these were few.
+    // The sections of earlier scenes are not written again. If their pictures were few, the
+    // sections contain them.
     std::size_t bytes = 0;
     for (const EncodedPictures& pictures : pictures_) bytes += count_picture_bytes(pictures);
     pictures_[index].is_inlined = page_ == PagePictures::inlined || bytes <= kMaxInlinedBytes;

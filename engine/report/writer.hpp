@@ -39,7 +39,7 @@ struct EncodedPictures {
         std::optional<std::size_t> worst_view;
     };
     std::string reference; ///< empty if the reference was not rendered
-    int noise_frames = 0;  ///< ReferenceNoise::frames of that picture
+    int noise_frames = 0;  ///< value of ReferenceNoise::frames when the reference was encoded
     std::vector<RowPngPictures> rows;
     bool is_inlined = true; ///< whether the page holds the pictures, and not the names of files
 };

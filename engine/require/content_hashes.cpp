@@ -67,7 +67,7 @@ void ContentHashes::combine_capture_face_hashes(const VisibilityScene& world,
     const std::size_t object = world.list_mirror_objects()[mirror];
     const VisibilityObject& own = world.list_objects()[object];
     const dvec3 centre = own.tight.centre();
-    // Hashes are summed, because the order of the movers has no meaning.
+    // Hashes of movers are added, so that the result does not depend on the order of the movers.
     std::array<std::uint64_t, 6> sums{};
     const auto pieces = std::make_shared<MovingObjectFaceParts>();
     bool are_many = false;

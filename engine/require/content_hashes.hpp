@@ -9,10 +9,10 @@
 /// Content hashes of captures and shadow maps.
 namespace catoptric::require {
 
-/// Largest size of an object that may get a coordinate space of its own on the device, as a part of
-/// its largest possible distance from the scene's origin (render::kSmallObjectSizeToDistanceRatio).
-/// Shaders read such spaces only if some object has one. The first such object therefore changes
-/// the shaders of all others.
+/// Objects up to this size may be stored in object space on the device. The size is a part of the
+/// object's largest possible distance from the scene's origin
+/// (render::kSmallObjectSizeToDistanceRatio). Shaders contain the code for object space only if
+/// some object needs it. The first such object therefore changes the shaders of all objects.
 inline constexpr double kSmallObjectSizeToDistanceRatio = 0x1p-12;
 /// Largest number of tests per frame of whether a capture shows the place where a mover's shadow
 /// falls.
@@ -43,8 +43,8 @@ public:
         std::array<std::uint64_t, 6> content_hashes{}, settings{};
         std::shared_ptr<const MovingObjectFaceParts> pieces;
     };
-    /// Returns the content hashes of a mirror's faces (MirrorRequirements). O(movers + landings);
-    /// O(1) if nothing has changed since the last call.
+    /// Returns the content hashes of the six faces of a mirror's capture (MirrorRequirements).
+    /// Takes O(movers + receivers of shadows), or O(1) if nothing has changed since the last call.
     const CaptureFaceHashes& content_hashes_of_mirror_faces(const VisibilityScene& world,
                                                             std::size_t mirror);
     /// Returns the movers that cast shadows.

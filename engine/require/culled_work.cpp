@@ -25,7 +25,7 @@ std::string quote_object_name(const scene::Scene& scene, std::size_t object) {
     return quote_text_with_escapes(scene.objects[object].name);
 }
 
-/// Returns why the mirrors are invisible. `seen`: number of visible mirrors.
+/// Returns the reason why mirrors are invisible, as text. `seen`: number of visible mirrors.
 std::string describe_why_unseen(const UnseenMirrorReason& unseen, std::size_t seen, bool is_one,
                                 const scene::Scene& scene) {
     const std::string they = is_one ? "it" : "they", them = is_one ? "it" : "them";

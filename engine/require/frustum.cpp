@@ -23,8 +23,8 @@ PictureFrustum::PictureFrustum(const scene::Camera& camera, uvec2 size) : eye_(c
     const double half = is_parallel_ ? camera.orthographic_height / 2
                                      : std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     pixel_ = 2 * half / size.y;
-    // Inside is in front of the eye with |right| <= half * aspect. In perspective this limit is
-    // scaled by the depth.
+    // A point is inside if it lies in front of the eye and |right| <= half * aspect. For a
+    // perspective camera, this limit is multiplied by the depth.
     const dvec3 along = is_parallel_ ? dvec3(0) : forward_;
     const double beyond = is_parallel_ ? 1 : 0;
     planes_[0] = {forward_, 0};
@@ -77,8 +77,8 @@ CubeFaceBits cube_faces_that_may_show_box(const Bounds<double>& box) {
     CubeFaceBits faces = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        // For the face towards +a, some of the box needs a >= |u| and a >= |v|. Each of these
-        // planes is tested separately.
+        // The face towards +a shows some of the box only if a point of the box has a >= |u| and a
+        // >= |v|. Each of the four planes is tested separately.
         const double hi = box.hi[axis], lo = -box.lo[axis];
         const auto reaches = [&](double furthest) {
             return furthest >= 0 && furthest + box.hi[u] >= 0 && furthest - box.lo[u] >= 0 &&
@@ -124,8 +124,8 @@ CubeFaceBits cube_faces_in_front_of_plane(const dvec3& normal, double sine) {
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const double ahead = face % 2 == 0 ? normal[axis] : -normal[axis];
-        // The largest product is with the direction of a corner of the face, (1, +-1, +-1) with its
-        // axes permuted.
+        // The largest product of the normal with directions of a face is the product with a corner
+        // of the face, (1, +-1, +-1) with permuted axes.
         const double most = ahead + std::abs(normal[(axis + 1) % 3]) +
                             std::abs(normal[(axis + 2) % 3]);
         if (most > -sine * std::sqrt(3.0)) faces |= static_cast<CubeFaceBits>(1 << face);

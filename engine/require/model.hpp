@@ -45,7 +45,7 @@ struct MirrorRequirements {
     /// Faces of its capture that hold directions which may be read.
     CubeFaceBits faces = kAllCubeFaceBits;
     std::uint32_t edge = 0; ///< sufficient edge of a face in texels; 0: as many as the row asks for
-    /// Content hash of the surfaces that each face of the capture shows and of their lighting,
+    /// For each face of the capture, a content hash of the shown surfaces and of their lighting,
     /// except reflections in mirrors. The bytes of a face stay the same while this hash, the view
     /// of the face and the views of the shadow maps stay the same.
     std::array<std::uint64_t, 6> content_hashes{};

@@ -95,8 +95,8 @@ private:
         return {f32::ray_spawn_origin(point, error, facet, direction), direction, hit.triangle + 1};
     }
 
-    /// Returns whether the mirror's capture shows what the ray met, or that the ray met nothing.
-    /// The capture does not contain the mirror itself.
+    /// Returns whether the mirror's capture shows the point that the ray met. Also returns true if
+    /// the ray met nothing. A capture does not show its own mirror.
     bool does_capture_show_hit(std::uint32_t mirror, const f32::Ray& ray,
                                const std::optional<bvh::RayHit<float>>& met) const {
         constexpr int kMaxOwnTriangles =

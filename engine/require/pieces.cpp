@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kUnboundedSlope = std::numeric_limits<double>::infinity();
 
-/// The least s in [-1, 1] with aside <= s * ahead for all points. It is 1 if no such s exists.
+/// Finds the smallest slope s in [-1, 1] with aside <= s * ahead for all points. The result is 1 if
+/// no such s exists.
 class LeastSlopeOfMovingHull {
 public:
     void add_point(double aside, double ahead) {
@@ -25,7 +26,8 @@ public:
             most_ = -kUnboundedSlope;
     }
     double least_slope_of_hull() const { return least_ <= most_ ? std::clamp(least_, -1., 1.) : 1; }
-    /// Returns whether the hull ahead lies entirely beyond the opposite edge of the face, at -1.
+    /// Returns whether the whole hull lies beyond the opposite edge of the face (slope -1), and is
+    /// therefore not visible in the face.
     bool is_hull_beyond_face() const { return least_ <= most_ && least_ < -1; }
 
 private:

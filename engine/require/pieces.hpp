@@ -22,7 +22,7 @@ inline constexpr CubeFacePart kEmptyFacePart{dvec2(1), dvec2(-1)};
 
 /// Returns the intersection.
 CubeFacePart intersect_face_parts(const CubeFacePart& a, const CubeFacePart& b);
-/// Returns the smallest rectangle that holds both.
+/// Returns the smallest rectangle that contains both rectangles.
 CubeFacePart unite_face_parts(const CubeFacePart& a, const CubeFacePart& b);
 
 /// Returns a rectangle of the capture's face that contains the projection of the convex hull of the
@@ -32,7 +32,8 @@ CubeFacePart unite_face_parts(const CubeFacePart& a, const CubeFacePart& b);
 /// there. The smallest slopes with this property bound the hull. Points ahead of the centre
 /// determine these slopes. If points behind it rule out any such slope, the side is unbounded.
 CubeFacePart face_part_containing(int face, std::span<const dvec3> places);
-/// Returns the same for a box, and for the hull of two boxes.
+/// Returns a rectangle of the capture's face that contains the projection of a box, or of the
+/// convex hull of two boxes.
 CubeFacePart face_part_containing(int face, const Bounds<double>& box);
 CubeFacePart face_part_containing(int face, const Bounds<double>& a, const Bounds<double>& b);
 

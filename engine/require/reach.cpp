@@ -35,7 +35,7 @@ CubeFaceBits needed_faces_of_flat_mirror(const Bounds<double>& mirror, const dve
     bool front = true, back = true;
     for (const Bounds<double>& viewer : viewers) {
         const auto [viewer_low, viewer_high] = project_box_on_axis(normal, viewer);
-        // A viewer in the mirror's plane sees nothing of the mirror.
+        // A viewer in the mirror's plane sees no part of the mirror's surface.
         if (viewer_low > low - margin && viewer_high < high + margin) continue;
         front = front && viewer_low > high;
         back = back && viewer_high < low;

@@ -6,8 +6,8 @@
 
 #include <span>
 
-/// Finds the faces of flat mirrors' captures that are needed, and the lights that reach a visible
-/// surface.
+/// Functions that find the required faces of flat mirrors' captures, and the lights that reach a
+/// visible surface.
 namespace catoptric::require {
 
 /// Most angle by which facets and normals of a flat mirror may lean, in radians. Filtered lookups

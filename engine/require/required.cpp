@@ -89,7 +89,8 @@ RequiredWorkModelBuilder::Impl::needed_capture_faces_of_mirror(const PictureFrus
     if (flat == dvec3(0) || thing.is_glass || !model.mirrors[mirror].is_captured)
         return kAllCubeFaceBits;
     viewers.clear();
-    // The rays of an orthographic picture start in a plane, not at one eye.
+    // For an orthographic camera all faces are kept, because its rays start in a plane and not at
+    // one eye point.
     if (!findings.camera[mirror] && picture.is_orthographic()) return kAllCubeFaceBits;
     if (!findings.camera[mirror])
         viewers.push_back({picture.eye_position(), picture.eye_position()});

@@ -15,7 +15,8 @@ double max_shadow_stretch_factor(const dvec3& light, const Bounds<double>& box,
                                  const Bounds<double>& everything) {
     double times = kUnreachableShadowDistance;
     for (int axis = 0; axis < 3; ++axis) {
-        // (wall - L) / (b - L) is largest for the b nearest to the light.
+        // The ratio (wall - L) / (b - L) is largest for the point b of the box that is nearest to
+        // the light L.
         const double above = box.lo[axis] - light[axis], below = light[axis] - box.hi[axis];
         if (above > 0) times = std::min(times, (everything.hi[axis] - light[axis]) / above);
         if (below > 0) times = std::min(times, (light[axis] - everything.lo[axis]) / below);
@@ -41,8 +42,8 @@ double max_distance_to_box(const dvec3& place, const Bounds<double>& box) {
 /// Returns the length of kShadowFilterTexels at the box, in world units.
 double shadow_filter_length_at_box(const scene::PointLight& light, const Bounds<double>& box,
                                    const Bounds<double>& everything, std::uint32_t edge) {
-    // A face at depth d is 2 d wide. The windows of a directional light are at most slightly wider
-    // than everything (render::make_directional_light_views).
+    // A cube face at depth d is 2 d wide. The window of a directional light's shadow map is at most
+    // slightly wider than the whole scene (render::make_directional_light_views).
     const double span = light.directional ? 1.5 * glm::length(everything.extent())
                                           : 2 * max_distance_to_box(light.position, box);
     return kShadowFilterTexels * span / std::max(edge, 1u);

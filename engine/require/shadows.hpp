@@ -5,7 +5,7 @@
 
 #include <vector>
 
-/// Finds where shadows of movers may fall.
+/// Functions that find where the shadows of moving objects may fall.
 namespace catoptric::require {
 
 /// Most texels by which a shadow lookup may miss the geometric shadow. 1.5 come from lifting the

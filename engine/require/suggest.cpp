@@ -19,8 +19,8 @@ namespace {
 constexpr PictureCostTable kPictureCostTable;
 constexpr TechniqueErrorTable kTechniqueErrorTable;
 constexpr double kMaxEqualErrorFactor = 1.1; // errors within this factor count as equal
-/// Where some mirror is traced anyway, so is each mirror with at least this share of the pixels on
-/// mirrors whose centre does not see all that it shows.
+/// If some mirror is traced anyway, a mirror is traced as well if it has at least this share of the
+/// pixels on those mirrors whose capture's centre does not see all reflected surfaces.
 constexpr double kLargeMirrorShare = .1;
 constexpr int kMinPlanarBounces = 2;        // smallest `bounces` of `planar`
 constexpr int kMaxSuggestedBounces = 6;     // largest `bounces` that is suggested

@@ -68,7 +68,7 @@ std::string describe_model(const RequiredWorkModel& model, const scene::Scene& s
         return describe_capture_needs(model.mirrors[i],
                                       scene.meshes[scene.objects[mirrors[i]].mesh]);
     };
-    // Consecutive mirrors with the same text share a line.
+    // Consecutive mirrors with the same text share one line.
     for (std::size_t i = 0; i < model.mirrors.size();) {
         const std::string needs = text_of(i);
         std::size_t end = i + 1;

@@ -59,7 +59,8 @@ bool are_equal_spheres(const std::optional<scene::Sphere>& a,
 }
 
 bool can_object_be_wall(const scene::Material& material, bool is_mirror) {
-    // A lamp is invisible from behind, and the order of its corners does not tell where behind is.
+    // A lamp is invisible from behind, but the order of its triangles' corners does not tell which
+    // side is behind. A lamp is therefore no wall.
     return !scene::has_alpha_mask(material) && !scene::is_glass(material) &&
            (is_mirror || material.front_only || !scene::is_one_sided(material)) &&
            scene::emitted_radiance(material) == vec3(0);
@@ -131,12 +132,11 @@ void VisibilityScene::move_visibility_object(const scene::Scene& now, std::size_
     VisibilityObject& thing = things_[index];
     thing.place = object.world_from_object, thing.sphere = object.sphere;
     const bool is_shifted = dmat3(thing.place) == dmat3(thing.rest);
-    thing.tight = is_shifted ? translate_bounds(thing.tight_rest,
-                                                dvec3(thing.place[3]) - dvec3(thing.rest[3]))
-                  : thing.is_mirror
-                      ? scene::bounds(
-                            now, object) // the centre of its bounds is the centre of its capture
-                      : transform_bounds(meshes_[thing.mesh].box, thing.place);
+    thing.tight = is_shifted        ? translate_bounds(thing.tight_rest,
+                                                       dvec3(thing.place[3]) - dvec3(thing.rest[3]))
+                  : thing.is_mirror ? scene::bounds(now, object) // the capture's centre is the
+                                                                 // centre of the mirror's bounds
+                                    : transform_bounds(meshes_[thing.mesh].box, thing.place);
     // The device stores positions as floats relative to the middle of the scene.
     const dvec3 away = thing.tight.empty() ? dvec3(0) : abs(thing.tight.centre() - middle_);
     const double room = rounding_ + kPositionRoundingError * std::max({away.x, away.y, away.z});

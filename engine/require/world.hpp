@@ -78,7 +78,7 @@ public:
     const Bounds<double>& bounds_of_static_objects() const {
         return still_;
     } ///< bounds of all that never moved
-    /// Largest rounding error of a position, in world units.
+    /// Returns the largest rounding error of a position, in world units.
     double max_position_rounding_error() const { return rounding_; }
     std::uint64_t static_change_count() const {
         return epoch_;

@@ -47,7 +47,8 @@ constexpr AblatableErrorCause kAblatableCauses[] = {
 constexpr std::size_t kAblatableCauseCount = std::size(kAblatableCauses);
 constexpr std::uint32_t kAllErrorCausesMask = (1U << kAblatableCauseCount) - 1;
 
-/// Returns the causes that a coalition ablates, a sum of shared::kAblate...; bit i: player i.
+/// Returns the flags of all causes that the coalition removes, as a sum of shared::kAblate... Bit i
+/// of `coalition` stands for cause i.
 std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
     std::uint32_t ablated = 0;
     for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
@@ -55,7 +56,7 @@ std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
     return ablated;
 }
 
-/// The frames whose history a picture uses and leaves unchanged.
+/// The earlier frames whose history a picture uses. The picture leaves this history unchanged.
 struct HistorySourceFrames {
     std::string technique;
     bool is_settled = false; ///< history of this very instant: nothing is a frame late
@@ -82,8 +83,9 @@ std::string with_float_distances(const std::string& technique) {
 constexpr int kSettlingFrames =
     16; // frames; deeper bounces are below a rounding of the picture's halves
 
-/// Returns the frames that precede the judged picture: those of the row, or frames of a scene that
-/// stands still at the last instant. Returns the latter if both give the same picture.
+/// Returns the frames that precede the judged picture. These are the row's own frames, or frames of
+/// a scene that stands still at the instant of the last picture. Returns the latter if both give
+/// the same picture.
 HistorySourceFrames choose_history_source(const Request& base, const std::string& technique,
                                           bool is_settled) {
     const bool may_lag = base.animate || base.total() <= kSettlingFrames;
@@ -112,7 +114,7 @@ MirrorPixelValues subtract_pixel_values(const MirrorPixelValues& from,
     return left;
 }
 
-/// Returns the values where `chosen` equals `told`, and 0 elsewhere.
+/// Returns the values of the pixels where `chosen` equals `told`, and 0 for all other pixels.
 MirrorPixelValues keep_values_of_chosen_pixels(const std::vector<bool>& chosen, bool told,
                                                MirrorPixelValues values) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -120,7 +122,7 @@ MirrorPixelValues keep_values_of_chosen_pixels(const std::vector<bool>& chosen, 
     return values;
 }
 
-/// Histories that pictures of a row use; some may be equal.
+/// The histories that pictures of a row use. Some of them may be equal.
 struct ErrorHistorySources {
     HistorySourceFrames row, row_settled;
     HistorySourceFrames stored, settled; ///< with distances stored as 32-bit floats
@@ -133,7 +135,7 @@ ErrorHistorySources choose_history_sources(const Request& base, const std::strin
             choose_history_source(base, full, true)};
 }
 
-/// Returns the coalitions whose picture is needed with each history.
+/// Returns, for each history, the sets of removed causes for which a picture is rendered.
 std::map<HistorySourceFrames, std::vector<std::uint32_t>>
 list_needed_ablations(const ErrorHistorySources& histories) {
     std::map<HistorySourceFrames, std::vector<std::uint32_t>> wanted;
@@ -150,7 +152,7 @@ list_needed_ablations(const ErrorHistorySources& histories) {
 /// Squared errors of the mirrors' pixels.
 struct AblatedPixelErrors {
     measure::ShapleyValues shapley; ///< with the history `settled`
-    /// Of coalitions that are read one by one.
+    /// Errors of those sets of removed causes whose pictures are evaluated one by one.
     std::map<std::pair<HistorySourceFrames, std::uint32_t>, MirrorPixelValues> kept;
     measure::Mask off; ///< pixels that are off in the row's own picture
 };
@@ -180,7 +182,8 @@ std::vector<measure::PixelErrorCause> compute_cause_shares(const ErrorHistorySou
     return parts;
 }
 
-/// Ablation removes a row's errors against the default reference only.
+/// Throws `usage` for another reference than the default, because removed causes are replaced by
+/// rays of the default reference.
 void check_reference_is_default(const std::string& reference) {
     const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
     check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
@@ -188,7 +191,8 @@ void check_reference_is_default(const std::string& reference) {
           ", whose rays tell causes apart, found '", reference, "'");
 }
 
-/// Ablation compares with rays that lack light between surfaces.
+/// Throws `usage` for techniques with light between surfaces, because the rays that replace removed
+/// causes have no such light.
 void check_light_is_ambient(const CompareRequest& request) {
     for (const std::string& text : request.base.techniques)
         check(!read_technique_plan(text).uses_light_probes(), Failure::usage,
@@ -196,7 +200,8 @@ void check_light_is_ambient(const CompareRequest& request) {
               "'; causes of error in their light are not known");
 }
 
-/// Ablation knows perfect mirrors alone.
+/// Throws for scenes with rough mirrors, because the code that removes causes supports perfect
+/// mirrors only.
 void check_mirrors_are_sharp(const CompareRequest& request, int, report::Comparison&) {
     check_light_is_ambient(request);
     const scene::Scene& scene = request.base.scene;
@@ -213,7 +218,7 @@ void measure_error_causes(const StudyInput& input) {
     std::optional<ErrorCauseFinder> finder;
     for (std::size_t i = 0; i < request.base.techniques.size(); ++i) {
         const std::string& text = request.base.techniques[i];
-        // A plan's error belongs to no single search.
+        // Plans are left out, because their error belongs to several searches.
         const bool is_plan = !read_technique_plan(text).is_technique;
         const bool is_twin = request.both_models &&
                              rows[i].model == rendered_work_name(RenderedWork::required);
@@ -257,8 +262,8 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
                                    const std::vector<std::uint32_t>& hits, const Watcher& watcher)
     : study_session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
       pixels_(measure::list_mirror_pixels(hits)) {
-    // This technique follows no ray through other mirrors. Its lookup therefore names the mirror
-    // that the rasteriser draws.
+    // This technique follows no ray through other mirrors. Its look-ups therefore name the mirror
+    // that the rasteriser draws in each pixel.
     Request request = make_history_request(base, {"naive:bounces=1,face=1,shadow=none", false});
     request.warmup = 0, request.time = base.instant(base.total()), request.animate = false;
     request.with_lookup = true;

@@ -33,8 +33,8 @@ public:
     /// joint error by Shapley values, per pixel, from pictures of all 32 sets of ablated causes.
     /// Two causes are taken out before these five: the storage format of distances, then content
     /// that is a frame late. Pixels where rasteriser and ray see different mirrors are taken out
-    /// after them. Costs 48 frames, and a dozen rays per mirror pixel in 31 of them. Costs up to 85
-    /// frames if something moves or distances are not stored as 32-bit floats.
+    /// after them. Renders 48 frames, with a dozen rays per mirror pixel in 31 of them. Renders up
+    /// to 85 frames if objects move or distances are not stored as 32-bit floats.
     report::Causes find(const std::string& technique) const;
 
 private:

@@ -22,7 +22,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// A request with what it names by a file.
+/// A request to choose a plan, together with the contents of the files that the request names.
 struct ResolvedChooseRequest : ChooseRequest {
     explicit ResolvedChooseRequest(const ChooseRequest& request) : ChooseRequest(request) {
         if (!costs.empty()) device_costs = report::read_costs_file(costs);
@@ -34,7 +34,8 @@ double error_value_of_difference(ErrorQuantity quantity, const measure::Differen
     return quantity == ErrorQuantity::flip ? error.flip : error.rmse;
 }
 
-/// Returns the least number of views that can prove the share, and that `compare` draws.
+/// Returns the number of proof views: the least number that can prove the share, and that `compare`
+/// accepts.
 int count_proof_views(const ResolvedChooseRequest& request) {
     return static_cast<int>(
         std::max(measure::count_views_needed_for_certificate(request.share, request.confidence, 0),
@@ -62,7 +63,7 @@ void check_choose_request(const ResolvedChooseRequest& request) {
     check(request.proof_seed != request.base.seed, Failure::usage,
           "seed of the proof: wanted another than that of the training views, found ",
           request.proof_seed);
-    // More views than any run draws would be needed for more.
+    // A share above this value would need more proof views than any run draws.
     constexpr double kMaxPart = .9999;
     check(request.share <= kMaxPart && request.confidence <= kMaxPart, Failure::usage,
           "share and confidence: wanted at most ", kMaxPart, ", found ", request.share, " and ",
@@ -78,7 +79,7 @@ void report_choose_step(const ResolvedChooseRequest& request, const std::string&
     if (request.tell) request.tell(sentence);
 }
 
-/// Compares plans with the reference in the own view, and in `views` drawn ones if there are any.
+/// Compares plans with the reference, in the comparison's own view and in `views` drawn views.
 measure::Comparison compare_plans(Engine& engine, const ResolvedChooseRequest& request,
                                   const std::vector<std::string>& plans, int views,
                                   std::uint64_t seed, int cameras_per_instant = 1) {
@@ -133,13 +134,15 @@ bool keeps_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
     return !request.max_error || plan.largest_error <= *request.max_error;
 }
 
-/// Returns the candidates that no other beats by a wide margin in the own view, in time and error.
-/// The others are listed in `dropped`.
+/// Returns the candidates to draw in the training views. A candidate is left out, and listed in
+/// `dropped`, if another candidate beats it by a wide margin in time and error in the comparison's
+/// own view.
 std::vector<std::string> keep_promising_plans(const ResolvedChooseRequest& request,
                                               const measure::Comparison& comparison,
                                               const std::vector<std::string>& texts,
                                               std::vector<std::string>& dropped) {
-    constexpr double kMargin = 1.5; // of one view's errors and times against those of others
+    constexpr double kMargin = 1.5; // ratio of times and errors in the own view that counts as a
+                                    // wide margin
     const std::vector<JudgedPlan> plans = list_judged_plans(request, comparison, texts);
     std::vector<std::string> kept;
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -156,10 +159,11 @@ std::vector<std::string> keep_promising_plans(const ResolvedChooseRequest& reque
     return kept;
 }
 
-/// Returns a text for a plan of one technique per mirror, or nothing if all mirrors have the same.
+/// Returns the text of a plan with one technique per mirror; empty if all mirrors have the same
+/// technique.
 std::string make_plan_text_from_technique_mix(const std::vector<std::string>& texts,
                                               const std::vector<std::size_t>& mix) {
-    std::map<std::size_t, std::string> mirrors; // of each technique
+    std::map<std::size_t, std::string> mirrors; // numbers of the mirrors of each technique
     for (std::size_t mirror = 0; mirror < mix.size(); ++mirror) {
         std::string& list = mirrors[mix[mirror]];
         list += (list.empty() ? "" : ",") + std::to_string(mirror + 1);
@@ -177,7 +181,8 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
                                     const measure::Comparison& training,
                                     const std::vector<JudgedPlan>& plans) {
     if (!request.max_error) return "";
-    const bool squares = request.quantity == ErrorQuantity::rmse; // squares add up over pixels
+    const bool squares = request.quantity == ErrorQuantity::rmse; // squared errors can be added
+                                                                  // over pixels
     std::vector<measure::TechniqueCandidateForMix> candidates;
     std::vector<std::string> texts;
     std::vector<std::vector<double>> pixels;
@@ -215,16 +220,18 @@ bool is_second_plan_faster(Engine& engine, const ResolvedChooseRequest& request,
     return plans[1].ms < plans[0].ms;
 }
 
-/// Returns whether one plan takes less time than another. A measured interval must end before the
-/// other's. The ranges of predicted times have the same unknown costs, so the times decide.
+/// Returns whether one plan takes less time than another. The interval of a measured time must end
+/// before the other interval. Predicted times are compared without their ranges, because both
+/// ranges have the same unknown unit costs.
 bool does_plan_take_less_time(const ResolvedChooseRequest& request, const JudgedPlan& a,
                               const JudgedPlan& b) {
     const bool known = !request.device_costs && a.ms_range.is_known() && b.ms_range.is_known();
     return known ? a.ms_range.high < b.ms_range.low : a.ms < b.ms;
 }
 
-/// Returns the plans within the limits that no other such plan beats, from the surest to the
-/// cheapest: a plan is beaten by one that errs less and does not take more time.
+/// Returns the plans within the limits that no other such plan beats, in order from the smallest
+/// error to the shortest time. A plan is beaten by a plan that errs less and does not take more
+/// time.
 std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& request,
                                                    const std::vector<JudgedPlan>& plans) {
     std::vector<const JudgedPlan*> kept;
@@ -235,7 +242,7 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
                                                     : a->ms < b->ms;
     });
     std::vector<const JudgedPlan*> unbeaten;
-    for (const JudgedPlan* plan : kept) // those before it err less
+    for (const JudgedPlan* plan : kept) // plans earlier in the list err less
         if (std::ranges::all_of(unbeaten, [&](const JudgedPlan* surer) {
                 return does_plan_take_less_time(request, *plan, *surer);
             }))
@@ -243,16 +250,18 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
     return unbeaten;
 }
 
-/// Returns the plans to prove, from the surest to the cheapest.
+/// Returns the plans to prove, in order from the smallest error to the shortest time.
 std::vector<std::string> list_plans_to_prove(Engine& engine, const ResolvedChooseRequest& request,
                                              const measure::Comparison& training,
                                              const std::vector<JudgedPlan>& plans) {
-    constexpr std::size_t kMaxProvedPlans = 4; // besides the mix
+    constexpr std::size_t kMaxProvedPlans = 4; // without the mix
     std::vector<std::string> chain;
     for (const JudgedPlan* plan : list_unbeaten_plans(request, plans)) chain.push_back(plan->text);
     if (chain.empty()) return chain;
-    if (!request.max_error) return {chain.front()}; // the limit of time asks for the least error
-    if (chain.size() > kMaxProvedPlans)             // the surest and the cheapest stay
+    if (!request.max_error)
+        return {chain.front()};         // with a limit of time alone, the plan with the
+                                        // least error is wanted
+    if (chain.size() > kMaxProvedPlans) // the first and the last plan stay
         chain.erase(chain.begin() + 1, chain.end() - (kMaxProvedPlans - 1));
     const std::string mixed = find_fastest_mixed_plan(request, training, plans),
                       cheapest = chain.back();
@@ -292,7 +301,7 @@ std::vector<PlanProof> prove_plans(Engine& engine, const ResolvedChooseRequest& 
                                               : std::isfinite(proof.error_bound);
         proof.keeps_time = keeps_time(request, proof.plan);
         proofs.push_back(std::move(proof));
-        if (!proofs.back().keeps_error) break; // cheaper plans count no more
+        if (!proofs.back().keeps_error) break; // no cheaper plan may be chosen after a failure
     }
     return proofs;
 }
@@ -301,7 +310,8 @@ std::string format_limit_of_error(const ResolvedChooseRequest& request) {
     return fmt::format("{} <= {:g}", error_quantity_name(request.quantity), *request.max_error);
 }
 
-/// Returns why no plan keeps the limits in the training views, and which comes nearest.
+/// Returns the reason why no plan keeps the limits in the training views, and the plan that comes
+/// nearest.
 std::string describe_nearest_plan(const ResolvedChooseRequest& request,
                                   const std::vector<JudgedPlan>& plans) {
     const JudgedPlan *closest = nullptr, *fastest = nullptr;
@@ -323,7 +333,7 @@ std::string describe_nearest_plan(const ResolvedChooseRequest& request,
                        closest->largest_error);
 }
 
-/// Returns why no plan holds in the proof's views.
+/// Returns the reason why no plan keeps its limits in the proof views.
 std::string describe_failed_proof(const ResolvedChooseRequest& request,
                                   const std::vector<PlanProof>& proofs) {
     const PlanProof& surest = proofs.front();

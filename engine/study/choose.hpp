@@ -8,16 +8,15 @@
 #include <string>
 #include <vector>
 
-// Chooses the cheapest plan that keeps a limit of error, or the closest within a limit of time, and
-// proves the choice on other views than those it was found on.
+// Functions that choose the cheapest plan within a limit of error, or the plan with the least error
+// within a limit of time. The choice is proved on other views than those on which it was made.
 namespace catoptric::app {
 
 /// Returns "flip" or "rmse".
 const char* error_quantity_name(ErrorQuantity quantity);
 
-/// Returns the error that counts for a view, from its difference over the mirrors: 0 if the view
-/// shows no mirror, and infinite if any pixel of the mirrors is not finite, whatever the others
-/// say.
+/// Returns the error of a view, from the difference of the pictures over the mirrors: 0 if the view
+/// shows no mirror, and infinite if any mirror pixel is not finite.
 double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
 
 /// A plan with its cost and its errors over views.
@@ -31,15 +30,17 @@ struct JudgedPlan {
     double largest_error = 0;   ///< of `errors`
 };
 
-/// What the proof's views say about a plan.
+/// The result of testing a plan on the proof views.
 struct PlanProof {
     JudgedPlan plan;
     std::size_t failures = 0; ///< views above the limit of error; 0 without a limit
     double share_bound = 0;   ///< measure::lower_bound_of_passing_view_share of the failures
-    /// Limit that `share` of all views keeps, with `confidence` (measure::upper_tolerance_limit).
+    /// Error that the share `share` of all views does not exceed, with confidence `confidence`
+    /// (measure::upper_tolerance_limit).
     double error_bound = 0;
     bool keeps_error = false; ///< the share is proved, or there is no limit of error
-    bool keeps_time = false;  ///< the upper end of the time keeps its limit, or there is none
+    bool keeps_time = false;  ///< the upper end of the time's interval keeps the limit of time, or
+                              ///< there is no limit
     bool holds() const { return keeps_error && keeps_time; }
     std::string device;     ///< whose times decide, with " (predicted)" if costs predict them
     std::string scene_hash; ///< of the scene whose views were drawn
@@ -59,11 +60,12 @@ struct PlanChoice {
     std::string failure;               ///< why no plan was chosen, a sentence; empty if one was
 };
 
-/// Chooses a plan. Steps: all candidates in the comparison's own view, which drops those that are
-/// slower and farther from the reference than another by a wide margin; the others in the training
-/// views; a mix of techniques by mirror from these errors (measure::find_fastest_technique_mix);
-/// and the proof of the surest and the cheapest plans on fresh views. Throws `usage` for limits out
-/// of range, and what `compare` throws. Costs one comparison with drawn views for each step.
+/// Chooses a plan in four steps. First, all candidates are measured in the comparison's own view,
+/// and a candidate is dropped if another is faster and errs less by a wide margin. Second, the
+/// remaining candidates are drawn in the training views. Third, a mix of techniques by mirror is
+/// computed from their errors (measure::find_fastest_technique_mix). Fourth, the plan with the
+/// least error and the cheapest plans are tested on fresh views. Throws `usage` for limits out of
+/// range, and what `compare` throws. Each step with drawn views takes one comparison.
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& request);
 
 /// Proves one plan on fresh views: the last step of choose_plan.

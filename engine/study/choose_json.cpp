@@ -98,7 +98,8 @@ std::string format_plan_time(const JudgedPlan& plan) {
 
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof) {
     const char* quantity = error_quantity_name(request.quantity);
-    // A larger share than the requested one was not to be proved, so it is not claimed.
+    // The certificate claims no larger share than requested, because only the requested share was
+    // tested.
     const double share = std::min(proof.share_bound, request.share);
     const std::string statement = request.max_error
                                       ? fmt::format("at least {:.4g} % of views have {} <= {:g}",
@@ -130,7 +131,7 @@ Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,
 Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
                            const PlanProof& proof, const std::string& scene) {
     Json document{{"schema", "catoptric/plan/1"}, {"plan", make_plan_rules_json(plan)}};
-    // A plan that is not proved has figures, and no statement.
+    // The figures of a plan that is not proved are written under another name, without a statement.
     document[proof.holds() ? "certificate" : "not_proved"] = make_certificate_json(request, proof,
                                                                                    scene);
     document["proofs"] = Json::array({make_proof_json(proof)});

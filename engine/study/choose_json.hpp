@@ -5,7 +5,7 @@
 
 #include <string>
 
-// The file of a plan, schema "catoptric/plan/1" (docs/choose.md).
+// Functions that write the file of a chosen plan, schema "catoptric/plan/1" (docs/choose.md).
 namespace catoptric::app {
 
 /// Returns the file of a choice. Without a chosen plan, `plan` is null, and `why` is the reason.
@@ -17,7 +17,7 @@ report::Json make_choice_json(const ChooseRequest& request, const PlanChoice& ch
 /// file that it names must exist.
 report::Json make_proved_plan_json(const ChooseRequest& request, const std::string& plan,
                                    const PlanProof& proof, const std::string& scene);
-/// Returns what a proof says of its plan, in one sentence.
+/// Returns one sentence with the result of testing a plan on the proof views.
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof);
 /// Returns the time of a plan in milliseconds with its range, such as "3.1 [2.9 - 3.4]".
 std::string format_plan_time(const JudgedPlan& plan);

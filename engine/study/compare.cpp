@@ -40,7 +40,8 @@ namespace catoptric::app {
 
 namespace {
 
-/// Samples over a pixel's area by which its centre is judged, and the most time for them.
+/// Number of samples over each pixel's area against which pictures of pixel centres are compared,
+/// and the longest time for rendering these samples.
 constexpr const char* kPixelAreaSampleCountText = "16";
 constexpr double kMaxAreaMeasurementSeconds = 10;
 
@@ -63,14 +64,14 @@ std::string format_current_utc_time() {
     return {text, std::strftime(text, sizeof text, "%FT%TZ", &utc)};
 }
 
-/// Returns the request with its reference chosen.
+/// Returns the request, in which the default reference is replaced by the reference for the scene.
 CompareRequest replace_auto_reference(CompareRequest request) {
     request.reference = choose_reference(request.reference, request.base.scene);
     return request;
 }
 
-/// Measures rows in rounds, one by one or together in each frame. Judges each against the reference
-/// at its sample count.
+/// Measures the rows of a comparison in rounds, one by one or together in each frame. Compares each
+/// row with the reference of the same sample count.
 class RowComparisonRunner {
 public:
     RowComparisonRunner(Engine& engine, const CompareRequest& request)
@@ -92,7 +93,8 @@ public:
         resolve_auto_exposure(shared_session_, compare_request_.base);
         list_rows_to_measure();
         prepare_comparison();
-        // Read now, because a file may change or vanish while rows are measured.
+        // Certificates are read now, because a plan's file may change or vanish while rows are
+        // measured.
         const auto certificates = read_plan_certificates(compare_request_.base.techniques);
         try {
             if (!compare_request_.reference_file.empty())
@@ -286,7 +288,7 @@ private:
         return measure::choose_target_noise_floor(rows);
     }
 
-    /// The last frame of a row, kept to judge it again.
+    /// The number of a row's last frame, to compute the row's errors again later.
     struct FrameNumberOfJudgedPicture {
         TechniqueResult part;
         int number = 0; ///< from 1
@@ -310,7 +312,7 @@ private:
 
     void add_comparison_row(const std::string& text, const TechniqueResult& part) {
         report::Row row = make_row_description(text, part);
-        // If all rows share a frame, the host's work is that of all rows and belongs to none.
+        // If all rows share a frame, the host's work cannot be divided among the rows.
         row.moves = compare_request_.base.animate && !compare_request_.together &&
                     scene::is_animated(compare_request_.base.scene);
         const std::string samples = find_sample_count(parse_technique(text));
@@ -373,8 +375,8 @@ private:
             measure_cube_clear_times(round, round == 0 ? compare_request_.base.warmup : 0));
         comparison_.clear_ms = measure::summarise_samples(clear_ms_);
         const std::vector<std::vector<std::string>> all = group_rows_rendered_together();
-        // Reverses every second round. No row then always follows the same other, whose work may
-        // still have an effect.
+        // Every second round measures the rows in reverse order. The same row then never always
+        // follows another, whose remaining work could disturb it.
         for (std::size_t place = 0; place < all.size(); ++place) {
             const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
             report_row_to_watcher(compare_request_.watcher,
@@ -384,12 +386,13 @@ private:
                                   count_row_measurements(all.size()));
             measure_round_of_row(lane, all[lane], round);
         }
-        // Writing files would interrupt the device before the first round is measured again.
+        // If the first round will be measured again, files are not written now, because that would
+        // interrupt the device.
         const bool is_followed = round + 1 == comparison_.rounds && repeats_first_round();
         if (round > 0 && !is_followed) report_progress();
     }
 
-    /// Returns what is measured together, for the watcher.
+    /// Returns the label of the rows that are measured together, for the watcher.
     std::string describe_lane(std::size_t lane) const {
         std::string text = compare_request_.together ? "all rows in one frame"
                                                      : group_rows_rendered_together()[lane].front();
@@ -407,8 +410,8 @@ private:
             must_repeat_first_round(comparison_.device.type));
     }
 
-    /// Measures the first round again, while nothing else interrupts the device. Then judges the
-    /// pictures of the last round, which would have interrupted it.
+    /// Measures the first round again, without other work on the device. Afterwards computes errors
+    /// of the last round's pictures, which would have interrupted the device.
     void measure_first_round_again() {
         std::vector<double> clear_ms = measure_cube_clear_times(0, 0);
         for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
@@ -449,8 +452,8 @@ private:
         row.waited = run.mean_share_of_time_waiting_for_processor();
     }
 
-    /// Measures a round. Judges rows after the first round, and again by their last picture if it
-    /// differs.
+    /// Measures one round of a row. Computes the row's errors after the first round, and again if
+    /// its last picture differs.
     void measure_round_of_row(std::size_t lane, const std::vector<std::string>& texts, int round) {
         const bool first = round == 0, last = round + 1 == comparison_.rounds;
         if (first) {

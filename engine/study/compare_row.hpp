@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-// Fills one row of a comparison.
+// Functions that fill one row of a comparison.
 namespace catoptric::app {
 
 /// Returns a row that describes the technique or plan, without its cost, picture and errors.
@@ -25,22 +25,25 @@ struct ComparedReference {
     const measure::NoisyReferenceHalves* halves = nullptr;
 };
 
-/// Returns FLIP of both pictures for each pixel, as displayed at `exposure` stops, not rounded to 8
-/// bits. Of a reference with noise, the mean of FLIP against its halves.
+/// Returns the FLIP of both pictures for each pixel. The pictures are as displayed at `exposure`
+/// stops, and are not rounded to 8 bits. For a noisy reference, returns the mean of the FLIP
+/// against each half.
 std::vector<float> compute_flip_map(const measure::Picture& picture, const ComparedReference& truth,
                                     double exposure);
-/// Returns how far a picture is from the truth, over the pixels of a mask. `flip_map`: of both.
+/// Returns how far a picture is from the truth, over the pixels of a mask. `flip_map`: FLIP of both
+/// pictures for each pixel.
 measure::Difference compute_masked_error(const measure::Picture& picture,
                                          const ComparedReference& truth, const measure::Mask& mask,
                                          std::span<const float> flip_map, double exposure);
-/// Returns how far a picture is from the truth, over all masks. `flip_map`: of both pictures.
-/// `hits`: of the same picture, see TechniqueResult::hits. `exposure`: stops.
+/// Returns how far a picture is from the truth, over all masks. `flip_map`: FLIP of both pictures
+/// for each pixel. `hits`: first hits of the picture, see TechniqueResult::hits. `exposure`: stops.
 measure::Errors compute_masked_errors(const measure::Picture& picture,
                                       const ComparedReference& truth,
                                       std::span<const float> flip_map,
                                       const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                                       double exposure);
-/// Fills the row's picture, errors and means. `hits`: of the same instant. `exposure`: stops.
+/// Fills the errors of a row, its picture and the means of its picture. `hits`: first hits at the
+/// same instant. `exposure`: stops.
 void fill_row_errors(report::Row& row, const TechniqueResult& part, const ComparedReference& truth,
                      const std::vector<std::uint32_t>& hits, std::size_t mirrors, double exposure);
 

@@ -67,7 +67,7 @@ void predict_row_times(const StudyInput& input) {
     input.tell();
 }
 
-/// Predicted times of a row on a device, read back from the row.
+/// Predicted times of a row on another device, as read back from the row's results.
 struct PredictedCostCells {
     std::string device;
     double ms = 0, low = 0, high = 0;
@@ -116,8 +116,8 @@ std::vector<ReportTable> make_cost_tables(const report::Comparison& comparison) 
     return {table};
 }
 
-/// Returns the labels of the rows for which `is_on`, fastest first, and how many of them read
-/// captures or mirrored views.
+/// Returns a sentence with the labels of the rows on the front (`is_on`), the fastest first, and
+/// with the number of these rows that read captures or mirrored views.
 std::string describe_predicted_front(const report::Comparison& comparison, std::size_t device,
                                      bool PredictedCostCells::*is_on) {
     std::vector<std::pair<double, const report::Row*>> front;
@@ -155,8 +155,8 @@ std::vector<std::string> describe_predicted_fronts(const report::Comparison& com
     return sentences;
 }
 
-/// Returns a summary of a time that is known without measuring here. Times differ if their medians
-/// do, because the ends of predicted ranges have the same unknown costs.
+/// Returns a summary of a time that was not measured here. Two such times differ if their medians
+/// differ, because the ends of both ranges depend on the same unknown unit costs.
 measure::SampleSummary make_stated_time(const PredictedCostCells& time) {
     measure::SampleSummary summary{.median = time.ms, .p05 = time.low, .p95 = time.high};
     if (time.low < time.high) summary.ci95 = {time.low, time.high};
@@ -180,7 +180,7 @@ list_comparisons_on_other_devices(const report::Comparison& comparison) {
             const PredictedCostCells time = list_cost_cells(comparison.rows[i])[device];
             report::Row& row = other.comparison.rows[i];
             other.comparison.device.name = time.device;
-            row.moves = row.noisy = false; // both are facts of the measured times
+            row.moves = row.noisy = false; // these facts describe measured times only
             row.gpu_ms = row.frame_ms = make_stated_time(time);
             if (time.front) other.comparison.pareto.push_back(i);
         }
@@ -203,7 +203,7 @@ const RegisteredStudy kCostsStudy{
          },
      .prepare =
          [](const CompareRequest&, int, report::Comparison& comparison) {
-             // The report shows the counts from which the times follow.
+             // The report also shows the counts of work, because predicted times follow from them.
              if (std::ranges::find(comparison.studies, "work") == comparison.studies.end())
                  comparison.studies.emplace_back("work");
          },

@@ -28,7 +28,8 @@ constexpr int kLagPathWarmupFrames = 16; // frames along the path before the fir
 constexpr double kMaxPathSeconds = 10;
 constexpr double kFramesPerSecond = 60;
 
-/// Instants along the scene's motion, on each of which every speed has a frame.
+/// The instants along the scene's motion at which lag is measured. At every speed, a frame
+/// coincides with each instant.
 struct LagMeasurementInstants {
     double start = 0;   ///< seconds
     double step = 0;    ///< seconds from one instant to the next
@@ -101,7 +102,8 @@ bool have_equal_bytes(const measure::Picture& a, const measure::Picture& b) {
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
 }
 
-/// A technique's picture of an instant, after nothing changes any more.
+/// A technique's picture of the scene at rest at one instant, after the picture has stopped
+/// changing.
 struct SettledPicture {
     TechniqueResult part;
     int frames = 0;     ///< frames until the picture stopped changing
@@ -137,7 +139,7 @@ public:
     }
 
 private:
-    /// The mirrors' pixels and the reference at one instant.
+    /// The mirror pixels and the reference picture at one instant.
     struct ReferenceAtInstant {
         double seconds = 0;
         measure::Mask mirrors;
@@ -179,8 +181,8 @@ private:
             unchanged = have_equal_bytes(part.hdr, still.part.hdr) ? unchanged + 1 : 0;
             still.part = std::move(part);
             still.frames = k - unchanged;
-            // Light that passes from mirror to mirror takes a frame per mirror. Until it arrives,
-            // pictures may be black and equal for as many frames as there are mirrors.
+            // Light needs one frame to pass from mirror to mirror. Until it arrives, successive
+            // pictures may be equal and black, for as many frames as there are mirrors.
             still.rests = !still.part.remembers || unchanged >= mirrors_;
         }
         frames_done_ = before + kMaxLagFrames;
@@ -222,7 +224,8 @@ private:
         return compute_picture_difference(a, b, instant.mirrors, lag_request_.base.exposure);
     }
 
-    /// Returns false if the technique reads nothing of the frame before.
+    /// Adds the picture of the scene at rest. Returns false if the technique reads no contents of
+    /// the last frame, and therefore has no lag.
     bool add_settled_picture(report::LagRow& row, const std::string& text,
                              const ReferenceAtInstant& instant) {
         const SettledPicture found = render_still_picture(text, instant.seconds);
@@ -235,8 +238,8 @@ private:
         return true;
     }
 
-    /// Compares frames at the first instant with its still, after `before` frames at another
-    /// instant.
+    /// Compares frames at the first instant with the picture of the scene at rest. Before these
+    /// frames, `before` frames show another instant.
     report::SettlingAfterCut measure_settling_after_cut(const std::string& text, int before) {
         report::SettlingAfterCut settling;
         begin_frame_run_without_history(frames_done_);
@@ -274,7 +277,8 @@ private:
     int count_lag_frames_at_speed(double speed) const {
         return kLagPathWarmupFrames + (path_.count - 1) * path_.count_frames_per_instant(speed) + 1;
     }
-    /// Counts every still with the largest number of frames.
+    /// Returns the largest number of frames that the measurement of a row may take, for the display
+    /// of progress.
     int count_lag_frames_of_row() const {
         int frames = path_.count * kMaxLagFrames + 3 * kMaxLagFrames;
         for (const double speed : lag_request_.speeds) frames += count_lag_frames_at_speed(speed);
@@ -291,7 +295,7 @@ private:
     int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
 };
 
-/// Returns the reference. If its rays are random, it gets another seed than every row.
+/// Returns the reference. If the rays of the reference are random, it gets a seed that no row has.
 std::string choose_reference_unlike_rows(const std::string& reference,
                                          const std::vector<std::string>& rows) {
     if (!draws_rays_from_lobes(reference)) return reference;

@@ -12,7 +12,7 @@ struct LagRequest {
     std::string reference = "raytrace:depth=16";
     /// Speeds: seconds of scene time in 60 frames. The fastest must be a whole multiple of each.
     std::vector<double> speeds{0.25, 0.5, 1, 2, 4, 8};
-    /// Largest number of instants along the path at which pictures are compared.
+    /// Largest number of instants along the scene's motion at which pictures are compared.
     int most_instants = 30;
     Watcher watcher; ///< is told of the reference as one more row
     /// Function that is called after each technique has been measured. May be empty.

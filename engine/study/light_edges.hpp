@@ -11,9 +11,9 @@
 namespace catoptric::app {
 
 /// Returns the row's error over the mirrors, split by whether its mirrors looked at the outline of
-/// a light. `row`: with its errors and its plan. `truth`: picture that the row was judged against.
-/// `hits`: of the same picture (measure/masks.hpp). `lookup`: see TechniqueResult::lookup, at the
-/// oracle's instant. `exposure`: stops. Costs nine rays per mirror pixel.
+/// a light. `row`: has errors and a plan. `truth`: the reference picture. `hits`: first hits of the
+/// reference picture (measure/masks.hpp). `lookup`: see TechniqueResult::lookup, at the instant of
+/// `oracle`. `exposure`: stops. Traces nine rays per mirror pixel.
 measure::LightEdgeErrors split_error_at_light_edges(const report::Row& row,
                                                     const ComparedReference& truth,
                                                     const std::vector<std::uint32_t>& hits,

@@ -10,9 +10,9 @@
 
 namespace catoptric::app {
 
-/// Finds what rays really meet in a request's scene at its instant, on the CPU with the device's
-/// own mathematics. The result tells where a mirror pixel should have looked, and what the pixel
-/// looked at instead.
+/// Finds on the CPU what rays of a request's camera meet, with the same mathematics as the device.
+/// From this, it computes for each mirror pixel the right direction of the look-up, and what the
+/// pixel looked at instead.
 class TrueHitFinder {
 public:
     /// Traces a ray through every pixel centre. Costs about a microsecond per ray.

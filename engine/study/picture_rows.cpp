@@ -49,8 +49,8 @@ measure::Difference compute_plain_error(const measure::Picture& picture,
 // A rasteriser alone puts the outlines of surfaces and shadows on other pixels than rays do.
 constexpr double kMinShareOfOtherLight = 0.1;
 
-/// Throws `bad_data` if a folder has a views.json whose views are not those of the comparison: its
-/// own and `drawn`.
+/// Throws `bad_data` if a folder has a views.json with other views than the comparison's own view
+/// and the drawn views `drawn`.
 void check_folder_shows_views(const std::string& folder, const std::vector<measure::View>& drawn,
                               const Request& base) {
     const std::filesystem::path file = std::filesystem::path(folder) / "views.json";
@@ -89,7 +89,8 @@ std::string view_picture_name(std::size_t view) { return fmt::format("view-{:03}
 
 std::optional<std::string> find_view_picture(const std::string& path, std::size_t view) {
     namespace fs = std::filesystem;
-    std::error_code error; // a path that cannot be looked at is read as a file, which says why
+    std::error_code error; // a path that cannot be examined is read as a file, which gives the
+                           // error
     if (!fs::is_directory(path, error))
         return view == 0 ? std::optional<std::string>(path) : std::nullopt;
     std::vector<std::string> found;
@@ -168,7 +169,7 @@ std::vector<std::string> list_picture_row_warnings(const std::string& name,
                                                    const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure) {
-    // Surfaces that reflect tell nothing here, because techniques draw their reflections
+    // Only surfaces that reflect nothing are compared, because techniques draw reflections
     // differently.
     measure::Mask beside(hits.size());
     std::ranges::transform(hits, beside.begin(),

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
-// Rows whose pictures are files, such as those of another renderer (CompareRequest::pictures).
+// Functions for rows whose pictures are files, such as pictures of another renderer
+// (CompareRequest::pictures).
 namespace catoptric::app {
 
-/// Returns the name of such a row's pictures in the report, without folder and ending. `index`: of
-/// the row among those of files, from 0.
+/// Returns the name, without folder and ending, under which the report stores the pictures of a row
+/// of files. `index`: number of the row among the rows of files, from 0.
 std::string picture_row_image_name(const std::string& name, std::size_t index);
 
 /// Returns the name, without ending, of a view's picture in the folder of such a row: "view-000" of
@@ -43,9 +44,10 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
                              const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                              double exposure);
 
-/// Returns what is suspicious about a picture, in sentences that begin with `name`: it differs from
-/// the reference more where surfaces reflect nothing than on the mirrors, or less if it is turned
-/// upside down. `rmse`: its error on the mirrors.
+/// Returns warnings about a picture of another renderer, as sentences that begin with `name`. One
+/// warning is given if the picture differs from the reference more where surfaces reflect nothing
+/// than on the mirrors. Another is given if the picture turned upside down is closer to the
+/// reference. `rmse`: error on the mirrors.
 std::vector<std::string> list_picture_row_warnings(const std::string& name,
                                                    const measure::Picture& picture, double rmse,
                                                    const ComparedReference& truth,

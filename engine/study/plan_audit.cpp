@@ -21,7 +21,7 @@ namespace {
 
 using AuditJson = nlohmann::json;
 
-constexpr int kUncountedFramesOfPlan = 8; // captures and mirrors in mirrors settle meanwhile
+constexpr int kUncountedFramesOfPlan = 8; // until captures and mirrors in mirrors are complete
 
 /// Returns a member that must be a number from `low` to `high`.
 double read_number_member(const AuditJson& object, const char* member, double low, double high,
@@ -34,7 +34,7 @@ double read_number_member(const AuditJson& object, const char* member, double lo
     return value.get<double>();
 }
 
-/// Returns the texts of the proved plans, from the surest to the chosen one.
+/// Returns the texts of the proved plans, from the plan with the least error to the chosen plan.
 std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::string& file) {
     std::vector<std::string> plans;
     std::size_t chosen = 0;
@@ -52,7 +52,8 @@ std::vector<std::string> list_proved_plans(const AuditJson& proofs, const std::s
     check(chosen > 0, Failure::bad_data, file,
           ": proofs: wanted a plan that keeps the limits, found none");
     plans.resize(chosen);
-    // The rules of the chosen plan are in this file, and those of other files may have changed.
+    // The rules of the chosen plan are read from this file, because other files with the same rules
+    // may have changed.
     if (plans.back().starts_with("plan:")) plans.back() = "plan:" + file;
     for (std::size_t i = 0; i + 1 < plans.size(); ++i)
         check(!plans[i].starts_with("plan:"), Failure::bad_data, file, ": proofs[", i,
@@ -81,10 +82,11 @@ double milliseconds_between(std::chrono::steady_clock::time_point begin,
     return std::chrono::duration<double, std::milli>(end - begin).count();
 }
 
-/// Returns how many samples of this step fit into a length in pixels, with equal margins.
+/// Returns how many samples with this step fit into a row of pixels, with equal margins at both
+/// ends.
 std::uint32_t count_samples_of_step(std::uint32_t pixels, std::uint32_t step) {
     const std::uint32_t samples = pixels / step;
-    return samples - (pixels - samples) % 2; // an odd step times an odd number is odd
+    return samples - (pixels - samples) % 2; // both margins must be equal, so the rest must be even
 }
 
 } // namespace
@@ -137,9 +139,12 @@ SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::si
     view.size = samples(view.step);
     view.first = (size - view.size * view.step) / 2U + uvec2(view.step / 2);
     view.camera = camera;
-    const double height = static_cast<double>(view.size.y * view.step) / size.y; // of the picture
+    const double height = static_cast<double>(view.size.y * view.step) / size.y; // height of the
+                                                                                 // whole picture
     const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
-    if (view.size * view.step == size) return view; // the same numbers, to the last bit
+    if (view.size * view.step == size)
+        return view; // the whole picture is sampled, with exactly
+                     // its own camera
     view.camera.vertical_fov_degrees = glm::degrees(2 * std::atan(tangent * height));
     view.camera.orthographic_height *= height;
     return view;
@@ -173,7 +178,8 @@ measure::Difference PlanAudit::compare_with_traced_frame(Session& session,
     traced.techniques = {request_.reference};
     traced.camera = view.camera, traced.size = view.size;
     traced.most_captures = 0, traced.budget_ms = 0;
-    FrameSequence sequence = Access::suspend_sequence(session); // keeps the choices of auto
+    FrameSequence sequence = Access::suspend_sequence(session); // keeps choices of the first frame,
+                                                                // such as those of `auto`
     const TechniqueResult truth = session.frame(traced).read();
     Access::resume_frame_sequence(session, std::move(sequence));
     const measure::Picture samples = sample_picture(running, view);
@@ -200,7 +206,7 @@ void PlanAudit::prepare(Session& session, const FrameSpec& spec) {
     ended_ = Clock::now();
 }
 
-/// Returns whether the frame shows something else than the frame before.
+/// Returns whether the frame shows another camera, instant or scene than the last frame.
 bool PlanAudit::shows_new_picture(const Session& session, const FrameSpec& spec) {
     const bool is_new = !watched_ || !do_frames_show_same_view(*watched_, spec) ||
                         Access::session_counters(session).updates != updates_;
@@ -211,14 +217,14 @@ bool PlanAudit::shows_new_picture(const Session& session, const FrameSpec& spec)
 void PlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                             PlanAuditOutcome& outcome) {
     const measure::Difference difference = compare_with_traced_frame(session, frame.hdr(), spec);
-    if (difference.pixels == 0) return; // the statement counts views that show a mirror
+    if (difference.pixels == 0) return; // frames that show no mirror do not count
     outcome.error = mirror_error_of_view(request_.quantity, difference);
     audit_.count_frame(*outcome.error <= request_.max_error);
     outcome.is_alarm = audit_.is_alarmed() && !was_alarmed_;
     was_alarmed_ = audit_.is_alarmed();
 }
 
-/// Changes to the next surer plan, whose audit begins without evidence.
+/// Changes to the next plan with less error. The audit of this plan begins without evidence.
 void PlanAudit::step_to_surer_plan(double seconds, PlanAuditOutcome& outcome) {
     outcome.has_new_plan = ladder_.step_to_surer_plan(seconds);
     if (outcome.is_alarm)

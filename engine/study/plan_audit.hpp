@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-// Audits a plan while a program runs: some frames are also ray traced, and the plan gives way to a
-// surer one if too many frames break the certificate's limit.
+// Audits a plan while a program runs. Some frames are also ray traced. If too many frames break the
+// certificate's limit of error, the audit changes to a plan with less error.
 namespace catoptric::app {
 
 struct PlanAuditRequest {
@@ -34,22 +34,24 @@ struct PlanAuditRequest {
 /// of error gives the error that it states. Throws `missing_input`, `io` and `bad_data`.
 PlanAuditRequest read_plan_audit(const std::filesystem::path& file);
 
-/// Every `step`-th pixel of a picture in both directions, as the picture of a camera of its own.
+/// A view that samples a picture: every `step`-th pixel in both directions, as the picture of a
+/// separate camera.
 struct SampledView {
     std::uint32_t step = 1; ///< odd, so that the samples are centres of pixels
     uvec2 first{0};         ///< pixel of the first sample
     uvec2 size{0};          ///< number of samples
-    /// Sees the sampled pixels alone: a ray through the centre of its pixel (x, y) meets what the
-    /// picture shows at `first` + `step` * (x, y).
+    /// A camera that sees only the sampled pixels. The ray through the centre of its pixel (x, y)
+    /// meets the surface that the picture shows at `first` + `step` * (x, y).
     scene::Camera camera;
 };
 
-/// Returns the samples of a picture of this size: as many as possible, `most` at most.
+/// Returns the sampled view for a picture of this size, with as many samples as possible, and at
+/// most `most`.
 SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::size_t most);
 /// Returns the pixels of the samples. Throws `internal` if a sample lies outside of the picture.
 measure::Picture sample_picture(const measure::Picture& picture, const SampledView& view);
 
-/// What one call of PlanAudit::watch_frame has found.
+/// The result of one call of PlanAudit::watch_frame.
 struct PlanAuditOutcome {
     std::optional<double> error; ///< of the frame, if it was audited and shows a mirror
     bool is_alarm = false;       ///< the alarm sounds at this frame for the first time for its plan
@@ -57,9 +59,9 @@ struct PlanAuditOutcome {
     std::string message;         ///< of the alarm or the change, for the user; empty: neither
 };
 
-/// Audits the frames of one session. The samples of a running frame, as shown, are compared with a
-/// ray-traced picture of the same camera, instant and scene, which is a frame of its own outside
-/// the session's sequence.
+/// Audits the frames of one session. The samples of a shown frame are compared with a ray-traced
+/// picture of the same camera, instant and scene. The ray-traced picture is rendered outside the
+/// session's frame sequence.
 class PlanAudit {
 public:
     /// Samples of a frame; a larger picture is sampled in steps of 3, 5, ... pixels.
@@ -73,19 +75,19 @@ public:
     /// Renders two references, so that shaders are compiled and the time of an audit is known.
     /// Throws `usage` if surfaces of the scene are rough, because their reference has noise.
     void prepare(Session& session, const FrameSpec& spec);
-    /// Counts a frame, and audits it if it is drawn. Call it after each frame and before the next.
-    /// `spec` is the frame's specification, and `seconds` a time that never falls. Frames are not
-    /// counted if `spec` does not begin with `plan`, if they show the same camera, instant and
-    /// scene as the frame before, if a surface is rough, or within 8 frames after a change of plan.
-    /// Results of the session's earlier frames cannot be read after a frame was audited. Throws as
-    /// prepare and Session::frame do.
+    /// Counts a frame, and audits it if it is the randomly drawn frame of its block. Call it after
+    /// each frame and before the next. `spec` is the frame's specification, and `seconds` a time
+    /// that never falls. Frames are not counted if `spec` does not begin with `plan`, if they show
+    /// the same camera, instant and scene as the frame before, if a surface is rough, or within 8
+    /// frames after a change of plan. Results of the session's earlier frames cannot be read after
+    /// a frame was audited. Throws as prepare and Session::frame do.
     PlanAuditOutcome watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                                  double seconds);
 
-    /// Counts no frame until captures can have settled again: after a cut, and with a new session.
+    /// After a cut and for a new session, counts no frame until captures can be complete again.
     void wait_until_settled() { frames_of_plan_ = 0; }
 
-    /// Returns the audit of the present plan, since it runs.
+    /// Returns the audit of the present plan since this plan began to run.
     const measure::Audit& audit() const { return audit_; }
     const measure::AuditSchedule& schedule() const { return schedule_; }
     /// Returns a line such as "audit: 37 of 37 frames keep flip <= 0.05; assured share 0.885; 4.1 %

@@ -33,7 +33,7 @@ std::string find_text(const Json& object, const char* name) {
     return value.is_string() ? value.get<std::string>() : std::string();
 }
 
-/// Returns the statement of a certificate, or nothing unless its members are complete.
+/// Returns the statement of a certificate as a sentence, or nothing if members are missing.
 std::optional<std::string> describe_certificate(const Json& certificate) {
     const double share = find_number(certificate, "share"),
                  confidence = find_number(certificate, "confidence"),
@@ -44,19 +44,23 @@ std::optional<std::string> describe_certificate(const Json& certificate) {
                  proved = find_number(certificate, "share_bound"),
                  width = find_number(certificate, "width"),
                  height = find_number(certificate, "height");
-    const double error = std::isnan(limit) ? bound : limit; // with a limit of time alone
+    const double error = std::isnan(limit) ? bound : limit; // with a limit of time alone, the
+                                                            // proved error counts as the limit
     const std::string quantity = find_text(certificate, "quantity");
     if (quantity.empty() ||
         !std::isfinite(share + confidence + views + failures + error + width + height))
         return std::nullopt;
-    if (!std::isnan(limit) && !(proved >= share)) return std::nullopt; // it proves less
+    if (!std::isnan(limit) && !(proved >= share))
+        return std::nullopt; // the proved share is
+                             // smaller than the claimed
+                             // share
     return fmt::format("at least {:.4g} % of views have {} <= {:.4g}, with {:.4g} % confidence "
                        "({:.0f} views, {:.0f} failures), at {:.0f}x{:.0f}",
                        100 * share, quantity, error, 100 * confidence, views, failures, width,
                        height);
 }
 
-/// Returns the certificate of a row as the row has it, or null.
+/// Returns the certificate in the results of a row, or null.
 const measure::NamedMetricValueParts* find_certificate(const measure::MetricValue& value) {
     const auto* list = std::get_if<std::vector<measure::NamedMetricValueParts>>(&value);
     return list != nullptr && !list->empty() ? &list->front() : nullptr;

@@ -16,7 +16,8 @@ namespace catoptric::app {
 
 namespace {
 
-/// Returns the rmse between two halves that the variance of their frames predicts, not clamped.
+/// Returns the rmse between two halves of a reference, as predicted from the variance of their
+/// frames. Values are not clamped.
 double predict_rmse_between_halves(const NoisyReference& noisy, const measure::Mask& mask,
                                    double exposure) {
     const measure::Picture a = noisy.a.variance(), b = noisy.b.variance();
@@ -62,7 +63,8 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
     request.warmup = std::min(request.warmup, number - 1);
     request.frames = number - request.warmup;
     if (find_sample_count(parse_technique(technique)) != "1") {
-        // One frame, because many samples take long. Rays do not depend on frames before.
+        // One frame is rendered, because a frame with many samples takes long, and ray-traced
+        // frames do not depend on earlier frames.
         request.time = base_.instant(number);
         request.animate = false;
         request.warmup = 0, request.frames = 1;
@@ -103,7 +105,7 @@ void ReferenceCache::update_picture(ReferencePicture& reference) const {
     NoisyReference& noisy = *reference.noisy;
     noisy.halves = measure::make_noisy_reference_halves(noisy.a.mean(), noisy.b.mean(),
                                                         base_.exposure);
-    // The mean of both halves, before exposure.
+    // The mean of both halves of the reference, before exposure.
     measure::PictureMean both;
     both.add_picture(noisy.a.mean());
     both.add_picture(noisy.b.mean());
@@ -155,7 +157,7 @@ ReferencePicture& ReferenceCache::find_reference_to_change(const std::string& sa
             read_stored_reference_frames(made);
         else
             add_reference_frames(made, technique, key.second);
-        made.part.hits.clear(); // the second mirror of a drawn ray is a draw as well
+        made.part.hits.clear(); // with random rays, the second mirror of a pixel is random as well
     } else {
         RunResult result = render_reference(technique, key.second);
         made.part = std::move(result.parts.front());
@@ -206,8 +208,8 @@ measure::ReferenceNoise ReferenceCache::measure_noise(const std::string& samples
 const std::vector<std::uint32_t>& ReferenceCache::find_mirror_hits(int number) {
     const std::vector<std::uint32_t>& known = get_reference("1", number).part.hits;
     if (!known.empty()) return known;
-    // A reference that traces no rays, or draws them, has no hits. Then a ray-traced picture
-    // provides them.
+    // If the reference is not ray traced, or has random rays, a separate ray-traced picture
+    // provides the first hits.
     std::vector<std::uint32_t>& traced = hits_[choose_frame_to_render(number)];
     if (traced.empty())
         traced = std::move(render_reference("raytrace:depth=1", choose_frame_to_render(number))

@@ -20,7 +20,7 @@ namespace catoptric::app {
 
 /// Rays from each rough surface in a frame of the default reference of scenes with rough mirrors.
 inline constexpr const char* kRoughReference = "raytrace:depth=16,rays=64";
-/// What the pixels of the reference show.
+/// What the pixels of the reference picture show.
 enum class ReferencePixelKind {
     centre,    ///< what one camera ray through the pixel's centre meets, as the techniques do
     converged, ///< the mean over the pixel's area, by many camera rays
@@ -36,7 +36,7 @@ inline constexpr const char* kConvergedRoughReference = "raytrace:depth=16,sampl
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
                              ReferencePixelKind truth = ReferencePixelKind::centre);
 
-/// Two means of frames of a reference with noise. The frames of both have different seeds.
+/// A noisy reference: two means of frames. All frames have different seeds.
 struct NoisyReference {
     explicit NoisyReference(ReferenceSeeds free_seeds) : seeds(std::move(free_seeds)) {}
 
@@ -101,12 +101,13 @@ public:
     void keep_reference_in_file(const std::filesystem::path& file);
     /// Writes the file, if the reference is kept in one.
     void write_file();
-    /// Returns the noise of that reference over the mirrors. Only for references with noise.
+    /// Returns the noise of the reference for this sample count, over the mirrors. Only for noisy
+    /// references.
     measure::ReferenceNoise measure_noise(const std::string& samples);
 
 private:
-    /// Returns the frame that is rendered for frame `number`. All frames of a still scene are
-    /// equal, so the last frame is rendered for each of them.
+    /// Returns the number of the frame that is rendered to get the picture of frame `number`. All
+    /// frames of a still scene are equal, so the last frame is rendered for each of them.
     int choose_frame_to_render(int number) const { return base_.animate ? number : base_.total(); }
     RunResult render_reference(const std::string& technique, int number) const;
     /// Adds a frame of each half, and updates the picture.

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-// Files that keep the halves of a reference with noise, so that a later comparison continues them.
+// Functions that store the halves of a noisy reference in a file, so that a later comparison can
+// add frames to them.
 namespace catoptric::app {
 
 /// Statements that a reference depends on: name and value.
@@ -29,8 +30,8 @@ struct StoredReference {
 /// JSON.
 void write_reference_file(const StoredReference& reference, const ReferenceKey& key,
                           const std::filesystem::path& path);
-/// Reads such a file. Throws `missing_input`, and `bad_data` for another file or for a file whose
-/// key differs, with the part that differs.
+/// Reads a file of a noisy reference. Throws `missing_input`. Throws `bad_data` for another kind of
+/// file, and for a file with another key, with the part of the key that differs.
 StoredReference read_reference_file(const ReferenceKey& key, const std::filesystem::path& path);
 
 } // namespace catoptric::app

@@ -10,15 +10,15 @@ namespace catoptric::app {
 /// have the seed 0, so 0 is always listed.
 std::set<int> list_row_seeds(const std::vector<std::string>& rows);
 
-/// Seeds of the frames of a reference with noise. No seed is given twice, and none is that of a
-/// row, because shared rays would make the row's error look small.
+/// Seeds for the frames of a noisy reference. No seed is given twice, and none equals the seed of a
+/// row. If reference and row had the same random rays, the row's error would look too small.
 class ReferenceSeeds {
 public:
     /// `rows`: the judged rows.
     explicit ReferenceSeeds(const std::vector<std::string>& rows) : taken_(list_row_seeds(rows)) {}
     /// Returns the next seed, from 1.
     int next();
-    /// Marks a seed as given. Returns false if a row has it, or if it was given before.
+    /// Reserves a seed. Returns false if a row has this seed, or if it was reserved before.
     bool reserve_lobe_seed(int seed) { return taken_.insert(seed).second; }
 
 private:

@@ -23,7 +23,7 @@ bool has_knob_value(const report::Row& row, std::string_view knob, std::string_v
 
 } // namespace
 
-/// Returns a request for what frame `number` shows, with the scene still.
+/// Returns a request for a still picture of the scene at the instant of frame `number`.
 Request RowErrorJudge::make_still_request(int number) const {
     Request request = base_;
     request.time = base_.instant(number);
@@ -31,8 +31,9 @@ Request RowErrorJudge::make_still_request(int number) const {
     return request;
 }
 
-/// Renders where the row's mirrors looked, and what its captures cut off. This is a run of its own,
-/// because recording costs time. The lookup is empty for rows that do not look into captures.
+/// Renders a frame that records where the row's mirrors looked, and how many texels of captures are
+/// clamped. This frame is rendered separately, because recording takes time. The result has no
+/// look-ups for rows that do not look into captures.
 TechniqueResult RowErrorJudge::render_lookups(const std::string& text, int number) {
     Request request = make_still_request(number);
     request.techniques = {text};

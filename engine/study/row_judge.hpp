@@ -10,7 +10,7 @@
 
 namespace catoptric::app {
 
-/// Finds the errors of a comparison's rows.
+/// Computes the errors of a comparison's rows.
 class RowErrorJudge {
 public:
     /// All objects passed by reference must outlive the judge. `base` shows the session's scene.

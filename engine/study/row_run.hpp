@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-// Measures rows in rounds: a few frames of each row in turn, so that a slow moment of the machine
-// meets all rows.
+// Functions that measure rows in rounds. In each round a few frames of each row are measured in
+// turn, so that a slow moment of the machine affects all rows.
 namespace catoptric::app {
 
 /// Returns the number of frames in round `index` of `rounds`. Frames are spread evenly; the first
@@ -36,9 +36,9 @@ public:
 
     /// Measures `frames` frames. The first call renders the warm-up before them.
     void measure_one_round_of_frames(int frames);
-    /// Measures frames after all rounds, whose times `replace_first_round` takes for those of the
-    /// first round. In a moving scene they show later instants. `list_technique_results` returns
-    /// their picture afterwards.
+    /// After all rounds, measures frames again whose times replace the times of the first round. In
+    /// a moving scene these frames show later instants. Afterwards, `list_technique_results`
+    /// returns the picture of the last of these frames.
     void measure_first_round_again();
     void replace_first_round();
     /// Returns the results of the last frame. Call before `suspend`.
@@ -50,9 +50,11 @@ public:
     /// Returns the number of the last frame, from 1.
     int rendered_frame_count() const { return frames_.rendered_frame_count(); }
     const std::vector<std::vector<FrameTimes>>& list_rounds() const { return rounds_; }
-    /// Returns waited_share over all rounds; NaN if the system does not report waiting.
+    /// Returns the mean of the waited share over all rounds: the part of the time in which the
+    /// row's threads waited for a processor. NaN if the system does not report waiting.
     double mean_share_of_time_waiting_for_processor() const { return waited_; }
-    /// Returns whether the row's threads had to wait for a processor that others had.
+    /// Returns whether the row's threads had to wait for a processor because other programs used
+    /// it.
     bool has_timing_noise() const { return noisy_; }
 
 private:

@@ -44,7 +44,7 @@ void check_rows_of_times(const CompareRequest& request, int /*count*/,
     }
 }
 
-/// Returns the times in at most `count` rounds of neighbouring frames.
+/// Returns the times, divided into at most `count` rounds of successive frames.
 std::vector<std::vector<double>> split_into_rounds(const std::vector<double>& list,
                                                    std::size_t count) {
     count = std::min(count, list.size());
@@ -54,7 +54,8 @@ std::vector<std::vector<double>> split_into_rounds(const std::vector<double>& li
     return rounds;
 }
 
-/// Adds the times to their rows. A time on the comparison's own device ranks its row.
+/// Adds the stated times to their rows. A row is ranked if its time was measured on the
+/// comparison's own device.
 void add_row_times(const StudyInput& input) {
     std::vector<report::Row>& rows = input.comparison.rows;
     std::vector<std::vector<measure::NamedMetricValueParts>> lists(rows.size());
@@ -115,7 +116,7 @@ std::vector<ReportTable> make_row_time_tables(const report::Comparison& comparis
 const RegisteredStudy kRowTimesStudy{
     {.name = "row-times",
      .help = "times of rows of --row, as their renderers measured them; may be repeated",
-     .order = 40, // before costs, whose fronts they join
+     .order = 40, // before the study `costs`, so that these rows join its fronts
      .words = "FILE",
      .check_words =
          [](const std::vector<std::string>& files) {

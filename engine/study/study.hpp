@@ -14,7 +14,7 @@
 /// other file lists it. `compare`, the command line and the reports read this table.
 namespace catoptric::app {
 
-/// What a study works with.
+/// The data that the function `run` of a study gets.
 struct StudyInput {
     Session& session; ///< shows the scene of `request.base`
     /// The request of the comparison. `base.techniques` has the text of each row, in the order of
@@ -24,8 +24,8 @@ struct StudyInput {
     std::vector<std::string> texts; ///< see StudyChoice
     ReferenceCache& truth; ///< reference pictures and first hits of the comparison's camera
     report::Comparison& comparison;
-    /// Passes the unfinished comparison on, for example to a writer of reports. Call it after each
-    /// part of the work.
+    /// Passes the unfinished comparison to a listener, such as the writer of reports. Call it after
+    /// each part of the study's work.
     std::function<void()> tell;
     /// Adds a sentence to the comparison's warnings.
     std::function<void(const std::string&)> warn;
@@ -43,12 +43,12 @@ struct Study {
     std::string_view words = {};
     /// Throws `usage` or `bad_data` for words that the study cannot use. May be null.
     void (*check_words)(const std::vector<std::string>& texts) = nullptr;
-    /// Throws `usage` for a number that the study cannot use. `option` names it in the message. May
-    /// be null.
+    /// Throws `usage` for a number that the study cannot use. `option`: name of the option for the
+    /// message. May be null.
     void (*check_count)(std::string_view option, int count) = nullptr;
     /// Throws `usage` for a reference that the study cannot use. May be null.
     void (*check_reference)(const std::string& reference) = nullptr;
-    /// Adds what must be known before rows are measured. May be null.
+    /// Computes facts that must be known before rows are measured. May be null.
     void (*prepare)(const CompareRequest& request, int count,
                     report::Comparison& comparison) = nullptr;
     /// Adds the results to the rows or to the comparison. After an exception (a signal, a failure

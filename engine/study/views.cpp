@@ -76,13 +76,13 @@ void add_view_errors(report::Row& row, const TechniqueResult& part, const Refere
     row.views.push_back(compute_masked_errors(part.hdr, truth.compared_reference(), flip_map, hits,
                                               mirrors, exposure));
     const double flip = row.views.back().error.flip;
-    // A view without judged pixels is never the worst.
+    // A view that shows no mirror pixel has no error, and is never the worst view.
     if (!std::isnan(flip) && (!row.worst || flip > row.views[row.worst->view].error.flip))
         row.worst = std::make_shared<measure::WorstView>(measure::WorstView{
             row.views.size() - 1, place_pictures_side_by_side(part.display, truth.part.display)});
 }
 
-/// The reference of a view, and what its rays meet.
+/// The reference picture of a view, and the first hits of its camera rays.
 struct ViewReferencePicture {
     Request at_view;
     ReferenceCache cache;
@@ -92,7 +92,8 @@ struct ViewReferencePicture {
         : at_view(make_view_request(request.base, view)),
           cache(session, at_view, request.reference, request.watcher),
           hits(cache.find_mirror_hits()) {}
-    /// Renders the references of all rows, for `seconds` together, down to the floor of noise.
+    /// Renders the reference pictures of the view for all rows. Reduces their noise for at most
+    /// `seconds` in all, until the noise is at most `floor`.
     void render(const std::vector<std::string>& rows, double seconds, double floor) {
         std::set<std::string> sample_counts;
         for (const std::string& text : rows)
@@ -100,13 +101,15 @@ struct ViewReferencePicture {
         for (const std::string& samples : sample_counts)
             cache.grow_reference(samples, seconds / static_cast<double>(sample_counts.size()),
                                  floor);
-        // No reference may be rendered later, between frames that share captures.
+        // All references are rendered now, because rendering a reference later would interrupt
+        // frames that share captures.
         for (const std::string& samples : sample_counts) cache.get_reference(samples);
     }
 };
 
-/// Returns the number after the last of at most `most` views that follow view `first` at its
-/// instant. Captures settle once for all of them, and each keeps its reference until then.
+/// Returns the index after the last view that shares the instant of view `first`, for at most
+/// `most` views. Captures of these views settle once, and the reference of each view is kept until
+/// then.
 std::size_t find_end_of_views_at_same_instant(const std::vector<measure::View>& views,
                                               std::size_t first, std::size_t most) {
     std::size_t end = first + 1;
@@ -116,8 +119,8 @@ std::size_t find_end_of_views_at_same_instant(const std::vector<measure::View>& 
 
 constexpr int kMaxViewWarnings = 3; // of all rows of files
 
-/// Adds the errors of the picture that a row of files has for view `view`, from 1, if it has one.
-/// `warned` counts warnings of all rows.
+/// Adds the errors of a row of files in view `view` (from 1), if the row has a picture of this
+/// view. `warned` counts the warnings of all rows.
 void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, std::size_t view,
                                 const ReferencePicture& truth,
                                 const std::vector<std::uint32_t>& hits, std::size_t mirrors,
@@ -184,7 +187,7 @@ std::vector<measure::View> draw_random_views(const Request& request, int count,
     std::mt19937_64 random(request.seed);
     std::vector<std::uint64_t> seeds;
     for (measure::View& view : views) {
-        view.seed = random() >> 32; // short enough to type, and exact in every JSON
+        view.seed = random() >> 32; // a short seed is easy to type, and exact in every JSON reader
         seeds.push_back(view.seed);
         const double share = static_cast<double>(random() >> 32) * 0x1p-32;
         view.time = period > 0 ? compute_view_instant(request.time, period, share) : request.time;
@@ -207,7 +210,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
     int warned = 0;
-    std::size_t finished = 0; // pictures
+    std::size_t finished = 0; // number of finished pictures
     const auto report_picture = [&](std::size_t view, const std::string& what) {
         report_row_to_watcher(request.watcher,
                               "view " + std::to_string(view + 1) + " of " + std::to_string(count) +
@@ -233,7 +236,8 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                 ViewReferencePicture& truth = *truths[i - first];
                 Request one = truth.at_view;
                 one.techniques = {texts[k]};
-                // Both models draw the same picture. This one keeps what no camera changes.
+                // Both models draw the same picture. The model `required` keeps captures that do
+                // not depend on the camera.
                 one.model = RenderedWork::required;
                 const RunResult result = run_with_history(
                     session, one, request.watcher,

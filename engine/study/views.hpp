@@ -37,8 +37,7 @@ struct ViewsRequest {
     int cameras_per_instant = 1;
     /// Called when every row has its errors in the views of one instant. The function may be empty.
     std::function<void()> on_finished_view;
-    /// Called with what is suspicious about the pictures of rows of files. The function may be
-    /// empty.
+    /// Called with warnings about the pictures of rows of files. The function may be empty.
     std::function<void(const std::string&)> on_warning;
 };
 

@@ -1,4 +1,4 @@
-// The study `work`: counts what one frame of each row does.
+// The study `work`: counts the work of one frame of each row.
 #include "study/work.hpp"
 
 #include "measure/work.hpp"
