@@ -32,11 +32,12 @@ void Audit::count_frame(bool passed) {
     for (std::size_t i = 0; i < kAlternatives; ++i) {
         const double u = bad + tested_.share * middle_of_part(i, kAlternatives);
         const double ratio = passed ? (1 - u) / tested_.share : u / bad;
-        constexpr double kLargest = 1e100; // far above any threshold; a smaller sum stays valid
+        constexpr double kLargest = 1e100; // far above any threshold; a sum that is cut off here
+                                           // stays valid
         ratios_[i] = std::min(kLargest, ratio * (ratios_[i] + 1 / (start * (start + 1))));
     }
-    // One failing frame is no evidence of a share, however small the allowed share is. Waiting for
-    // a second one only delays an alarm.
+    // One failing frame alone never raises an alarm, however small the allowed share of failures
+    // is. Waiting for a second failure only delays an alarm.
     is_alarmed_ = is_alarmed_ || (failures_ >= 2 && alarm_evidence() >= threshold());
 }
 
@@ -60,7 +61,7 @@ double Audit::assurance_against(double failing_share) const {
 double Audit::assured_share() const {
     if (assurance_against(1) < threshold()) return 0;
     constexpr int kSteps = 50; // halvings of an interval of length 1
-    double low = 0, high = 1;  // failing shares: not excluded, excluded
+    double low = 0, high = 1;  // bounds: excluded failing shares lie above, others below
     for (int i = 0; i < kSteps; ++i) {
         const double middle = (low + high) / 2;
         (assurance_against(middle) >= threshold() ? high : low) = middle;

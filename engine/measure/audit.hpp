@@ -3,8 +3,8 @@
 #include <array>
 #include <cstddef>
 
-// Sequential tests of a running program's frames: "the share of frames that keep a limit is at
-// least q". They may be read after every audited frame, for as long as the program runs.
+// Sequential tests of the statement "the share of a program's frames that keep a limit is at least
+// q". The tests may be read after every audited frame, for as long as the program runs.
 namespace catoptric::measure {
 
 /// The statement that an audit tests.
@@ -42,19 +42,20 @@ public:
 
     std::size_t frame_count() const { return frames_; }
     std::size_t failure_count() const { return failures_; }
-    /// Returns E(a), the evidence that the frames' mean probability of failing lies below a, 0..1.
-    /// It does not depend on the order of the frames. The mixture is that of q for any a.
+    /// Returns E(a), the evidence that the frames' mean probability of failing is below a.
+    /// `failing_share`: a, from 0 to 1. The result does not depend on the order of the frames. The
+    /// mixture over t is the one for the tested q, whatever a is.
     double assurance_against(double failing_share) const;
     double assurance() const { return assurance_against(1 - tested_.share); } ///< E(1 - q)
     /// Returns whether the frames audited so far assure q.
     bool is_assured() const { return assurance() >= threshold(); }
-    /// Returns the largest share that is assured, 1 - a of the least a for which E(a) >= 1/d; 0:
-    /// none. With probability 1 - d the frames' mean probability of passing lies above it at every
-    /// n.
+    /// Returns the largest assured share: 1 - a for the least a with E(a) >= 1/d; 0 if no share is
+    /// assured. With probability 1 - d, the frames' mean probability of passing is above this share
+    /// after every frame.
     double assured_share() const;
-    /// Returns A, which depends on the order of the frames.
+    /// Returns A, the evidence for an alarm. A depends on the order of the frames.
     double alarm_evidence() const;
-    /// Returns whether A has reached 1/d at any frame after a second failure.
+    /// Returns whether A has reached 1/d after any frame since the second failure.
     bool is_alarmed() const { return is_alarmed_; }
     const AuditedShare& tested_share() const { return tested_; }
 
@@ -65,7 +66,7 @@ private:
 
     AuditedShare tested_;
     std::size_t frames_ = 0, failures_ = 0;
-    /// For each u, the sum over the starts j <= n of the weighted likelihood ratios.
+    /// For each value of u, the sum of the weighted likelihood ratios over all starts j <= n.
     std::array<double, kAlternatives> ratios_{};
     bool is_alarmed_ = false;
 };

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kFramesForMedian = 60, kFramesBeforeFirstBlock = 8, kAuditsForTime = 4;
 constexpr std::size_t kMaxBlock = 1'000'000; // frames; several hours
-constexpr double kLongestFrame = 10;         // medians; a longer frame is a pause of the program
+constexpr double kLongestFrame = 10;         // in medians; a longer frame counts as a pause of the
+                                             // program
 
 void keep_last_times(std::deque<double>& times, double ms, std::size_t most) {
     times.push_back(ms);

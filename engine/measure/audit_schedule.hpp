@@ -6,7 +6,7 @@
 #include <optional>
 #include <random>
 
-// Chooses which frames of a running program are audited, and when its plan may change.
+// Classes that choose which frames of a running program are audited, and when its plan may change.
 namespace catoptric::measure {
 
 struct AuditPace {
@@ -24,13 +24,15 @@ public:
     /// Throws `usage` for numbers out of range.
     explicit AuditSchedule(const AuditPace& pace = {});
 
-    /// Counts one frame, which took `frame_ms` without its audit. Returns whether to audit it.
-    /// After an audited frame, the time above the median counts as time of the audit. A frame of
-    /// more than 10 medians counts as 10, because the program has paused.
+    /// Counts one frame, which took `frame_ms` without an audit. Returns whether to audit this
+    /// frame. If the previous frame was audited, the time by which this frame exceeds the median
+    /// counts as time of the audit. A frame of more than 10 medians counts as 10 medians, because
+    /// the program has paused.
     bool count_frame(double frame_ms);
-    /// Adds the time of an audit that belongs to the run.
+    /// Adds the time of an audit to the audits' time of the run.
     void add_audit_time(double ms);
-    /// Adds the time of an audit before the run, which only helps to choose the next block.
+    /// Reports how long an audit takes, before the first frame. This time helps to choose the
+    /// length of blocks, but is not part of the run.
     void expect_audit_time(double ms);
 
     /// Returns the number of frames of the present block; 0 before the first.
@@ -46,20 +48,22 @@ private:
     std::mt19937_64 random_;
     std::deque<double> last_frames_, last_audits_; ///< ms
     std::size_t block_ = 0, at_ = 0;               ///< frames of the block: all, so far
-    std::size_t drawn_ = 0;                        ///< number of the drawn frame, from 0
+    std::size_t drawn_ = 0;                        ///< index of the audited frame in its block,
+                                                   ///< from 0
     double frames_ms_ = 0, audits_ms_ = 0;
     bool was_audited_ = false; ///< the frame before
 };
 
-/// A place in a list of plans from the surest to the cheapest. It moves to the surer side only, and
-/// at most twice in any second.
+/// The current position in a list of plans, which is sorted from the plan with the least error to
+/// the cheapest. The position only moves towards plans with less error, and at most twice in any
+/// second.
 class PlanLadder {
 public:
     /// `plans`: at least 1.
     explicit PlanLadder(std::size_t plans) : place_(plans - 1) {}
     std::size_t place() const { return place_; } ///< index of the present plan
-    /// Moves to the next surer plan. Returns false at the surest plan, and within half a second of
-    /// the last step. `seconds` counts from any beginning and never falls.
+    /// Moves to the next plan with less error. Returns false if there is none, or within half a
+    /// second of the last step. `seconds`: time since any fixed beginning; it must never fall.
     bool step_to_surer_plan(double seconds);
 
 private:

@@ -30,7 +30,7 @@ BenchmarkCostKind choose_benchmark_cost_kind(const BenchmarkResult& before,
                                                     : BenchmarkCostKind::cpu_time;
 }
 
-/// Compares the counted work that both have. Every round of a benchmark has the same counts.
+/// Compares the counts of work that both runs have. All rounds of a benchmark have the same counts.
 void compare_counted_work(const BenchmarkResult& before, const BenchmarkResult& after,
                           BenchmarkChange& change) {
     if (before.rounds.empty() || after.rounds.empty()) return;

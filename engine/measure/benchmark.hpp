@@ -88,8 +88,8 @@ struct BenchmarkChange {
     std::array<double, 2> medians{};       ///< medians of the cost, before and after
     BenchmarkCostRatio ratio;              ///< cost after, divided by cost before
     BenchmarkCostRatio real_ratio;         ///< the same for the elapsed time
-    std::size_t compared_counts = 0;       ///< number of counts of work that both have
-    std::vector<CountedWorkChange> counts; ///< those that differ
+    std::size_t compared_counts = 0;       ///< number of counts of work that both runs have
+    std::vector<CountedWorkChange> counts; ///< counts that differ
     BenchmarkChangeOutcome outcome() const;
 };
 /// Returns "slower", "faster", "mixed", "same" or "unknown".

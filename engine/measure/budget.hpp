@@ -4,7 +4,8 @@
 
 #include <vector>
 
-// The row that a user should take who may spend a given time, or accept a given error.
+// Functions that find the best row for a user with a limited time per frame, or with a limit of
+// error.
 namespace catoptric::measure {
 
 bool has_time_or_flip_budget(const Comparison& comparison);
@@ -15,18 +16,19 @@ bool is_within_time_budget(const Comparison& comparison, const Row& row);
 /// Returns whether the row's FLIP over the mirrors is at most Comparison::max_flip.
 bool is_within_flip_budget(const Comparison& comparison, const Row& row);
 
-/// Answer to a budget. Only rows that take part in fastest, closest and front count.
+/// Answer to a budget of time or error. Rows that take no part in fastest, closest and front are
+/// left out.
 struct BestRowsWithinBudget {
-    /// Row that keeps the budgets. With a budget of time alone it has the least FLIP, else the
-    /// least median time. Null if no row keeps them.
+    /// The row to choose. With a budget of time alone, it has the least FLIP of the rows within the
+    /// budget, and otherwise the least median time. Null if no row keeps the budgets.
     const Row* row = nullptr;
-    /// Other rows that keep the budgets and cannot be told from `row`.
+    /// Other rows within the budgets that tie with `row`.
     std::vector<const Row*> ties;
-    /// Rows that keep the budget of FLIP, and whose median time is below that of time, but not with
-    /// confidence.
+    /// Rows within the budget of FLIP whose median time is below the budget of time, but not with
+    /// 95 % confidence.
     std::vector<const Row*> undecided;
-    /// If no row keeps the budgets: the closest of the rows within the budget of time, or the
-    /// fastest row if no row is. Null if no row could be judged.
+    /// If no row keeps the budgets: the row with the least FLIP within the budget of time, or else
+    /// the fastest row. Null if no row could be judged.
     const Row* nearest = nullptr;
 };
 BestRowsWithinBudget find_best_rows_within_budget(const Comparison& comparison);

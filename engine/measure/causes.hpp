@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-// Splits the error of a row by cause.
+// Data of a row's error, split by cause, and functions that sum it.
 namespace catoptric::measure {
 
 /// Part of a row's error that one cause contributes. Squared errors are means over mirror pixels

@@ -54,7 +54,8 @@ std::size_t count_views_needed_for_certificate(double share, double confidence,
 double upper_tolerance_limit(std::span<const double> values, double share, double confidence) {
     std::vector<double> sorted(values.begin(), values.end());
     std::ranges::sort(sorted);
-    // The value with `above` larger ones is a limit if that many failures still prove the share.
+    // A drawn value is a limit if the number of larger values, counted as failures, still proves
+    // the share.
     double limit = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t above = 0; above < sorted.size(); ++above) {
         if (binomial_cumulative(above, sorted.size(), 1 - share) > 1 - confidence) break;

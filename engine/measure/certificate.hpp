@@ -3,13 +3,15 @@
 #include <cstddef>
 #include <span>
 
-// Statements about all views of a scene from independently drawn ones: "at least a share q of the
-// views keeps a limit, with confidence c". They hold for any distribution of the errors.
+// Functions for statements about all views of a scene, derived from independently drawn views: "at
+// least a share q of the views keeps a limit, with confidence c". The statements hold for any
+// distribution of errors.
 namespace catoptric::measure {
 
-/// Returns the largest share of views, 0..1, of which it can be said with this confidence, 0..1,
-/// that they keep a limit, if `failures` of `views` drawn views did not (Clopper and Pearson, The
-/// Use of Confidence or Fiducial Limits, 1934, one-sided). 0 without views. Costs O(failures).
+/// Returns the largest share of all views, 0 to 1, that is proved to keep a limit with this
+/// confidence, 0 to 1, if `failures` of `views` drawn views break the limit (Clopper and Pearson,
+/// The Use of Confidence or Fiducial Limits, 1934, one-sided). Returns 0 without views. Takes
+/// O(failures).
 double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views,
                                          double confidence);
 
@@ -18,9 +20,10 @@ double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views
 std::size_t count_views_needed_for_certificate(double share, double confidence,
                                                std::size_t failures);
 
-/// Returns a limit that at least this share of all views keeps, with this confidence: the smallest
-/// drawn value that is large enough (one-sided tolerance limit; Wilks, Determination of Sample
-/// Sizes for Setting Tolerance Limits, 1941). NaN if there are too few values for any limit.
+/// Returns an error that, with this confidence, at least this share of all views does not exceed.
+/// The result is the smallest drawn value that is large enough (one-sided tolerance limit; Wilks,
+/// Determination of Sample Sizes for Setting Tolerance Limits, 1941). NaN if there are too few
+/// values.
 double upper_tolerance_limit(std::span<const double> values, double share, double confidence);
 
 } // namespace catoptric::measure

@@ -31,7 +31,8 @@ struct UnitCostNormalEquations {
     }
 };
 
-/// Solves by coordinate descent: each step sets one unknown to the best value that is not negative.
+/// Solves for the unit costs by coordinate descent. Each step sets one cost to its best value that
+/// is not negative.
 ValuePerWorkKind solve_non_negative(const UnitCostNormalEquations& equations) {
     constexpr int kMaxSolverSweeps = 200'000;
     constexpr double kFitConvergenceLimit = 1e-12;
@@ -46,7 +47,7 @@ ValuePerWorkKind solve_non_negative(const UnitCostNormalEquations& equations) {
             for (std::size_t j = 0; j < count; ++j)
                 if (j != i) rest -= equations.matrix[i][j] * found[j];
             const double next = std::max(0.0, rest / diagonal);
-            // Weighs changes by their effect on the predicted times.
+            // The change of a cost is weighted by its effect on the predicted times.
             change = std::max(change, std::abs(next - found[i]) * std::sqrt(diagonal));
             size = std::max(size, next * std::sqrt(diagonal));
             found[i] = next;
@@ -64,8 +65,8 @@ bool is_ray_tracing_work_kind(CountedWorkKind kind) {
     return kind <= CountedWorkKind::triangle_lanes;
 }
 
-/// Returns the time with each unit at an end of its range: rays at the low end and other work at
-/// the high end, or the other way round.
+/// Returns the predicted time with each unit cost at an end of its range: rays at the low end and
+/// all other work at the high end, or the other way round.
 double predict_time_at_cost_bounds(const DeviceCosts& costs, const WorkCountsByKind& counts,
                                    bool rays_are_cheap) {
     double ms = 0;
@@ -77,7 +78,8 @@ double predict_time_at_cost_bounds(const DeviceCosts& costs, const WorkCountsByK
     return ms;
 }
 
-/// Returns the rows that no other row beats, fastest first. A row without a time takes no part.
+/// Returns the indices of the rows that no other row beats, the fastest row first. Rows without a
+/// predicted time are left out.
 std::vector<std::size_t> find_pareto_front_of_predicted_times(const std::vector<Row>& rows,
                                                               const std::vector<double>& ms) {
     const auto beats = [&](std::size_t a, std::size_t b) {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-/// The cost of a unit of each kind of work on a device. The time of a frame is predicted as the sum
-/// of its counts times these costs. This is a linear model: it knows no caches, no overlap of work
-/// and no bottleneck, so its error is stated with each fit.
+/// The unit costs of a device: how many nanoseconds it takes for one unit of each kind of work. The
+/// time of a frame is predicted as the sum of its counts times these costs. This linear model
+/// ignores caches, overlapping work and bottlenecks, so each fit states its error.
 namespace catoptric::measure {
 
 /// Where a cost comes from. fitted: from times measured on the device. literature: from published
@@ -35,11 +35,11 @@ struct TimedWorkSample {
     double ms = 0;
 };
 
-/// How well fitted costs predict times. Each row is predicted by costs that were fitted to the
-/// other rows.
+/// How well fitted costs predict times. The time of each row is predicted by costs that were fitted
+/// to all other rows.
 struct UnitCostFitQuality {
     std::vector<TimedWorkSample> samples;
-    std::vector<double> left_out_ms; ///< prediction of each sample, fitted without it
+    std::vector<double> left_out_ms; ///< predicted time of each sample by a fit without it
     /// Returns the share of samples, 0..1, whose prediction lies within a factor `factor` of the
     /// measured time.
     double share_of_predictions_within_factor(double factor) const;
@@ -62,11 +62,12 @@ PredictedTime predict_time(const DeviceCosts& costs, const WorkCountsByKind& cou
 
 /// The rows that no other row beats on a device, by predicted time and by FLIP over the mirrors.
 struct PredictedParetoFront {
-    std::vector<PredictedTime> times; ///< of each row; NaN for a row whose work was not counted
-    /// Indices of the rows on the front, fastest first, at the costs themselves.
+    std::vector<PredictedTime> times; ///< predicted time of each row; NaN for a row whose work was
+                                      ///< not counted
+    /// Indices of the rows on the front at the given unit costs, the fastest first.
     std::vector<std::size_t> rows;
-    /// The same with rays at the smallest and all other work at the largest cost of its range, and
-    /// the other way round. Equal to `rows` if no range is known.
+    /// The rows on the front if rays have the smallest and all other work the largest cost of its
+    /// range, and the other way round. Both equal `rows` if no range is known.
     std::vector<std::size_t> rows_if_rays_are_cheap, rows_if_rays_are_dear;
 };
 /// Returns the front of the rows that are candidates for ranking and whose work was counted, or

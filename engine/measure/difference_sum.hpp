@@ -11,8 +11,8 @@ namespace catoptric::measure {
 /// a whole. Keeps 9 bytes a pixel. The result does not depend on how many rows each call adds.
 class PictureDifferenceSum {
 public:
-    /// Reserves memory for all pixels at once, because growing step by step would take twice as
-    /// much.
+    /// Reserves memory for all pixels at once, because a list that grows step by step would take
+    /// twice as much.
     PictureDifferenceSum(int width, std::size_t pixel_count) : width_(width) {
         off_.reserve(pixel_count), largest_.reserve(pixel_count);
     }
@@ -32,7 +32,7 @@ private:
 
     int width_;
     Difference result_;
-    /// Largest channel difference of each finite pixel of the mask.
+    /// The largest channel difference of each pixel of the mask whose values are finite.
     std::vector<double> largest_;
     Mask off_;
     std::size_t off_count_ = 0;

@@ -15,11 +15,11 @@ struct SumsByMirrorBounceClass {
     double sum_of_all_mirror_pixels() const { return first_order + mirror_in_mirror; }
 };
 
-/// Mirror pixels and which of them count.
+/// The mirror pixels of a picture, and which of them are counted.
 struct FiniteMirrorPixels {
     std::span<const std::uint32_t> hits; ///< first hits of the whole picture
     std::vector<std::size_t> places;     ///< indices of mirror pixels in the picture
-    std::vector<bool> counts;            ///< whether each of `places` counts
+    std::vector<bool> counts;            ///< whether each pixel of `places` is counted
     std::size_t mirrors = 0;
 
     SumsByMirrorBounceClass sum_by_mirror_bounce_class(std::span<const double> values) const {
@@ -123,7 +123,7 @@ Causes summarise_error_causes(std::span<const std::uint32_t> hits, const Mask& o
         summed.alone = mean(alone);
         summed.alone_per_mirror = compute_mean_per_mirror(alone.per_mirror, counts.per_mirror);
     }
-    // Rounding may make a rest of 0 slightly negative.
+    // By rounding, a rest of 0 may be slightly negative.
     result.rest_rmse = std::sqrt(std::max(result.list.back().squared_error, 0.0));
     return result;
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kPixelsPerBand = 1 << 20; // pixels of a band; a band has at least one row
 
-/// Window on a picture: the rows that one band and its surroundings need.
+/// A window of rows of a picture: the rows that a band and its surroundings need.
 class PictureRowReadWindow {
 public:
     explicit PictureRowReadWindow(PictureReader reader) : reader_(std::move(reader)) {}
@@ -70,8 +70,8 @@ private:
     Picture display_a_, display_b_;
 };
 
-/// Returns the rows after exposure. Returns an empty list for 0 stops: the caller then uses the
-/// rows as they are.
+/// Returns the rows multiplied by 2^exposure. For 0 stops, returns an empty list, and the caller
+/// uses the rows as they are.
 std::vector<vec3> apply_exposure_to_rows(std::span<const vec3> rows, double exposure_stops) {
     if (exposure_stops == 0) return {};
     std::vector<vec3> result;

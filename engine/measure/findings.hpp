@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-// Answers that the metrics give to questions of the seed report. This code decides the answers, and
-// report/ puts them into words. A function returns nothing if the comparison lacks the rows it
-// needs.
+// Answers to questions of the seed report, computed from the rows of a comparison. report/ writes
+// them as sentences. A function returns nothing if the comparison lacks the rows that it needs.
 namespace catoptric::measure {
 
 /// Difference between neighbouring values of an 8-bit picture, on a scale from 0 to 1.

@@ -17,7 +17,7 @@ namespace {
 constexpr int kBootstrapResampleCount = 1000;
 constexpr std::uint64_t kBootstrapSeed = 1;
 
-/// Sum over the finite pixels of one tile.
+/// Sum over the pixels of one bootstrap tile whose values are finite.
 struct BootstrapTileSum {
     double products = 0, pixels = 0;
 };
@@ -55,11 +55,11 @@ double root_keeping_sign(double square) {
     return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
 
-/// Sums of one mask.
+/// Sums of squared errors over the pixels of one mask.
 struct NoiseFreeErrorSum {
     std::vector<BootstrapTileSum> tiles;
     double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
-    double variance = 0; ///< of `products`
+    double variance = 0; ///< variance of `products`
 };
 
 NoiseFreeErrorSum sum_noise_free_error_over_mask(const Picture& picture,
@@ -201,7 +201,7 @@ void set_noise_of_row(Row& row, const std::vector<NoiseFreeErrorEstimate>& estim
     std::vector<NamedMetricValueParts> list;
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         const NoiseFreeErrorEstimate& estimate = estimates[i];
-        if (std::isnan(estimate.squared_error)) continue; // the mask has no pixel
+        if (std::isnan(estimate.squared_error)) continue; // a mask without pixels has no estimate
         list.push_back({"mask",
                         std::string(list_row_masks()[i].name),
                         {{"squared_error", estimate.squared_error},

@@ -18,14 +18,15 @@ namespace catoptric::measure {
 /// Two halves of a reference, as linear RGB after exposure, and the FLIP between them.
 struct NoisyReferenceHalves {
     Picture a, b;
-    Picture mean;                 ///< of both
+    Picture mean;                 ///< mean of both halves
     std::vector<float> floor_map; ///< FLIP map of `a` and `b`
 };
 /// Returns halves with these pictures. `exposure`: stops, by which the pictures are multiplied.
 NoisyReferenceHalves make_noisy_reference_halves(const Picture& a, const Picture& b,
                                                  double exposure);
 
-/// Returns a picture's mean FLIP map against the two halves. `picture` is linear, before exposure.
+/// Returns the mean of a picture's FLIP maps against the two halves. `picture` is linear, before
+/// exposure.
 std::vector<float> compute_flip_against_halves(const Picture& picture,
                                                const NoisyReferenceHalves& halves, double exposure);
 
@@ -57,10 +58,11 @@ struct NoiseFreeErrorEstimate {
     /// both halves has one normal distribution, because M and A - B are then independent. Noise is
     /// independent from pixel to pixel.
     double deviation = Difference::kNone;
-    /// The same estimate without clamping, which stays unbiased where a half crosses 1.
+    /// The estimate without clamping, which stays unbiased where one half exceeds 1 and the other
+    /// does not.
     double unclamped = Difference::kNone;
-    /// Share of the pixels in which one half exceeds 1 in a channel and the other does not.
-    /// Clamping biases these pixels.
+    /// Share of the pixels in which a channel of one half exceeds 1 and that of the other does not.
+    /// Clamping biases the estimate in these pixels.
     double crossing = Difference::kNone;
     double halves_rmse = Difference::kNone; ///< rmse between the two halves, clamped
     double flip = Difference::kNone;        ///< as in Difference
@@ -78,9 +80,9 @@ bool is_below_noise(const Difference& error);
 /// for references without noise.
 double find_flip_noise_floor(const Difference& a, const Difference& b);
 
-/// Returns the FLIP between the halves at which a reference need not be refined further: a fifth of
-/// the least FLIP over the mirrors of a row that looks into captures. If there is no such row, all
-/// rows but the reference count; 0 without any.
+/// Returns the noise floor (FLIP between the halves) at which a reference needs no more frames: a
+/// fifth of the least FLIP over the mirrors of a row that looks into captures. If there is no such
+/// row, all rows except the reference count. Returns 0 if there are no rows.
 double choose_target_noise_floor(const std::vector<const Row*>& rows);
 
 /// Name of the metric that lists a row's NoiseFreeErrorEstimate for each mask, and of the study

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-// Confidence intervals of repeated measurements, for any distribution.
+// Functions for confidence intervals of repeated measurements, valid for any distribution.
 namespace catoptric::measure {
 
 /// Smallest number of values for which the median has a 95 % confidence interval.

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-// Judgement of rows against each other. All code that writes, shows or chooses rows uses these
-// rules.
+// Functions that rank rows: which row is faster, has less error, or is on the front. All code that
+// writes, shows or chooses rows uses these rules.
 namespace catoptric::measure {
 
 /// Returns whether the row's picture has pixels that are NaN or infinite. Its metrics leave these
@@ -30,8 +30,9 @@ bool is_time_tie(const Row& a, const Row& b);
 /// the confidence interval of the difference decides. A difference below the noise of the reference
 /// (find_flip_noise_floor) is a tie.
 bool has_less_flip(const Row& a, const Row& b);
-/// Returns whether a is the better choice: faster and not farther from the reference, or closer and
-/// not slower. A row that is no candidate or took no time neither beats a row nor is beaten.
+/// Returns whether row a is a better choice than row b: a is faster and has no larger error, or a
+/// has less error and is not slower. A row without a time, or with black mirrors, neither beats a
+/// row nor is beaten.
 bool is_better_row_of_same_technique(const Row& a, const Row& b);
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.

@@ -49,7 +49,7 @@ struct LagResults {
     std::vector<double> seconds; ///< the instants in seconds, equally spaced
     double path = 0;      ///< seconds that the instants span, including the way back to the first
     double jump_from = 0; ///< seconds: half the path after the first instant
-    int frame_cap = 0;    ///< most frames that are waited for a still picture
+    int frame_cap = 0;    ///< most frames rendered until a still picture stops changing
     std::vector<LagRow> rows;
     /// Labels of requested rows without history: their frames read nothing of the last frame.
     std::vector<std::string> without_history;

@@ -2,8 +2,8 @@
 
 #include "measure/picture.hpp"
 
-// Detection of wrong pixels that form a line. A viewer notices such a line at once, but no mean
-// shows it.
+// A function that finds wrong pixels that form a line. A viewer notices such a line at once, but no
+// mean error shows it.
 namespace catoptric::measure {
 
 /// Threshold of a pixel that is off. A pixel is off if its largest channel difference exceeds this

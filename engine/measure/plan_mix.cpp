@@ -32,7 +32,7 @@ bool are_view_errors_within_limit(const std::vector<double>& sums,
     return true;
 }
 
-/// A mirror that gets another candidate.
+/// A possible change of the mix: one mirror gets another technique.
 struct TechniqueMixExchange {
     std::size_t mirror = 0, candidate = 0;
     double worth = 0; ///< saved time per added error; 0: no exchange
@@ -42,7 +42,8 @@ TechniqueMixExchange
 find_best_technique_exchange(const std::vector<TechniqueCandidateForMix>& candidates,
                              const std::vector<std::size_t>& mix, const MirrorPixelsPerView& pixels,
                              double limit) {
-    constexpr double kLeastError = 1e-9; // an exchange that adds no error is worth its saving
+    constexpr double kLeastError = 1e-9; // an exchange that adds no error counts as adding this
+                                         // error
     const std::vector<double> now = sum_errors_of_mix_per_view(candidates, mix, pixels.size());
     TechniqueMixExchange best;
     for (std::size_t mirror = 0; mirror < mix.size(); ++mirror) {

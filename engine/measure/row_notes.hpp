@@ -4,8 +4,9 @@
 
 namespace catoptric::measure {
 
-/// Returns notes on what was done otherwise than the row asks for, one sentence each. These are the
-/// comparison's warnings that begin with the row's label in quotes, without that label.
+/// Returns notes, one sentence each, on differences between a row's request and what was done.
+/// These notes are the comparison's warnings that begin with the row's label in quotes. The label
+/// is left out.
 std::vector<std::string> list_row_notes(const Comparison& comparison, const Row& row);
 
 } // namespace catoptric::measure

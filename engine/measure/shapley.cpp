@@ -36,8 +36,8 @@ void ShapleyValues::add_coalition_value(std::uint32_t coalition, std::span<const
     came_[coalition] = true;
     const auto size = static_cast<std::size_t>(std::popcount(coalition));
     for (std::size_t player = 0; player < worth_.size(); ++player) {
-        // A coalition with the player ends a rise in value, a coalition without the player begins
-        // one.
+        // The difference is added for a coalition that contains the player, and subtracted for a
+        // coalition without the player.
         const bool is_in = (coalition >> player & 1U) != 0;
         const double weight = is_in ? shapley_weight(size - 1, worth_.size())
                                     : -shapley_weight(size, worth_.size());

@@ -22,7 +22,7 @@ std::optional<std::uint32_t> find_knob_number(const TechniqueKnobSettings& setti
     return static_cast<std::uint32_t>(settings.knob_value_as_integer(knob));
 }
 
-/// Returns whether a knob of two choices has the second.
+/// Returns whether the second choice of a knob with two choices is selected.
 bool has_second_choice_of_knob(const TechniqueKnobSettings& settings, const TechniqueKnob& knob) {
     return settings.has_knob_named(knob) && settings.knob_value_as_integer(knob) == 1;
 }
@@ -90,7 +90,8 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
                                inputs.scene.has_rough_mirrors();
     options.surfaces = knobs.by_object || knobs.asks_all || wants_normals ||
                        (continues && inputs.scene.has_mirror_count_changed());
-    // A blurred look-up shows mirrors only by the capture.
+    // A blurred look-up of a rough mirror does not follow rays through other mirrors, so captures
+    // must show the other mirrors.
     options.leaves_out_spheres = continues && knobs.leaves_out_spheres &&
                                  !(knobs.uses_filtered_levels() &&
                                    inputs.scene.has_rough_mirrors());
@@ -110,8 +111,8 @@ render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std:
                                          {&kShownDebugPictureKnob, "show"},
                                          {&kGlassRefractionModelKnob, "refract_model"}})
         if (settings.has_knob_named(*knob)) set(constant, settings.knob_value_as_integer(*knob));
-    // The captures of mirrors that share a technique all hold surface numbers, or none does. Some
-    // mirrors may have no capture, so all are checked.
+    // Among mirrors with the same technique, either all captures hold surface numbers or none does.
+    // All mirrors are checked, because some may have no capture.
     if (std::ranges::any_of(around.mirrors, [&](std::uint32_t mirror) {
             const render::CubeCaptureArray* const cubes = around.captures->find_array_of_mirror(
                 mirror);

@@ -102,7 +102,8 @@ inline constexpr TechniqueKnob kShownDebugPictureKnob{
     .high = 2,
     .choices = kShownDebugPictureChoices};
 
-/// In the order of KnobsSharedByTechniques::Rough and of KnobsSharedByTechniques::Law.
+/// Names of the methods for rough mirrors and of the distance laws, in the order of
+/// KnobsSharedByTechniques::Rough and KnobsSharedByTechniques::Law.
 inline constexpr std::array<std::string_view, 5> kRoughMirrorMethodChoices{
     "none", "mips", "prefilter", "rays", "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",
@@ -138,7 +139,7 @@ inline constexpr TechniqueKnob kBlurLawKnob{
     .value = 4,
     .choices = kBlurLawChoices};
 
-/// In the order of shared::kRefract....
+/// Names of the models of glass, in the order of shared::kRefract....
 inline constexpr std::array<std::string_view, 7> kGlassRefractionModelChoices{
     "none", "auto", "thin", "sphere", "box", "traced", "backface"};
 inline constexpr TechniqueKnob kGlassRefractionModelKnob{
@@ -222,7 +223,7 @@ render::MirrorShader make_search_shader(const Technique& technique,
                                         const MirrorShadingInputs& around,
                                         const TechniqueKnobSettings& settings);
 
-/// Consecutive layers of an array of cubes.
+/// Consecutive layers of an array of cube maps.
 struct CaptureCubeRange {
     std::uint32_t first = 0, count = 0;
 };

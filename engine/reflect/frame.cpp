@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* kGlassBacks = "glass_backs"; // image in shaders/lib/refraction.glsl
 
-/// Returns the model of glass for views other than the camera's, which have no image of back faces.
+/// Returns the model of glass for captures and mirrored views. These views have no image of back
+/// faces, which `refract=backface` reads.
 std::uint32_t choose_refraction_model_of_other_views(std::uint32_t refract) {
     return refract == render::kRefractBackface ? shared::kRefractAuto : refract;
 }
@@ -27,7 +28,7 @@ std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechnique
 /// Shadow maps by edge in texels. Each is added to the graph once.
 class ShadowMaps {
 public:
-    /// `probes`: added to the lighting of all passes.
+    /// `probes`: light probes that light all passes; null: none.
     ShadowMaps(graph::Graph& graph, const render::FrameInputs& inputs,
                const require::RequiredWorkModel& model,
                const std::optional<render::LightProbeImages>& probes)
@@ -55,7 +56,8 @@ private:
     std::map<std::uint32_t, render::ShadingLights> made_;
 };
 
-/// Returns whether a tracer completes the whole view (Technique::completes_view).
+/// Returns whether the ray tracer draws all parts of the view that the rasteriser cannot finish
+/// (Technique::completes_view).
 bool is_view_drawn_by_tracer_after_raster(const std::vector<TechniqueChoice>& choices) {
     const TechniqueChoice& choice = choices.front();
     const Technique& technique = *choice.technique;
@@ -63,8 +65,9 @@ bool is_view_drawn_by_tracer_after_raster(const std::vector<TechniqueChoice>& ch
            technique.completes_view(choice.settings);
 }
 
-/// Returns the shadow map edge for the view, in texels; none: no map. `is_drawn`: the view is
-/// rasterised although a technique traces shadow rays, so that it needs a map even for them.
+/// Returns the edge of the view's shadow map in texels; none: the view needs no shadow map.
+/// `is_drawn`: the view is rasterised although a technique traces shadow rays, so it needs a shadow
+/// map.
 std::optional<std::uint32_t>
 choose_shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices, bool is_drawn) {
     std::optional<std::uint32_t> finest;
@@ -75,7 +78,7 @@ choose_shadow_map_edge_for_view(const std::vector<TechniqueChoice>& choices, boo
     return finest;
 }
 
-/// Returns the capture options of each mirror: those of its technique, extended by the data that
+/// Returns the capture options of each mirror: the options of its technique, extended by data that
 /// searches need which read captures of other mirrors.
 std::vector<render::CaptureOptions>
 choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachMirror& assignment,
@@ -95,7 +98,8 @@ choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachM
             }
         } else if (choice.shared.capture) {
             options.face = *choice.shared.capture;
-            options.distance = TexelFormat::r32f; // one-step parallax correction reads distance
+            options.distance = TexelFormat::r32f; // parallax correction of mirrors in captures
+                                                  // reads the distance
         }
         of_choice.push_back(options);
     }
@@ -110,7 +114,7 @@ choose_capture_options(const render::FrameInputs& inputs, const TechniqueOfEachM
     return of_mirror;
 }
 
-/// Returns the mirror shading of all mirrors inside captures: lookups in the captures of the last
+/// Returns how all mirrors inside captures are drawn: by look-ups in the captures of the last
 /// frame.
 render::ShaderOfEachMirror
 choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptureUpdate& feeding,
@@ -120,7 +124,7 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
     for (std::size_t i = 0; i < assignment.of_mirror.size(); ++i) {
         const TechniqueChoice& choice = assignment.choices[assignment.of_mirror[i]];
         const Technique& technique = *choice.technique;
-        render::MirrorShader look; // no fragment shader: black
+        render::MirrorShader look; // without a fragment shader, the mirror is black
         const bool is_kept = feeding.kept != nullptr;
         if (feeding.last && feeding.last->places[i].has_capture() &&
             (feeding.was_there[i] || !is_kept)) {
@@ -130,8 +134,9 @@ choose_mirror_shaders_in_captures(graph::Graph& graph, const render::FrameCaptur
                 "refract_model", choose_refraction_model_of_other_views(choice.shared.refract));
             look.blank = !feeding.was_there[i];
             const auto mirror = static_cast<std::uint32_t>(i);
-            // Asked for even if it is blank, because only what a frame asks for is there in the
-            // next frame. Images of kept captures stay without that.
+            // The previous contents are requested even if the mirror is drawn black, because only
+            // requested images exist in the next frame. Images of kept captures exist without a
+            // request.
             if (!look.blank || !is_kept)
                 levels.add_rough_lookup_mirrors(graph, std::span(&mirror, 1), choice.shared, look,
                                                 true);
@@ -150,13 +155,15 @@ bool is_drawn_by_mirrored_views(const TechniqueChoice& choice) {
     return choice.technique->mirrored_bounces != nullptr;
 }
 
-/// Captures that mirrors of this frame look into, and their filtered levels.
+/// The captures into which mirrors of this frame look, with their filtered levels for rough
+/// mirrors.
 struct MutualMirrorCaptures {
     render::FrameCaptureUpdate update;
     RoughLevels levels;
 };
 
-/// Declares the frame's light probes if some technique asks for them; the most probes win.
+/// Declares the light probes of the frame if some technique needs them. If techniques ask for
+/// different numbers of light probes, the largest number is used.
 std::optional<render::LightProbes>
 declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInputs& inputs,
                                    const std::vector<TechniqueChoice>& choices) {
@@ -166,8 +173,8 @@ declare_light_probes_of_techniques(graph::Graph& graph, const render::FrameInput
     return render::declare_light_probes(graph, inputs, most);
 }
 
-/// Declares the captures of parts two and later of the report, which show mirrors by the captures
-/// of the frame before. Returns an empty update if no technique needs captures.
+/// Declares the captures of all techniques based on `reuse`, in which mirrors are drawn by the
+/// captures of the last frame. Returns an empty update if no technique needs captures.
 MutualMirrorCaptures add_capture_passes_with_feedback(
     graph::Graph& graph, const render::FrameInputs& inputs, const TechniqueOfEachMirror& assignment,
     const PreviousCaptureHistory& keeping, ShadowMaps& maps,
@@ -176,7 +183,7 @@ MutualMirrorCaptures add_capture_passes_with_feedback(
         if (probes)
             render::add_light_probe_passes(graph, inputs, *probes, view_lighting, std::move(looks));
     };
-    // Mirrored views show traced mirrors by captures, so captures are needed.
+    // Traced mirrors are drawn from captures inside mirrored views, so they need captures, too.
     const bool has_views = assignment.choices.size() > 1 &&
                            std::ranges::any_of(assignment.choices, is_drawn_by_mirrored_views);
     const auto captures_any = [](const TechniqueChoice& choice) {
@@ -215,8 +222,9 @@ std::vector<std::uint32_t> list_mirrors_using_technique(std::size_t choice,
     return mirrors;
 }
 
-/// Returns the mirror shading of all mirrors inside mirrored views: as in the picture, but without
-/// tracing. Mirrors that are only traced are shown by their captures, if they have any.
+/// Returns how all mirrors inside mirrored views are drawn: as in the picture, but without ray
+/// tracing. Mirrors that are only ray traced in the picture are drawn from their captures, if they
+/// have any.
 render::ShaderOfEachMirror
 choose_mirror_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
                                         const TechniqueOfEachMirror& assignment,
@@ -251,7 +259,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     const bool is_mixed = choices.size() > 1;
     const std::optional<render::LightProbes> probes = declare_light_probes_of_techniques(
         graph, inputs, choices);
-    // Light probes carry light over the whole scene, so no work can be left out.
+    // With light probes, light goes from every surface to every other surface, so no work can be
+    // left out.
     const PreviousCaptureHistory everything{.model = kDrawEverythingModel};
     const PreviousCaptureHistory& keeping = probes ? everything : history;
     ShadowMaps maps(graph, inputs, keeping.model,

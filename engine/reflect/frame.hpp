@@ -6,13 +6,13 @@
 
 namespace catoptric::reflect {
 
-/// Input of add_frame_passes: the work that the frame may skip, and the captures that the frame
-/// before left.
+/// Input of add_frame_passes(): the work that the frame may leave out, and the captures of the
+/// previous frame.
 struct PreviousCaptureHistory {
     const require::RequiredWorkModel& model;
-    /// TechniqueOutputs::kept of the frame before; null for the first frame.
+    /// TechniqueOutputs::kept of the previous frame; null for the first frame.
     std::shared_ptr<render::CaptureCache> before;
-    /// Buffers in which captures are compared with those of the frame before; may be null.
+    /// Buffers for comparing captures with those of the previous frame; may be null.
     render::CaptureComparisonBufferPool* comparisons = nullptr;
     std::uint32_t most = 0; ///< capture budget; see render::PreviousCaptures
 };

@@ -36,8 +36,8 @@ MirrorShadingSetup make_hybrid_shading(graph::Graph& graph, const render::FrameI
     const KnobsSharedByTechniques knobs = read_shared_knobs(settings);
     if (is_rough && knobs.rough != KnobsSharedByTechniques::RoughMirrorLookup::none)
         look.tracer->rays = knobs.lobe_rays;
-    // Reading the triangle's number costs more than the camera rays of the few unknown pixels.
-    // Blended surfaces would be drawn over the number.
+    // Reading the triangle numbers of the rasteriser costs more than tracing camera rays for the
+    // few unknown pixels. Blended surfaces would also be drawn over the triangle numbers.
     if (traces_all && !inputs.scene.has_blended_surfaces() &&
         inputs.scene.scene_device().supports_primitive_id_in_fragments()) {
         look.mirror.variant = "#first";

@@ -27,8 +27,8 @@ MirrorShadingSetup make_layered_shading(graph::Graph&, const render::FrameInputs
     MirrorShadingSetup look{make_capture_shader(around, "reflect/layered.frag", settings), {}};
     look.mirror.constants.emplace_back(
         "steps", static_cast<std::uint32_t>(settings.knob_value_as_integer(kSearchStepsKnob)));
-    // No mirror with this shader looks into captures that lack a layer. Their colour only fills the
-    // binding.
+    // Mirrors with this shader never look into captures without a second layer. For such captures,
+    // the colour image is bound as a placeholder.
     const auto bind_layer_images = [&](const char* name, auto&& image) {
         std::vector<graph::ImageHandle> list;
         for (const render::CubeCaptureArray& cubes : around.captures->arrays)
@@ -55,7 +55,7 @@ constexpr Technique kLayeredTechnique{
     .order = 14,
     .knobs = kLayeredKnobs,
     .compared = kLayeredDefaultRows,
-    // R = 2 N + 2
+    // The number of scene passes R is 2 N + 2 for N mirrors.
     .scene_passes =
         [](int mirrors, int lights, const TechniqueKnobSettings& settings) {
             return count_capture_passes_with_feedback(2 * mirrors, lights, settings);

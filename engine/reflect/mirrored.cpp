@@ -57,9 +57,9 @@ std::string mirrored_view_name(const FlatMirrorFaceList& all,
            (face.number > 0 ? "." + std::to_string(face.number) : "");
 }
 
-/// Adds to `looks` the mirror shading inside view `within`, or in the picture if it is none. Faces
-/// with views show the images `made`. Faces without views and triangles outside all faces are
-/// black.
+/// Adds to `looks` how mirrors are drawn inside the view with index `within`, or in the picture if
+/// `within` is none. Faces with mirrored views show the images `made`. Faces without views, and
+/// triangles outside all flat faces, are black.
 render::ShaderOfEachMirror
 add_mirror_shaders_of_mirrored_view(render::ShaderOfEachMirror looks, const FlatMirrorFaceList& all,
                                     const std::vector<MirroredView>& views,

@@ -24,14 +24,14 @@ constexpr TechniqueKnob kNaiveKnobs[] = {kBouncesKnob,
                                          kShadowMapEdgeKnob,
                                          kCaptureContentCacheKnob};
 
-/// Builds the mirror shading bounce by bounce. The last bounce captures only the mirrors with this
-/// technique, since only these look into it.
+/// Builds the shading of mirrors bounce by bounce. The last bounce captures only mirrors with the
+/// technique `naive`, because only these look into its captures.
 MirrorShadingSetup make_naive_shading(graph::Graph& graph, const render::FrameInputs& inputs,
                                       const TechniqueKnobSettings& settings,
                                       const MirrorShadingInputs& around) {
     render::CaptureOptions options = make_capture_options(inputs, settings);
     options.lighting = around.lighting;
-    render::MirrorShader look; // no fragment shader: black
+    render::MirrorShader look; // without a fragment shader, the mirror is black
     const int bounces = settings.knob_value_as_integer(kBouncesKnob);
     for (int bounce = 1; bounce <= bounces; ++bounce) {
         render::CaptureOptions of_others = options;

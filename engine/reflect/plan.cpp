@@ -39,7 +39,7 @@ std::optional<std::size_t> parse_mirror_number_item(const std::string& item) {
     return error == std::errc{} && stop == end ? std::optional(number) : std::nullopt;
 }
 
-/// Returns how precisely the item names mirror `index`, from 0.
+/// Returns how precisely an item of a pattern names the mirror with this index, from 0.
 MirrorPatternPrecision find_mirror_pattern_precision(const std::string& item, std::size_t index,
                                                      const std::string& name) {
     if (item == "*") return kRest;
@@ -78,7 +78,8 @@ std::uint32_t find_choice_index(const TechniqueChoice& choice,
     return static_cast<std::uint32_t>(choices.size() - 1);
 }
 
-/// Returns the technique of unfit mirrors, with the settings of `choice` for shadows and light.
+/// Returns the technique for mirrors that their own technique cannot draw. It takes the settings
+/// for shadows and light from `choice`.
 TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
     TechniqueChoice rest = *choice.rest;
     const TechniqueKnobSettings defaults(choice.technique->knobs);
@@ -86,7 +87,7 @@ TechniqueChoice choose_fallback_technique(const TechniqueChoice& choice) {
          {&kShadowKnob, &kShadowMapEdgeKnob, &kIndirectLightKnob, &kLightProbesKnob}) {
         if (!rest.settings.has_knob_named(*knob) ||
             (knob == &kIndirectLightKnob && !rest.settings.has_knob_named(kLightProbesKnob)))
-            continue; // raytrace has other light
+            continue; // raytrace has other settings for light
         const std::string value = choice.settings.format_current_knob_value(*knob);
         if (value == defaults.format_current_knob_value(*knob)) continue;
         rest.settings.set_knob_from_text(rest.technique->name, knob->name, value);

@@ -66,8 +66,8 @@ struct TechniqueOfEachMirror {
 TechniqueOfEachMirror assign_techniques_to_mirrors(const TechniquePlan& plan,
                                                    const std::vector<std::string>& names);
 
-/// Adds to the question the needs of the plans' techniques that do not depend on visibility: whole
-/// cubes, captures of all mirrors, and the edge of the coarsest shadow map.
+/// Adds to the model's input the needs of the plan's techniques that do not depend on visibility:
+/// whole cubes, captures of all mirrors, and the edge of the coarsest shadow map.
 void add_capture_needs_of_plan(require::RequiredWorkModelInput& question,
                                const std::vector<TechniquePlan>& plans);
 

@@ -15,7 +15,7 @@ constexpr TechniqueKnob kProxyShapeKnob{.name = "shape",
 constexpr auto kProxyKnobs = [] {
     auto knobs = list_search_knobs(std::array{kProxyShapeKnob});
     std::ranges::find(knobs, kContinuedSearchesKnob.name, &TechniqueKnob::name)->value =
-        0; // as published, without following rays through other mirrors
+        0; // as published: rays are not followed through other mirrors
     return knobs;
 }();
 constexpr std::uint64_t kProxyStructBytes = 28; // size of Proxy in shaders/reflect/proxy.glsl

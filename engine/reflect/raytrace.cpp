@@ -12,7 +12,7 @@ constexpr std::array<std::string_view, 2> kIndirectChoices{"none", "paths"};
 constexpr std::array<std::string_view, 2> kExactSphereChoices{"mesh", "exact"};
 constexpr std::array<std::string_view, 2> kFirstHitChoices{"ray", "raster"};
 constexpr std::array<std::string_view, 2> kHitPrecisionChoices{"f32", "f64"};
-/// Numbered as in shaders/lib/plain.glsl.
+/// Names of the rules that can be left out, numbered as in shaders/lib/plain.glsl.
 constexpr std::array<std::string_view, 6> kOmittedTracerRuleChoices{
     "none", "watertight", "box_slack", "spawn_bound", "shadow_end", "stable_sphere"};
 enum class LampSamplingMethod { sampled, met };
@@ -61,7 +61,7 @@ constexpr TechniqueKnob kIndirectKnob{
             "counts all bounces)",
     .high = 1,
     .choices = kIndirectChoices};
-constexpr std::int64_t kMaxPathsPerPixel = 65536; // of a pixel: samples times rays
+constexpr std::int64_t kMaxPathsPerPixel = 65536; // largest number for a pixel: samples times rays
 constexpr TechniqueKnob kExactSphereKnob{.name = "sphere",
                                          .help = "shape of balls: triangles or exact spheres",
                                          .high = 1,
@@ -106,7 +106,7 @@ TracerSettings make_ray_tracer_settings(const TechniqueKnobSettings& settings,
                              LampSamplingMethod::sampled,
             .paths = is_path_traced(settings),
             .seed = static_cast<std::uint32_t>(settings.knob_value_as_integer(kLobeSeedKnob)),
-            // A scene without lights has no shadow map, and no light needs a shadow test.
+            // A scene without lights needs neither a shadow map nor shadow rays.
             .shadow = shadow == KnobsSharedByTechniques::ShadowMethod::none
                           ? TracerSettings::TracedShadow::none
                       : shadow == KnobsSharedByTechniques::ShadowMethod::map && lighting.shadow_map
@@ -170,7 +170,8 @@ MirrorShadingSetup make_ray_traced_shading(graph::Graph&, const render::FrameInp
     MirrorShadingSetup look;
     look.tracer = make_ray_tracer_settings(settings, around.lighting);
     look.mirror.fragment = "reflect/traced.frag";
-    // In a view that others draw, blended surfaces would be drawn over the triangle's number.
+    // If the view is drawn for another technique, blended surfaces would be drawn over the
+    // rasteriser's triangle numbers.
     if (!around.completes_view && inputs.scene.has_blended_surfaces())
         look.tracer->first_raster = false;
     if (look.tracer->first_raster) look.mirror.variant = "#first";

@@ -54,10 +54,11 @@ graph::ImageDesc make_level_image_desc(std::string name, const render::CubeCaptu
             count_capture_levels(rough, cubes.face)};
 }
 
-/// Returns the work groups along an edge of a level's faces.
+/// Returns the number of compute work groups along an edge of a level's faces.
 std::uint32_t count_work_groups_along_edge(std::uint32_t edge) { return (edge + 7) / 8; }
 
-/// Declares that the pass writes all levels. A storage image has one mip.
+/// Declares that the pass writes all mips of the image of levels. Each storage image has a single
+/// mip.
 void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
     for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
         pass.writes(levels.select_image_mip(mip), ResourceUse::storage_write);
@@ -97,7 +98,8 @@ struct PrefilterParameters {
     std::uint32_t rings; ///< of four samples each
 };
 
-/// Returns the samples of a texel of a level. A level of `fast` has twice those of the level below.
+/// Returns the number of samples for a texel of a level. With `rough=fast`, each level has twice as
+/// many samples as the level below it.
 std::uint32_t count_samples_per_texel(RoughMirrorLookup rough, std::uint32_t taps,
                                       std::uint32_t level) {
     constexpr std::uint32_t kSamplesOfFirstLevel = 4;
@@ -132,7 +134,8 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
     });
 }
 
-/// Returns the name of the levels and passes of a way of filtering.
+/// Returns the name of the filtered levels, and of the passes that compute them, for one way of
+/// filtering.
 std::string filtered_capture_levels_name(const render::FrameInputs& inputs, RoughMirrorLookup rough,
                                          std::uint32_t taps) {
     return inputs.prefix + "rough/" +

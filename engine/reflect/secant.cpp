@@ -18,7 +18,7 @@ MirrorShadingSetup make_secant_shading(graph::Graph&, const render::FrameInputs&
                                        const TechniqueKnobSettings& settings,
                                        const MirrorShadingInputs& around) {
     const int steps = settings.knob_value_as_integer(kSecantStepsKnob);
-    if (steps == 0) { // without the knobs of a search, which `parallax` does not have
+    if (steps == 0) { // `parallax` has no knobs of a search
         MirrorShadingSetup look{
             make_capture_shader(around, "reflect/parallax.frag", TechniqueKnobSettings({})), {}};
         look.mirror.constants.emplace_back("refract_model", read_shared_knobs(settings).refract);

@@ -31,7 +31,8 @@ struct TechniqueOutputs {
     std::vector<std::string> notes; ///< differences from the request, one sentence each
     /// Captures for the next frame, if captures are kept.
     std::shared_ptr<render::CaptureCache> kept;
-    bool draws_everything = false; ///< whatever the model of required work says
+    bool draws_everything = false; ///< every frame draws all captures, also with the model
+                                   ///< `required`
 };
 
 /// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.
@@ -50,7 +51,7 @@ struct MirrorShadingSetup {
         tracer; ///< traces the pixels that the mirror's shader leaves to rays
 };
 
-/// Values of the knobs that techniques share, as typed values.
+/// The values of the knobs that several techniques have.
 struct KnobsSharedByTechniques {
     enum class ShadowMethod { none, map, ray };
     ShadowMethod shadow = ShadowMethod::none;
@@ -65,8 +66,8 @@ struct KnobsSharedByTechniques {
     bool by_object = false;              ///< lookup=object
     bool asks_all = false;               ///< captures=all
     bool leaves_out_spheres = false;     ///< mirrors=left_out
-    /// Look-up for rough surfaces; numbered as kRoughCornellScene... in shaders/lib/rough.glsl.
-    /// Shaders look up `fast` as `prefilter`.
+    /// How rough surfaces are looked up. Numbered as in shaders/lib/rough.glsl. Shaders look up
+    /// `fast` as `prefilter`.
     enum class RoughMirrorLookup : std::uint32_t { none, mips, prefilter, rays, fast };
     /// Distance law; numbered as kLaw... in shaders/lib/math/rough.glsl.
     enum class DistanceLaw : std::uint32_t { none, frostbite, square, cone, exact };
@@ -79,7 +80,7 @@ struct KnobsSharedByTechniques {
     bool uses_filtered_levels() const {
         return rough == RoughMirrorLookup::mips || are_levels_filtered_by_lobe();
     }
-    /// Returns whether these levels are filtered by the lobe.
+    /// Returns whether the filtered levels are filtered by the GGX lobe, and not by boxes.
     bool are_levels_filtered_by_lobe() const {
         return rough == RoughMirrorLookup::prefilter || rough == RoughMirrorLookup::fast;
     }
@@ -91,7 +92,7 @@ struct KnobsSharedByTechniques {
     bool is_black_in_others = false; ///< capture=none
 };
 
-/// Reads the shared knobs.
+/// Reads the values of the knobs that several techniques have.
 KnobsSharedByTechniques read_shared_knobs(const TechniqueKnobSettings& settings);
 
 struct Technique {

@@ -11,16 +11,16 @@ constexpr std::uint32_t kMaxBackdropTriangles =
     64; ///< the most triangles of an object that is tested
 constexpr std::size_t kMaxBackdropTests = 1
                                           << 22; ///< the most tests of boxes and vertices, in total
-/// Tolerance as a fraction of the triangle's largest coordinate: sixteen of its roundings. The
-/// extent of the scene does not enter, nor do distant objects. The height of a small object may be
-/// tiny next to them.
+/// Tolerance for points behind a triangle's plane, as a fraction of the triangle's largest
+/// coordinate: sixteen rounding errors. The tolerance does not depend on the extent of the scene,
+/// because the height of a small object may be tiny compared with it.
 constexpr double kCoplanarTolerance = 0x1p-20;
 
 struct BackdropTrianglePlane {
     dvec3 normal; ///< unit length, towards the light
     double at;
     double room; ///< points up to this far behind the plane count as in it
-    /// Distance of the point behind the plane.
+    /// Returns the distance of the point behind the plane.
     double signed_distance_behind_plane(const dvec3& point) const {
         return at - dot(normal, point);
     }

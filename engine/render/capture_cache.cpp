@@ -11,10 +11,12 @@ namespace catoptric::render {
 
 namespace {
 
-/// Names of the two sets of a sequence, and of the set for frames outside any sequence.
+/// Names of the two sets of capture arrays of a frame sequence, and of the set for frames outside
+/// any sequence.
 constexpr std::array<const char*, 3> kCaptureImageSetNames{"a", "b", "aside"};
 
-/// Removes the captures of mirrors that need none. If no capture would remain, keeps all of them.
+/// Leaves out the captures of mirrors that need none. If no capture would remain, all captures
+/// stay.
 std::vector<CaptureOptions> remove_unneeded_captures(const std::vector<CaptureOptions>& options,
                                                      const require::RequiredWorkModel& model) {
     std::vector<CaptureOptions> required = options;
@@ -24,8 +26,8 @@ std::vector<CaptureOptions> remove_unneeded_captures(const std::vector<CaptureOp
     return std::ranges::any_of(required, exists) ? required : options;
 }
 
-/// Returns the layout of the frame before if it holds every wanted capture, because arrays do not
-/// shrink. Otherwise returns `wanted`.
+/// Returns the arrangement of the previous frame's captures if it holds every wanted capture,
+/// because arrays do not shrink. Otherwise returns `wanted`.
 std::vector<CaptureOptions> choose_capture_cache_layout(std::vector<CaptureOptions> wanted,
                                                         const CaptureCache* before) {
     if (!before) return wanted;
@@ -45,7 +47,7 @@ bool have_equal_capture_layouts(const std::vector<CaptureOptions>& a,
     return std::ranges::equal(a, b, have_equal_capture_contents);
 }
 
-/// Calls visit for each image that both cube arrays have.
+/// Calls visit for each pair of images that exist in both cube arrays.
 template <typename Visit>
 void for_each_cube_image_pair(const CubeCaptureArray& from, const CubeCaptureArray& to,
                               const Visit& visit) {
@@ -108,7 +110,8 @@ void add_copy_pass_of_unchanged_captures(graph::Graph& graph, const std::string&
     });
 }
 
-/// Returns the images that captures of the next frame may sample: colours and distances.
+/// Returns the images of this frame that captures of the next frame may read: colours and
+/// distances.
 std::shared_ptr<const MirrorCaptures> make_captures_for_next_frame(MirrorCaptures captures) {
     for (CubeCaptureArray& cubes : captures.arrays)
         cubes.surfaces.reset(), cubes.colour2.reset(), cubes.distance2.reset();

@@ -40,7 +40,7 @@ enum class CaptureChangeKind {
     some, ///< the capture changed, or may have changed for another reason
 };
 
-/// The captures that a frame leaves for the next frame.
+/// The captures that a frame leaves for the next frame, with their content hashes.
 struct CaptureCache {
     std::vector<CaptureOptions> options; ///< settings that determine the layout of the arrays
     std::uint32_t set = 0;               ///< index of the set in use, of the two
@@ -58,7 +58,7 @@ struct CaptureCache {
     /// Results of the device's comparison of old and new captures: one word per mirror, not 0 if
     /// the captures differ. Valid once the frame has ended.
     std::shared_ptr<const gpu::GpuBuffer> differing;
-    std::uint64_t frame = 0; ///< number of the frame, which the caller sets
+    std::uint64_t frame = 0; ///< number of the frame; the caller sets it
 };
 
 /// Returns, for each mirror, whether its capture may differ from the frame before. An unknown
@@ -74,7 +74,7 @@ void read_finished_face_comparisons(const std::shared_ptr<CaptureCache>& capture
 /// Marks all captures as unchanged since the frame before, without a comparison.
 void mark_captures_unchanged(CaptureCache& captures);
 
-/// The work of a frame on one face.
+/// What a frame does with one face of a capture.
 enum class CaptureFaceUpdateKind : std::uint8_t {
     keep,
     clear, ///< clear the face, which has no contents yet and which no ray can ask for
@@ -83,7 +83,7 @@ enum class CaptureFaceUpdateKind : std::uint8_t {
     compare,
 };
 
-/// The work of a frame on its captures.
+/// What a frame does with its captures.
 struct CaptureWorkOfFrame {
     /// Work on each face of each mirror; empty: all six faces are drawn.
     std::vector<std::array<CaptureFaceUpdateKind, 6>> faces;
@@ -102,7 +102,8 @@ struct CaptureWorkOfFrame {
     }
 };
 
-/// The captures of a frame, their sources, and the capture cache for the next frame.
+/// The captures of a frame, the captures that they were copied or drawn from, and the capture cache
+/// for the next frame.
 struct FrameCaptureUpdate {
     std::shared_ptr<const MirrorCaptures> captures; ///< captures that the frame samples
     /// Captures that other captures sample; null: none existed.
@@ -115,7 +116,7 @@ struct FrameCaptureUpdate {
 /// The buffers of a session into which comparisons write their results.
 class CaptureComparisonBufferPool {
 public:
-    /// `has_ended`: called with the numbers of frames.
+    /// `has_ended`: returns whether the frame with the given number has ended.
     CaptureComparisonBufferPool(gpu::GpuDevice& device,
                                 std::function<bool(std::uint64_t)> has_ended)
         : buffer_device_(device), has_ended_(std::move(has_ended)) {}
@@ -136,8 +137,8 @@ private:
     std::vector<PooledCaptureComparisonBuffer> entries_;
 };
 
-/// Declares all captures of this frame and those of the frame before. Every capture is drawn again
-/// in each frame.
+/// Declares all captures of this frame, and the captures of the previous frame that they read.
+/// Every capture is drawn again in each frame.
 FrameCaptureUpdate update_all_captures(graph::Graph& graph, const FrameInputs& inputs,
                                        const std::string& name,
                                        std::vector<CaptureOptions> options);
@@ -174,7 +175,8 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
 void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
                                  const FrameCaptureUpdate& feeding);
 
-/// Calls visit(first, end) for each run of a mirror's six faces for which `is` holds.
+/// Calls visit(first, end) for each run of a mirror's six faces for which the predicate `is`
+/// returns true.
 template <typename Is, typename Visit>
 void for_each_consecutive_face_range(Is&& is, Visit&& visit) {
     for (std::uint32_t first = 0; first < 6; ++first) {

@@ -1,4 +1,4 @@
-// Detects which captures changed when they were drawn again.
+// Finds which captures changed when they were drawn again.
 #include "render/capture_cache.hpp"
 
 #include <algorithm>
@@ -42,7 +42,8 @@ void mark_captures_unchanged(CaptureCache& captures) {
 
 std::shared_ptr<gpu::GpuBuffer> CaptureComparisonBufferPool::buffer(std::size_t mirrors) {
     const std::vector<std::uint32_t> zeros(mirrors, 0);
-    // A caller that discards a frame releases its buffer while the device may still write to it.
+    // If a caller discards a frame, its buffer is released while the device may still write to it.
+    // Such a buffer must not be used yet.
     const auto fits = [&](const PooledCaptureComparisonBuffer& entry) {
         return entry.buffer.use_count() == 1 && has_ended_(entry.frame) &&
                entry.buffer->size_in_bytes() >= sizeof(std::uint32_t) * mirrors;

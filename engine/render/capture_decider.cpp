@@ -137,8 +137,8 @@ CaptureUpdateDecider::changed_part_of_capture_face(std::uint32_t mirror, std::ui
                                                                  now.pieces->faces[face]);
     const shared::View& view =
         gpu_scene_.list_views()[gpu_scene_.capture_view_index(mirror) + face];
-    // All of them, because the position of other mirrors can change a mirror's look before its
-    // capture changes.
+    // All mirrors that the capture shows are checked, because a mirror that only moved looks
+    // different before its own capture changes.
     for (const std::uint32_t other : seen)
         part = unite_face_parts(
             part,

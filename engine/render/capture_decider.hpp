@@ -25,11 +25,12 @@ public:
     /// waited.
     std::uint32_t frames_since_capture_redraw(std::uint32_t mirror) const;
 
-    /// Decides for all six faces of the mirror. Fills the mirror's entries in `work` and `kept`.
+    /// Decides what the frame does with each of the six faces of a mirror's capture. Fills the
+    /// mirror's entries in `work` and `kept`.
     void decide_capture_face_work(std::uint32_t mirror, CaptureWorkOfFrame& work,
                                   CaptureCache& kept) const;
-    /// Returns whether the redraw can wait. The old contents must be valid in every face that would
-    /// be drawn.
+    /// Returns whether drawing a mirror's capture again can wait for a later frame. For this, every
+    /// face to be drawn must still have valid old contents.
     bool can_capture_redraw_wait(std::uint32_t mirror, const CaptureWorkOfFrame& work) const;
     /// Cancels the redraw that `decide_capture_face_work` asked for; the old contents stay.
     void postpone_capture_redraw(std::uint32_t mirror, CaptureWorkOfFrame& work,

@@ -26,13 +26,13 @@ using graph::ResourceUse;
 /// too large.
 constexpr float kUnorm8Rounding = .6f / 255, kPeelMarginOfHalves = 0x1p-9f;
 
-/// Declares that a pass clears and writes the cubes. With an area, clears and writes only inside it
-/// and keeps the rest.
+/// Declares that a pass clears and writes the images of a cube map. If an area is given, only this
+/// area is cleared and written.
 void declare_cube_writes(graph::PassBuilder& pass, const CaptureOptions& options,
                          const CubeCaptureArray& cubes,
                          const std::optional<graph::PixelRectangle>& area = {}) {
-    // An empty direction has the distance +infinity. Unorm8 cannot store it and uses the end of its
-    // range.
+    // If no surface is seen in a direction, the stored distance is +infinity. Unorm8 cannot store
+    // infinity, and stores the end of its range.
     const float nothing = options.distance == TexelFormat::r8_unorm
                               ? 1.0f
                               : std::numeric_limits<float>::infinity();
@@ -123,7 +123,7 @@ void add_capture_pass(graph::Graph& graph, const FrameInputs& inputs, const Capt
         });
 }
 
-/// Declares a pass that clears faces that no ray can ask for.
+/// Declares a pass that clears capture faces into which no ray can look.
 void add_capture_clear_pass(graph::Graph& graph, const FrameInputs& inputs,
                             const CaptureOptions& options, const CaptureFaceRange& faces,
                             const std::string& name, const CubeCaptureArray& cubes) {

@@ -19,7 +19,7 @@ CaptureContents image_contents_of_capture(const CaptureOptions& options) {
             options.stored_unit};
 }
 
-/// Mirrors by format and edge.
+/// Mirrors, grouped by the format and the edge of their captures.
 using CaptureGroupsByFormatAndEdge =
     std::map<std::pair<CaptureContents, std::uint32_t>, std::vector<std::uint32_t>>;
 
@@ -40,8 +40,8 @@ std::size_t count_cube_arrays(const CaptureGroupsByFormatAndEdge& kinds, std::si
     return arrays;
 }
 
-/// Enlarges one kind of captures to the next larger edge of the same format. Chooses the kind for
-/// which that adds the fewest texels. Returns false if no format has two edges.
+/// Enlarges the captures of one group to the next larger edge of the same format. Chooses the group
+/// for which this adds the fewest texels. Returns false if no format has two edges.
 bool merge_small_capture_groups(CaptureGroupsByFormatAndEdge& kinds,
                                 std::vector<std::string>& notes) {
     auto cheapest = kinds.end();
@@ -68,7 +68,7 @@ bool merge_small_capture_groups(CaptureGroupsByFormatAndEdge& kinds,
     return true;
 }
 
-/// Declares one array for captures of the same kind.
+/// Declares one cube array for captures with the same format and edge.
 CubeCaptureArray declare_cube_array(graph::Graph& graph, const std::string& name,
                                     const CaptureOptions& options, std::size_t cubes, bool stay) {
     const auto image = [&](const char* what, TexelFormat format) {

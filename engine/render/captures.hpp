@@ -57,7 +57,7 @@ struct CubeArraySlotOfMirror {
 
 /// The captures of all mirrors.
 struct MirrorCaptures {
-    std::string name;                          ///< passes have the names name/1, name/2, ...
+    std::string name;                          ///< prefix of the passes' names name/1, name/2, ...
     std::vector<CaptureOptions> options;       ///< options of each mirror's capture
     std::vector<CubeArraySlotOfMirror> places; ///< place of each mirror's capture
     std::vector<CubeCaptureArray> arrays;      ///< 1 to shared::kMaxCubeArrays arrays

@@ -7,7 +7,8 @@ namespace catoptric::render {
 
 namespace {
 
-constexpr std::size_t kComparedPageBytes = 16384; // bytes that are compared and written together
+constexpr std::size_t kComparedPageBytes = 16384; // size of a block that is compared and written as
+                                                  // a whole
 
 std::size_t count_compared_pages(std::size_t bytes) {
     return (bytes + kComparedPageBytes - 1) / kComparedPageBytes;
@@ -35,7 +36,7 @@ bool DoubleBufferedDeviceList::set_device_list_contents(std::span<const std::byt
     return changed;
 }
 
-/// Returns a copy that no other slot binds.
+/// Returns the index of a copy of the list that no other slot (frame in flight) reads.
 std::size_t DoubleBufferedDeviceList::find_free_device_copy(std::size_t slot) {
     const auto is_free = [&](std::size_t copy) {
         for (std::size_t other = 0; other < bound_.size(); ++other)

@@ -31,8 +31,8 @@ public:
         return set_device_list_contents(std::as_bytes(std::span(data)), first * sizeof(T),
                                         end * sizeof(T));
     }
-    /// Makes slot `slot` bind the contents. No frame may be in flight in the slot. Returns the
-    /// number of writes to device memory. Throws as gpu::GpuBuffer does.
+    /// Writes the current contents for slot `slot` (a frame in flight). No frame may be in flight
+    /// in this slot. Returns the number of writes to device memory. Throws as gpu::GpuBuffer does.
     std::size_t upload_changed_pages(gpu::GpuDevice& device, std::size_t slot);
     /// Returns the buffer that `upload_changed_pages` chose for the slot.
     const gpu::GpuBuffer& buffer_of_device_copy(std::size_t slot) const {

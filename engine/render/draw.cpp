@@ -23,7 +23,7 @@ gpu::TriangleWinding find_back_face_winding(const shared::View& view) {
                : gpu::TriangleWinding::counterclockwise;
 }
 
-/// Returns the vertex shader for objects with an object space (`own`) or without, in this view.
+/// Returns the vertex shader for a view. `own`: the objects are stored in object space.
 std::string choose_vertex_shader(bool own, const shared::View& view) {
     return std::string(own ? "placed.vert" : "scene.vert") +
            (view.clip == vec4(0) ? "" : "#clipped");
@@ -56,7 +56,7 @@ void draw_object(PassCommands& commands, const GpuScene& scene, std::size_t obje
     }
 }
 
-/// Returns one image of each array.
+/// Returns a list with one image of each array of captures.
 template <typename Part>
 std::vector<ImageHandle> list_cube_images(const MirrorCaptures& captures, Part&& part) {
     std::vector<ImageHandle> images;
@@ -68,8 +68,8 @@ void bind_capture_images(PassCommands& commands, const MirrorCaptures& captures)
     commands.bind_resource(
         "colour_cubes",
         list_cube_images(captures, [](const CubeCaptureArray& cubes) { return cubes.colour; }));
-    // Every shader has these bindings. If a capture lacks an image, its colour is bound instead,
-    // and nothing reads it.
+    // Every shader has these bindings. If captures lack an image, their colour image is bound as a
+    // placeholder that no shader reads.
     commands.bind_resource("surface_cubes",
                            list_cube_images(captures, [](const CubeCaptureArray& cubes) {
                                return cubes.surfaces.value_or(cubes.colour);
@@ -94,7 +94,8 @@ void add_capture_slot_shader_constants(const MirrorCaptures& captures,
     if (captures.arrays.front().distance && same)
         constants.emplace_back("stored_unit", unit);
     else if (captures.table)
-        constants.emplace_back("stored_unit", 0.f); // the table says which
+        constants.emplace_back("stored_unit", 0.f); // the table of captures holds this value for
+                                                    // each mirror
     if (!captures.table) return;
     constants.emplace_back("has_capture_table", 1u);
     constants.emplace_back("array_count", static_cast<std::uint32_t>(captures.arrays.size()));
@@ -129,9 +130,9 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDraw
     draw(commands, scene, state, drawing.first_view, drawing.layers, look.ablated, wanted, parts);
 }
 
-/// Returns whether no back face of the object is visible in a view and back faces can be skipped.
-/// For a sphere they are half of all triangles. Returns false if the eye is inside the object's
-/// bounds or the view has a clip plane.
+/// Returns whether back faces of the object need not be drawn in a view, because none is visible.
+/// For a sphere, this leaves out half of all triangles. Returns false if the eye is inside the
+/// object's bounds or the view has a clip plane.
 bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& view,
                                    std::size_t object) {
     const ObjectDrawRange& range = scene.list_draw_ranges()[object];
@@ -140,8 +141,9 @@ bool can_cull_back_faces_of_object(const GpuScene& scene, const shared::View& vi
     return range.shell && !range.flipped && !within && view.parallel == 0 && view.clip == vec4(0);
 }
 
-/// Draws the parts of the wanted objects that are not opaque over the picture, the farthest object
-/// first, and of each object first what faces away. `state`: that of opaque objects.
+/// Draws the parts of blended objects that are not opaque over the picture. The farthest object is
+/// drawn first, and of each object first the triangles that face away. `state`: pipeline state of
+/// opaque objects.
 void draw_blended_objects(PassCommands& commands, const GpuScene& scene,
                           gpu::RasterPipelineState state, const SceneDrawSettings& drawing,
                           const ObjectFilter& wanted, const OpaqueOrBlendedParts& parts) {
@@ -243,7 +245,8 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
         diffuse.constants.emplace_back("tracer", completing_tracer.number);
         diffuse.constants.emplace_back("traces_lobes", completing_tracer.traces_lobes ? 1u : 0u);
         diffuse.constants.emplace_back("drawn_parts",
-                                       shared::kDrawAllParts); // the tracer goes on behind them
+                                       shared::kDrawAllParts); // the ray tracer continues behind
+                                                               // blended surfaces
     }
     const auto draw_diffuse = [&](bool one_sided, gpu::TriangleWinding hidden) {
         diffuse.hidden = hidden;
@@ -278,7 +281,7 @@ void draw_scene(PassCommands& commands, const GpuScene& scene, const SceneDrawSe
                          {&part.triangles, shown});
     };
     // In a scene of many mirrors, other mirrors cover most of a capture. Drawing them first avoids
-    // shading what they hide.
+    // shading the objects that they hide.
     const bool mirrors_first = scene.uses_bvh_over_mirrors() &&
                                first_view != GpuScene::kCameraViewIndex;
     if (mirrors_first) draw_all_mirrors();

@@ -56,8 +56,8 @@ void draw_scene(graph::PassCommands& commands, const GpuScene& scene,
                 std::span<const std::uint8_t> layers = {});
 
 /// Draws the parts of blended objects that are not opaque over the finished picture. Call it after
-/// draw_scene and draw_sky, with the same arguments. Draws nothing in a second layer, or if a
-/// tracer completes the picture.
+/// draw_scene and draw_sky, with the same arguments. Draws nothing in a second layer of a capture,
+/// or if the ray tracer completes the picture.
 void draw_blended_surfaces(graph::PassCommands& commands, const GpuScene& scene,
                            const SceneDrawSettings& drawing, const ObjectFilter& wanted,
                            std::span<const std::uint8_t> layers = {});

@@ -55,8 +55,8 @@ bool does_object_enclose_point(const FrameGeometry& geometry, const ObjectDrawRa
         };
         seen += solid_angle_of_triangle(corner(0), corner(1), corner(2));
     }
-    // Inside, the sum is the whole sphere of directions. On a face it is half of that, and on an
-    // edge or a corner a fraction. Outside it is 0.
+    // The sum of solid angles is 4 pi for a point inside the object, half of it on a face, and a
+    // fraction of it on an edge or a corner. For a point outside, the sum is 0.
     return std::abs(seen) > kSolidAngleTolerance &&
            is_closed_triangle_surface(range.index_count, [&](std::size_t k) {
                return dvec3(geometry.vertices[geometry.indices[range.first_index + k]].position);

@@ -9,7 +9,7 @@
 /// Parts of capture faces in texels.
 namespace catoptric::render {
 
-/// Returns the part, grown to whole texels of a face with this edge and by one more texel. Drawing
+/// Returns the part of a face, enlarged to whole texels and by one more texel on each side. Drawing
 /// the part's contents can change no texel outside the result.
 require::CubeFacePart grow_face_part_to_texels(const require::CubeFacePart& part,
                                                std::uint32_t edge);

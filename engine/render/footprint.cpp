@@ -75,7 +75,7 @@ double cube_edge_needed_by_facet(const PicturePixelGrid& pixels, const MirrorMes
                                        : 1;
     double need = 0;
     for (const double curvature : compute_principal_curvatures(facet)) {
-        // A concave mirror is convex from behind.
+        // The back of a concave mirror is convex.
         const double seen = cosine < 0 ? -curvature : curvature;
         need = std::max(need, cube_edge_texels_for_footprint(angle_between_reflected_pixels(
                                   pixel_angle, distance, seen, std::abs(cosine))));

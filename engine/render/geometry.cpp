@@ -21,7 +21,7 @@ bool is_triangle_clockwise(const std::vector<shared::Vertex>& vertices, const uv
                a.normal + b.normal + c.normal) < 0;
 }
 
-/// Writes the object's indices.
+/// Writes the indices of one object into the geometry.
 void write_object_indices(FrameGeometry& geometry, const scene::Mesh& mesh,
                           const ObjectDrawRange& range) {
     std::size_t index = range.first_index;
@@ -34,7 +34,7 @@ void write_object_indices(FrameGeometry& geometry, const scene::Mesh& mesh,
     }
 }
 
-/// Writes the vertices that all copies of a mesh share. Returns their space.
+/// Writes the vertices that all copies of a mesh share. Returns the object space of the mesh.
 SharedMeshCoordinateSpace write_shared_mesh_vertices(FrameGeometry& geometry,
                                                      const scene::Mesh& mesh,
                                                      const ObjectDrawRange& range) {
@@ -157,16 +157,17 @@ ObjectDrawRange make_draw_range(const scene::Scene& now, const scene::Object& ob
     range.clear_coat = scene::has_clear_coat(material);
     if (range.rough && !range.glass && !material.roughness_texture && !range.clear_coat)
         range.lobe_alpha = f32::roughness_to_alpha(material.roughness);
-    // Captures do not show lights without a surface, so a rough mirror's highlights are its own
-    // light. What is below a clear coat may be too rough for captures, so that lights show it.
+    // Captures do not show lights without a surface, so a rough mirror shows their highlights
+    // itself. The surface below a clear coat may be too rough for captures, and is then lit by
+    // lights.
     range.lit = range.mirror &&
                 (range.clear_coat || !mirror_shows_only_reflections(mesh, material) ||
                  (range.has_lobe && !now.punctual.empty()));
     return range;
 }
 
-/// Gives each range its part of the vertex and index lists. Objects in scene units come first.
-/// Copies that share a mesh have one part.
+/// Assigns to each object its range of the vertex and index lists. Objects in scene units come
+/// first. Copies that share a mesh have one common range.
 void assign_geometry_ranges(FrameGeometry& geometry, const scene::Scene& now) {
     std::uint32_t vertices = 0, indices = 0;
     const auto store = [&](ObjectDrawRange& range) {

@@ -39,12 +39,12 @@ struct ObjectDrawRange {
     bool clear_coat = false; ///< scene::has_clear_coat
     bool turns = false;      ///< the normal turns to the viewer's side
     bool masked = false;     ///< whether an alpha mask may cut out parts of the object
-    bool blended = false;    ///< no mirror, and covers by its alpha what is behind
+    bool blended = false;    ///< no mirror; covers a share of the picture behind it
     /// A mirror with diffuse or emitted light beside its reflection.
     bool lit = false;
     bool glass = false;   ///< rays pass through (scene::is_glass)
-    bool tints = false;   ///< glass that attenuates light on its way to what is behind it
-    bool shell = false;   ///< the mesh passes is_shell
+    bool tints = false;   ///< glass that attenuates the light for surfaces behind it
+    bool shell = false;   ///< render::is_closed_shell is true for the mesh
     bool flipped = false; ///< whether the object's transform mirrors or flattens the mesh
     /// Index in FrameGeometry::attributes of the first attribute of the object's mesh; empty: the
     /// mesh has no attributes.

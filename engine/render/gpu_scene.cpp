@@ -22,7 +22,7 @@ constexpr std::uint32_t kNoMirrorNumber = 0;
 shared::Surface make_surface_entry(const scene::Object& object, const scene::Material& material,
                                    std::uint32_t mirror, const SceneUnitTransform& space) {
     shared::Surface surface{};
-    // Diffuse light of a mirror counts only if the mirror reflects less than all light.
+    // The diffuse light of a mirror matters only if the mirror reflects less than all light.
     const bool is_pure = material.mirror && material.reflectance == vec3(1);
     surface.albedo = is_pure ? vec3(0) : material.albedo;
     surface.emission = material.emission;
@@ -102,7 +102,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     const Stopwatch watch(update_ms_);
     slot_ = slot, wants_tracing_ = {}, wants_first_hits_ = wants_lamp_points_ = false;
     const SceneChanges changes = seen_.update_and_find_scene_changes(now, !complete_);
-    complete_ = false; // stays false if the update throws, so that the next update fills everything
+    complete_ = false; // stays false if the update throws; then the next update writes all data
     if (changes.layout)
         rebuild_geometry_layout(now);
     else
@@ -192,8 +192,8 @@ void GpuScene::fill_surface_table(const scene::Scene& now) {
         surfaces_.back().detail =
             material_details_.material_parameter_indices()[surfaces_.size() - 1];
     }
-    // The traversal intersects exact spheres with an object space, so the shaders' list leaves them
-    // out.
+    // The ray traversal intersects exact spheres that are stored in object space, so the shaders'
+    // list of spheres leaves them out.
     std::vector<shared::Surface> listed = surfaces_;
     for (std::size_t i = 0; i < listed.size(); ++i)
         if (geometry_.ranges[i].own && geometry_.ranges[i].own->radius > 0) listed[i].radius = 0;

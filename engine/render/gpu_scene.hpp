@@ -42,7 +42,7 @@ public:
     std::uint32_t mirror_count() const { return static_cast<std::uint32_t>(probes_.size()); }
     /// Returns whether there are so many mirrors that testing each of them costs more than a tree.
     bool uses_bvh_over_mirrors() const { return probes_.size() > kMaxMirrorsWithoutTree; }
-    /// Returns whether some mirror is not an exact sphere or has light of its own.
+    /// Returns whether some mirror is not an exact sphere, or emits or diffusely reflects light.
     bool has_mirror_count_changed() const;
     /// Returns whether some mirror reflects in lobes.
     bool has_rough_mirrors() const {
@@ -56,7 +56,8 @@ public:
     /// Returns the layers of each light in shadow maps, and how many of them are drawn.
     std::uint32_t shadow_face_count() const { return shadow_faces_; }
     std::uint32_t drawn_shadow_faces(std::uint32_t light) const;
-    /// Returns the result of find_backdrops for a light, by object.
+    /// Returns the result of find_shadowless_backdrops() for a light: for each object, 1 if its
+    /// shadow falls on nothing.
     const std::vector<std::uint8_t>& shadowless_backdrops_of_light(std::uint32_t light) const {
         return backdrops_[light];
     }
@@ -118,7 +119,8 @@ public:
     }
     /// Returns whether rays pass through some surface.
     bool has_glass() const { return material_details_.has_any_glass_material(); }
-    /// Returns whether glass attenuates the light that surfaces behind it receive.
+    /// Returns whether glass attenuates the light for surfaces behind the glass (option
+    /// --glass-shadow tint).
     bool has_tinted_shadows() const { return material_details_.has_tinted_shadows(); }
     /// Returns whether some surface has more than one colour.
     bool has_varying_colours() const { return material_details_.has_varying_colours(); }
@@ -129,7 +131,7 @@ public:
     bool has_sky() const { return environment_.shader_environment_kind() != 0; }
 
     static constexpr std::uint32_t kCameraViewIndex = 0;
-    /// Removes the views that the frame before added. Call it before a frame declares its passes.
+    /// Removes the views that the previous frame added. Call it before a frame declares its passes.
     void begin_frame() const;
     /// Adds a view for passes of this frame and returns its number. If it differs from the frame
     /// before, all views are written again.
@@ -195,7 +197,8 @@ private:
     void fill_light_table(const scene::Scene& now, bool others);
     void fill_lamp_table() const;
     void fill_mirror_probe_table(const scene::Scene& now, const SceneChanges& changes);
-    /// Returns the body that stands for an object of glass, or nothing for other objects.
+    /// Returns the simple body that replaces the mesh of a glass object in captures; nothing for
+    /// other objects.
     std::optional<scene::GlassBody> find_glass_body(const scene::Scene& now,
                                                     const scene::Object& object);
     InnerOccluderBall make_inner_ball(std::size_t object, const dvec3& centre);
@@ -223,8 +226,9 @@ private:
     std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
     std::vector<std::size_t> mirror_objects_;
     std::vector<InnerOccluderBall> inner_balls_;                ///< ball inside each mirror
-    std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< of each mirror of glass
-    std::map<std::size_t, double> closed_volumes_;              ///< of meshes of glass, by mesh
+    std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< body of each glass mirror
+    std::map<std::size_t, double> closed_volumes_;              ///< volumes of meshes of glass, by
+                                                                ///< mesh
     std::vector<bool> hides_all_; ///< result of is_object_hidden_from_camera for each object
     std::vector<double> face_needs_;
     scene::Camera camera_; ///< camera of the last update

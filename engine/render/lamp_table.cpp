@@ -10,7 +10,7 @@ namespace catoptric::render {
 namespace {
 
 struct LampTriangle {
-    dvec3 corner, second, third; ///< a corner, and the sides from it to the two others
+    dvec3 corner, second, third; ///< a corner, and the vectors from it to the two other corners
     double power;                ///< sum of the emission's channels times area
     std::uint32_t object;
 };
@@ -30,7 +30,8 @@ void add_lamp_triangles(const FrameGeometry& geometry, std::size_t object, doubl
     }
 }
 
-/// Cell of an alias table: the share of the cell that its own entry has, and the entry of the rest.
+/// Cell of an alias table: the share of the cell that belongs to its own entry, and the entry to
+/// which the rest belongs.
 struct AliasTableCell {
     double share = 1;
     std::uint32_t rest = 0;
@@ -50,7 +51,7 @@ std::vector<AliasTableCell> make_alias_table(std::vector<double> weights) {
         weights[more] -= 1 - weights[less];
         if (weights[more] < 1) large.pop_back(), small.push_back(more);
     }
-    return cells; // what rounding leaves in either list has a share of 1
+    return cells; // entries that remain because of rounding have the share 1
 }
 
 } // namespace

@@ -26,8 +26,9 @@ std::size_t count_probes(const uvec3& counts) {
     return std::size_t{counts.x} * counts.y * counts.z;
 }
 
-/// Returns whether probes show the object: all but lamps, which light surfaces as points already,
-/// and glass, which would hide what light reaches through it.
+/// Returns whether captures of light probes show the object. They leave out lamps, which already
+/// light surfaces as points, and glass, which would hide surfaces that light reaches through the
+/// glass.
 bool is_shown_by_probes(const ObjectDrawRange& range) { return range.casts_shadow; }
 
 /// Declares the pass that draws the capture of one probe, from 0.
@@ -48,8 +49,8 @@ void add_light_probe_capture(graph::Graph& graph, const FrameInputs& inputs,
     const ImageHandle depth = graph.add_image({name + ".depth", TexelFormat::d32f,
                                                shared::kLightProbeFace, shared::kLightProbeFace, 6,
                                                true});
-    // Not a scene pass: R of the seed report counts passes by mirrors and lights
-    // (Technique::scene_passes).
+    // The pass does not count as a scene pass, because R of the seed report counts passes by
+    // mirrors and lights only (Technique::scene_passes).
     graph::PassBuilder pass = graph.add_pass(name);
     declare_shader_reads(pass, lighting, *looks);
     const float nothing = std::numeric_limits<float>::infinity();

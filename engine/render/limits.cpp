@@ -18,7 +18,8 @@ constexpr std::uint64_t kBytesPerStorageTexel = 16, kTexelsPerTriangle = 3, kTex
 SceneDataAmounts count_scene_amounts(const scene::Scene& scene) {
     SceneDataAmounts amounts;
     const std::vector<bool> shared = find_objects_sharing_meshes(scene);
-    // By mesh: its copies share vertices, which count once.
+    // For each mesh, whether its vertices were counted. Copies of a mesh share vertices, which
+    // count once.
     std::vector<bool> stored(scene.meshes.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         const scene::Object& object = scene.objects[i];
@@ -56,7 +57,7 @@ void check_geometry_limits(const std::string& scene, const SceneDataAmounts& amo
            "bytes of views");
     within(vertex_bytes, limits.piece_bytes, "bytes of vertices");
     within(index_bytes, limits.piece_bytes, "bytes of indices");
-    // The sum includes triangles, their normals, and the nodes above them.
+    // The bytes of triangles, of their normals and of the tree's nodes are added.
     within(vertex_bytes + index_bytes + (2 * texels + node_texels) * kBytesPerStorageTexel,
            limits.memory_bytes, "bytes");
 }

@@ -154,8 +154,8 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
         detail.max_specular_roughness = now.mirror_max_roughness;
         detail.flags |= flag_bits_if(now.has_multiple_scattering && range.has_lobe,
                                      shared::kMaterialMultipleScatteringFlag);
-        // The difference may wrap around, because draws count vertices from the start of their own
-        // buffer.
+        // The difference may be negative as an unsigned number, because draws count vertices from
+        // the start of their own buffer. Adding it wraps around to the right value.
         if (range.first_attribute)
             detail.first_attribute = *range.first_attribute -
                                      vertices.first_vertex_of_object(range.storage);
@@ -182,7 +182,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
             any_ = any_ || differs;
         }
         masks_ = masks_ || range.masked;
-        std::array<char, 4 * shared::kWordsPerMaterial> bytes{}; // all but the padding
+        std::array<char, 4 * shared::kWordsPerMaterial> bytes{}; // all bytes except the padding
         std::memcpy(bytes.data(), &detail, bytes.size());
         const auto [entry, is_new] = known.try_emplace(std::string(bytes.data(), bytes.size()),
                                                        static_cast<std::uint32_t>(details.size()));

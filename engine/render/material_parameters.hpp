@@ -33,8 +33,8 @@ public:
     bool has_cut_out_surfaces() const { return masks_; }  ///< some surface is partly cut out
     bool has_lobe_surfaces() const { return any_lobes_; } ///< some surface reflects by a lobe
     bool has_normal_textures() const { return any_normal_textures_; }
-    /// Returns, by object, the index of its material parameters. Objects with equal parameters
-    /// share an entry.
+    /// Returns, for each object, the index of its material parameters. Objects with equal
+    /// parameters share an entry.
     const std::vector<std::uint32_t>& material_parameter_indices() const { return indices_; }
 
 private:

@@ -100,8 +100,8 @@ MirroredView make_view_behind_plane(const MirroredView& from, const scene::FlatF
     view.eye_low = bvh::double_to_float_rounding_error(made.eye);
     view.right = turned(from.view.right), view.down = turned(from.view.down),
     view.forward = turned(from.view.forward);
-    // Through the mirror, nothing is nearer than the mirror is to the eye, so the near plane stays.
-    // A parallel view extends to the end of the scene.
+    // A ray that leaves through the mirror has a length of at least the eye's distance from the
+    // mirror, so the near plane does not change. A parallel view extends to the end of the scene.
     if (view.parallel != 0) {
         const dvec3 forward(view.forward), middle(everything.centre()),
             half(dvec3(everything.extent()) * .5);
@@ -121,8 +121,8 @@ std::optional<MirroredView> make_view_in_mirror(const MirroredView& from,
     if (std::abs(height) < kEdgeOnMirrorCosine || (mirror.is_one_sided && height < 0)) return {};
     Polygon polygon;
     for (const dvec3& corner : mirror.corners) polygon.push_back(corner - from.eye);
-    // A mirror that touches the plane of the view's own mirror, or lies in it, is not in front of
-    // it.
+    // A mirror that touches or lies in the plane of the mirror in which it is seen does not count
+    // as visible.
     const dvec4 clip(from.view.clip);
     if (clip != dvec4(0) && std::ranges::all_of(polygon, [&](const dvec3& corner) {
             return dot(dvec3(clip), corner) + clip.w <= kEdgeOnMirrorCosine;

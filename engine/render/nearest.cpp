@@ -141,7 +141,8 @@ void NearestTriangleQuery::visit_triangle_of_same_object(const FrameGeometry& ge
     constexpr double kTransformRoundingError =
         1e-5; // above the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
-    // Starts from the known distance, so that farther triangles are skipped.
+    // The search starts with the smallest distance known so far, so that farther triangles are
+    // skipped.
     const double known = std::sqrt(double{squared}) / own.least * (1 + kTransformRoundingError);
     float own_squared = static_cast<float>(known * known);
     visit_triangle_of_scene(geometry, object, vec3(own.scene_to_object_point(point)), own_squared);

@@ -21,7 +21,8 @@ public:
     template <typename Visit>
     void find_nearest(const vec3& point, const float& squared, Visit&& visit) const;
 
-    /// A node of a walk without a stack. If the ray misses the box, the walk goes on at `past`.
+    /// A node of a tree that is traversed without a stack. If the ray misses the node's box,
+    /// traversal continues at node `past`.
     struct BoxTreeTraversalStep {
         Bounds<float> box;
         std::uint32_t past = 0;            ///< the node after the whole subtree

@@ -15,7 +15,7 @@ using graph::PassCommands;
 using graph::PassPurpose;
 using graph::ResourceUse;
 
-/// Returns the same shaders with some causes of error removed.
+/// Returns the shaders with the given causes of error removed.
 ShaderOfEachMirror remove_error_causes_of_shaders(ShaderOfEachMirror looks,
                                                   const FrameInputs& inputs,
                                                   const ShadingLights& lighting) {

@@ -7,7 +7,7 @@
 
 namespace catoptric::render {
 
-/// The differences between a scene and the scene of the update before.
+/// The differences between a scene and the same scene at the previous update.
 struct SceneChanges {
     bool layout = false;    ///< the objects differ in number or kind
     bool materials = false; ///< materials or exact spheres changed

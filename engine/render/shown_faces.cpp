@@ -95,8 +95,9 @@ public:
     void mark_cells_hidden_by_ball(const SphereInCubeFaceView& ball) {
         for_each_cell_near_sphere(
             ball, 0, [&](std::size_t cell, const ViewSlopeRange& x, const ViewSlopeRange& y) {
-                // The cone around the ball is convex. Where it holds the outermost centres of the
-                // cell, it holds all, and the farthest point of the ball lies at one of them.
+                // The cone around the ball is convex. If it contains the outermost texel centres of
+                // the cell, it contains all of them. The farthest point of the ball within the cell
+                // then lies at one of these centres.
                 float farthest = 0;
                 for (const vec2& corner : {vec2(x.low, y.low), vec2(x.high, y.low),
                                            vec2(x.low, y.high), vec2(x.high, y.high)}) {
@@ -106,7 +107,7 @@ public:
                     const float inside = ball.radius * ball.radius -
                                          ball.distance * ball.distance * (1 - cosine * cosine);
                     farthest = std::max(farthest, along - std::sqrt(std::max(0.f, inside)));
-                    if (texels_ == 1) break; // the corners are the same
+                    if (texels_ == 1) break; // a cell of one texel has only one centre
                 }
                 hidden_beyond_[cell] = std::min(hidden_beyond_[cell],
                                                 farthest * kMinHiddenDepthFactor);
@@ -117,7 +118,8 @@ public:
     /// Returns whether the face may show something in the sphere.
     bool may_face_show_sphere(const SphereInCubeFaceView& sphere) const {
         const float nearest = sphere.distance - sphere.radius;
-        // An angle is smaller than the way on the face that it spans.
+        // The angle between two directions is smaller than the distance between their points on the
+        // face.
         const float around = std::numbers::sqrt2_v<float> *
                              (static_cast<float>(texels_ - 1) / static_cast<float>(face_edge_) +
                               snap_);
@@ -139,8 +141,8 @@ private:
         return dot(direction, sphere.centre) / (length(direction) * sphere.distance);
     }
 
-    /// Returns the first cell with a centre at or beyond a slope, and the number of cells that
-    /// begin at or before it.
+    /// Returns the first cell with a texel centre at or beyond a slope, and the number of cells
+    /// that begin at or before the slope.
     std::uint32_t first_cell_of_slope(float slope) const {
         return static_cast<std::uint32_t>(
             std::ranges::lower_bound(centres_, slope, {}, &ViewSlopeRange::high) -
@@ -175,8 +177,8 @@ private:
     std::vector<float> hidden_beyond_;
 };
 
-/// Returns whether the ball hides what lies behind it: the eye is outside the object, and the near
-/// plane cuts nothing off.
+/// Returns whether the ball hides all objects behind it. For this, the eye must be outside the
+/// ball's object, and the near plane must not cut off a part of the ball.
 bool can_ball_hide_objects(const shared::View& view, const InnerOccluderBall& ball,
                            const ObjectDrawRange& range) {
     const float gap = length(range.bounds.centre() - view.eye) - range.radius;

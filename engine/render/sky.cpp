@@ -25,7 +25,7 @@ shared::Sky make_sky_uniforms(const scene::Environment& environment) {
     return sky;
 }
 
-/// Appends what rough surfaces reflect.
+/// Appends the environment, filtered for rough surfaces, to the texels.
 void append_filtered_sky_levels(const std::shared_ptr<const scene::Environment>& environment,
                                 shared::Sky& sky, std::vector<vec4>& texels) {
     const std::shared_ptr<const FilteredSkyLevels> levels = find_sky_levels(environment);

@@ -17,7 +17,7 @@ constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kSkyLevelWidths{256, 128, 6
 constexpr std::array<std::uint32_t, SKY_LEVEL_COUNT> kSkyLevelLobeSamples{64,  128, 256, 512,
                                                                           512, 512, 512, 512};
 constexpr float kLobeSampleBoxOverlap =
-    2; ///< area of a sample's box in areas for which the sample stands
+    2; ///< area of the box that a sample reads, divided by the area for which the sample stands
 constexpr std::uint32_t kMinSkyBaseWidth = 64, kMaxSkyBaseWidth = 1024;
 
 /// Equirectangular map with twice as many columns as rows.
@@ -80,7 +80,7 @@ EquirectangularSkyMap make_base_sky_map(const scene::Environment& environment) {
     return base;
 }
 
-/// Returns the map at half the width. Texels count by their solid angle.
+/// Returns the map at half the width. Each texel is weighted by its solid angle.
 EquirectangularSkyMap halve_sky_map(const EquirectangularSkyMap& fine) {
     EquirectangularSkyMap half{fine.width / 2, {}};
     for (std::uint32_t row = 0; row < half.row_count(); ++row) {
@@ -100,7 +100,8 @@ EquirectangularSkyMap halve_sky_map(const EquirectangularSkyMap& fine) {
     return half;
 }
 
-/// Reads the mean of two neighbouring maps of the chain, the first of which is the finest.
+/// Reads the chain of ever smaller maps between two levels, as the mean of two neighbouring maps.
+/// The first map of the chain is the finest.
 vec3 sample_sky_map_chain(const std::vector<EquirectangularSkyMap>& chain, float level,
                           const vec3& direction) {
     const float last = static_cast<float>(chain.size() - 1);
@@ -115,7 +116,7 @@ vec3 sample_sky_map_chain(const std::vector<EquirectangularSkyMap>& chain, float
 /// A sample of the lobe around the z axis.
 struct LobeSample {
     vec3 direction;
-    float level; ///< of the chain, for texels of a steradian
+    float level; ///< level of the chain, for texels of one steradian
 };
 
 std::vector<LobeSample> make_lobe_samples(float alpha, std::uint32_t count) {
@@ -138,7 +139,8 @@ vec3 filter_sky_texel(const std::vector<EquirectangularSkyMap>& chain,
     constexpr float kPi = std::numbers::pi_v<float>;
     vec3 tangent, bitangent, sum(0);
     f32::tangent_frame(normal, tangent, bitangent);
-    // The texel's area at the equator. Near the poles texels are narrower, and boxes with them.
+    // The area of a texel at the equator. Near the poles, texels and the boxes that samples read
+    // are narrower.
     const float texel_area = 2 * kPi * kPi / float(chain[0].width * chain[0].row_count());
     const float finest = .5f * std::log2(texel_area);
     float weights = 0;

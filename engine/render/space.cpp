@@ -55,7 +55,8 @@ SceneUnitTransform make_scene_units(const scene::Scene& scene) {
 
 void check_object_distance(const Bounds<float>& box, const std::string& object) {
     const float farthest = f32::largest_vector_component(max(abs(box.lo), abs(box.hi)));
-    // Written so that infinity and NaN fail too. An empty box has no position and passes.
+    // The comparison is written so that infinity and NaN fail, too. An empty box has no position
+    // and passes.
     check(box.empty() || farthest <= scene::kMaxSceneRadius, Failure::exhausted, "object '", object,
           "': wanted every corner within ", scene::kMaxSceneRadius,
           " sizes of the scene's core, found one at ", farthest,

@@ -92,8 +92,8 @@ std::array<double, 15> make_object_space_key(const ObjectDrawRange& range) {
 
 constexpr std::string_view kBvhInStorageConstant = "bvh_in_storage";
 
-/// Returns the list with which shaders find a triangle of the rasteriser in the hierarchy
-/// (known_hit in shaders/lib/whitted.glsl). `count`: the number of stored triangles.
+/// Returns the list with which shaders find the hierarchy's copy of a triangle that the rasteriser
+/// drew (known_hit in shaders/lib/whitted.glsl). `count`: number of stored triangles.
 std::vector<std::uint32_t> list_first_hit_words(const bvh::Bvh& shown,
                                                 std::span<const bvh::BvhInstance> instances,
                                                 const FrameGeometry& geometry, std::size_t count) {
@@ -163,7 +163,7 @@ void RayTracingTrees::refit_ray_tracing_trees(DeviceBvh& hierarchy, const FrameG
     }
     hierarchy.changed = bvh::refit_bvh(hierarchy.tree, flat, geometry.core, &hierarchy.reach);
     ++refitted_;
-    // Written so that NaN rebuilds too.
+    // The comparison is written so that a cost of NaN also causes a new build.
     if (!(hierarchy.tree.cost <= kMaxRefitCostRatio * hierarchy.cost_when_built))
         build_ray_tracing_trees(hierarchy, geometry, flat);
 }
@@ -176,7 +176,7 @@ void RayTracingTrees::build_object_space_tree(const FrameGeometry& geometry, std
     offset_triangle_numbers_of_bvh(tree, range.first_index / 3);
 }
 
-/// Reads the objects that have moved.
+/// Reads the triangles of objects that have moved.
 void RayTracingTrees::read_moved_objects(const FrameGeometry& geometry) {
     bvh::IndexRange changed{normals_.size(), 0};
     for (const auto& [object, vertices] : moved_) {
@@ -197,7 +197,8 @@ void RayTracingTrees::read_moved_objects(const FrameGeometry& geometry) {
     corner_normals_.set_device_list_contents(normals_, changed.first, changed.end);
 }
 
-/// Reads a new layout, or the objects that have moved.
+/// Reads all triangles after a change of the objects' layout, or else the triangles of objects that
+/// have moved.
 void RayTracingTrees::read_geometry_changes(const FrameGeometry& geometry) {
     if (is_read_ && moved_.empty()) return;
     // `is_read_` stays false if this throws, so that the next call fills everything.
@@ -224,12 +225,14 @@ void RayTracingTrees::read_geometry_changes(const FrameGeometry& geometry) {
 std::vector<bvh::BvhInstance>
 RayTracingTrees::list_bvh_instances(const FrameGeometry& geometry) const {
     std::vector<bvh::BvhInstance> instances;
-    std::set<std::array<double, 15>> places; // rays never meet a copy in the same place as another
+    std::set<std::array<double, 15>> places; // rays never hit a copy in the same place as another
+                                             // one
     auto next = static_cast<std::uint32_t>(triangles_.size());
     for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
         const ObjectDrawRange& range = geometry.ranges[i];
         if (!range.own) continue;
-        // A copy has triangle numbers of its own, after all others.
+        // A copy of a mesh gets triangle numbers of its own, after the numbers of all other
+        // triangles.
         const bool copy = range.storage != i;
         if (range.masked || places.insert(make_object_space_key(range)).second)
             instances.push_back({&own_trees_.at(range.storage), range.own->scene_from_own,
@@ -257,7 +260,7 @@ void RayTracingTrees::assemble_two_level_tree(DeviceBvh& hierarchy, const FrameG
                                                      hierarchy.changed.end);
     else
         hierarchy.triangles.set_device_list_contents(shown.triangles);
-    // A refit keeps the places of triangles, but assembling may change them.
+    // A refit keeps the places of triangles, but assembling two levels may change them.
     hierarchy.lists_first_hits = hierarchy.lists_first_hits && instances.empty();
     if (!first_hits || hierarchy.lists_first_hits) return;
     hierarchy.first_hits.set_device_list_contents(
@@ -265,12 +268,14 @@ void RayTracingTrees::assemble_two_level_tree(DeviceBvh& hierarchy, const FrameG
     hierarchy.lists_first_hits = true;
 }
 
-/// `flat`: the triangles and spheres in scene units.
+/// Builds the trees of an outdated hierarchy again, or refits them. `flat`: the triangles and
+/// spheres in scene units.
 void RayTracingTrees::rebuild_or_refit_ray_tracing_trees(DeviceBvh& hierarchy,
                                                          const FrameGeometry& geometry,
                                                          std::span<const bvh::Triangle> flat,
                                                          bool first_hits) {
-    // Triangles left out as copies may no longer coincide after a move.
+    // Triangles that were left out as copies of others may no longer coincide with them after a
+    // move.
     const bool is_new = hierarchy.seen.layouts != version_.layouts || hierarchy.tree.copies > 0;
     hierarchy.seen = {}, hierarchy.changed = {}; // if this throws, the next call fills everything
     if (is_new)

@@ -52,8 +52,8 @@ public:
                                    std::size_t slot);
     void bind(graph::PassCommands& commands, SphereIntersectionMode spheres,
               std::size_t slot) const;
-    /// Returns the bytes of the nodes or of the triangles, whichever is more, as written for the
-    /// slot.
+    /// Returns the size in bytes, as written for the slot, of the buffer of nodes or of the buffer
+    /// of triangles, whichever is larger.
     std::uint64_t largest_tree_buffer_bytes(SphereIntersectionMode spheres, std::size_t slot) const;
 
     std::size_t built_tree_count() const { return built_; }

@@ -15,8 +15,8 @@ public:
 
     /// Stores a new geometry layout, or one whose indices changed. Costs O(n).
     void set_geometry(const FrameGeometry& geometry);
-    /// Records that the object's vertices changed. Returns true if the object was expected to be
-    /// static; the caller must then lay out everything again.
+    /// Records that the object's vertices changed. Returns true if the object was expected not to
+    /// move. The caller must then lay out all vertices again.
     bool record_moved_object(std::size_t object);
     /// Copies the moved vertices. Nothing else may have changed.
     void copy_moved_vertices(const FrameGeometry& geometry);

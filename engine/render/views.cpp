@@ -77,7 +77,8 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
     const dvec3 down = glm::cross(forward, right);
     const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees) / 2);
     const double aspect = static_cast<double>(size.x) / static_cast<double>(size.y);
-    // A surface at distance `gap` in the corner of the picture lies this far along the axis.
+    // A surface that is `gap` away from the eye in a corner of the picture has this depth along the
+    // view's axis.
     const double along = 1 / std::sqrt(1 + tangent * tangent * (1 + aspect * aspect));
     shared::View view{};
     dvec3 eye = space.world_to_scene_units(camera.eye);
@@ -95,7 +96,7 @@ shared::View make_camera_view(const scene::Camera& camera, const SceneUnitTransf
     }
     view.eye = vec3(eye);
     view.eye_low = bvh::double_to_float_rounding_error(eye);
-    // Written so that NaN fails too.
+    // The comparison is written so that NaN fails, too.
     check(length(view.eye) <= scene::kMaxSceneRadius && length(view.forward) > .5f &&
               length(view.right) > 0 && length(view.down) > 0,
           Failure::usage, "camera '", camera.name, "': wanted an eye within ",

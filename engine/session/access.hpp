@@ -35,7 +35,7 @@ class WindowScreen;
 struct WindowPictures;
 struct FrameGraph;
 
-/// Options of an engine that other programs do not have.
+/// Options of an engine that only programs and tests of this repository can set.
 struct EngineHooks {
     /// Whether the six faces of a capture are rendered at once if the device can. False: the faces
     /// are always rendered one by one.
@@ -55,7 +55,7 @@ struct EngineHooks {
     std::filesystem::path shader_cache = {};
 };
 
-/// Options of a frame that other programs do not have.
+/// Options of a frame that only programs and tests of this repository can set.
 struct FrameHooks {
     /// Causes of error to remove from mirrors: a sum of shared::kAblate... (shaders/shared.h).
     std::uint32_t ablated = 0;
@@ -95,8 +95,8 @@ struct SetupTimes {
     double hierarchy_ms = 0; ///< building BVHs; 0: no pass has traced rays
 };
 
-/// A suspended sequence of frames: the history that they left for the next frame. Only the session
-/// that suspended the sequence can resume it. The engine must outlive it.
+/// A suspended sequence of frames, with the history that they left for the next frame. Only the
+/// session that suspended the sequence can resume it. The engine must outlive it.
 class FrameSequence {
 public:
     FrameSequence(FrameSequence&&) noexcept;
@@ -119,9 +119,9 @@ struct Access {
     static PipelineCacheState pipeline_cache_state_of_engine(const Engine& engine);
     static EngineImpl& engine_impl_of(const Engine& engine) { return *engine.impl_; }
 
-    /// Returns whether a technique's picture depends on the frame before.
+    /// Returns whether a technique's picture depends on the previous frame.
     static bool does_frame_part_need_previous_frame(const Frame& frame, std::size_t part = 0);
-    /// Returns what was rendered, and what was left out.
+    /// Returns the model of the frame: which work was rendered, and which was left out.
     static const require::RequiredWorkModel& rendered_model(const Frame& frame);
     /// Returns colours and distances around every mirror, of a technique that captures both. Throws
     /// `internal` without `with_captures`.
@@ -143,12 +143,12 @@ struct Access {
     /// frame, the frame is still rendered.
     static Frame show_in_window(Session& session, const FrameSpec& spec, WindowScreen& screen,
                                 const WindowPictures& showing);
-    /// Makes a cut and returns the history of the frame sequence, which `resume_frame_sequence` can
-    /// continue. Waits for frames in flight.
+    /// Makes a cut and returns the suspended frame sequence with its history.
+    /// `resume_frame_sequence` can continue the sequence. Waits for frames in flight.
     static FrameSequence suspend_sequence(Session& session);
-    /// Continues a suspended sequence: the next frame follows its last one. Discards the present
-    /// history. If the scene's units changed in between (see Session::change), the next frame
-    /// begins without history.
+    /// Continues a suspended sequence: the next frame follows the last frame of the sequence.
+    /// Discards the present history. If the scene's units have changed (see Session::change), the
+    /// next frame begins without history.
     static void resume_frame_sequence(Session& session, FrameSequence sequence);
     /// Returns the plan, written out, of a frame that follows another frame. With
     /// RenderedWork::required, the scene is still and its captures no longer change.

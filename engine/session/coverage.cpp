@@ -87,7 +87,7 @@ std::optional<std::vector<int>> find_first_object_per_pixel(const render::FrameG
                         continue;
                     if (!f32::intersect_triangle_watertight(a, b, c, pixel.ray.origin, pixel.shear,
                                                             t, weights) ||
-                        !(t < pixel.t)) // between equal distances the first triangle wins
+                        !(t < pixel.t)) // of two equal distances, that of the first triangle wins
                         continue;
                     pixel.t = t;
                     seen[i] = static_cast<int>(object);

@@ -4,8 +4,9 @@
 
 #include <string>
 
-/// Reports what a request's picture requires of mirrors and lights at its instant, what is left out
-/// and why, and which plan suits it (require/). Only `measure_capture_budget` needs a device.
+/// Functions that report which captures and shadow maps a request's picture requires, what is left
+/// out and why, and which plan suits the picture (require/). Only `measure_capture_budget` needs a
+/// device.
 namespace catoptric::app {
 
 /// Returns the report as text for the user. `slices`: only if there is a budget.

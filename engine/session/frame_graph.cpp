@@ -18,7 +18,7 @@ namespace catoptric::app {
 
 namespace {
 
-/// Counts scene passes and draws of the part whose passes begin with `prefix`.
+/// Counts the scene passes and draws of the technique whose passes' names begin with `prefix`.
 void count_scene_passes_of_part(const graph::Graph& graph, const graph::GraphPlan& plan,
                                 TechniqueResult& part) {
     for (const graph::PlannedPass& planned : plan.passes) {
@@ -192,7 +192,8 @@ measure::Picture read_hdr_picture(graph::GraphRunner& runner, graph::SubmittedFr
                              TexelFormat::rgba32f);
 }
 
-/// Returns how each mirror was drawn, and which rule decided so.
+/// Returns for each mirror the technique that drew it, and the rule of the plan that chose the
+/// technique.
 std::vector<PlanEntry> list_plan_entries(const TechniqueGraphPart& declared,
                                          const std::vector<std::string>& mirrors) {
     const auto& [choices, of_mirror, patterns, reasons, lacks] = declared.assignment;

@@ -42,7 +42,8 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                                const render::GpuScene& scene, graph::GraphHistory history,
                                const std::vector<reflect::PreviousCaptureHistory>& keeping);
 
-/// Returns whether the part keeps captures, or one of its passes reads data of the frame before.
+/// Returns whether a technique keeps captures, or one of its passes reads data of the previous
+/// frame.
 bool depends_on_previous_frame(const FrameGraph& frame, const graph::GraphPlan& plan,
                                const TechniqueGraphPart& part);
 

@@ -9,11 +9,11 @@
 
 namespace catoptric::app {
 
-/// Number of the last frames of a run that keep the times of their passes. Older frames keep only
-/// their totals, so that a long run takes little memory.
+/// The number of frames at the end of a run that keep the times of their passes. Earlier frames
+/// keep only their total times, so that a long run takes little memory.
 constexpr std::size_t kMaxDetailedFrames = 1000;
 
-/// What the first frame of a FrameLoop knows of the frames before it.
+/// Which history the first frame of a FrameLoop has.
 enum class FrameHistoryState {
     none, ///< nothing: the loop begins with a cut
     /// The captures of the session's last frame, which must have had the same techniques, instant

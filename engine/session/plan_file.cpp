@@ -41,7 +41,8 @@ std::string read_text_member(const PlanJson& rule, const char* member, const std
     return value.get<std::string>();
 }
 
-/// Returns whether the only rule gives `auto`, which is no technique of one mirror, to all mirrors.
+/// Returns whether the plan consists of one rule that gives `auto` to all mirrors. `auto` cannot be
+/// the technique of a single mirror.
 bool is_auto_for_all_mirrors(const PlanJson& rules) {
     return rules.size() == 1 && rules[0].is_object() && rules[0].size() == 2 &&
            rules[0].value("mirror", PlanJson()) == "*" &&

@@ -117,7 +117,8 @@ double compute_waited_share(const ProcessorWaitingTimes& waiting) {
     if (!(waiting.waited > 0)) return 0;
     const double share = waiting.waited / (waiting.ran + waiting.waited);
     if (std::isnan(waiting.others)) return share;
-    // The system counts in hundredths of a second, so the difference can be below 0.
+    // The system counts processor time in hundredths of a second, so the difference can be slightly
+    // negative.
     const double others = std::max(0.0, waiting.others);
     return others > 0 ? share * others / (waiting.ran + others) : 0;
 }

@@ -18,8 +18,8 @@ reflect::TechniquePlan resolve_auto_plan(reflect::TechniquePlan plan, const scen
     reflect::TechniquePlan made = reflect::parse_plan(suggestion.plan);
     plan.rules = std::move(made.rules);
     plan.reasons = suggestion.reasons;
-    // A plan with one technique for all mirrors is drawn as that technique: it may draw its own
-    // picture, and needs no mirror.
+    // A plan with the same technique for all mirrors is drawn as this technique, which may draw the
+    // whole picture itself and needs no mirror.
     plan.is_technique = made.is_technique;
     return plan;
 }

@@ -104,7 +104,8 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     } else {
         check_environment_exists(said, {"--environment-scale"}, {"--environment-rotate"},
                                  "give --environment");
-        // The scene file cannot know that the command line removes the environment.
+        // A scene file cannot know that the command line removes the environment. Its settings of
+        // the environment are then ignored.
         if (wanted.scene_file && !said.environment) {
             const std::string file = wanted.scene_file->string();
             check_environment_exists(overrides, {file + ": environment_scale", Failure::bad_data},
@@ -115,7 +116,8 @@ void apply_environment_overrides(ResolvedScene& wanted, const scene::SceneOverri
     scene.environment = std::move(environment);
 }
 
-/// Sets the number of points that replace each lamp. Throws `usage` if the device cannot hold all.
+/// Sets the number of points that replace each lamp. Throws `usage` if there would be more lights
+/// than the device can hold.
 void apply_light_samples(ResolvedScene& wanted) {
     if (!wanted.overrides.light_samples) return;
     scene::Scene& scene = wanted.scene;

@@ -49,8 +49,8 @@ bool FrameLoop::render_next(const scene::Camera& camera) {
     return true;
 }
 
-/// Multiplies the frames by the rounds, because a limited still needs as many rounds as it needs
-/// frames without a limit.
+/// With a limit on captures, a still picture needs as many rounds as it needs frames without a
+/// limit. The number of frames is therefore multiplied by the frames of a round.
 int FrameLoop::max_frame_count() const {
     std::uint32_t round = 1;
     for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)

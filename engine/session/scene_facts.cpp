@@ -43,7 +43,7 @@ std::vector<int> find_visible_objects(const Request& request, uvec2 size) {
     const render::SceneUnitTransform space = render::make_scene_units(request.scene);
     const render::FrameGeometry geometry = render::make_frame_geometry(now, space);
     const shared::View view = render::make_camera_view(request.camera, space, size, 0);
-    // More tests than this take longer than building a BVH.
+    // With more tests than this, building a BVH would be faster.
     const std::uint64_t most_tests = std::max<std::uint64_t>(std::uint64_t{1} << 24,
                                                              16 * (geometry.indices.size() / 3));
     if (auto covering = find_first_object_per_pixel(geometry, view, size, most_tests))

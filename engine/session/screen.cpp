@@ -103,7 +103,8 @@ Frame Access::show_in_window(Session& session, const FrameSpec& spec, WindowScre
     if (slot.runner == &runner && !runner.has_ended(slot.ticket))
         runner.wait_for_frame(slot.ticket);
     std::optional<std::uint32_t> image;
-    onto.fits = false; // a refused frame returns its image only when all images are made again
+    onto.fits = false; // after a refused frame, the image is returned when all images are made
+                       // again
     Frame frame = submit_frame(session, spec, {}, [&](FrameGraph& graph) {
         image = onto.acquire();
         if (!image) return graph::ExternalSemaphores{};

@@ -60,7 +60,8 @@ struct FrameSequence::Impl {
     std::vector<std::shared_ptr<render::CaptureCache>> kept;
     std::vector<CaptureCostEstimate> paces;
     std::vector<double> face_needs;
-    std::optional<DeviceSceneKey> scene_key; ///< from which its next frame continues
+    std::optional<DeviceSceneKey> scene_key; ///< key of the scene data from which the next frame
+                                             ///< continues
     std::uint64_t units = 0;                 ///< units in which distances were captured
     std::uint64_t edits = 0;                 ///< number of the scene's edits so far
     std::vector<std::string> texts;
@@ -121,7 +122,8 @@ Session::Impl::find_required_work_model(RenderedWork modelling, bool is_ablated)
                                              scene_key->size};
     reflect::add_capture_needs_of_plan(question, plans);
     question.whole_cubes = question.whole_cubes ||
-                           is_ablated; // ablated lookups read places that a search never would
+                           is_ablated; // look-ups with removed causes read faces that a search
+                                       // would never read
     if (modelling == RenderedWork::required && !requirements) requirements.emplace(scene);
     require::RequiredWorkModel made = modelling == RenderedWork::everything
                                           ? require::make_everything_model(question)
@@ -276,7 +278,8 @@ void Access::resume_frame_sequence(Session& session, FrameSequence sequence) {
         self.models.clear();
     }
     const std::optional<DeviceSceneKey>& scene_key = sequence.sequence_impl_->scene_key;
-    // An update from another size would discard the needed edges that were just set.
+    // Updating the scene for another picture size would discard the capture edges that were just
+    // set.
     if (!scene_key || (self.scene_key && self.scene_key->size != scene_key->size))
         self.scene_key.reset();
     if (scene_key) self.update_device_scene(*scene_key);
@@ -294,8 +297,8 @@ std::string Access::format_frame_plan(Session& session, const FrameSpec& spec,
                                                          {*model, nullptr, &self.comparisons});
     FrameGraph frame = declare_frame_graph(spec, {}, plans, self.mirrors, *self.resident, {},
                                            keeping);
-    // If captures are kept, only the second frame compares them. The plan is that of the frame
-    // after it, when nothing has changed.
+    // If captures are kept, the second frame compares them with those of the first. The returned
+    // plan is that of the next frame, in which nothing has changed.
     for (int k = 0; k < (model->is_everything ? 1 : 2); ++k) {
         for (std::size_t i = 0; i < plans.size(); ++i) {
             keeping[i].before = frame.parts[i].outputs.kept;

@@ -72,7 +72,7 @@ void Session::Impl::wait_for_needed_results(const FrameSpec& spec) {
 
 void Session::Impl::read_capture_times() {
     if (!timed) return;
-    // Frames that keep the history unchanged may have overwritten its times.
+    // The times of the frame may have been overwritten by frames that keep the history unchanged.
     if (last->frame < timed->ticket.frame + read_by.size()) {
         const graph::GraphFrameTimes& times = runner.wait_for_frame(timed->ticket);
         paces.resize(timed->drawn.size());

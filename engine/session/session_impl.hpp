@@ -20,7 +20,7 @@
 // screen.cpp.
 namespace catoptric::app {
 
-/// The inputs that determine the device's copy of a scene.
+/// The data from which the device's copy of a scene is made. Equal keys mean an equal copy.
 struct DeviceSceneKey {
     double time = 0;
     scene::Camera camera;

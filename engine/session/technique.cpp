@@ -58,8 +58,8 @@ void check_search_definition(const Search& search) {
     }
 }
 
-/// Returns the search's own knobs, then those of all searches. Those of continuing searches come
-/// only if the search continues.
+/// Returns the search's own knobs, followed by the knobs of all searches. Knobs of continuing
+/// searches are included only if the search continues.
 std::vector<TechniqueKnob> list_search_knobs(const Search& search) {
     constexpr std::array<std::string_view, 3> kContinueKnobNames{"continue", "captures", "mirrors"};
     std::vector<TechniqueKnob> knobs;
@@ -77,7 +77,8 @@ std::vector<TechniqueKnob> list_search_knobs(const Search& search) {
                          .is_real = own.is_real});
     }
     for (const TechniqueKnob& knob : reflect::kCommonSearchKnobs) {
-        // Also if the knob is not offered, because its name would be read as this knob.
+        // The name is refused even if the technique lacks this knob, because shared code would read
+        // the name as the shared knob.
         check_new(knob.name);
         if (search.continues ||
             std::ranges::find(kContinueKnobNames, knob.name) == kContinueKnobNames.end())

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-/// Measures what work costs this process's processors. Cycles repeat on a machine that others use,
-/// but time on the clock does not.
+/// Classes that measure how much processor time and how many cycles work takes. On a machine with
+/// other programs, cycles repeat from run to run, but time on the clock does not.
 namespace catoptric::app {
 
 /// Processor time; and cycles and instructions in user mode, if the system counts them.
