@@ -20,8 +20,8 @@ constexpr std::size_t kTrianglesPerTask = 8192; // triangles that one task of a 
 
 /// The references that have been written for a list of triangles.
 struct PartitionedTriangleReferences {
-    /// Those of triangles that cast shadows, and those of other triangles. The references of both
-    /// lie in one run.
+    /// The references of triangles that cast shadows, and the references of all other triangles.
+    /// Both lie in one run.
     std::array<TriangleReferenceSpanRange, 2> parts;
     std::vector<std::size_t> shadowless; ///< places in the run of the second part, ascending
 
@@ -77,8 +77,9 @@ PartitionedTriangleReferences write_references_in_parallel(std::span<const Trian
     return all;
 }
 
-/// Returns the parts that get a tree each: all references, or first those of triangles that cast
-/// shadows. In the latter case, moves the others behind them.
+/// Returns the parts of the references over which separate trees are built. This is either one part
+/// with all references, or two parts: triangles that cast shadows, and others. In the second case,
+/// the references are sorted into the two parts.
 std::vector<TriangleReferenceSpanRange>
 partition_out_shadowless_triangles(const PartitionedTriangleReferences& written,
                                    TriangleReferences references) {

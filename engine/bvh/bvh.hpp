@@ -129,9 +129,9 @@ ChangedBvhRegion find_bvh_region_to_refit(const Bvh& bvh, std::span<const char> 
 IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds<float>& core = {},
                      const ChangedBvhRegion* reach = nullptr);
 
-/// Returns the walk cost of a ray that the surface area heuristic expects, times the area of the
-/// whole tree. The value rises as the triangles of a refitted tree move away from their neighbours.
-/// Costs O(n).
+/// Returns the cost of traversing the tree that the surface area heuristic expects for a ray, times
+/// the surface area of the whole tree. The value rises as triangles of a refitted tree move away
+/// from their neighbours. Takes O(n).
 double compute_sah_cost(const Bvh& bvh);
 
 /// Writes the two words of the header at which walks begin.

@@ -8,8 +8,8 @@
 #include <optional>
 #include <type_traits>
 
-/// The CPU reference of shaders/lib/trace.glsl: the same walk over the same arrays, in float or
-/// double.
+/// The CPU version of the ray traversal in shaders/lib/trace.glsl: the same algorithm over the same
+/// arrays, in float or double.
 namespace catoptric::bvh {
 
 template <typename Real>
@@ -77,7 +77,8 @@ struct ClosestHitSearch {
     decltype(make_ray_shear(Vec3<Real>{})) shear = make_ray_shear(ray.direction);
     std::uint32_t record = 0;
 
-    /// Continues in the tree of a record, or returns to the tree above (0).
+    /// Continues the traversal in the tree of an instance's record, or returns to the tree above
+    /// (record 0).
     void enter_instance_subtree(std::uint32_t into, const Ray<Real>& as_it_sees_it) {
         record = into, ray = as_it_sees_it;
         shear = make_ray_shear(ray.direction);

@@ -39,7 +39,7 @@ double compute_bvh_child_sah_cost(std::uint32_t child, const BoundingBox& box) {
                 : static_cast<double>(f32::bvh_word_triangle_count(child)));
 }
 
-/// Compares bits, because 0 and -0 count as different here.
+/// Returns whether two vectors have the same bits. 0 and -0 count as different.
 bool have_bit_identical_vectors(const vec3& a, const vec3& b) {
     return float_to_bits(a.x) == float_to_bits(b.x) && float_to_bits(a.y) == float_to_bits(b.y) &&
            float_to_bits(a.z) == float_to_bits(b.z);

@@ -38,7 +38,7 @@ void SahSplitBins::add_triangle_references_of_bins(std::span<const TriangleRefer
                                                    const CentroidToBinMapping& binning) {
     for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kReferencePrefetchDistance);
-        // The minimum also sends NaN to the last bin.
+        // The minimum also puts NaN into the last bin.
         const SimdInt4 bin = __builtin_convertvector(
             simd_min(broadcast_simd(kSplitBinCount - 1),
                      binning.fractional_bin_of_centroid(r.bounding_box_centre())),
@@ -94,7 +94,8 @@ void BinnedSahSplit::scatter_references_to_bins(std::span<const TriangleReferenc
     for (const TriangleReference& r : references) {
         __builtin_prefetch(&r + kReferencePrefetchDistance);
         const SimdFloat4 centre = r.bounding_box_centre();
-        // Without a branch, because no predictor could foresee it. Without sums in memory, too.
+        // Computed without a branch, because branch prediction would fail half of the time, and
+        // with sums in registers.
         const bool is_right = !((centre[k] - lo) * bins_per_unit < end);
         *(is_right ? right : left) = r;
         right += is_right, left += !is_right;

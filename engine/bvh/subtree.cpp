@@ -31,7 +31,7 @@ public:
         const std::optional<SweptSahSplit> best = find_best_sah_split_by_sweep(
             build_workspace_.references_of_range(part),
             max_triangles_below_tree_depth(build_workspace_, depth + 1));
-        // Written so that NaN and zero areas make a leaf.
+        // The comparison is written so that NaN and zero areas make a leaf.
         const double whole = part.box.half_surface_area();
         const bool is_worth_it = best && kBvhNodeVisitCost * whole + best->cost <
                                              whole * static_cast<double>(part.count);

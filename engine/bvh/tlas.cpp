@@ -91,7 +91,8 @@ Bvh build_instance_tree(std::span<const BvhInstance> instances, const BoundingBo
         BoundingBox box = compute_instance_bounds(instances[i]);
         const vec3 beyond = max(max(core.lo - box.lo, box.hi - core.hi), vec3(0));
         const vec3 size = max(abs(box.lo), abs(box.hi));
-        if (f32::largest_vector_component(beyond) > 0) { // beyond the slack of the walk
+        if (f32::largest_vector_component(beyond) > 0) { // outside the slack by which traversal
+                                                         // widens boxes
             const float pad = static_cast<float>(times) * 2 * f32::rounding_error_gamma_bound(16) *
                               f32::largest_vector_component(size + core.extent());
             box.lo -= pad, box.hi += pad;
@@ -133,7 +134,8 @@ std::uint32_t append_top_level_tree(Bvh& into, const Bvh& top) {
 vec3 double_to_float_rounding_error(const dvec3& v) {
     vec3 low;
     for (int i = 0; i < 3; ++i) {
-        // `volatile`, because g++ 12 otherwise vectorises this and drops the rounding.
+        // The variable is `volatile`, because g++ 12 otherwise vectorises this loop and drops the
+        // rounding to float.
         const volatile float high = static_cast<float>(v[i]);
         low[i] = static_cast<float>(v[i] - double{high});
     }

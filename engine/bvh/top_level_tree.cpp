@@ -157,7 +157,8 @@ private:
         std::vector<std::size_t> order(branches_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::erase_if(order, [&](std::size_t i) { return branches_[i].sides != 0; });
-        // Largest first, so that no thread starts a large subtree when the others have finished.
+        // Large subtrees are built first, so that no thread begins a large subtree when the others
+        // have finished.
         std::ranges::stable_sort(order, std::greater(),
                                  [&](std::size_t i) { return branches_[i].part.count; });
         run_in_parallel(order.size(), threads_, [&](std::size_t i) {

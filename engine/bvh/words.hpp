@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// The words in the texels of a hierarchy; bvh.hpp defines their layout.
+/// Functions that pack and unpack the words in the texels of a hierarchy. bvh.hpp defines the
+/// layout of the words.
 namespace catoptric::bvh {
 
 inline std::uint32_t float_to_bits(float value) { return std::bit_cast<std::uint32_t>(value); }

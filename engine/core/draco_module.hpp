@@ -27,10 +27,11 @@ struct DracoCounts {
 
 /// The functions of the module. They throw no exceptions, and refer to no argument after a call.
 struct DracoCodec {
-    /// Reads the counts of a triangle mesh in bitstream 2.2. Returns what is wrong; empty: nothing.
+    /// Reads the counts of a triangle mesh in Draco's bitstream 2.2. Returns a text about the
+    /// error; empty if there is none.
     std::string (*read_counts)(std::span<const unsigned char> bytes, DracoCounts& counts) noexcept;
-    /// Decodes the attributes, and three points for each triangle. Needs memory for the counts that
-    /// `read_counts` returns. Returns what is wrong; empty: nothing.
+    /// Decodes the attributes, and three point indices for each triangle. Needs memory for the
+    /// counts that `read_counts` returns. Returns a text about the error; empty if there is none.
     std::string (*decode)(std::span<const unsigned char> bytes,
                           std::vector<DracoAttribute>& attributes,
                           std::vector<std::uint32_t>& corners) noexcept;

@@ -25,7 +25,7 @@ template <typename... Parts>
     throw_error(failure, text.str());
 }
 
-/// Throws as `fail` does unless `ok`.
+/// Throws as `fail` does, unless `ok` is true.
 template <typename... Parts>
 void check(bool ok, Failure failure, const Parts&... parts) {
     if (!ok) fail(failure, parts...);

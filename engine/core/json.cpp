@@ -49,7 +49,7 @@ std::size_t length_of_last_json_token(const std::string& token) {
     constexpr std::string_view kJsonPunctuation = "[]{}:,";
     if (token.empty() || kJsonPunctuation.find(token.back()) != kJsonPunctuation.npos) return 1;
     const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
-    // For a number or a string the token is exact.
+    // For a number or a string, the parser's token contains nothing else.
     if (!is_letter(token.back())) return token.size();
     const auto before = std::find_if_not(token.rbegin(), token.rend(), is_letter);
     return static_cast<std::size_t>(before - token.rbegin());

@@ -10,8 +10,8 @@
 
 namespace catoptric {
 
-/// One adjustable number or choice of a technique. Parsing, help, sweeps and tests at extreme
-/// values are all generated from it.
+/// One adjustable number or choice of a technique. Parsing, help, options such as `compare --axis`,
+/// and tests at extreme values follow from this description.
 struct TechniqueKnob {
     std::string_view name;
     std::string_view help;

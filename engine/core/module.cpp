@@ -48,7 +48,8 @@ fs::path find_module_file(const Module& module) {
 void* load_module_symbol(const Module& module) {
     const fs::path file = find_module_file(module);
     check_address_space(module.address_space, module.library);
-    // Its libraries may define symbols that other libraries of the program define, too.
+    // RTLD_LOCAL hides the module's symbols, because its libraries may define the same symbols as
+    // other libraries of the program.
     void* const loaded = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL); // never closed
     check(loaded != nullptr, Failure::internal, module.without, ": ", file.string(),
           " cannot be loaded: ", loaded ? "" : dlerror(), "; ", module.requirement);

@@ -4,8 +4,8 @@
 
 namespace catoptric {
 
-/// A library of this project that programs load only when they need it, because it links large
-/// libraries or some whose symbols conflict with others.
+/// A library of this project that programs load only when they need it. The reason is that it links
+/// many other libraries, or libraries whose symbols conflict with others.
 struct Module {
     const char* file_name;
     std::size_t address_space; ///< bytes that the module and its libraries take

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <limits>
 
-// shaders/lib/math.glsl compiled as C++. `f32` computes as the shaders do; `f64` is the oracle for
-// tests. Needs -ffp-contract=off (`precise` of GLSL).
+// shaders/lib/math.glsl, compiled as C++. `f32` computes as the shaders do, in float. `f64`
+// computes in double, as a reference for tests. Needs -ffp-contract=off, which corresponds to
+// `precise` in GLSL.
 
 #define INLINE inline
 #define OUT(type) type&

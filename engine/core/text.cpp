@@ -8,7 +8,7 @@ namespace catoptric {
 
 namespace {
 
-constexpr std::size_t kMaxQuotedBytes = 80; // bytes
+constexpr std::size_t kMaxQuotedBytes = 80; // longest quoted text
 
 std::string format_hexadecimal(std::uint32_t value, std::size_t digits) {
     std::string text;
@@ -36,8 +36,8 @@ Utf8Character decode_utf8_character(std::string_view text) {
         if ((byte(i) & 0xc0) != 0x80) return {};
         code = code << 6 | (byte(i) & 0x3f);
     }
-    // A code point below the least of its length could be encoded in fewer bytes, which UTF-8
-    // forbids.
+    // UTF-8 forbids a longer encoding than necessary. The table holds the smallest code point for
+    // each number of bytes.
     constexpr std::uint32_t kMinCodePoints[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
     if (code < kMinCodePoints[size] || is_surrogate || code > 0x10ffff) return {};

@@ -126,11 +126,11 @@ public:
     /// Allocates memory. Throws `exhausted`, naming the bytes, and the device's limit if it is
     /// exceeded.
     UniqueMemory allocate(std::uint64_t bytes, std::uint32_t type, const std::string& what) const;
-    /// Does `throw_unless_vk_success` for a call that submits work or asks about its result. If the
-    /// device is lost, it becomes abandoned.
+    /// Throws as `throw_unless_vk_success` does, for a call that submits work or asks about its
+    /// result. If the device is lost, it becomes abandoned.
     void throw_if_device_lost(VkResult result, const std::string& doing);
-    /// Does `throw_unless_vk_success` for a call that waits for the device. If the wait fails, the
-    /// device becomes abandoned.
+    /// Throws as `throw_unless_vk_success` does, for a call that waits for the device. If the wait
+    /// fails, the device becomes abandoned.
     void check_wait_and_abandon_if_lost(VkResult result, const std::string& doing);
     bool is_abandoned() const { return abandoned_; }
     /// Throws the error that made the device abandoned, if any. Called before work is submitted.

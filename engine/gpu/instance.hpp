@@ -4,8 +4,8 @@
 
 namespace catoptric::gpu {
 
-/// Does `throw_unless_vk_success`, but throws `no_device` if the driver is missing or cannot start.
-/// `or_else` says what that means and what to do.
+/// Throws as `throw_unless_vk_success` does, but throws `no_device` if the driver is missing or
+/// cannot start. `or_else` is the text of this error: what happened and what to do.
 void throw_unless_vulkan_started(VkResult result, const std::string& doing, const char* or_else);
 
 /// Creates an instance with the wanted extensions, with VK_EXT_debug_utils where it exists, and

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Increase the number when specialise_shader gives other words for the same arguments by the same
-/// passes.
+/// Increase the number at the end of the signature if specialise_shader() returns other words for
+/// the same arguments and passes.
 constexpr std::string_view kShaderFileSignature = "catoptric shader 1\n";
 
 /// Returns a file name of 128 bits of hash, which includes everything that the result depends on.

@@ -25,7 +25,8 @@ public:
     SpecialisedShaderCache(const SpecialisedShaderCache&) = delete;
     SpecialisedShaderCache& operator=(const SpecialisedShaderCache&) = delete;
 
-    /// Returns what specialise_shader returns. Takes less than a millisecond if the file exists.
+    /// Returns the same words as specialise_shader(). Takes less than a millisecond if the words
+    /// are in a file.
     std::vector<std::uint32_t>
     find_or_specialise(std::string_view name, std::span<const std::uint32_t> words,
                        const std::map<std::uint32_t, std::uint32_t>& constants);

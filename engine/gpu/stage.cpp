@@ -42,7 +42,7 @@ ShaderStage::ShaderStage(const GpuDevice& device, SpecialisedShaderCache& shader
           "' does not give; the technique raytrace with first=ray needs none");
     const std::vector<std::uint32_t> words = shaders.find_or_specialise(
         name, find_shader(name).words, constants);
-    // Only the bindings that are still used with these constants.
+    // Keeps only the bindings that the shader still uses with these constants.
     reflection.bindings = reflect_spirv(name, words).bindings;
     VkShaderModuleCreateInfo create{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     create.codeSize = words.size() * sizeof(std::uint32_t);

@@ -101,7 +101,8 @@ bool Swapchain::create_swapchain_images(uvec2 size) {
     throw_unless_vk_success(
         vkGetSwapchainImagesKHR(presenting_device_.device_handle(), chain_, &count, images_.data()),
         "get the window's images");
-    // Semaphores of images acquired but not drawn are still signalled.
+    // Semaphores of images that were acquired but not drawn are still signalled, so they cannot be
+    // used again.
     acquired_.clear(), rendered_.clear();
     for (std::size_t i = 0; i < kAcquireSemaphoreCount; ++i)
         acquired_.push_back(make_semaphore(presenting_device_));

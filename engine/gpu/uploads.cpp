@@ -43,8 +43,8 @@ StagedUploads::StagedUploads(GpuDevice& device) : upload_device_(device) {
     }
 }
 
-/// Waits for the submitted uploads. Buffers that were written are already destroyed, and waited for
-/// their uploads.
+/// Waits for the submitted uploads. All buffers that were written are destroyed already, and have
+/// waited for their own uploads.
 StagedUploads::~StagedUploads() {
     if (upload_device_.is_abandoned() || ended_ == submitted_) return;
     try {
@@ -141,7 +141,7 @@ void StagedUploads::submit() {
 
 void StagedUploads::wait_for_staged_write(StagedWriteTicket ticket) {
     if (ticket > submitted_) submit();
-    // A write that could not be submitted is never executed.
+    // A write that was never submitted is not waited for.
     wait(std::min(ticket, submitted_));
 }
 

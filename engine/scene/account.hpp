@@ -73,7 +73,8 @@ struct SceneLoadBudgetUsage {
     BudgetLimitedSum name_bytes{"bytes of names", budget.name_bytes};
     BudgetLimitedSum texels{"texels in pictures", budget.texels};
     BudgetLimitedSum made_bytes{"bytes of sparse accessors", budget.made_bytes};
-    /// Enough for 64 bytes a vertex, and the indices of all triangles.
+    /// The limit of decompressed geometry allows 64 bytes for each vertex, and the indices of all
+    /// triangles.
     BudgetLimitedSum decoded_bytes{"bytes of decompressed geometry",
                                    64 * budget.vertices + 12 * budget.triangles, kMaxTrianglesHint};
     BudgetLimitedSum cuts{"comparisons to cut concave polygons", budget.cuts};

@@ -42,7 +42,7 @@ struct LightSource {
 
 std::vector<LightSource> list_light_sources(const Scene& scene) {
     const dvec3 centre = bounds(scene).centre();
-    Scene one; // scratch scene that holds one source at a time
+    Scene one; // scene that holds only one light source at a time
     one.meshes = scene.meshes, one.materials = scene.materials;
     std::vector<LightSource> sources;
     const auto add = [&](std::size_t index) {
@@ -71,7 +71,8 @@ void make_object_emit_nothing(Scene& scene, Object& object) {
     if (known == scene.materials.end()) scene.materials.push_back(std::move(dark));
 }
 
-/// Moves the triangles of all points but the `kept` ones into a new object that lights nothing.
+/// Moves the triangles of all points except the `kept` points into a new object that emits no
+/// light.
 void split_off_emitting_triangles(Scene& scene, std::size_t index,
                                   const std::vector<std::size_t>& kept) {
     Object rest = scene.objects[index];
@@ -100,7 +101,7 @@ void drop_weakest_lights(Scene& scene, std::size_t most) {
         std::vector<std::size_t> kept;
         std::size_t points = 0;
     };
-    std::map<std::size_t, LightSourceOwner> things; // by index
+    std::map<std::size_t, LightSourceOwner> things; // objects or lights, by index
     for (std::size_t i = 0; i < sources.size(); ++i) {
         LightSourceOwner& thing = things[sources[i].index];
         ++thing.points;

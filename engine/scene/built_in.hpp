@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-// Scenes that need no file: their table, and those that C++ code asks for.
+// The table of built-in scenes, which need no file, and functions that build the scenes for which
+// C++ code asks.
 namespace catoptric::scene {
 
 /// Scene that needs no file. The .cpp file that builds the scene also registers it; nothing else
@@ -26,7 +27,7 @@ const std::vector<BuiltInScene>& list_built_in_scenes();
 
 /// Builds the Cornell box with four mirror balls (contract: "The built-in scene").
 Scene make_cornell_mirrors();
-/// Builds the same box with a white front wall that camera rays ignore.
+/// Builds the Cornell box with four mirror balls and a white front wall that camera rays ignore.
 Scene make_closed_cornell_mirrors();
 /// Builds the Cornell box with metal balls of roughness .05, .15, .3 and .5 instead of mirrors.
 Scene make_rough_cornell();

@@ -25,13 +25,13 @@ constexpr const char* kIndirectGapId = "indirect-left-out";
 constexpr const char* kGlassAsDiffuseGapId = "glass-as-diffuse";
 constexpr const char* kUnshadowedGapId = "environment-unshadowed";
 
-/// Values of a material at one place.
+/// The values of a material at one point of a surface.
 struct SampledMaterialValues {
     vec4 colour{1}; ///< base colour and alpha
     float metallic = 0, roughness = 1;
 };
 
-/// Sums over the spots of a surface, weighted by area.
+/// Sums of a surface's sampled values, weighted by area.
 struct SurfaceAreaSums {
     SurfaceKindShares sums; // shares are still sums
     double all = 0;
@@ -171,7 +171,7 @@ void add_unsupported_materials(Scene& scene, const char* id,
             gltf::format_list_item_label("materials", i, scene.materials[i].name), i);
 }
 
-/// Makes all but the kMaxGlassMirrors largest objects of glass no mirrors.
+/// Keeps only the kMaxGlassMirrors largest objects of glass as mirrors.
 void keep_largest_glass_mirrors(Scene& scene) {
     std::vector<std::pair<double, std::size_t>> sizes; // negative length of the bounds, object
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -258,8 +258,8 @@ void sort_unsupported_features(Scene& scene) {
     });
     for (const Object& object : scene.objects)
         if (has_diffuse_part(scene.materials[object.material])) diffuse.insert(object.material);
-    // Features with equal shares of the picture keep this order. These come first because they cost
-    // most.
+    // Features that are listed first cost most. Features with equal shares of the picture keep this
+    // order.
     const std::vector<UnsupportedFeature> others = std::exchange(scene.unsupported, {});
     if (has_any_light(scene)) add_unsupported_materials(scene, kIndirectGapId, diffuse);
     if (scene.environment) add_unsupported_materials(scene, kUnshadowedGapId, diffuse);

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-// Loading with limits.
+// Functions that load scenes with limits on memory and work.
 namespace catoptric::scene {
 
 /// Options of `load` with the limits on a file's memory and work.

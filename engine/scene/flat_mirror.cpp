@@ -60,7 +60,7 @@ std::vector<dvec3> compute_convex_hull_in_plane(std::vector<dvec3> points, const
 
 constexpr std::size_t kMaxMirrorPlanes = 64, kMaxFlatMirrorTriangles = 65536;
 constexpr double kCoplanarTolerance =
-    1e-4; // radians between normals; share of the extent for distances
+    1e-4; // 1e-4 radians between normals; for distances, 1e-4 of the surface's extent
 
 /// Triangles of a mesh in the world.
 struct MeshTriangles {
@@ -89,7 +89,7 @@ struct MeshTriangles {
     }
 };
 
-/// Face while its triangles are collected.
+/// A flat face while its triangles are being collected.
 struct FlatFaceBuilder {
     dvec3 point{0}, normal{0};
     double area = 0; ///< twice the area
@@ -244,7 +244,7 @@ FlatFaces find_flat_faces(const Mesh& mesh, const dmat4& world_from_object) {
 }
 
 std::optional<FlatFace> find_mesh_plane(const Mesh& mesh, const dmat4& world_from_object) {
-    // Most curved meshes are rejected by their first normals, before the whole mesh is tested.
+    // The test of the first normals rejects most curved meshes, before the whole mesh is tested.
     const dmat3 turns = compute_normal_matrix(world_from_object);
     const auto normal_of = [&](std::size_t vertex) {
         return transform_normal_to_world(turns, dvec3(mesh.normals[vertex]));

@@ -10,11 +10,14 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Below this share of its bounds a body is hollow or oblique, so rays leave it nearly unbent.
+/// A body that fills less than this share of its bounds is hollow or oblique, so rays leave it
+/// nearly unbent.
 constexpr double kMinSolidShare = .3;
-/// A ball fills pi / 6 = .524 of its bounds, a cube 1.
+/// A body that fills at most this share of its bounds may be a ball: a ball fills pi / 6 = .524 of
+/// them, a cube 1.
 constexpr double kMaxBallShare = .65;
-constexpr double kMaxBallStretch = 1.25; ///< longest by shortest side of the bounds of a ball
+constexpr double kMaxBallStretch = 1.25; ///< most by which the longest side of a ball's bounds may
+                                         ///< exceed the shortest
 
 } // namespace
 

@@ -1,5 +1,5 @@
-// A room with bodies of glass: ball, pane, lens and bottle. It shows how far each model of
-// refraction is from rays.
+// Built-in scene: a room with a ball, a pane, a lens and a bottle of glass. It shows how far each
+// model of refraction is from ray tracing.
 #include "scene/build.hpp"
 #include "scene/built_in.hpp"
 #include "scene/load.hpp"
@@ -11,8 +11,8 @@ namespace catoptric::scene {
 
 namespace {
 
-/// Returns a lens around the y axis with two spherical faces. `radius`: of its rim. `half`: half
-/// its thickness.
+/// Returns a lens around the y axis with two spherical faces. `radius`: radius of the rim. `half`:
+/// half of the thickness.
 Mesh make_lens(std::string name, double radius, double half) {
     constexpr int kSteps = 12; // points of each face from the middle to the rim
     const double curvature = (radius * radius + half * half) / (2 * half); // radius of the faces

@@ -99,7 +99,8 @@ Mesh GltfBuilder::repaired(const SharedMeshKey& key) {
     const std::size_t dropped = repair_mesh(mesh);
     context.notes.add_note("triangles without area, left out",
                            "in " + quote_text_with_escapes(mesh.name), dropped);
-    // This follows `repair_mesh`, because normals that it adds are those of the file's winding.
+    // Normals that `repair_mesh` adds follow the winding in the file, so the winding is reversed
+    // only afterwards.
     if (key.inside_out)
         for (uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
     return mesh;
@@ -208,7 +209,8 @@ void GltfBuilder::add_node(std::size_t node, const gltf::PlacedNode& placed) {
     }
 }
 
-/// Reads the meshes that no node shows, so that an invalid file fails whichever nodes are shown.
+/// Reads also the meshes that no node shows, so that an invalid mesh is an error whether or not it
+/// is shown.
 void GltfBuilder::check_objects_outside_shown_scene() {
     std::vector<bool> is_shown(parts.size(), false);
     for (const auto& [key, mesh] : meshes) is_shown[key.mesh] = true;

@@ -171,7 +171,8 @@ struct DecodedAccessor {
     ByteList bytes;
 };
 
-/// Replaces the accessors of a primitive by new ones. Other primitives may name the old ones.
+/// Gives the primitive new accessors with decoded data. The old accessors stay, because other
+/// primitives may use them.
 void set_decoded_accessors(GltfContainer& container, std::vector<DecodedAccessor> decoded,
                            std::size_t mesh, std::size_t primitive) {
     Json& document = container.document;
@@ -194,8 +195,8 @@ void set_decoded_accessors(GltfContainer& container, std::vector<DecodedAccessor
     erase_extension(to, kDracoExtension);
 }
 
-/// Makes accessors that only described Draco's data as small as possible. Others would get zeros in
-/// place of the data that they lack.
+/// Makes accessors that only described Draco's data as small as possible. Without this, they would
+/// be filled with zeros of full length.
 void shrink_accessors_without_data(Json& document, const std::vector<std::size_t>& accessors) {
     for (const std::size_t index : accessors) {
         Json& accessor = document["accessors"][index];
@@ -230,7 +231,8 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
                           .type = read_draco_component_type(accessor),
                           .width = read_draco_width(accessor)});
     }
-    // Decoding takes time in proportion to the bytes, also if many primitives name the same bytes.
+    // Decoding takes time in proportion to the compressed bytes. They count once for each
+    // primitive, even if many primitives name the same bytes.
     account.decoded_bytes.add_amount_within_budget(bytes.size * kDecodedBytesPerDracoByte,
                                                    extension.place());
     const DracoCodec& codec = get_draco_codec();

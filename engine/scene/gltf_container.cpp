@@ -114,7 +114,8 @@ public:
 
     void add_buffer(const JsonObject& buffer) {
         if (is_empty_fallback(buffer)) {
-            // Its compressed views hold the data. Other views do not fit into this byte.
+            // The compressed views of this buffer hold the data. Uncompressed views do not fit into
+            // the single byte, so they are errors.
             gltf_container_.buffers.push_back({store_file_bytes({0}), 1});
             return;
         }
@@ -127,7 +128,8 @@ public:
     }
 
 private:
-    /// Returns whether the buffer only stands for what compressed views decode to.
+    /// Returns whether a buffer has no data and only stands for the decoded data of compressed
+    /// views.
     bool is_empty_fallback(const JsonObject& buffer) const {
         const auto meshopt = buffer.read_extension(kMeshoptExtension);
         return meshopt && meshopt->flag("fallback", false) && !buffer.has_member("uri");

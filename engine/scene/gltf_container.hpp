@@ -15,7 +15,7 @@ using ByteList = std::vector<unsigned char>;
 
 inline constexpr std::string_view kMeshoptExtension = "EXT_meshopt_compression";
 
-/// The first `length` bytes, at least 1, of one of the container's files.
+/// A buffer of a glTF file: the first `length` bytes, at least 1, of one of the container's files.
 struct GltfBuffer {
     std::size_t file = 0; ///< index into `GltfContainer::files`
     std::uint64_t length = 0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kInstancingExtension = "EXT_mesh_gpu_instancing";
 
-/// An attribute of the instances, and the member of a node that it gives.
+/// An attribute of instances (EXT_mesh_gpu_instancing), and the member of a node that it sets.
 struct InstanceAttribute {
     std::string_view name, member, type;
 };

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kPunctualLightsExtension = "KHR_lights_punctual";
 
-/// Returns the kind that the type names, or that the light's own mark names.
+/// Returns the kind of a light, as its `type` or our own mark in `extras` names it.
 const LightKind& read_light_kind(const JsonObject& light) {
     const std::optional<JsonObject> ours = find_catoptric_extras(light);
     const std::string type = light.text("type");

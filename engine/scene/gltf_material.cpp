@@ -178,8 +178,9 @@ bool MaterialReader::is_metal_everywhere() const {
                                [](std::uint32_t texel) { return (texel >> 16 & 0xff) == 0xff; });
 }
 
-/// Reads what transmitted light meets, and reports what differs from the techniques' pictures. Only
-/// the dielectric part transmits light, so a material that is metal everywhere is not reported.
+/// Reads the properties of transmitted light, and reports properties that techniques do not draw. A
+/// material that is metal everywhere is not reported, because only the dielectric part transmits
+/// light.
 void MaterialReader::transmission() {
     if (material_.transmission == 0 || is_metal_everywhere()) return;
     if (extensions_->has_member("KHR_materials_ior")) {
@@ -211,7 +212,8 @@ void MaterialReader::transmission() {
     if (material_.roughness > shared::kMaxSharpRoughness) report_unsupported_feature("rough-glass");
     if (material_.dispersion > 0 && material_.solid) report_unsupported_feature("dispersion");
     if (material_.alpha_cutoff == 0) return;
-    material_.blended = false, material_.alpha_cutoff = 0; // light passes glass, whatever its alpha
+    material_.blended = false, material_.alpha_cutoff = 0; // glass transmits light, whatever its
+                                                           // alpha
     report_unsupported_feature("material-extension");
 }
 
@@ -301,7 +303,8 @@ Material MaterialReader::read() {
         material_.unlit = true, material_.metallic = 0, material_.roughness = 1;
         material_.emission = vec3(0), material_.emission_texture.reset();
     }
-    // Such a metal reflects all light at every angle, so a mirror without Fresnel is the same.
+    // A metal of this kind reflects all light at every angle, so it is the same as a mirror without
+    // Fresnel's equations.
     const bool is_perfect = material_.metallic == 1 && material_.roughness == 0 &&
                             material_.albedo == vec3(1) && !material_.albedo_texture &&
                             !material_.roughness_texture && !has_colours_ &&

@@ -31,8 +31,8 @@ std::vector<std::uint32_t> list_used_vertices(const std::vector<std::uint32_t>& 
     return vertices;
 }
 
-/// Fills a per-vertex list with `otherwise` for the first `before` vertices. A list is empty until
-/// a primitive has values for it.
+/// Appends values to a list of vertex data. Vertices before `before` get the value `otherwise`. The
+/// list stays empty until a primitive has values for it.
 template <typename Value>
 void fill_vertex_list_start(std::vector<Value>& list, std::size_t before, const Value& otherwise) {
     if (list.size() < before) list.resize(before, otherwise);

@@ -157,7 +157,8 @@ std::string hash_scene(const Scene& scene) {
     hasher.add_members_to_hash(scene.mirror_max_roughness);
     hasher.add_members_to_hash(scene.has_multiple_scattering);
     if (scene.light_samples != 1)
-        hasher.add_members_to_hash(scene.light_samples); // older scenes keep their hash
+        hasher.add_members_to_hash(scene.light_samples); // scenes without this member keep the hash
+                                                         // of earlier versions
     if (scene.tints_glass_shadows) hasher.add_members_to_hash(std::string("glass-shadow tint"));
     hasher.add_members_to_hash(scene.exposure);
     std::string digits(16, '0');

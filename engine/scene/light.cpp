@@ -199,8 +199,8 @@ struct LampFacet {
     double area = 0;
 };
 
-/// Returns a number by which facets lie along a curve through space (Morton order). Neighbours on
-/// the curve are near each other. `middle` is between 0 and 1 in each coordinate.
+/// Returns the place of a facet on a curve through space (Morton order). Facets that are near each
+/// other on the curve are near each other in space. `middle` has coordinates from 0 to 1.
 std::uint64_t morton_code(const dvec3& middle) {
     constexpr int kMortonBitsPerAxis = 20; // of each coordinate
     std::uint64_t code = 0;
@@ -271,7 +271,7 @@ double van_der_corput(std::uint32_t i) {
 /// its vertices.
 void add_lamp_samples(const std::vector<LampFacet>& facets, const PointLight& lamp, bool two_sided,
                       int count, std::vector<PointLight>& lights) {
-    double before = 0; // area of the facets before `facet`
+    double before = 0; // summed area of the facets before `facet`
     auto facet = facets.begin();
     for (int i = 0; i < count; ++i) {
         const double place = (i + .5) / count * lamp.area;

@@ -24,7 +24,7 @@ struct LightShaderNumbers {
 };
 
 struct LightKind {
-    /// Unlike that of any other kind. A kind with a file of its own has the next number.
+    /// Number of the kind, which no other kind may have. A new kind takes the next free number.
     PunctualLight::Kind id = PunctualLight::Kind::point;
     /// Name in reports and `info`, and `type` of KHR_lights_punctual.
     std::string_view name;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string_view>
 
-// Lists over the members of a material, and facts that follow from them.
+// Lists of the members of a material, and functions that derive properties from them.
 namespace catoptric::scene {
 
 /// A number that scales a property of a material. glTF reading and writing, `info` and
@@ -64,7 +64,8 @@ bool has_specular_part(const Material& material);
 /// Returns whether rays pass through the surface: it transmits at least half of the light and has
 /// no metal. Glass casts no shadow.
 bool is_glass(const Material& material);
-/// Returns whether a clear coat covers the surface. Glass, unlit surfaces and `mirror` have none.
+/// Returns whether a clear coat covers the surface. Glass, unlit surfaces and materials with
+/// `mirror` have no clear coat.
 bool has_clear_coat(const Material& material);
 /// Returns F0 of a dielectric with this finite index of refraction in air (Fresnel's equations).
 inline double compute_dielectric_f0(double ior) {

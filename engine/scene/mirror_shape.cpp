@@ -147,8 +147,8 @@ struct MeshEdgeBendingSums {
     }
 };
 
-/// Returns how the edges bend. An edge bends inwards if the tip of a triangle lies above the plane
-/// of its neighbour.
+/// Measures how a mesh bends at its edges. An edge bends inwards if the tip of one triangle lies
+/// above the plane of the other.
 MeshEdgeBendingSums measure_edge_bends(const CentredObjectTriangles& soup) {
     MeshEdgeBendingSums edges;
     const auto add = [&](const TriangleEdge& here, const TriangleEdge& there) {
@@ -200,7 +200,7 @@ MirrorShape classify_mirror_shape(const Scene& scene, const Object& object) {
         if (off <= kSphereVertexTolerance) shape.fit = fit, shape.tolerance = off;
     }
     if (object.sphere) {
-        // The mesh stands for the sphere, whatever its vertices are.
+        // The mesh stands for an exact sphere, whatever the positions of its vertices are.
         if (!shape.fit) shape.tolerance = 0;
         shape.fit = object.sphere;
     }

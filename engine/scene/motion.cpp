@@ -37,7 +37,7 @@ Value interpolate_hermite(const Value& value, const Value& out_tangent, const Va
 }
 
 dvec3 slerp(const dvec3& a, const dvec3& b, double s) { return glm::mix(a, b, s); }
-/// Interpolates along the shorter arc.
+/// Interpolates two unit quaternions along the shorter arc.
 dvec4 slerp(const dvec4& a, const dvec4& b, double s) {
     const glm::dquat q = glm::slerp(glm::dquat(a.w, a.x, a.y, a.z), glm::dquat(b.w, b.x, b.y, b.z),
                                     s);
@@ -175,7 +175,7 @@ double period_of_motion(const Motion& motion) {
 double compute_scene_period(const Scene& scene) {
     double longest = 0;
     const NodeRig* last =
-        nullptr; // skips neighbours that follow the same rig, as a rig may be long
+        nullptr; // a rig may have many nodes; objects that follow the same rig are often neighbours
     const auto add = [&](const Motion& motion) {
         const auto* follows = std::get_if<RigAttachment>(&motion);
         if (follows && follows->rig.get() == last) return;

@@ -214,7 +214,7 @@ constexpr double kUsualGlassIor = 1.5; // of a material without Ni
 
 vec3 clamp_colour_to_unit_range(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
 
-/// Turns a draft into an engine material, as scene.md describes under "Surface".
+/// Turns an .obj material, as read from its file, into a material of the engine.
 class MtlMaterialConverter {
 public:
     MtlMaterialConverter(const MtlMaterial& draft, std::size_t index, MtlImageReader& maps,

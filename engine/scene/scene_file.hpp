@@ -22,7 +22,7 @@ std::filesystem::path scene_file_path(const std::filesystem::path& scene);
 
 struct SceneFile {
     std::filesystem::path path;
-    SceneOverrides overrides;                 ///< a picture is given by its real path
+    SceneOverrides overrides;                 ///< with the real path of the environment's picture
     std::vector<std::filesystem::path> files; ///< real paths: this file and those it names
 };
 

@@ -108,7 +108,8 @@ Mesh torus(std::string name, double radius, double thickness, int around) {
         ring.push_back({radius + thickness * std::cos(angle), thickness * std::sin(angle)});
     }
     Mesh mesh = lathe(std::move(name), ring, around);
-    // The exact normals are smooth also where the ring closes.
+    // The normals are computed exactly and not from triangles, so that they are smooth where the
+    // ring closes.
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
         const dvec3 out = mesh.positions[i] * dvec3(1, 0, 1);
         mesh.normals[i] = vec3(glm::normalize(mesh.positions[i] - radius * glm::normalize(out)));

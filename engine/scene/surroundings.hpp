@@ -5,7 +5,7 @@
 
 #include <array>
 
-/// Radiance and irradiance of an environment, in double precision.
+/// Functions that compute radiance and irradiance of an environment in double precision.
 namespace catoptric::scene {
 
 /// Returns the radiance in a unit direction, with the environment's scale and rotation applied.
