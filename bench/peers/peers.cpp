@@ -84,8 +84,8 @@ int main(int argc, char** argv) try {
     const int rounds = std::max(static_cast<int>(measure::kMinIntervalSamples),
                                 parse_benchmark_round_count(words));
     const std::vector<EmbreeComparisonCase> cases = select_comparison_cases_by_name(words);
-    if (!meter.why_not_counted().empty())
-        std::printf("cycles are not counted: %s\n", meter.why_not_counted().c_str());
+    if (!meter.reason_cycles_are_uncounted().empty())
+        std::printf("cycles are not counted: %s\n", meter.reason_cycles_are_uncounted().c_str());
     for (const gpu::EmbeddedShader& shader : peers::prototype_shaders()) gpu::add_shader(shader);
     const peers::EmbreeDevice device;
     app::Engine engine({});

@@ -75,7 +75,7 @@ void AuditSchedule::add_audit_time(double ms) {
     was_audited_ = true;
 }
 
-bool PlanLadder::step_to_surer_plan(double seconds) {
+bool PlanLadder::step_to_plan_with_less_error(double seconds) {
     constexpr double kSecondsBetweenSteps = .5;
     if (place_ == 0 || (stepped_ && seconds < *stepped_ + kSecondsBetweenSteps)) return false;
     --place_, stepped_ = seconds;

@@ -64,7 +64,7 @@ public:
     std::size_t place() const { return place_; } ///< index of the present plan
     /// Moves to the next plan with less error. Returns false if there is none, or within half a
     /// second of the last step. `seconds`: time since any fixed beginning; it must never fall.
-    bool step_to_surer_plan(double seconds);
+    bool step_to_plan_with_less_error(double seconds);
 
 private:
     std::size_t place_;

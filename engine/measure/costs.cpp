@@ -33,7 +33,7 @@ struct UnitCostNormalEquations {
 
 /// Solves for the unit costs by coordinate descent. Each step sets one cost to its best value that
 /// is not negative.
-ValuePerWorkKind solve_non_negative(const UnitCostNormalEquations& equations) {
+ValuePerWorkKind solve_for_nonnegative_costs(const UnitCostNormalEquations& equations) {
     constexpr int kMaxSolverSweeps = 200'000;
     constexpr double kFitConvergenceLimit = 1e-12;
     const std::size_t count = equations.right.size();
@@ -172,14 +172,14 @@ DeviceCosts fit_unit_costs(std::string device, std::vector<TimedWorkSample> samp
         all.add_sample(row, 1);
     }
     DeviceCosts costs{.device = std::move(device), .origin = UnitCostOrigin::fitted};
-    const ValuePerWorkKind found = solve_non_negative(all);
+    const ValuePerWorkKind found = solve_for_nonnegative_costs(all);
     for (std::size_t i = 0; i < kinds.size(); ++i)
         if (found[i] > 0) costs.units.push_back({kinds[i], found[i] * 1e6, {}, "fit"});
     UnitCostFitQuality& fit = costs.fit.emplace();
     for (const ValuePerWorkKind& row : rows) {
         UnitCostNormalEquations others = all;
         others.add_sample(row, -1);
-        const ValuePerWorkKind without = solve_non_negative(others);
+        const ValuePerWorkKind without = solve_for_nonnegative_costs(others);
         double relative = 0;
         for (std::size_t k = 0; k < row.size(); ++k) relative += without[k] * row[k];
         fit.left_out_ms.push_back(relative * samples[fit.left_out_ms.size()].ms);

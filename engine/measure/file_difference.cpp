@@ -95,7 +95,7 @@ PictureFileDifference compare_picture_files(const std::filesystem::path& a,
                                             double exposure_stops) {
     PictureReader of_a(a);
     const int width = of_a.picture_width(), height = of_a.height();
-    PictureReader reader_of_b(b, [&](int columns, int rows) {
+    PictureReader reader_of_second_picture(b, [&](int columns, int rows) {
         check(columns == width && rows == height, Failure::bad_data, a.string(), " is ", width, "x",
               height, ", ", b.string(), " is ", columns, "x", rows,
               ": wanted two pictures of one size");
@@ -105,8 +105,8 @@ PictureFileDifference compare_picture_files(const std::filesystem::path& a,
 
     const bool is_of_bytes = is_png(a) || is_png(b);
     const bool is_light_of_bytes = exposure_stops == 0 && of_a.has_8_bit_channels() &&
-                                   reader_of_b.has_8_bit_channels();
-    PictureRowReadWindow window_a(std::move(of_a)), window_b(std::move(reader_of_b));
+                                   reader_of_second_picture.has_8_bit_channels();
+    PictureRowReadWindow window_a(std::move(of_a)), window_b(std::move(reader_of_second_picture));
     PictureDifferenceSum sum(width,
                              static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     PictureMeanSum a_mean, b_mean;

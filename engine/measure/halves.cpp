@@ -51,7 +51,7 @@ Interval compute_bootstrap_interval(std::vector<BootstrapTileSum> tiles) {
     return {compute_percentile(means, .025), compute_percentile(std::move(means), .975)};
 }
 
-double root_keeping_sign(double square) {
+double square_root_keeping_sign(double square) {
     return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
 
@@ -151,7 +151,7 @@ Difference compute_difference_from_halves(const Picture& picture,
     Difference result = difference(picture, halves.mean, mask, flip_map);
     const NoiseFreeErrorSum sum = sum_noise_free_error_over_mask(picture, halves, mask, flip_map);
     if (sum.pixels == 0) return result;
-    result.rmse = root_keeping_sign(sum.products / (3 * sum.pixels));
+    result.rmse = square_root_keeping_sign(sum.products / (3 * sum.pixels));
     result.psnr.reset();
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.flip_floor = sum.floor / sum.pixels;

@@ -16,7 +16,7 @@ namespace {
 /// Returns the first row on the front that beats this row, or null if none does.
 const Row* find_row_dominating(const std::vector<const Row*>& front, const Row& loser) {
     const auto found = std::ranges::find_if(
-        front, [&](const Row* row) { return is_better_row_of_same_technique(*row, loser); });
+        front, [&](const Row* row) { return is_faster_or_closer_row(*row, loser); });
     return found == front.end() ? nullptr : *found;
 }
 
@@ -69,7 +69,7 @@ bool is_time_tie(const Row& a, const Row& b) {
 
 bool has_less_flip(const Row& a, const Row& b) { return is_metric_less(a, b, "flip"); }
 
-bool is_better_row_of_same_technique(const Row& a, const Row& b) {
+bool is_faster_or_closer_row(const Row& a, const Row& b) {
     if (!has_time_and_flip(a) || !has_time_and_flip(b)) return false;
     return (is_confidently_faster(a, b) && !has_less_flip(b, a)) ||
            (has_less_flip(a, b) && !is_confidently_faster(b, a));
@@ -79,7 +79,7 @@ std::vector<std::size_t> find_pareto_front_of_rows(const std::vector<Row>& rows)
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (has_time_and_flip(rows[i]) && std::ranges::none_of(rows, [&](const Row& other) {
-                return is_better_row_of_same_technique(other, rows[i]);
+                return is_faster_or_closer_row(other, rows[i]);
             }))
             front.push_back(i);
     std::ranges::stable_sort(front, {}, [&](std::size_t i) { return rows[i].time_ms().median; });
@@ -178,7 +178,7 @@ RayTracingVerdict find_ray_tracing_verdict(const Comparison& comparison) {
             continue;
         ++verdict.others;
         if (std::ranges::none_of(comparison.rows, [&](const Row& other) {
-                return is_ray_traced_row(other) && is_better_row_of_same_technique(other, row);
+                return is_ray_traced_row(other) && is_faster_or_closer_row(other, row);
             }))
             verdict.unbeaten.push_back(&row);
     }

@@ -33,7 +33,7 @@ bool has_less_flip(const Row& a, const Row& b);
 /// Returns whether row a is a better choice than row b: a is faster and has no larger error, or a
 /// has less error and is not slower. A row without a time, or with black mirrors, neither beats a
 /// row nor is beaten.
-bool is_better_row_of_same_technique(const Row& a, const Row& b);
+bool is_faster_or_closer_row(const Row& a, const Row& b);
 
 /// Returns the indices of the rows that no other row beats, in order of median time, then index.
 /// This list is Comparison::pareto. Rows that tie may all be on the front. Costs O(n^2).

@@ -89,7 +89,7 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
                                knobs.law == KnobsSharedByTechniques::DistanceLaw::exact &&
                                inputs.scene.has_rough_mirrors();
     options.surfaces = knobs.by_object || knobs.asks_all || wants_normals ||
-                       (continues && inputs.scene.has_mirror_count_changed());
+                       (continues && inputs.scene.has_nonspherical_or_lit_mirrors());
     // A blurred look-up of a rough mirror does not follow rays through other mirrors, so captures
     // must show the other mirrors.
     options.leaves_out_spheres = continues && knobs.leaves_out_spheres &&

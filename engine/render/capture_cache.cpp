@@ -118,7 +118,7 @@ std::shared_ptr<const MirrorCaptures> make_captures_for_next_frame(MirrorCapture
     return std::make_shared<const MirrorCaptures>(std::move(captures));
 }
 
-bool needs_no_capture_update(const CaptureWorkOfFrame& work) {
+bool are_all_capture_faces_kept(const CaptureWorkOfFrame& work) {
     return std::ranges::all_of(work.faces, [](const std::array<CaptureFaceUpdateKind, 6>& faces) {
         return std::ranges::all_of(
             faces, [](CaptureFaceUpdateKind what) { return what == CaptureFaceUpdateKind::keep; });
@@ -192,7 +192,7 @@ FrameCaptureUpdate update_required_captures(graph::Graph& graph, const FrameInpu
         kept.is_late = kept.is_late || (kept.changes[mirror] != CaptureChangeKind::none &&
                                         decider.frames_since_capture_redraw(mirror) > 0);
     if (known && have_equal_capture_layouts(layout, known->options) &&
-        needs_no_capture_update(feeding.work)) {
+        are_all_capture_faces_kept(feeding.work)) {
         kept.set = known->set;
         feeding.captures = declare(layout, kept);
         return feeding;

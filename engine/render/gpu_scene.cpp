@@ -46,7 +46,7 @@ scene::FlatFaces flat_mirror_faces_in_scene_units(const SceneUnitTransform& spac
     return flats;
 }
 
-bool is_same_camera(const scene::Camera& a, const scene::Camera& b) {
+bool are_cameras_equal(const scene::Camera& a, const scene::Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up &&
            a.vertical_fov_degrees == b.vertical_fov_degrees &&
            a.orthographic_height == b.orthographic_height;
@@ -127,7 +127,7 @@ void GpuScene::update(const scene::Scene& now, const scene::Camera& camera, uvec
     environment_.set_environment(now.environment, material_details_.has_lobe_surfaces());
     if (changes.has_shape_changes() || changes.lights || changes.materials)
         fill_mirror_probe_table(now, changes);
-    if (changes.has_shape_changes() || changes.lights || !is_same_camera(camera_, camera) ||
+    if (changes.has_shape_changes() || changes.lights || !are_cameras_equal(camera_, camera) ||
         size_ != size)
         fill_view_table(camera, size);
     if (face_needs_.empty())
@@ -222,7 +222,7 @@ void GpuScene::fill_instance_placement_table() {
     placement_buffer_.set_device_list_contents(placements);
 }
 
-bool GpuScene::has_mirror_count_changed() const {
+bool GpuScene::has_nonspherical_or_lit_mirrors() const {
     return std::ranges::any_of(geometry_.ranges, [](const ObjectDrawRange& range) {
         return range.mirror && (!range.exact_sphere || range.lit);
     });
@@ -243,7 +243,7 @@ std::optional<scene::GlassBody> GpuScene::find_glass_body(const scene::Scene& no
     if (!scene::is_glass(now.materials[object.material])) return std::nullopt;
     const auto [volume, is_new] = closed_volumes_.try_emplace(object.mesh);
     if (is_new) volume->second = scene::compute_closed_volume(now.meshes[object.mesh]);
-    return scene::model_glass_body(now, object, volume->second);
+    return scene::choose_glass_body_model(now, object, volume->second);
 }
 
 /// Fills the probes, and the views: six for each mirror, then the shadow faces of each light.

@@ -43,7 +43,7 @@ public:
     /// Returns whether there are so many mirrors that testing each of them costs more than a tree.
     bool uses_bvh_over_mirrors() const { return probes_.size() > kMaxMirrorsWithoutTree; }
     /// Returns whether some mirror is not an exact sphere, or emits or diffusely reflects light.
-    bool has_mirror_count_changed() const;
+    bool has_nonspherical_or_lit_mirrors() const;
     /// Returns whether some mirror reflects in lobes.
     bool has_rough_mirrors() const {
         return std::ranges::any_of(list_draw_ranges(), &ObjectDrawRange::rough);

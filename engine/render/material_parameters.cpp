@@ -53,19 +53,19 @@ const std::vector<std::uint32_t>& get_lobe_albedo_table() {
     return kTable;
 }
 
-std::uint32_t flag_bits_if(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
+std::uint32_t flag_if_set(bool is_set, std::uint32_t flag) { return is_set ? flag : 0; }
 
 shared::MaterialParameters make_material_parameters(const scene::Material& material,
                                                     const ObjectDrawRange& range) {
     shared::MaterialParameters detail{};
-    detail.flags = flag_bits_if(range.varies, shared::kMaterialVariesFlag) |
-                   flag_bits_if(range.first_attribute.has_value(),
-                                shared::kMaterialHasAttributesFlag) |
-                   flag_bits_if(material.mirror, shared::kMaterialConstantReflectanceFlag) |
-                   flag_bits_if(material.unlit, shared::kMaterialUnlitFlag) |
-                   flag_bits_if(range.turns, shared::kMaterialTwoSidedFlag) |
-                   flag_bits_if(range.glass, shared::kMaterialGlassFlag) |
-                   flag_bits_if(range.blended, shared::kMaterialBlendedFlag);
+    detail.flags = flag_if_set(range.varies, shared::kMaterialVariesFlag) |
+                   flag_if_set(range.first_attribute.has_value(),
+                               shared::kMaterialHasAttributesFlag) |
+                   flag_if_set(material.mirror, shared::kMaterialConstantReflectanceFlag) |
+                   flag_if_set(material.unlit, shared::kMaterialUnlitFlag) |
+                   flag_if_set(range.turns, shared::kMaterialTwoSidedFlag) |
+                   flag_if_set(range.glass, shared::kMaterialGlassFlag) |
+                   flag_if_set(range.blended, shared::kMaterialBlendedFlag);
 #define COPY_FACTOR(name) detail.name = material.name;
     MATERIAL_FACTORS(COPY_FACTOR)
 #undef COPY_FACTOR
@@ -90,9 +90,9 @@ shared::TextureUse MaterialParameterLists::texture_use_of_material(
     use.size = texture->image->size.x | texture->image->size.y << 16;
     use.how = static_cast<std::uint32_t>(texture->wrap_u) |
               static_cast<std::uint32_t>(texture->wrap_v) << 2 |
-              flag_bits_if(texture->nearest, shared::kTextureNearestFlag) |
-              flag_bits_if(texture->srgb, shared::kTextureSrgbFlag) |
-              flag_bits_if(texture->uv_set == 1, shared::kTextureSecondUvFlag);
+              flag_if_set(texture->nearest, shared::kTextureNearestFlag) |
+              flag_if_set(texture->srgb, shared::kTextureSrgbFlag) |
+              flag_if_set(texture->uv_set == 1, shared::kTextureSecondUvFlag);
     use.u_row = texture->u_row, use.v_row = texture->v_row;
     return use;
 }
@@ -152,8 +152,8 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
         detail.ior = material.ior;
         detail.absorption = material.absorption / space.world_to_scene_length(1);
         detail.max_specular_roughness = now.mirror_max_roughness;
-        detail.flags |= flag_bits_if(now.has_multiple_scattering && range.has_lobe,
-                                     shared::kMaterialMultipleScatteringFlag);
+        detail.flags |= flag_if_set(now.has_multiple_scattering && range.has_lobe,
+                                    shared::kMaterialMultipleScatteringFlag);
         // The difference may be negative as an unsigned number, because draws count vertices from
         // the start of their own buffer. Adding it wraps around to the right value.
         if (range.first_attribute)
@@ -169,7 +169,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
             const auto [entry, is_new] = bodies.try_emplace(now.objects[i].mesh, false);
             if (is_new)
                 entry->second = scene::is_closed_triangle_surface(mesh.positions, mesh.triangles);
-            detail.flags |= flag_bits_if(entry->second, shared::kMaterialSolidFlag);
+            detail.flags |= flag_if_set(entry->second, shared::kMaterialSolidFlag);
         }
         any_normal_textures_ = any_normal_textures_ || range.has_normal_texture;
         any_ = any_ || range.varies || range.turns;
@@ -178,7 +178,7 @@ void MaterialParameterLists::fill(const scene::Scene& now, const SceneUnitTransf
             const auto [entry, is_new] = leaves.try_emplace(mesh, false);
             if (is_new) entry->second = do_vertex_normals_differ_from_facets(now.meshes[mesh]);
             const bool differs = entry->second || range.has_normal_texture;
-            detail.flags |= flag_bits_if(differs, shared::kMaterialTestsFacetSideFlag);
+            detail.flags |= flag_if_set(differs, shared::kMaterialTestsFacetSideFlag);
             any_ = any_ || differs;
         }
         masks_ = masks_ || range.masked;

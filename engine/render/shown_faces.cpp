@@ -143,12 +143,12 @@ private:
 
     /// Returns the first cell with a texel centre at or beyond a slope, and the number of cells
     /// that begin at or before the slope.
-    std::uint32_t first_cell_of_slope(float slope) const {
+    std::uint32_t first_cell_of_view_slope(float slope) const {
         return static_cast<std::uint32_t>(
             std::ranges::lower_bound(centres_, slope, {}, &ViewSlopeRange::high) -
             centres_.begin());
     }
-    std::uint32_t end_cell_of_slope(float slope) const {
+    std::uint32_t end_cell_of_view_slope(float slope) const {
         return static_cast<std::uint32_t>(
             std::ranges::upper_bound(centres_, slope, {}, &ViewSlopeRange::low) - centres_.begin());
     }
@@ -160,10 +160,10 @@ private:
                                    Visit&& visit) const {
         const ViewSlopeRange across = find_sphere_slopes(sphere, sphere.centre.x),
                              down = find_sphere_slopes(sphere, sphere.centre.y);
-        const std::uint32_t left = first_cell_of_slope(across.low - beside),
-                            right = end_cell_of_slope(across.high + beside),
-                            top = first_cell_of_slope(down.low - beside),
-                            end = end_cell_of_slope(down.high + beside);
+        const std::uint32_t left = first_cell_of_view_slope(across.low - beside),
+                            right = end_cell_of_view_slope(across.high + beside),
+                            top = first_cell_of_view_slope(down.low - beside),
+                            end = end_cell_of_view_slope(down.high + beside);
         for (std::uint32_t y = top; y < end; ++y)
             for (std::uint32_t x = left; x < right; ++x)
                 if (visit(std::size_t{y} * cells_ + x, centres_[x], centres_[y])) return;

@@ -21,7 +21,7 @@ using measure::BenchmarkResult;
 using measure::BenchmarkRound;
 using measure::BenchmarkRun;
 
-Json make_context_json(const BenchmarkRun& run) {
+Json make_benchmark_context_json(const BenchmarkRun& run) {
     Json context{{"date", run.date}};
     context["executable"] = run.command.empty() ? "" : run.command.front();
     context["num_cpus"] = run.processors;
@@ -189,7 +189,7 @@ BenchmarkResult& find_or_add_benchmark(std::vector<BenchmarkResult>& list,
 } // namespace
 
 std::string to_json(const BenchmarkRun& run) {
-    Json document{{"context", make_context_json(run)}};
+    Json document{{"context", make_benchmark_context_json(run)}};
     Json& list = document["benchmarks"] = Json::array();
     for (std::size_t i = 0; i < run.benchmarks.size(); ++i) {
         const BenchmarkResult& benchmark = run.benchmarks[i];

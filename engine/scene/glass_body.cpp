@@ -34,7 +34,8 @@ double compute_closed_volume(const Mesh& mesh) {
     return std::abs(volume);
 }
 
-std::optional<GlassBody> model_glass_body(const Scene& scene, const Object& object, double volume) {
+std::optional<GlassBody> choose_glass_body_model(const Scene& scene, const Object& object,
+                                                 double volume) {
     const Material& material = scene.materials[object.material];
     if (!is_glass(material)) return std::nullopt;
     if (!material.solid || volume == 0) return GlassBody::thin;

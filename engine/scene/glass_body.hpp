@@ -25,6 +25,7 @@ double compute_closed_volume(const Mesh& mesh);
 /// of the bounds. For example, a ball fills .52 of a cube, an upright pane all of its bounds, and a
 /// bottle or an oblique pane little. Sheets and open meshes are thin. `volume`:
 /// compute_closed_volume of the object's mesh. Takes O(vertices), for the bounds.
-std::optional<GlassBody> model_glass_body(const Scene& scene, const Object& object, double volume);
+std::optional<GlassBody> choose_glass_body_model(const Scene& scene, const Object& object,
+                                                 double volume);
 
 } // namespace catoptric::scene

@@ -100,10 +100,11 @@ public:
                                                        : nodes[std::size_t(channel.target_node)];
         const auto index = std::size_t(channel.sampler);
         if (channel.target_path == "translation")
-            set_single_track(to.translations, read_vector_track(index));
-        if (channel.target_path == "scale") set_single_track(to.scales, read_vector_track(index));
+            set_motion_track_once(to.translations, read_vector_track(index));
+        if (channel.target_path == "scale")
+            set_motion_track_once(to.scales, read_vector_track(index));
         if (channel.target_path == "rotation")
-            set_single_track(to.rotations, read_rotation_track_once(index));
+            set_motion_track_once(to.rotations, read_rotation_track_once(index));
     }
 
 private:
@@ -123,7 +124,8 @@ private:
         return turns_[index];
     }
     template <typename Kept>
-    void set_single_track(std::shared_ptr<const Kept>& kept, std::shared_ptr<const Kept> track) {
+    void set_motion_track_once(std::shared_ptr<const Kept>& kept,
+                               std::shared_ptr<const Kept> track) {
         if (kept)
             context_.notes.add_note("channels of nodes that move so already, left out", place_);
         else

@@ -155,7 +155,7 @@ DracoComponentType read_draco_component_type(const JsonObject& accessor) {
 
 /// Returns the components of an element of VEC4, for example 4. Throws `bad_data` for a matrix,
 /// which no vertex attribute is.
-std::size_t read_draco_width(const JsonObject& accessor) {
+std::size_t read_draco_component_count(const JsonObject& accessor) {
     constexpr std::array<std::string_view, 4> kTypes{"SCALAR", "VEC2", "VEC3", "VEC4"};
     const auto* const type = std::ranges::find(kTypes, accessor.text("type"));
     accessor.require_condition(
@@ -229,7 +229,7 @@ std::vector<DecodedAccessor> decode_draco_primitive(const GltfContainer& contain
         wanted.push_back({.id = static_cast<std::uint32_t>(
                               std::min(compressed->whole(name, 0), std::uint64_t{~0u})),
                           .type = read_draco_component_type(accessor),
-                          .width = read_draco_width(accessor)});
+                          .width = read_draco_component_count(accessor)});
     }
     // Decoding takes time in proportion to the compressed bytes. They count once for each
     // primitive, even if many primitives name the same bytes.

@@ -59,7 +59,7 @@ public:
 
 private:
     ParentNodeState node_state_of(std::size_t index, const ParentNodeState& parent);
-    std::size_t add_to_rig(std::size_t index, const ParentNodeState& parent);
+    std::size_t add_animated_node_to_rig(std::size_t index, const ParentNodeState& parent);
     void finish();
 
     const GltfDocument& gltf_document_;
@@ -71,7 +71,8 @@ private:
 
 /// Adds an animated node to the rig and returns its index. Parts of its transform without a track
 /// keep their values at rest.
-std::size_t NodePlacementComputer::add_to_rig(std::size_t index, const ParentNodeState& parent) {
+std::size_t NodePlacementComputer::add_animated_node_to_rig(std::size_t index,
+                                                            const ParentNodeState& parent) {
     const tinygltf::Node& node = gltf_document_.model.nodes[index];
     const NodeMotionTracks& tracks = animation_.nodes[index];
     NodeRig::RigNode to{.parent = parent.rig_node,
@@ -100,7 +101,7 @@ ParentNodeState NodePlacementComputer::node_state_of(std::size_t index,
         return way;
     }
     const bool slides = tracks.translations && !tracks.rotations && !tracks.scales;
-    way.rig_node = add_to_rig(index, parent);
+    way.rig_node = add_animated_node_to_rig(index, parent);
     way.below = dmat4(1);
     if (slides && parent.going == NodeMotionKind::still) {
         way.going = NodeMotionKind::slides;

@@ -26,12 +26,12 @@ using tinygltf::Value;
 
 int write_texture_coordinates(GltfWriter& writer, const std::vector<vec2>& list) {
     writer.append_accessor(list, TINYGLTF_TYPE_VEC2, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
+    return list_size_as_int(writer.model.accessors) - 1;
 }
 
 int write_vertex_colours(GltfWriter& writer, const std::vector<vec4>& list) {
     writer.append_accessor(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
+    return list_size_as_int(writer.model.accessors) - 1;
 }
 
 int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
@@ -43,7 +43,7 @@ int write_indices(GltfWriter& writer, const Mesh& mesh, bool inside_out) {
     else
         writer.append_accessor(std::vector<std::uint16_t>(wide.begin(), wide.end()),
                                TINYGLTF_TYPE_SCALAR, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
+    return list_size_as_int(writer.model.accessors) - 1;
 }
 
 /// Returns the glTF mesh of an object, and adds it if it is new. glTF stores the material with the
@@ -52,7 +52,7 @@ int find_or_write_mesh(GltfWriter& writer, const Object& object) {
     const bool inside_out = glm::determinant(dmat3(object.world_from_object)) < 0;
     tinygltf::Model& model = writer.model;
     const auto [entry, is_new] = writer.meshes.try_emplace(
-        {object.mesh, object.material, inside_out}, gltf_accessor_type_of_list(model.meshes));
+        {object.mesh, object.material, inside_out}, list_size_as_int(model.meshes));
     if (!is_new) return entry->second;
     const Mesh& mesh = writer.scene.meshes[object.mesh];
     tinygltf::Primitive primitive;
@@ -91,9 +91,10 @@ Value make_object_extras(const Object& object) {
 }
 
 /// Adds a node that has no motion of its own, as a root of the scene or as a child of a rig's node.
-void add_following_node(GltfWriter& writer, const RigAttachment* follows, tinygltf::Node node) {
+void add_gltf_node_below_parent(GltfWriter& writer, const RigAttachment* follows,
+                                tinygltf::Node node) {
     const int parent = follows ? writer.gltf_node_of_rig_attachment(*follows) : -1;
-    const int index = gltf_accessor_type_of_list(writer.model.nodes);
+    const int index = list_size_as_int(writer.model.nodes);
     writer.model.nodes.push_back(std::move(node));
     if (parent < 0)
         writer.model.scenes[0].nodes.push_back(index);
@@ -108,12 +109,12 @@ void add_object_node(GltfWriter& writer, const dmat4& world, const Motion& motio
     tinygltf::Model& model = writer.model;
     if (const RigAttachment* follows = find_followed_node(motion)) {
         node.matrix = matrix_to_numbers(follows->node_from_object);
-        return add_following_node(writer, follows, std::move(node));
+        return add_gltf_node_below_parent(writer, follows, std::move(node));
     }
     const dvec3 rest(world[3]), scale(world[0][0], world[1][1], world[2][2]);
     const bool is_scale = dmat3(world) == glm::matrixCompMult(dmat3(world), dmat3(1));
     const std::optional<TranslationTrack> keys = motion_to_keys(motion);
-    const int index = gltf_accessor_type_of_list(model.nodes);
+    const int index = list_size_as_int(model.nodes);
     model.scenes[0].nodes.push_back(index);
     if (keys) writer.add_gltf_motion(*keys, rest, index);
     if (is_scale && rest != dvec3(0)) node.translation = matrix_to_numbers(rest);
@@ -150,10 +151,10 @@ void add_camera(GltfWriter& writer, const Camera& camera) {
                       dvec4(camera.eye, 1));
     const RigAttachment* follows = camera.follows.rig ? &camera.follows : nullptr;
     tinygltf::Node node;
-    node.name = camera.name, node.camera = gltf_accessor_type_of_list(writer.model.cameras);
+    node.name = camera.name, node.camera = list_size_as_int(writer.model.cameras);
     node.matrix = matrix_to_numbers(follows ? follows->node_from_object * world : world);
     node.extras = make_catoptric_extras({{"distance", Value(distance)}});
-    add_following_node(writer, follows, std::move(node));
+    add_gltf_node_below_parent(writer, follows, std::move(node));
     tinygltf::Camera& to = writer.model.cameras.emplace_back();
     to.name = camera.name;
     // We do not clip; these planes lie a factor of 1000 nearer and farther than the target.
@@ -186,7 +187,7 @@ void add_light(GltfWriter& writer, const PunctualLight& light) {
     tinygltf::Node node;
     node.name = light.name;
     node.extensions[extension] = Value(
-        Value::Object{{"light", Value(gltf_accessor_type_of_list(writer.model.lights))}});
+        Value::Object{{"light", Value(list_size_as_int(writer.model.lights))}});
     writer.model.lights.push_back(std::move(to));
     add_object_node(writer, light.world_from_light, light.motion, std::move(node));
 }
@@ -236,7 +237,7 @@ int GltfWriter::vectors(const std::vector<vec3>& list) {
     tinygltf::Accessor& accessor = append_accessor(list, TINYGLTF_TYPE_VEC3,
                                                    TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = matrix_to_numbers(box.lo), accessor.maxValues = matrix_to_numbers(box.hi);
-    return gltf_accessor_type_of_list(model.accessors) - 1;
+    return list_size_as_int(model.accessors) - 1;
 }
 
 void GltfWriter::use(const std::string& extension) {

@@ -114,22 +114,20 @@ Value make_material_extras(const Material& material) {
 } // namespace
 
 int GltfWriter::image(const Image& image) {
-    const auto [entry, is_new] = images.try_emplace(&image,
-                                                    gltf_accessor_type_of_list(model.images));
+    const auto [entry, is_new] = images.try_emplace(&image, list_size_as_int(model.images));
     if (!is_new) return entry->second;
     const std::string png = encode_image_png(image);
     view(png.data(), png.size());
     tinygltf::Image& to = model.images.emplace_back();
     to.name = image.name, to.mimeType = "image/png";
-    to.bufferView = gltf_accessor_type_of_list(model.bufferViews) - 1;
+    to.bufferView = list_size_as_int(model.bufferViews) - 1;
     return entry->second;
 }
 
 int GltfWriter::sampler(const Texture& texture) {
     const std::tuple key{gltf_filter_of_texture(texture), gltf_wrap_mode(texture.wrap_u),
                          gltf_wrap_mode(texture.wrap_v)};
-    const auto [entry, is_new] = samplers.try_emplace(key,
-                                                      gltf_accessor_type_of_list(model.samplers));
+    const auto [entry, is_new] = samplers.try_emplace(key, list_size_as_int(model.samplers));
     if (!is_new) return entry->second;
     tinygltf::Sampler& to = model.samplers.emplace_back();
     std::tie(to.magFilter, to.wrapS, to.wrapT) = key;
@@ -140,8 +138,7 @@ tinygltf::TextureInfo GltfWriter::add_texture_info(const Texture& texture) {
     tinygltf::Texture to;
     to.source = image(*texture.image), to.sampler = sampler(texture);
     tinygltf::TextureInfo info;
-    info.index = gltf_accessor_type_of_list(model.textures),
-    info.texCoord = static_cast<int>(texture.uv_set);
+    info.index = list_size_as_int(model.textures), info.texCoord = static_cast<int>(texture.uv_set);
     model.textures.push_back(std::move(to));
     if (texture.u_row == vec3(1, 0, 0) && texture.v_row == vec3(0, 1, 0)) return info;
     info.extensions["KHR_texture_transform"] = make_texture_transform(texture);

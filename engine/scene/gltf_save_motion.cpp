@@ -30,7 +30,7 @@ int write_key_times(GltfWriter& writer, const std::vector<double>& list) {
     tinygltf::Accessor& accessor = writer.append_accessor(times, TINYGLTF_TYPE_SCALAR,
                                                           TINYGLTF_COMPONENT_TYPE_FLOAT);
     accessor.minValues = {times.front()}, accessor.maxValues = {times.back()};
-    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
+    return list_size_as_int(writer.model.accessors) - 1;
 }
 
 int write_key_values(GltfWriter& writer, const std::vector<vec3>& list) {
@@ -38,7 +38,7 @@ int write_key_values(GltfWriter& writer, const std::vector<vec3>& list) {
 }
 int write_key_values(GltfWriter& writer, const std::vector<vec4>& list) {
     writer.append_accessor(list, TINYGLTF_TYPE_VEC4, TINYGLTF_COMPONENT_TYPE_FLOAT);
-    return gltf_accessor_type_of_list(writer.model.accessors) - 1;
+    return list_size_as_int(writer.model.accessors) - 1;
 }
 
 bool is_repeating_motion(const Motion& motion) {
@@ -78,7 +78,7 @@ void GltfWriter::add_gltf_animation_track(const Track<Value>& track, int node,
                             : track.interpolation == step ? "STEP"
                                                           : "LINEAR";
     tinygltf::AnimationChannel channel;
-    channel.sampler = gltf_accessor_type_of_list(motion.samplers);
+    channel.sampler = list_size_as_int(motion.samplers);
     channel.target_node = node, channel.target_path = path;
     motion.samplers.push_back(std::move(sampler));
     motion.channels.push_back(std::move(channel));
@@ -92,7 +92,7 @@ void GltfWriter::add_gltf_motion(const TranslationTrack& keys, const dvec3& rest
 
 int GltfWriter::add_rig_node(const NodeRig::RigNode& node, int parent) {
     const auto add = [&](tinygltf::Node to) {
-        const int index = gltf_accessor_type_of_list(model.nodes);
+        const int index = list_size_as_int(model.nodes);
         model.nodes.push_back(std::move(to));
         if (parent < 0)
             model.scenes[0].nodes.push_back(index);

@@ -13,7 +13,7 @@
 
 namespace catoptric::scene::gltf {
 
-int gltf_accessor_type_of_list(const auto& list) { return static_cast<int>(list.size()); }
+int list_size_as_int(const auto& list) { return static_cast<int>(list.size()); }
 
 template <typename Vector>
 std::vector<double> matrix_to_numbers(const Vector& v) {
@@ -47,8 +47,7 @@ struct GltfWriter {
     tinygltf::Accessor& append_accessor(const std::vector<Element>& list, int type, int component) {
         view(list.data(), list.size() * sizeof(Element));
         tinygltf::Accessor& accessor = model.accessors.emplace_back();
-        accessor.bufferView = gltf_accessor_type_of_list(model.bufferViews) - 1,
-        accessor.count = list.size();
+        accessor.bufferView = list_size_as_int(model.bufferViews) - 1, accessor.count = list.size();
         accessor.type = type, accessor.componentType = component;
         return accessor;
     }

@@ -47,7 +47,7 @@ dvec4 slerp(const dvec4& a, const dvec4& b, double s) {
 /// Returns the track's value at any time: before, between or after its keys. The track has at least
 /// one key.
 template <typename Value>
-Value track_value_at(const Track<Value>& track, double time) {
+Value motion_track_value_at(const Track<Value>& track, double time) {
     const auto after = std::ranges::upper_bound(track.times, time);
     if (after == track.times.begin()) return track.values.front();
     if (after == track.times.end()) return track.values.back();
@@ -76,7 +76,8 @@ double track_end_time(const NodeRig& rig) {
 
 dmat4 rig_node_transform_to_parent(const NodeRig::RigNode& node, double time) {
     const auto now = [&](const auto& track, const auto& otherwise) {
-        return track == nullptr || track->times.empty() ? otherwise : track_value_at(*track, time);
+        return track == nullptr || track->times.empty() ? otherwise
+                                                        : motion_track_value_at(*track, time);
     };
     const dvec4 turn = now(node.rotations, node.rotation);
     const dvec3 scale = now(node.scales, node.scale);
@@ -115,7 +116,7 @@ dvec3 motion_offset_at_time(const Keyframes& motion, double seconds) {
     const TranslationTrack& keys = *motion.keys;
     const double time = motion.repeats ? wrap_time_into_motion(seconds, keys.times.back())
                                        : seconds;
-    return motion.world_from_keys * (track_value_at(keys, time) - motion.rest);
+    return motion.world_from_keys * (motion_track_value_at(keys, time) - motion.rest);
 }
 
 /// Returns the translation of a motion that keeps the object's axes; zero for any other motion.

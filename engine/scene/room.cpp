@@ -45,7 +45,7 @@ void add_mesh_copies(Scene& scene, Mesh mesh, std::size_t material,
 }
 
 /// Returns several boxes as one mesh.
-Mesh make_boxes_mesh(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
+Mesh make_mesh_of_boxes(const std::string& name, const std::vector<std::pair<dvec3, dvec3>>& of) {
     Mesh all{.name = name};
     for (const auto& [lo, hi] : of) {
         const Mesh one = box(name, lo, hi);
@@ -71,12 +71,12 @@ void add_furniture(Scene& scene) {
                                                    .roughness = .04f,
                                                    .dielectric_f0 = vec3(kUsualDielectricF0),
                                                    .dielectric_f90 = vec3(1)});
-    const Mesh chair = make_boxes_mesh("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
-                                                 {{-.22, .46, .18}, {.22, .95, .22}},
-                                                 {{-.22, 0, -.22}, {-.18, .42, -.18}},
-                                                 {{.18, 0, -.22}, {.22, .42, -.18}},
-                                                 {{-.22, 0, .18}, {-.18, .42, .22}},
-                                                 {{.18, 0, .18}, {.22, .42, .22}}});
+    const Mesh chair = make_mesh_of_boxes("chair", {{{-.22, .42, -.22}, {.22, .46, .22}},
+                                                    {{-.22, .46, .18}, {.22, .95, .22}},
+                                                    {{-.22, 0, -.22}, {-.18, .42, -.18}},
+                                                    {{.18, 0, -.22}, {.22, .42, -.18}},
+                                                    {{-.22, 0, .18}, {-.18, .42, .22}},
+                                                    {{.18, 0, .18}, {.22, .42, .22}}});
     add_mesh_copies(scene, chair, oak,
                     {make_placement_transform({-.45, kSupportGap, .95}),
                      make_placement_transform({.45, kSupportGap, .95}),

@@ -20,7 +20,7 @@ namespace {
 
 /// Replaces `value` if `stronger` is set.
 template <typename Value>
-void replace_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
+void replace_value_if_set(std::optional<Value>& value, const std::optional<Value>& stronger) {
     if (stronger) value = stronger;
 }
 
@@ -127,19 +127,19 @@ SceneOverrides combine_overrides(const SceneOverrides& stronger, const SceneOver
     for (const std::string& pattern : stronger.lights) std::erase(both.lights, pattern);
     both.mirrors.insert(both.mirrors.end(), stronger.mirrors.begin(), stronger.mirrors.end());
     both.lights.insert(both.lights.end(), stronger.lights.begin(), stronger.lights.end());
-    replace_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
-    replace_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
-    replace_if_set(both.multiple_scattering, stronger.multiple_scattering);
-    replace_if_set(both.tints_glass_shadows, stronger.tints_glass_shadows);
-    replace_if_set(both.light_samples, stronger.light_samples);
-    replace_if_set(both.environment, stronger.environment);
-    replace_if_set(both.environment_scale, stronger.environment_scale);
-    replace_if_set(both.environment_rotation, stronger.environment_rotation);
-    replace_if_set(both.exposure, stronger.exposure);
-    replace_if_set(both.camera, stronger.camera);
-    replace_if_set(both.up, stronger.up);
-    replace_if_set(both.animation, stronger.animation);
-    replace_if_set(both.ambient, stronger.ambient);
+    replace_value_if_set(both.mirror_max_roughness, stronger.mirror_max_roughness);
+    replace_value_if_set(both.dielectric_mirrors, stronger.dielectric_mirrors);
+    replace_value_if_set(both.multiple_scattering, stronger.multiple_scattering);
+    replace_value_if_set(both.tints_glass_shadows, stronger.tints_glass_shadows);
+    replace_value_if_set(both.light_samples, stronger.light_samples);
+    replace_value_if_set(both.environment, stronger.environment);
+    replace_value_if_set(both.environment_scale, stronger.environment_scale);
+    replace_value_if_set(both.environment_rotation, stronger.environment_rotation);
+    replace_value_if_set(both.exposure, stronger.exposure);
+    replace_value_if_set(both.camera, stronger.camera);
+    replace_value_if_set(both.up, stronger.up);
+    replace_value_if_set(both.animation, stronger.animation);
+    replace_value_if_set(both.ambient, stronger.ambient);
     return both;
 }
 

@@ -31,8 +31,9 @@ std::vector<std::uint32_t> pack_rgba8(const measure::Picture& display) {
 /// Writes data into a buffer. The buffer grows to a power of two, so that changing sizes seldom
 /// need a new buffer.
 template <typename T>
-void write_to_buffer(gpu::GpuDevice& device, gpu::GpuBuffer& buffer, const std::string& name,
-                     const std::vector<T>& data, gpu::BufferUsage use) {
+void write_to_growing_buffer(gpu::GpuDevice& device, gpu::GpuBuffer& buffer,
+                             const std::string& name, const std::vector<T>& data,
+                             gpu::BufferUsage use) {
     const std::uint64_t bytes = data.size() * sizeof(T);
     if (buffer.size_in_bytes() < bytes || !buffer.buffer_handle())
         buffer = gpu::GpuBuffer(device, name, std::bit_ceil(bytes), use);
@@ -139,12 +140,13 @@ void WindowScreen::Impl::add(FrameGraph& frame, const FrameSpec& spec,
     // The first three indices belong to the triangle that covers the whole window.
     std::vector<std::uint32_t> indices{0, 1, 2};
     indices.insert(indices.end(), overlay.indices.begin(), overlay.indices.end());
-    write_to_buffer(device, slot.vertices, "overlay.vertices", overlay.vertices,
-                    gpu::BufferUsage::vertex);
-    write_to_buffer(device, slot.indices, "overlay.indices", indices, gpu::BufferUsage::index);
+    write_to_growing_buffer(device, slot.vertices, "overlay.vertices", overlay.vertices,
+                            gpu::BufferUsage::vertex);
+    write_to_growing_buffer(device, slot.indices, "overlay.indices", indices,
+                            gpu::BufferUsage::index);
     std::vector<std::uint32_t> canvas{0};
     if (showing.canvas) canvas = pack_rgba8(*showing.canvas);
-    write_to_buffer(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
+    write_to_growing_buffer(device, slot.canvas, "canvas", canvas, gpu::BufferUsage::plain);
 
     const uvec2 size = swapchain.size_in_pixels();
     const auto picture = [&](std::size_t part) {

@@ -50,16 +50,16 @@ double read_thread_seconds() {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-std::optional<double> subtract_known_counts(const std::optional<double>& after,
-                                            const std::optional<double>& before) {
+std::optional<double> subtract_counts_if_known(const std::optional<double>& after,
+                                               const std::optional<double>& before) {
     return after && before ? std::optional(*after - *before) : std::nullopt;
 }
 
 } // namespace
 
 ProcessorUsage ProcessorUsage::operator-(const ProcessorUsage& before) const {
-    return {cpu_ms - before.cpu_ms, subtract_known_counts(cycles, before.cycles),
-            subtract_known_counts(instructions, before.instructions)};
+    return {cpu_ms - before.cpu_ms, subtract_counts_if_known(cycles, before.cycles),
+            subtract_counts_if_known(instructions, before.instructions)};
 }
 
 ProcessorUsageMeter::ProcessorUsageMeter(CountedThreadChoice of) : of_(of) {

@@ -37,7 +37,7 @@ public:
     /// Returns the usage so far. Costs a few microseconds.
     ProcessorUsage read() const;
     /// Returns why cycles are not counted, in words; empty: they are.
-    const std::string& why_not_counted() const { return uncounted_; }
+    const std::string& reason_cycles_are_uncounted() const { return uncounted_; }
 
 private:
     CountedThreadChoice of_;

@@ -64,7 +64,7 @@ struct HistorySourceFrames {
 };
 
 /// Returns the technique with distances stored as 32-bit floats.
-std::string with_float_distances(const std::string& technique) {
+std::string technique_with_float_distances(const std::string& technique) {
     const TechniqueChoice choice = parse_technique(technique);
     const bool is_full = std::ranges::none_of(choice.settings, [](const auto& setting) {
         return setting.name == "distance" && setting.text != "r32f";
@@ -129,7 +129,7 @@ struct ErrorHistorySources {
 };
 
 ErrorHistorySources choose_history_sources(const Request& base, const std::string& technique) {
-    const std::string full = with_float_distances(technique);
+    const std::string full = technique_with_float_distances(technique);
     return {choose_history_source(base, technique, false),
             choose_history_source(base, technique, true), choose_history_source(base, full, false),
             choose_history_source(base, full, true)};

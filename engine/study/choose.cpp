@@ -137,10 +137,10 @@ bool keeps_error(const ResolvedChooseRequest& request, const JudgedPlan& plan) {
 /// Returns the candidates to draw in the training views. A candidate is left out, and listed in
 /// `dropped`, if another candidate beats it by a wide margin in time and error in the comparison's
 /// own view.
-std::vector<std::string> keep_promising_plans(const ResolvedChooseRequest& request,
-                                              const measure::Comparison& comparison,
-                                              const std::vector<std::string>& texts,
-                                              std::vector<std::string>& dropped) {
+std::vector<std::string> keep_plans_not_clearly_beaten(const ResolvedChooseRequest& request,
+                                                       const measure::Comparison& comparison,
+                                                       const std::vector<std::string>& texts,
+                                                       std::vector<std::string>& dropped) {
     constexpr double kMargin = 1.5; // ratio of times and errors in the own view that counts as a
                                     // wide margin
     const std::vector<JudgedPlan> plans = list_judged_plans(request, comparison, texts);
@@ -371,9 +371,9 @@ PlanChoice choose_plan(Engine& engine, const ChooseRequest& asked) {
     std::vector<std::string> texts = request.base.techniques;
     if (texts.empty()) texts = list_default_techniques(request.base);
     report_choose_step(request, fmt::format("measuring {} candidates in one view", texts.size()));
-    texts = keep_promising_plans(request,
-                                 compare_plans(engine, request, texts, 0, request.base.seed), texts,
-                                 choice.dropped);
+    texts = keep_plans_not_clearly_beaten(
+        request, compare_plans(engine, request, texts, 0, request.base.seed), texts,
+        choice.dropped);
     check(!texts.empty(), Failure::usage,
           "candidates: wanted one that shows reflections, found none");
     report_choose_step(request, fmt::format("judging {} candidates in {} training views",

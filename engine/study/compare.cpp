@@ -257,7 +257,7 @@ private:
                 samples, compare_request_.reference_seconds / static_cast<double>(groups.size()),
                 choose_target_noise_floor(rows))) {
                 for (const std::size_t row : rows)
-                    judge_measured_row(row, judged_[row].part, judged_[row].number);
+                    compute_errors_of_measured_row(row, judged_[row].part, judged_[row].number);
                 fill_reference_noise();
                 report_progress();
             }
@@ -294,7 +294,8 @@ private:
         int number = 0; ///< from 1
     };
 
-    void judge_measured_row(std::size_t index, const TechniqueResult& part, int number) {
+    void compute_errors_of_measured_row(std::size_t index, const TechniqueResult& part,
+                                        int number) {
         row_warnings_[index] = judge_.fill_row_errors_and_picture(
             comparison_.rows[index], compare_request_.base.techniques[index], part, number);
         const report::Row& row = comparison_.rows[index];
@@ -380,8 +381,9 @@ private:
         for (std::size_t place = 0; place < all.size(); ++place) {
             const std::size_t lane = round % 2 == 0 ? place : all.size() - 1 - place;
             report_row_to_watcher(compare_request_.watcher,
-                                  describe_lane(lane) + ", round " + std::to_string(round + 1) +
-                                      " of " + std::to_string(comparison_.rounds),
+                                  describe_rows_measured_together(lane) + ", round " +
+                                      std::to_string(round + 1) + " of " +
+                                      std::to_string(comparison_.rounds),
                                   static_cast<std::size_t>(round) * all.size() + place,
                                   count_row_measurements(all.size()));
             measure_round_of_row(lane, all[lane], round);
@@ -393,7 +395,7 @@ private:
     }
 
     /// Returns the label of the rows that are measured together, for the watcher.
-    std::string describe_lane(std::size_t lane) const {
+    std::string describe_rows_measured_together(std::size_t lane) const {
         std::string text = compare_request_.together ? "all rows in one frame"
                                                      : group_rows_rendered_together()[lane].front();
         if (compare_request_.both_models) text += ", model " + rendered_work_name(models_[lane]);
@@ -415,10 +417,11 @@ private:
     void measure_first_round_again() {
         std::vector<double> clear_ms = measure_cube_clear_times(0, 0);
         for (std::size_t lane = 0; lane < runs_.size(); ++lane) {
-            report_row_to_watcher(
-                compare_request_.watcher, describe_lane(lane) + ", first round again",
-                static_cast<std::size_t>(comparison_.rounds) * runs_.size() + lane,
-                count_row_measurements(runs_.size()));
+            report_row_to_watcher(compare_request_.watcher,
+                                  describe_rows_measured_together(lane) + ", first round again",
+                                  static_cast<std::size_t>(comparison_.rounds) * runs_.size() +
+                                      lane,
+                                  count_row_measurements(runs_.size()));
             runs_[lane]->measure_first_round_again();
             runs_[lane]->suspend_frames();
         }
@@ -441,7 +444,7 @@ private:
     }
 
     void judge_row(std::size_t index, const FrameNumberOfJudgedPicture& picture) {
-        judge_measured_row(index, picture.part, picture.number);
+        compute_errors_of_measured_row(index, picture.part, picture.number);
         if (truths_.has_reference_noise()) judged_[index] = picture;
     }
 

@@ -225,8 +225,8 @@ void PlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpe
 }
 
 /// Changes to the next plan with less error. The audit of this plan begins without evidence.
-void PlanAudit::step_to_surer_plan(double seconds, PlanAuditOutcome& outcome) {
-    outcome.has_new_plan = ladder_.step_to_surer_plan(seconds);
+void PlanAudit::step_to_plan_with_less_error(double seconds, PlanAuditOutcome& outcome) {
+    outcome.has_new_plan = ladder_.step_to_plan_with_less_error(seconds);
     if (outcome.is_alarm)
         outcome.message = fmt::format("audit: {} of {} frames break {} <= {:g}",
                                       audit_.failure_count(), audit_.frame_count(),
@@ -256,7 +256,7 @@ PlanAuditOutcome PlanAudit::watch_frame(Session& session, const Frame& frame, co
         audit_frame(session, frame, spec, outcome);
         schedule_.add_audit_time(milliseconds_between(begin, Clock::now()));
     }
-    if (is_of_plan && audit_.is_alarmed()) step_to_surer_plan(seconds, outcome);
+    if (is_of_plan && audit_.is_alarmed()) step_to_plan_with_less_error(seconds, outcome);
     updates_ = Access::session_counters(session).updates;
     ended_ = Clock::now();
     return outcome;

@@ -102,7 +102,7 @@ private:
                                                   const FrameSpec& spec) const;
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                      PlanAuditOutcome& outcome);
-    void step_to_surer_plan(double seconds, PlanAuditOutcome& outcome);
+    void step_to_plan_with_less_error(double seconds, PlanAuditOutcome& outcome);
 
     PlanAuditRequest request_;
     measure::Audit audit_;

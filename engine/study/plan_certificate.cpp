@@ -66,7 +66,7 @@ const measure::NamedMetricValueParts* find_certificate(const measure::MetricValu
     return list != nullptr && !list->empty() ? &list->front() : nullptr;
 }
 
-bool is_of_this_scene(const measure::NamedMetricValueParts& certificate) {
+bool is_certificate_of_this_scene(const measure::NamedMetricValueParts& certificate) {
     return std::get<bool>(certificate.values.front().second);
 }
 
@@ -83,8 +83,8 @@ std::vector<ReportTable> make_certificate_tables(const report::Comparison& compa
         const measure::MetricValue value = measure::find_row_metric_of_study(
             row, kCertificateMetricName);
         if (const auto* certificate = find_certificate(value))
-            table.rows.push_back(
-                {row.label, certificate->name, is_of_this_scene(*certificate) ? "yes" : "no"});
+            table.rows.push_back({row.label, certificate->name,
+                                  is_certificate_of_this_scene(*certificate) ? "yes" : "no"});
     }
     return {table};
 }
@@ -97,8 +97,8 @@ std::string quote_certificates(const report::Comparison& comparison) {
         const auto* certificate = find_certificate(value);
         if (certificate == nullptr) continue;
         sentences += (sentences.empty() ? "" : " ") + row.label + " was chosen" +
-                     (is_of_this_scene(*certificate) ? "" : " for another scene") + ": " +
-                     certificate->name + ".";
+                     (is_certificate_of_this_scene(*certificate) ? "" : " for another scene") +
+                     ": " + certificate->name + ".";
     }
     return sentences;
 }

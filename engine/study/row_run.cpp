@@ -17,7 +17,7 @@ double measure_elapsed_seconds() {
     return std::chrono::duration<double>(SteadyClock::now() - kProgramStart).count();
 }
 
-Request with_more_frames(Request request, int frames) {
+Request add_frames_to_request(Request request, int frames) {
     request.frames += frames;
     return request;
 }
@@ -34,7 +34,7 @@ bool must_repeat_first_round(const std::string& device_type) { return device_typ
 
 RowMeasurement::RowMeasurement(Session& session, Request request, const Watcher& watcher,
                                int repeated_frames)
-    : row_request_(with_more_frames(std::move(request), repeated_frames)), watcher_(watcher),
+    : row_request_(add_frames_to_request(std::move(request), repeated_frames)), watcher_(watcher),
       repeated_frames_(repeated_frames), frames_(session, row_request_) {}
 
 void RowMeasurement::measure_first_round_again() {

@@ -168,7 +168,7 @@ measure::BenchmarkRun run_benchmarks(const std::vector<BenchmarkSubject>& subjec
     run.command = std::move(command);
     run.device = device;
     run.processors = static_cast<int>(std::thread::hardware_concurrency());
-    run.uncounted = meter.why_not_counted();
+    run.uncounted = meter.reason_cycles_are_uncounted();
     run.load = read_machine_load();
     const std::optional<ProcessorUsageSoFar> before = read_processor_use();
     run.benchmarks = measure_benchmarks_in_rounds(subjects, meter, options);

@@ -396,8 +396,8 @@ TEST(GlassBody, SimpleBodyFollowsFromShapeAndPlace) {
         scene::Scene scene{.name = "body"};
         scene::add_mesh(scene, std::move(mesh), test::add_material(scene, material));
         scene.objects.back().world_from_object = place;
-        return scene::model_glass_body(scene, scene.objects.back(),
-                                       scene::compute_closed_volume(scene.meshes.back()));
+        return scene::choose_glass_body_model(scene, scene.objects.back(),
+                                              scene::compute_closed_volume(scene.meshes.back()));
     };
     const scene::Material glass = make_tinted_glass();
     const double c = std::sqrt(.5);

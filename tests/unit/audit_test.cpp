@@ -317,14 +317,15 @@ TEST(PlanLadder, StepsToTheSurerSideAtMostTwiceASecond) {
     EXPECT_EQ(ladder.place(), 99u);
     std::vector<double> steps;
     for (int i = 0; i < 1000; ++i)
-        if (const double seconds = .01 * i; ladder.step_to_surer_plan(seconds))
+        if (const double seconds = .01 * i; ladder.step_to_plan_with_less_error(seconds))
             steps.push_back(seconds);
     EXPECT_EQ(ladder.place(), 99 - steps.size());
     ASSERT_GE(steps.size(), 19u);
     for (std::size_t i = 2; i < steps.size(); ++i) EXPECT_GE(steps[i] - steps[i - 2], 1 - 1e-9);
     PlanLadder two(2);
-    EXPECT_TRUE(two.step_to_surer_plan(0));
-    EXPECT_FALSE(two.step_to_surer_plan(10)); // the plan is already the one with the least error
+    EXPECT_TRUE(two.step_to_plan_with_less_error(0));
+    EXPECT_FALSE(
+        two.step_to_plan_with_less_error(10)); // the plan is already the one with the least error
     EXPECT_EQ(two.place(), 0u);
 }
 

@@ -101,12 +101,13 @@ TEST(UsageMeter, ProcessUsageIncludesOtherThreads) {
     EXPECT_GE(all_after.cpu_ms, worked_ms);
     EXPECT_LE(own_after.cpu_ms, thread_processor_ms() - caller_before + 1e-9)
         << "but for roundings";
-    EXPECT_EQ(all_after.cycles.has_value(), process.why_not_counted().empty());
-    if (process.why_not_counted().empty()) {
+    EXPECT_EQ(all_after.cycles.has_value(), process.reason_cycles_are_uncounted().empty());
+    if (process.reason_cycles_are_uncounted().empty()) {
         EXPECT_GT(*all_after.cycles, *own_after.cycles);
         EXPECT_GT(*all_after.instructions, *own_after.instructions);
     } else {
-        EXPECT_THAT(process.why_not_counted(), testing::StartsWith("perf_event_open: "));
+        EXPECT_THAT(process.reason_cycles_are_uncounted(),
+                    testing::StartsWith("perf_event_open: "));
     }
 }
 
