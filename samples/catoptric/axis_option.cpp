@@ -29,7 +29,7 @@ bool sets_knob(const std::string& text, const std::string& knob) {
 
 /// Returns the technique as text with the values of all its knobs. Two texts that mean the same
 /// technique give the same result.
-std::string describe_choice(const std::string& text) {
+std::string format_technique_with_all_knobs(const std::string& text) {
     const app::TechniqueChoice choice = app::parse_technique(text);
     std::string all = choice.technique;
     for (const Setting& setting : choice.settings)
@@ -50,7 +50,7 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
     // out.
     std::vector<std::string> known;
     for (const std::string& text : techniques)
-        if (!varies(text)) known.push_back(describe_choice(text));
+        if (!varies(text)) known.push_back(format_technique_with_all_knobs(text));
     for (const std::string& text : techniques) {
         is_known |= has_knob_of_axis(app::parse_technique(text).technique, axis.knob);
         if (!varies(text)) {
@@ -61,8 +61,9 @@ std::vector<std::string> expand_along_axis(const std::vector<std::string>& techn
         for (const std::string& value : axis.values) {
             std::string row = text + separator;
             row += axis.knob + "=" + value;
-            if (std::ranges::find(known, describe_choice(row)) != known.end()) continue;
-            known.push_back(describe_choice(row));
+            if (std::ranges::find(known, format_technique_with_all_knobs(row)) != known.end())
+                continue;
+            known.push_back(format_technique_with_all_knobs(row));
             rows.push_back(std::move(row));
         }
     }

@@ -43,13 +43,13 @@ std::vector<std::string> make_benchmark_cells(const BenchmarkResult& benchmark, 
     return cells;
 }
 
-bool is_counted_cost(BenchmarkCostKind cost) {
+bool is_cost_in_cycles_or_instructions(BenchmarkCostKind cost) {
     return cost == BenchmarkCostKind::cycles || cost == BenchmarkCostKind::instructions;
 }
 
 /// Returns a cost as text, in millions of cycles or instructions, or in milliseconds.
 std::string format_cost(double cost, BenchmarkCostKind of) {
-    return format_benchmark_number(is_counted_cost(of) ? cost / 1e6 : cost);
+    return format_benchmark_number(is_cost_in_cycles_or_instructions(of) ? cost / 1e6 : cost);
 }
 
 /// Returns the kinds of cost (cycles, time) that a comparison of two measurements covers, as text.
@@ -59,7 +59,7 @@ std::string list_cost_kinds(const measure::BenchmarkChanges& changes) {
                                          BenchmarkCostKind::cpu_time, BenchmarkCostKind::real_time})
         if (std::ranges::find(changes.list, cost, &BenchmarkChange::cost) != changes.list.end())
             text += (text.empty() ? "" : " or ") + cost_kind_name(cost) +
-                    (is_counted_cost(cost) ? " in user mode, millions" : ", ms");
+                    (is_cost_in_cycles_or_instructions(cost) ? " in user mode, millions" : ", ms");
     return text;
 }
 

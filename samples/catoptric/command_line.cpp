@@ -222,7 +222,8 @@ CommandVerb& CommandLine::only_command_verb() {
 }
 
 /// Replaces "help" by "--help", and "help VERB" by "VERB --help".
-std::vector<std::string> CommandLine::without_help_verb(std::vector<std::string> words) const {
+std::vector<std::string>
+CommandLine::replace_help_verb_by_option(std::vector<std::string> words) const {
     if (is_whole_ || words.front() != kHelpVerb) return words;
     check(words.size() <= 2, Failure::usage, "'help' wanted at most one verb, found '",
           words.size() > 2 ? words[2] : "", "'");
@@ -269,7 +270,7 @@ std::function<int()> CommandLine::parse(std::vector<std::string> words) {
         std::cerr << remove_repeated_empty_lines(command_line_parser_->help()) << std::flush;
         return [] { return static_cast<int>(Failure::usage); };
     }
-    words = without_help_verb(std::move(words));
+    words = replace_help_verb_by_option(std::move(words));
     const std::string program = is_whole_ ? command_line_parser_->get_name()
                                           : command_line_parser_->get_name() + " " + words.front();
     if (!is_whole_) check_command_verb_is_known(words.front());

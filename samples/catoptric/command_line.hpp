@@ -102,7 +102,7 @@ public:
 
 private:
     void check_command_verb_is_known(const std::string& word) const;
-    std::vector<std::string> without_help_verb(std::vector<std::string> words) const;
+    std::vector<std::string> replace_help_verb_by_option(std::vector<std::string> words) const;
 
     std::unique_ptr<CLI::App> command_line_parser_;
     std::vector<std::unique_ptr<CommandVerb>> verbs_;

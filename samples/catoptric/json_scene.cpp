@@ -33,7 +33,7 @@ Json make_material_json(const app::MaterialInfo& material) {
     return json;
 }
 
-Json make_shape_json(const scene::MirrorShape& shape) {
+Json make_mirror_shape_json(const scene::MirrorShape& shape) {
     Json json{{"kind", scene::mirror_shape_kind_name(shape.kind)}, {"closed", shape.is_closed}};
     json["sphere"] = nullptr;
     if (shape.fit)
@@ -46,7 +46,7 @@ Json make_shape_json(const scene::MirrorShape& shape) {
 Json make_mirror_json(const app::MirrorInfo& mirror) {
     return {{"mirror", mirror.number},
             {"name", mirror.name},
-            {"shape", make_shape_json(mirror.shape)},
+            {"shape", make_mirror_shape_json(mirror.shape)},
             {"screen_share", report::make_number_json(mirror.screen_share)},
             {"capture_centre", report::make_point_json(mirror.capture_centre)},
             {"reflectance", make_colour_json(mirror.reflectance)},

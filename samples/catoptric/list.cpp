@@ -66,7 +66,7 @@ std::vector<app::TechniqueInfo> keep_named_technique(std::vector<app::TechniqueI
     return {techniques[parse_choice_index("list techniques", name, names)]};
 }
 
-std::string list_techniques_as(const std::string& name, bool json) {
+std::string make_technique_list_text(const std::string& name, bool json) {
     std::vector<app::TechniqueInfo> techniques = app::techniques();
     if (!name.empty()) techniques = keep_named_technique(std::move(techniques), name);
     if (json) return make_techniques_json(techniques);
@@ -125,7 +125,7 @@ std::string format_metric_list() {
 std::string make_list_output(const std::string& kind, const std::string& name, bool json) {
     check(name.empty() || kind == "techniques", Failure::usage, "'list ", kind,
           "' wanted no further argument, found '", name, "'");
-    if (kind == "techniques") return list_techniques_as(name, json);
+    if (kind == "techniques") return make_technique_list_text(name, json);
     if (kind == "devices") {
         const std::vector<app::DeviceInfo> devices = app::devices(app::find_profile_folder());
         for (const app::DeviceInfo& device : devices)

@@ -23,7 +23,7 @@ public:
     };
     /// Returns the known file to which `path` also leads; null if there is none. Devices and pipes
     /// never count as the same file.
-    const KnownFileIdentity* find_same_file(const fs::path& path) const {
+    const KnownFileIdentity* find_known_file_at_path(const fs::path& path) const {
         struct stat status {};
         const bool is_there = ::stat(path.c_str(), &status) == 0;
         if (is_there && !S_ISREG(status.st_mode)) return nullptr;
@@ -52,7 +52,8 @@ void check_outputs_differ_from_inputs(const std::vector<fs::path>& outputs,
     KnownFileIdentities files;
     for (const fs::path& input : inputs) files.add_known_file({input, true});
     for (const fs::path& output : outputs) {
-        if (const KnownFileIdentities::KnownFileIdentity* same = files.find_same_file(output)) {
+        if (const KnownFileIdentities::KnownFileIdentity* same = files.find_known_file_at_path(
+                output)) {
             check(same->is_input || same->path != output, Failure::usage, output.string(),
                   ": wanted one output in a place, found two");
             fail(Failure::usage, output.string(), ": cannot be written: it is the same file as ",

@@ -30,7 +30,7 @@ Exit codes: 0 ok; 1 over a threshold; 2 usage; 65 bad input; 66 input missing; 6
 70 internal; 73 cannot create output; 74 I/O error; 75 out of memory or over a device limit;
 76 device lost; 129, 130, 143 stopped by a signal (finished rows are kept, also after 75 and 76))";
 
-void print_failure(const std::string& name, const std::string& message) {
+void print_program_failure(const std::string& name, const std::string& message) {
     if (!message.empty()) print_message(name + ": " + message);
 }
 
@@ -74,13 +74,13 @@ int run_and_get_exit_code(const std::string& name, const std::function<int()>& w
     try {
         return work();
     } catch (const Error& error) {
-        print_failure(name, error.what());
+        print_program_failure(name, error.what());
         return static_cast<int>(error.failure);
     } catch (const std::bad_alloc&) {
-        print_failure(name, "out of memory");
+        print_program_failure(name, "out of memory");
         return static_cast<int>(Failure::exhausted);
     } catch (const std::exception& error) {
-        print_failure(name, std::string("internal error: ") + error.what());
+        print_program_failure(name, std::string("internal error: ") + error.what());
         return static_cast<int>(Failure::internal);
     }
 }

@@ -73,8 +73,8 @@ SiteJson find_member(const SiteJson& object, const std::string& name, const Repo
     return object.value(name, SiteJson());
 }
 
-std::string read_text_of(const SiteJson& object, const std::string& name,
-                         const ReportPlace& place) {
+std::string read_text_member_of_report(const SiteJson& object, const std::string& name,
+                                       const ReportPlace& place) {
     const SiteJson value = find_member(object, name, place);
     place.at(name).check(value.is_string(), "wanted text, found ",
                          report::describe_json_value(value));
@@ -82,8 +82,8 @@ std::string read_text_of(const SiteJson& object, const std::string& name,
 }
 
 /// Returns a number from `low` to `high`; NaN for null.
-double read_number_of(const SiteJson& object, const std::string& name, const ReportPlace& place,
-                      double low, double high) {
+double read_number_member_within(const SiteJson& object, const std::string& name,
+                                 const ReportPlace& place, double low, double high) {
     const SiteJson value = find_member(object, name, place);
     const bool fits = value.is_number() && value.get<double>() >= low &&
                       value.get<double>() <= high;
@@ -94,7 +94,7 @@ double read_number_of(const SiteJson& object, const std::string& name, const Rep
 
 SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
     SiteRow row;
-    row.label = read_text_of(json, "label", place);
+    row.label = read_text_member_of_report(json, "label", place);
     // The label of a row names the model only in reports that compare both models. On a page with
     // reports of both kinds, labels without a model must not be mixed up.
     constexpr std::string_view kModel = ", model=required";
@@ -102,16 +102,16 @@ SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
         row.label += kModel;
     const SiteJson times = find_member(json, "gpu_ms", place);
     if (!times.is_null()) { // null for a row whose pictures come from a file
-        row.ms = read_number_of(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
+        row.ms = read_number_member_within(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
         const SiteJson interval = find_member(times, "ci95", place.at("gpu_ms"));
         const bool has_interval = interval.is_array() && interval.size() == 2 &&
                                   interval[0].is_number() && interval[1].is_number();
         if (has_interval) row.ms_low = interval[0], row.ms_high = interval[1];
     }
     const SiteJson error = find_member(json, "error", place);
-    row.flip = read_number_of(error, "flip", place.at("error"), 0, 1);
+    row.flip = read_number_member_within(error, "flip", place.at("error"), 0, 1);
     // The rmse against a noisy reference is negative if its estimate is below the noise.
-    row.rmse = read_number_of(error, "rmse", place.at("error"), -1, 1);
+    row.rmse = read_number_member_within(error, "rmse", place.at("error"), -1, 1);
     row.is_reference = find_member(json, "is_reference", place) == true;
     return row;
 }
@@ -146,7 +146,8 @@ std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
         point("target"), point("up"),
         height == "0" ? number(camera, "vertical_fov_degrees") + " degrees" : height + " high",
         number(json, "exposure"), number(json, "ambient"),
-        read_text_of(find_member(json, "reference", place), "label", place.at("reference")));
+        read_text_member_of_report(find_member(json, "reference", place), "label",
+                                   place.at("reference")));
     if (const SiteJson timing = find_member(json, "timing", place); timing == "pipelined")
         text += ", pipelined";
     if (find_member(json, "together", place) == true) text += ", all rows in one frame";
@@ -171,13 +172,13 @@ SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& pla
     SiteComparison found;
     const SiteJson scene = find_member(json, "scene", place),
                    device = find_member(json, "device", place);
-    found.scene = read_text_of(scene, "name", place.at("scene"));
-    found.hash = read_text_of(scene, "hash", place.at("scene"));
-    found.device = read_text_of(device, "name", place.at("device"));
-    found.driver = read_text_of(device, "driver", place.at("device"));
-    found.commit = read_text_of(json, "commit", place);
-    found.version = read_text_of(json, "version", place);
-    found.date = read_text_of(json, "date", place);
+    found.scene = read_text_member_of_report(scene, "name", place.at("scene"));
+    found.hash = read_text_member_of_report(scene, "hash", place.at("scene"));
+    found.device = read_text_member_of_report(device, "name", place.at("device"));
+    found.driver = read_text_member_of_report(device, "driver", place.at("device"));
+    found.commit = read_text_member_of_report(json, "commit", place);
+    found.version = read_text_member_of_report(json, "version", place);
+    found.date = read_text_member_of_report(json, "date", place);
     place.at("date").check(is_report_date(found.date),
                            "wanted a date such as "
                            "2026-11-24T03:05:10Z, found ",
@@ -225,7 +226,7 @@ struct SitePage {
     std::map<std::string, std::vector<SiteComparison>> devices;
 };
 
-std::vector<SitePage> group_by_page(const std::vector<SiteComparison>& comparisons) {
+std::vector<SitePage> group_comparisons_by_page(const std::vector<SiteComparison>& comparisons) {
     std::map<std::string, SitePage> pages; // sorted by scene and setting
     for (const SiteComparison& one : comparisons) {
         const std::string key = one.scene + "\n" + one.hash + "\n" + one.setting;
@@ -422,7 +423,7 @@ document.getElementById('search').addEventListener('input', event => {
 });
 </script>)";
 
-std::string list_front(const SiteComparison& run) {
+std::string join_labels_of_front_rows(const SiteComparison& run) {
     std::vector<const SiteRow*> front;
     for (const SiteRow& row : run.rows)
         if (row.on_front) front.push_back(&row);
@@ -450,7 +451,7 @@ std::string make_index_page(const std::vector<SitePage>& pages, std::size_t repo
                 "class=\"text\">{}</td><td class=\"text\">{}</td><td "
                 "class=\"text\">{}</td><td>{}</td></tr>",
                 page.file, escape_html(page.scene), escape_html(page.setting), escape_html(device),
-                escape_html(list_front(runs.back())), runs.size());
+                escape_html(join_labels_of_front_rows(runs.back())), runs.size());
     return report::make_html_page("all scenes",
                                   html + "</tbody></table></div></main>" + kSearchScript);
 }
@@ -495,7 +496,7 @@ BuiltSite build_site(const fs::path& site) {
         for (SiteComparison& one :
              read_report(file, read_json_text(file, "a report", kMaxReportBytes)))
             comparisons.push_back(std::move(one));
-    const std::vector<SitePage> pages = group_by_page(comparisons);
+    const std::vector<SitePage> pages = group_comparisons_by_page(comparisons);
     remove_other_pages(site, pages);
     for (const SitePage& page : pages) write_file(site / page.file, make_scene_page(page));
     write_file(site / "index.html", make_index_page(pages, files.size()));

@@ -38,7 +38,7 @@ struct SweepOptions {
     bool across_identities = false;
 };
 
-void run_plan_action(const SweepOptions& options) {
+void run_sweep_plan_action(const SweepOptions& options) {
     throw_unless_option_given(!options.output.empty(), "sweep plan", "-o DIR",
                               "the folder for the plan and its results");
     const fs::path folder = options.output;
@@ -59,7 +59,7 @@ void run_plan_action(const SweepOptions& options) {
                                              {"timings", timings}}));
 }
 
-void run_run_action(const SweepOptions& options) {
+void run_sweep_run_action(const SweepOptions& options) {
     const fs::path folder = options.path;
     const SweepPlan plan = read_sweep_plan(folder);
     const SweepRunCounts counts = run_sweep_pieces(folder, plan, options.run);
@@ -75,7 +75,7 @@ void run_run_action(const SweepOptions& options) {
                                              {"elsewhere", counts.elsewhere}}));
 }
 
-report::Json make_state_json(const SweepState& state) {
+report::Json make_sweep_state_json(const SweepState& state) {
     report::Json json{{"schema", "catoptric/sweep-state/1"},
                       {"pieces", state.pieces},
                       {"finished", state.finished},
@@ -101,11 +101,11 @@ std::string list_first_pieces(const std::vector<std::string>& ids, const std::st
     return text;
 }
 
-int run_check_action(const SweepOptions& options) {
+int run_sweep_check_action(const SweepOptions& options) {
     const SweepState state = check_sweep(options.path, read_sweep_plan(options.path));
     const OutputOptions& manners = options.run.manners;
     if (manners.json) {
-        print_result(report::serialise_json(make_state_json(state)));
+        print_result(report::serialise_json(make_sweep_state_json(state)));
         return state.is_complete() ? 0 : 1;
     }
     std::string text = fmt::format("{} of {} pieces have a result, {} are in work\n",
@@ -121,7 +121,7 @@ int run_check_action(const SweepOptions& options) {
     return state.is_complete() ? 0 : 1;
 }
 
-void run_merge_action(const SweepOptions& options) {
+void run_sweep_merge_action(const SweepOptions& options) {
     throw_unless_option_given(!options.output.empty(), "sweep merge", "-o DIR",
                               "the folder for the merged results");
     const fs::path out = options.output;
@@ -157,10 +157,10 @@ int run_sweep(const SweepOptions& options) {
     check(options.run.pieces.empty() || options.run.kinds == SweepRunOptions::PieceKinds::all,
           Failure::usage, "--piece names pieces of one kind; wanted no --kind beside it");
     switch (action) {
-    case 0: run_plan_action(options); break;
-    case 1: run_run_action(options); break;
-    case 2: run_merge_action(options); break;
-    default: return run_check_action(options);
+    case 0: run_sweep_plan_action(options); break;
+    case 1: run_sweep_run_action(options); break;
+    case 2: run_sweep_merge_action(options); break;
+    default: return run_sweep_check_action(options);
     }
     return 0;
 }

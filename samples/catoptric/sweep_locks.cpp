@@ -69,7 +69,7 @@ void PieceLockFile::unlock(std::size_t index) const {
     ::fcntl(file_, F_OFD_SETLK, &lock);
 }
 
-bool PieceLockFile::is_locked_elsewhere(std::size_t index) const {
+bool PieceLockFile::is_piece_locked_by_other_process(std::size_t index) const {
     struct flock lock = make_byte_lock(F_WRLCK, index);
     return ::fcntl(file_, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }

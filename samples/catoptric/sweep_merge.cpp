@@ -37,9 +37,8 @@ struct SweepGroup {
     std::vector<SweepJson> pictures, timings; ///< results of these pieces
 };
 
-/// Adds the identity (program, driver and processor) to the list if it is new. Returns whether it
-/// was new.
-void add_identity(std::vector<SweepJson>& identities, const SweepJson& identity) {
+/// Adds the identity (program, driver and processor) to the list if it is new.
+void add_identity_if_new(std::vector<SweepJson>& identities, const SweepJson& identity) {
     if (std::ranges::find(identities, identity) == identities.end()) identities.push_back(identity);
 }
 
@@ -208,7 +207,8 @@ bool has_dependent_views(const SweepGroup& group) {
 
 /// Returns the mean of the values over the views of each instant. Views of one instant resemble
 /// each other, so they count as one sample.
-std::vector<double> average_by_instant(const SweepGroup& group, const std::vector<double>& values) {
+std::vector<double> average_values_per_instant(const SweepGroup& group,
+                                               const std::vector<double>& values) {
     std::map<double, std::vector<double>> instants;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!std::isnan(values[i]))
@@ -225,11 +225,13 @@ std::vector<double> average_by_instant(const SweepGroup& group, const std::vecto
 SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values) {
     SweepSummary summary = summarise(values);
     if (has_dependent_views(group))
-        summary.ci95 = measure::median_confidence_interval(average_by_instant(group, values));
+        summary.ci95 = measure::median_confidence_interval(
+            average_values_per_instant(group, values));
     return summary;
 }
 
-OrderedJson make_group_json(const SweepGroup& group, const std::vector<std::string>& metrics) {
+OrderedJson make_sweep_group_json(const SweepGroup& group,
+                                  const std::vector<std::string>& metrics) {
     OrderedJson json{{"scene", group.scene},
                      {"options", group.options},
                      {"views", group.pictures.size()},
@@ -362,7 +364,7 @@ struct SweepTime {
 };
 
 /// Returns a member of an identity as text; empty if the member is no text.
-std::string get_text(const SweepJson& identity, const char* member) {
+std::string identity_member_as_text(const SweepJson& identity, const char* member) {
     const SweepJson value = identity.value(member, SweepJson());
     return value.is_string() ? value.get<std::string>() : "";
 }
@@ -418,10 +420,10 @@ std::string make_times_csv(const std::vector<SweepGroup>& groups) {
         for (const SweepTime& time : list_times(group)) {
             const SweepSummary summary = time.summary();
             std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
-            fields.insert(fields.end(),
-                          {time.label, time.machine.get<std::string>(),
-                           get_text(time.identity, "device"), get_text(time.identity, "driver"),
-                           get_text(time.identity, "commit")});
+            fields.insert(fields.end(), {time.label, time.machine.get<std::string>(),
+                                         identity_member_as_text(time.identity, "device"),
+                                         identity_member_as_text(time.identity, "driver"),
+                                         identity_member_as_text(time.identity, "commit")});
             for (const double value : {summary.median, summary.ci95.low, summary.ci95.high})
                 fields.push_back(report::format_csv_number(value));
             fields.insert(fields.end(),
@@ -447,10 +449,10 @@ SweepState check_sweep(const fs::path& folder, const SweepPlan& plan) {
         try {
             if (const std::optional<SweepJson> result = read_sweep_result(folder, piece)) {
                 ++state.finished;
-                add_identity(state.identities, (*result)["identity"]);
+                add_identity_if_new(state.identities, (*result)["identity"]);
                 continue;
             }
-            const bool is_in_work = locks && locks->is_locked_elsewhere(i);
+            const bool is_in_work = locks && locks->is_piece_locked_by_other_process(i);
             (is_in_work ? state.in_work : state.missing).push_back(piece.id);
         } catch (const Error& error) {
             state.broken.emplace_back(piece.id, error.what());
@@ -474,7 +476,7 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
     std::map<SweepJson, std::vector<SweepJson>> devices; // identities by the options for the device
     for (const SweepGroup& group : groups)
         for (const SweepJson& result : group.pictures)
-            add_identity(devices[find_device_options(result["piece"])], result["identity"]);
+            add_identity_if_new(devices[find_device_options(result["piece"])], result["identity"]);
     for (auto& [device, identities] : devices) {
         std::ranges::sort(identities);
         merged.is_mixed = merged.is_mixed || identities.size() > 1;
@@ -486,7 +488,7 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
             for (std::size_t k = i + 1; k < identities.size(); ++k)
                 add_difference_of_identities(folder, plan, device, identities[i], identities[k],
                                              merged.difference);
-            add_identity(merged.identities, identities[i]);
+            add_identity_if_new(merged.identities, identities[i]);
         }
     }
 
@@ -498,7 +500,7 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
         document["identity_difference"] = {{"pixels", merged.difference.pixels},
                                            {"share", merged.difference.share()}};
     document["groups"] = report::make_list_json(
-        groups, [&](const SweepGroup& group) { return make_group_json(group, metrics); });
+        groups, [&](const SweepGroup& group) { return make_sweep_group_json(group, metrics); });
     merged.files = {{"errors.csv", make_errors_csv(groups, metrics)},
                     {"summary.csv", make_summary_csv(groups, metrics)}};
     const bool has_times = std::ranges::any_of(

@@ -103,22 +103,22 @@ void check_members(const SweepJson& object, std::initializer_list<std::string_vi
 }
 
 /// Returns the value of a knob or option as command-line text.
-std::string make_value_text(const SweepJson& value, const SweepPlace& place) {
+std::string option_value_as_text(const SweepJson& value, const SweepPlace& place) {
     place.check(value.is_string() || value.is_number(), "wanted text or a number, found ",
                 describe(value));
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 /// Returns a path from the sweep's file, relative to the folder of the plan.
-std::string make_path_from_plan(const std::string& path, const fs::path& file,
-                                const fs::path& folder) {
+std::string make_path_from_plan_folder(const std::string& path, const fs::path& file,
+                                       const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
     const fs::path whole = resolve_real_path(resolve_real_path(file).parent_path() / path);
     return whole.lexically_relative(resolve_real_path(folder)).string();
 }
 
 /// Returns a path of the plan, relative to the working folder.
-std::string make_path_from_here(const std::string& path, const fs::path& folder) {
+std::string make_path_from_working_folder(const std::string& path, const fs::path& folder) {
     if (fs::path(path).is_absolute()) return path;
     return (resolve_real_path(folder) / path)
         .lexically_normal()
@@ -175,11 +175,11 @@ SweepJson read_option(const std::string& name, const SweepJson& value, const fs:
     SweepJson list = value.is_array() ? value : SweepJson::array({value});
     place.check(!list.empty(), "wanted at least one value, found an empty list");
     for (SweepJson& entry : list) {
-        std::string text = make_value_text(entry, place);
+        std::string text = option_value_as_text(entry, place);
         place.check(name != "reference" || !text.ends_with(".exr"),
                     "wanted a technique, found a file");
         place.check(name != "model" || text != "both", "wanted everything or required, found both");
-        if (is_path_option(name, text)) text = make_path_from_plan(text, file, folder);
+        if (is_path_option(name, text)) text = make_path_from_plan_folder(text, file, folder);
         entry = text;
     }
     return list.size() == 1 ? list.front() : list;
@@ -194,8 +194,8 @@ std::vector<std::string> read_scenes(const SweepJson& document, const fs::path& 
          read_texts(read_list(document, "scenes", place), place.member("scenes"))) {
         place.member("scenes").check(!scene.starts_with('-'), "wanted a scene, found ",
                                      quote_text_with_escapes(scene));
-        scenes.push_back(is_built_in_scene(scene) ? scene
-                                                  : make_path_from_plan(scene, file, folder));
+        scenes.push_back(
+            is_built_in_scene(scene) ? scene : make_path_from_plan_folder(scene, file, folder));
     }
     return scenes;
 }
@@ -248,7 +248,7 @@ SweepRequest read_sweep_request(const SweepJson& document, const fs::path& file,
     for (const auto& [name, values] : knobs.items()) {
         KnobAxis axis{name, {}};
         for (const SweepJson& value : read_list(knobs, name.c_str(), place.member("knobs")))
-            axis.values.push_back(make_value_text(value, place.member("knobs." + name)));
+            axis.values.push_back(option_value_as_text(value, place.member("knobs." + name)));
         sweep.knobs.push_back(std::move(axis));
     }
     for (const auto& [name, value] : options.items())
@@ -408,7 +408,7 @@ std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                                                      const fs::path& folder) {
     const auto scene = content.at("scene").get<std::string>();
     std::vector<std::string> words{
-        is_built_in_scene(scene) ? scene : make_path_from_here(scene, folder), "--quiet"};
+        is_built_in_scene(scene) ? scene : make_path_from_working_folder(scene, folder), "--quiet"};
     for (const auto& [name, value] : content.at("options").items()) {
         const SweepJson list = value.is_array() ? value : SweepJson::array({value});
         for (const SweepJson& entry : list) {
@@ -417,7 +417,7 @@ std::vector<std::string> make_compare_words_of_piece(const SweepJson& content,
                 continue;
             }
             auto text = entry.get<std::string>();
-            if (is_path_option(name, text)) text = make_path_from_here(text, folder);
+            if (is_path_option(name, text)) text = make_path_from_working_folder(text, folder);
             words.push_back(fmt::format("--{}={}", name, text));
         }
     }

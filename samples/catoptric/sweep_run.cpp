@@ -93,10 +93,10 @@ public:
             const SweepPiece& piece = plan_.pieces[places[i]];
             throw_if_stopped(watcher_);
             try {
-                run_one(piece, places[i], places.size() - i, counts);
+                run_sweep_piece(piece, places[i], places.size() - i, counts);
             } catch (const Error& error) {
                 const std::string what = describe_piece(piece) + ": " + error.what();
-                if (ends_all_pieces(error.failure) || places.size() == 1)
+                if (must_failure_end_all_pieces(error.failure) || places.size() == 1)
                     throw_error(error.failure, what);
                 progress_.clear();
                 print_message(what);
@@ -116,7 +116,7 @@ public:
 private:
     /// Returns whether a failure, such as a missing device, would also make all further pieces
     /// fail.
-    static bool ends_all_pieces(Failure failure) {
+    static bool must_failure_end_all_pieces(Failure failure) {
         return is_failure_by_stop_signal(failure) || failure == Failure::device_lost ||
                failure == Failure::no_device || failure == Failure::cannot_create ||
                failure == Failure::io || failure == Failure::internal;
@@ -126,7 +126,7 @@ private:
     /// the order of the plan.
     std::vector<std::size_t> list_pieces_to_run() const {
         using PieceKinds = SweepRunOptions::PieceKinds;
-        const std::vector<std::string> ids = find_whole_ids();
+        const std::vector<std::string> ids = find_full_piece_ids();
         std::vector<std::size_t> places;
         for (const bool timing : {false, true}) {
             if (options_.kinds == (timing ? PieceKinds::pictures : PieceKinds::timings)) continue;
@@ -140,7 +140,7 @@ private:
 
     /// Returns the full ids of the pieces that the user named. A name may be the beginning of an
     /// id, as messages show it.
-    std::vector<std::string> find_whole_ids() const {
+    std::vector<std::string> find_full_piece_ids() const {
         std::vector<std::string> ids;
         for (const std::string& name : options_.pieces) {
             std::size_t found = 0;
@@ -157,8 +157,8 @@ private:
     }
 
     /// `left`: number of pieces from this piece on. Some of them may already be finished.
-    void run_one(const SweepPiece& piece, std::size_t place, std::size_t left,
-                 SweepRunCounts& counts) {
+    void run_sweep_piece(const SweepPiece& piece, std::size_t place, std::size_t left,
+                         SweepRunCounts& counts) {
         if (read_sweep_result(folder_, piece)) {
             ++counts.finished_before;
             return;
@@ -254,7 +254,7 @@ private:
 
     /// Returns a row for each technique, with its errors in the piece's view. For a common piece,
     /// also writes the pictures.
-    report::Comparison judge_rows(const SweepPiece& piece) {
+    report::Comparison compute_row_errors_in_view(const SweepPiece& piece) {
         SweepScene& scene = open_scene(piece);
         report::Comparison comparison;
         comparison.views = {make_view(piece.content["view"], scene.request.base)};
@@ -280,9 +280,9 @@ private:
             if (has_common_pictures(piece) || find_device_options(piece.content) != device)
                 continue;
             try {
-                judge_rows(piece);
+                compute_row_errors_in_view(piece);
             } catch (const Error& error) {
-                if (ends_all_pieces(error.failure)) throw;
+                if (must_failure_end_all_pieces(error.failure)) throw;
                 print_detail_if_verbose(options_.manners,
                                         describe_piece(piece) +
                                             ": no common pictures: " + error.what());
@@ -294,7 +294,7 @@ private:
         const MachineLock lock(MachineLock::Use::shared, *watcher_.stop);
         open_scene(piece);
         if (!is_common(piece)) draw_common_pictures();
-        const report::Comparison comparison = judge_rows(piece);
+        const report::Comparison comparison = compute_row_errors_in_view(piece);
         report::Json rows = report::Json::array();
         for (const report::Row& row : comparison.rows) {
             report::Json json{{"label", row.label}};

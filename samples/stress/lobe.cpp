@@ -81,7 +81,7 @@ struct GrazingLobeErrors {
     double values_wrong = 0; // values that are negative or not finite
     double lobe = 0, weight = 0;
 
-    void keep_larger_error(double& largest, float found, double wanted) {
+    void count_wrong_value_and_keep_larger_error(double& largest, float found, double wanted) {
         values_wrong += !(found >= 0 && std::isfinite(found));
         largest = std::max(largest, relative_difference_of_values(double{found}, wanted));
     }
@@ -100,13 +100,13 @@ void judge_grazing_lobe(StressTestBench& bench, double roughness, double degrees
         const f32::vec3 opposite = normalize(
             f32::vec3(-to_eye.x, -to_eye.y, float(bench.draw_random_number(1e-4, 4e-3))));
         for (const f32::vec3& to_light : {anywhere, opposite})
-            errors.keep_larger_error(
+            errors.count_wrong_value_and_keep_larger_error(
                 errors.lobe, f32::evaluate_lobe(alpha, f0, f90, to_eye, to_light).x,
                 f64::evaluate_lobe(alpha, dvec3(f0), dvec3(f90), dvec3(to_eye), dvec3(to_light)).x);
         const f32::vec3 drawn = f32::sample_lobe(alpha, to_eye,
                                                  float(bench.draw_random_number(0, 1)),
                                                  float(bench.draw_random_number(0, 1)));
-        errors.keep_larger_error(
+        errors.count_wrong_value_and_keep_larger_error(
             errors.weight, f32::lobe_sample_weight(alpha, f0, f90, to_eye, drawn).x,
             f64::lobe_sample_weight(alpha, dvec3(f0), dvec3(f90), dvec3(to_eye), dvec3(drawn)).x);
     }

@@ -16,7 +16,8 @@ namespace {
 
 /// Returns the room with a ball of roughness .3 and two balls of `material`. The rough ball makes
 /// the scene one with lobes, whatever the roughness of the others.
-scene::Scene make_half_rough_room(const scene::Scene& room, const scene::Material& material) {
+scene::Scene make_room_of_smooth_and_rough_objects(const scene::Scene& room,
+                                                   const scene::Material& material) {
     scene::Scene scene = room;
     scene.mirror_max_roughness = 1;
     const std::size_t smooth = add_material(scene, material);
@@ -59,8 +60,8 @@ void judge_sharp_limit(StressTestBench& bench) {
         const auto render = [&, &technique = technique,
                              &frames = frames](scene::Material material) {
             material.name = "smooth";
-            app::Request request = bench.make_stress_request(make_half_rough_room(room, material),
-                                                             technique, frames);
+            app::Request request = bench.make_stress_request(
+                make_room_of_smooth_and_rough_objects(room, material), technique, frames);
             request.size = {96, 96};
             return bench.render_technique(request);
         };

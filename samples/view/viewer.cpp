@@ -87,7 +87,7 @@ bool SceneViewer::update_roughness(const MirrorRoughness& roughness) {
 }
 
 /// Updates the frame specification from the state, and counts frames at rest.
-void SceneViewer::update_from_state(const ViewState& state, uvec2 size) {
+void SceneViewer::update_frame_spec_from_view_state(const ViewState& state, uvec2 size) {
     app::FrameSpec next = spec_;
     next.techniques = choose_shown_pictures(state).techniques;
     next.camera = state.camera;
@@ -165,7 +165,7 @@ std::shared_ptr<const measure::Picture> SceneViewer::make_host_picture(const Vie
 
 void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOverlay overlay,
                                bool is_seen) {
-    update_from_state(state, size);
+    update_frame_spec_from_view_state(state, size);
     measure_errors_when_camera_rests(state);
     const ShownTechniquesAndPictures what = choose_shown_pictures(state);
     showing_ = {what.kind,

@@ -52,7 +52,7 @@ public:
     void collect_finished_frames(std::size_t most);
 
 private:
-    void update_from_state(const ViewState& state, uvec2 size);
+    void update_frame_spec_from_view_state(const ViewState& state, uvec2 size);
     bool update_roughness(const MirrorRoughness& roughness);
     void measure_errors_when_camera_rests(const ViewState& state);
     std::shared_ptr<const measure::Picture> make_host_picture(const ViewState& state);
