@@ -25,7 +25,7 @@ protected:
         // The program runs without limits, so that its time and memory are those that a user would
         // see.
         const test::ProcessResult ended = test::run_process(make_process_start(
-            with_small_quick_frame({"render", file, "--technique", "raytrace", "-o", "x.png"})));
+            add_small_frame_options({"render", file, "--technique", "raytrace", "-o", "x.png"})));
         EXPECT_EQ(ended.exit_code, exit_code) << ended.err;
         for (const std::string& part : parts) EXPECT_THAT(ended.err, testing::HasSubstr(part));
         EXPECT_LE(ended.peak_bytes, 1ull << 30);

@@ -74,7 +74,7 @@ TEST(CameraPathSpline, SpeedDoesNotJumpAtAKey) {
 class CameraPathCliTest : public CommandLineTest {
 protected:
     /// Renders with ray tracing at 32x24 and returns the bytes of a picture.
-    std::string render_still(const std::string& camera) {
+    std::string render_picture_at_camera(const std::string& camera) {
         const test::ProcessResult ended = run_cli({"render", "--technique", "raytrace:depth=1",
                                                    "--size", "32x24", "--exposure", "0", "--camera",
                                                    camera, "-o", "still.png"});
@@ -105,9 +105,10 @@ TEST_F(CameraPathCliTest, PicturesAreThoseOfTheCamerasAlongThePath) {
     EXPECT_EQ(said["camera"], "path.json");
     EXPECT_FALSE(std::filesystem::exists(folder / "p6.png"));
     const std::string first = read_output_file("p1.png");
-    EXPECT_EQ(first, render_still("0,1,3:0,1,0:40")) << "warm-up frames stand at the first key";
-    EXPECT_EQ(read_output_file("p3.png"), render_still("0.25,1.25,3:0,1,0:44"));
-    EXPECT_EQ(read_output_file("p5.png"), render_still("0.5,1.5,3:0,1,0:48"));
+    EXPECT_EQ(first, render_picture_at_camera("0,1,3:0,1,0:40"))
+        << "warm-up frames stand at the first key";
+    EXPECT_EQ(read_output_file("p3.png"), render_picture_at_camera("0.25,1.25,3:0,1,0:44"));
+    EXPECT_EQ(read_output_file("p5.png"), render_picture_at_camera("0.5,1.5,3:0,1,0:48"));
     EXPECT_NE(first, read_output_file("p3.png"));
 }
 
@@ -118,7 +119,7 @@ TEST_F(CameraPathCliTest, FramesAfterThePathStandAtItsEnd) {
         {"render", "--technique", "raytrace:depth=1", "--size", "32x24", "--exposure", "0",
          "--warmup", "0", "--frames", "4", "--camera-path", "path.json", "-o", "p{n}.png"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_EQ(read_output_file("p3.png"), render_still("0.5,1.5,3:0,1,0:40"));
+    EXPECT_EQ(read_output_file("p3.png"), render_picture_at_camera("0.5,1.5,3:0,1,0:40"));
     EXPECT_EQ(read_output_file("p4.png"), read_output_file("p3.png"));
     EXPECT_NE(read_output_file("p2.png"), read_output_file("p3.png"));
 }
@@ -130,7 +131,7 @@ TEST_F(CameraPathCliTest, LastFrameOfAPathShowsItsLastKey) {
                                                "--size", "32x24", "--exposure", "0",
                                                "--camera-path", "path.json", "-o", "last.png"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
-    EXPECT_EQ(read_output_file("last.png"), render_still("0.5,1.5,3:0,1,0:40"));
+    EXPECT_EQ(read_output_file("last.png"), render_picture_at_camera("0.5,1.5,3:0,1,0:40"));
 }
 
 TEST_F(CameraPathCliTest, FileOfThePathIsNotOverwritten) {

@@ -68,7 +68,7 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
     EXPECT_THAT(read_output_file("out/report.html"),
                 HasSubstr("plan:plan.json was chosen: at least 50 % of views have flip &lt;= 0.5"));
     ASSERT_EQ(
-        run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "plan:plan.json"}))
+        run_cli(add_small_frame_options({"compare", "-o", "out", "--techniques", "plan:plan.json"}))
             .exit_code,
         0);
     EXPECT_THAT(read_output_file("out/report.html"),

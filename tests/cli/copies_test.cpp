@@ -47,7 +47,7 @@ TEST_F(CommandLineTest, CopiesOfAMeshShareItsMemory) {
     for (const int k : {0, 1}) {
         write_input_file("balls.gltf", make_gltf_of_balls(bytes.size(), k ? 2000 : 20).dump());
         const test::ProcessResult ended = test::run_process(
-            make_process_start(with_small_quick_frame(
+            make_process_start(add_small_frame_options(
                 {"render", "balls.gltf", "--technique", "raytrace", "-o", "x.png"})));
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
         peaks[k] = ended.peak_bytes;
@@ -91,12 +91,12 @@ TEST_F(CommandLineTest, HundredThousandObjectsTakeAtMostHalfAGibibyte) {
         write_input_file("many.gltf", make_gltf_of_many_nodes(apart).dump());
         for (const std::string file : {"many.obj", "many.gltf"}) {
             std::vector<std::vector<std::string>> commands{
-                with_small_quick_frame({"render", file, "--technique", "hybrid", "-o", "x.png"})};
+                add_small_frame_options({"render", file, "--technique", "hybrid", "-o", "x.png"})};
             // `hybrid` needs the most memory of all commands, so the others are tested only with
             // objects side by side.
             if (!apart) {
                 commands.push_back({"info", file});
-                commands.push_back(with_small_quick_frame(
+                commands.push_back(add_small_frame_options(
                     {"render", file, "--technique", "raytrace", "-o", "x.png"}));
             }
             for (const std::vector<std::string>& words : commands) {
@@ -115,7 +115,7 @@ TEST_F(CommandLineTest, MirrorsAmongCoincidentObjectsAreFoundQuickly) {
         write_input_file("many.obj", make_obj_of_many_objects(apart));
         for (const std::string mirror : {"part1", "part99999"}) {
             const test::ProcessResult ended = test::run_process(make_process_start(
-                with_small_quick_frame({"graph", "many.obj", "--why", "--mirror", mirror})));
+                add_small_frame_options({"graph", "many.obj", "--why", "--mirror", mirror})));
             ASSERT_EQ(ended.exit_code, 0) << ended.err;
             EXPECT_THAT(ended.out, testing::HasSubstr("mirror 1 '" + mirror + "'"));
             EXPECT_LE(ended.peak_bytes, 512U << 20) << mirror << ", apart: " << apart;

@@ -21,7 +21,7 @@ protected:
         for (const char* word :
              {"-o", "out", "--json", "--techniques", "naive:bounces=0,face=16", "raytrace:depth=1"})
             words.emplace_back(word);
-        const test::ProcessResult ended = run_cli(with_small_quick_frame(words));
+        const test::ProcessResult ended = run_cli(add_small_frame_options(words));
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return json::parse(ended.out);
     }
@@ -88,7 +88,7 @@ TEST_F(Costs, BudgetIsAnsweredForEachDevice) {
     Words words{"compare", "-o", "out", "--costs", "card.json", "--max-ms", "1.15"};
     for (const char* word : {"--techniques", "reuse:face=16", "raytrace:depth=1", "raytrace"})
         words.emplace_back(word);
-    run_cli(with_small_quick_frame(words)); // the exit code depends on measured times
+    run_cli(add_small_frame_options(words)); // the exit code depends on measured times
     // By the cost file, a frame takes 1 ms and its rays take .05 to .2 ms. The longest predicted
     // time exceeds the budget, so the answer is not certain.
     EXPECT_THAT(

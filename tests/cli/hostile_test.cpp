@@ -44,13 +44,13 @@ TEST_F(HostileFileNamesCliTest, VerbsPrintNoTerminalControlCharacters) {
     run_and_expect_printable({"graph", file, "--technique", "auto", "--why"});
     run_and_expect_printable({"graph", file, "--technique", "reuse"});
     run_and_expect_printable({"graph", file, "--technique", "reuse", "--format", "dot"});
-    run_and_expect_printable(with_small_quick_frame(
+    run_and_expect_printable(add_small_frame_options(
         {"render", file, "--technique", "reuse", "-o", "x.png", "--progress", "always"}));
     run_and_expect_printable(
-        with_small_quick_frame({"compare", file, "-o", "one", "--techniques", "reuse"}));
-    run_and_expect_printable(with_small_quick_frame(
+        add_small_frame_options({"compare", file, "-o", "one", "--techniques", "reuse"}));
+    run_and_expect_printable(add_small_frame_options(
         {"compare", file, "cornell-mirrors", "-o", "two", "--techniques", "reuse"}));
-    run_and_expect_printable(with_small_quick_frame({"bench", file}));
+    run_and_expect_printable(add_small_frame_options({"bench", file}));
     run_and_expect_printable({"diff", file, file}, 65);
     run_and_expect_printable({"diff", scene, scene}, 66);
     run_and_expect_printable({"info", scene + ".glb"}, 66);
@@ -67,7 +67,7 @@ TEST_F(HostileFileNamesCliTest, JsonWithHostileNamesIsValid) {
          {Words{"info", file, "--json"},
           Words{"graph", file, "--technique", "auto", "--why", "--format", "json"},
           Words{"graph", file, "--technique", "reuse", "--format", "json"},
-          with_small_quick_frame(
+          add_small_frame_options(
               {"render", file, "--technique", "reuse", "-o", "x.png", "--json"})}) {
         const test::ProcessResult ended = run_and_expect_printable(words);
         EXPECT_TRUE(nlohmann::json::accept(ended.out)) << words[0] << ended.out;
@@ -76,7 +76,7 @@ TEST_F(HostileFileNamesCliTest, JsonWithHostileNamesIsValid) {
 
 TEST_F(HostileFileNamesCliTest, ReportsEscapeHostileNames) {
     run_and_expect_printable(
-        with_small_quick_frame({"compare", scene + ".obj", "-o", "out", "--techniques", "reuse"}));
+        add_small_frame_options({"compare", scene + ".obj", "-o", "out", "--techniques", "reuse"}));
     for (const char* name : {"report.json", "report.md", "report.html"})
         expect_printable_text(read_output_file(std::string("out/") + name), name);
     // A quoted CSV cell may hold a line break (RFC 4180). All other control characters of the name

@@ -34,14 +34,14 @@ TEST_F(CommandLineTest, CompareOfASceneWithoutAMirrorSaysHowToMakeOne) {
               "  --mirror 'a b'\n");
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
     // The option that the message suggests makes the command succeed.
-    EXPECT_EQ(run_cli(with_small_quick_frame({"compare", "plain.obj", "-o", "out", "--mirror",
-                                              "a b", "--techniques", "reuse"}))
+    EXPECT_EQ(run_cli(add_small_frame_options({"compare", "plain.obj", "-o", "out", "--mirror",
+                                               "a b", "--techniques", "reuse"}))
                   .exit_code,
               0);
     const std::string warning =
         "catoptric: warning: scene 'plain' has no mirror; try --mirror 'a b'\n";
     for (const Words& words :
-         {with_small_quick_frame({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"}),
+         {add_small_frame_options({"render", "plain.obj", "--technique", "reuse", "-o", "x.png"}),
           {"graph", "plain.obj", "--technique", "reuse"},
           {"info", "plain.obj"}}) {
         const test::ProcessResult goes_on = run_cli(words);
@@ -76,11 +76,11 @@ TEST_F(CommandLineTest, DiffRefusesFilesThatAreNoPictures) {
 
 TEST_F(CommandLineTest, SceneWithoutACameraGetsOneWithAMessage) {
     write_input_file("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const test::ProcessResult ended = run_cli(with_small_quick_frame(
+    const test::ProcessResult ended = run_cli(add_small_frame_options(
         {"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, testing::HasSubstr("no camera: using --camera "));
-    const test::ProcessResult quiet = run_cli(with_small_quick_frame(
+    const test::ProcessResult quiet = run_cli(add_small_frame_options(
         {"render", "triangle.obj", "--technique", "raytrace", "-o", "x.png", "--quiet"}));
     EXPECT_THAT(quiet.err, testing::Not(testing::HasSubstr("no camera")));
 }

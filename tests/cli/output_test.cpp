@@ -27,7 +27,7 @@ TEST_F(CommandLineTest, OutputFileInAMissingFolderIsRefused) {
 TEST_F(CommandLineTest, OutputFolderIsMadeWithItsParents) {
     for (const std::string name : {"./a/../b/out/", "b/out/again"}) {
         const test::ProcessResult ended = run_cli(
-            with_small_quick_frame({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
+            add_small_frame_options({"compare", "--techniques", "raytrace:depth=1", "-o", name}));
         EXPECT_EQ(ended.exit_code, 0) << name << ": " << ended.err;
         EXPECT_TRUE(fs::exists(folder / name / "images/raytrace-depth1.png")) << name;
         EXPECT_TRUE(fs::exists(folder / name / "report.json")) << name;
@@ -71,7 +71,7 @@ TEST_F(CommandLineTest, WritingToAFullDeviceExitsWith74) {
     if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
     fs::create_symlink("/dev/full", folder / "full.png");
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
+        add_small_frame_options({"render", "--technique", "reuse", "-o", "full.png", "--quiet"}));
     expect_exit_code(ended, 74, {"full.png"});
 
     test::ProcessStartOptions process = make_process_start({"list", "techniques"});
@@ -108,10 +108,10 @@ TEST_F(CommandLineTest, ClosedPipeOnStdoutExitsWith74) {
 
 TEST_F(CommandLineTest, RenderWritesAPngToStdout) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"render", "--technique", "reuse", "-o", "-"}));
+        add_small_frame_options({"render", "--technique", "reuse", "-o", "-"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::StartsWith("\x89PNG\r\n"));
-    EXPECT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "reuse", "-o", "x.png"}))
+    EXPECT_EQ(run_cli(add_small_frame_options({"render", "--technique", "reuse", "-o", "x.png"}))
                   .exit_code,
               0);
     EXPECT_EQ(read_output_file("x.png"), ended.out);

@@ -128,7 +128,7 @@ TEST_F(PictureMemoryBudgetCliTest, TooLargeEnvironmentIsRefusedBeforeDecoding) {
 
 TEST_F(PictureMemoryBudgetCliTest, MaskOfAnotherSizeIsRefusedBeforeDecoding) {
     write_input_file("mask.png", make_png_bytes(8192, 8192, 196'000));
-    const test::ProcessResult made = run_cli(with_small_quick_frame(
+    const test::ProcessResult made = run_cli(add_small_frame_options(
         {"render", "cornell-mirrors", "--technique", "reuse", "-o", "a.png"}));
     ASSERT_EQ(made.exit_code, 0) << made.err;
     expect_small_memory_use({"diff", "a.png", "a.png", "--mask", "mask.png"},

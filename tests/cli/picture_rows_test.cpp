@@ -15,7 +15,7 @@ protected:
     void SetUp() override {
         CommandLineTest::SetUp();
         for (const char* file : {"own.exr", "own.png"})
-            ASSERT_EQ(run_cli(with_small_quick_frame(
+            ASSERT_EQ(run_cli(add_small_frame_options(
                                   {"render", "--technique", "parallax:face=16", "-o", file}))
                           .exit_code,
                       0);
@@ -25,7 +25,7 @@ protected:
     test::ProcessResult compare_picture_rows(const Words& rows) const {
         Words words{"compare", "-o", "out", "--techniques", "parallax:face=16", "reuse:face=16"};
         for (const std::string& row : rows) words.insert(words.end(), {"--row", row});
-        return run_cli(with_small_quick_frame(words));
+        return run_cli(add_small_frame_options(words));
     }
 
     json read_report_row(std::size_t index) const {
@@ -63,13 +63,13 @@ TEST_F(PictureRowsCliTest, OwnPictureHandedBackHasTheSameFigures) {
 /// A PNG file holds displayed colours, so its values are divided by 2^exposure when the file is
 /// read.
 TEST_F(PictureRowsCliTest, PngHoldsWhatIsDisplayedAtTheExposure) {
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "parallax:face=16",
-                                              "--exposure", "1", "-o", "bright.png"}))
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "parallax:face=16",
+                                               "--exposure", "1", "-o", "bright.png"}))
                   .exit_code,
               0);
     Words words{"compare",    "-o", "out",   "--techniques",   "parallax:face=16",
                 "--exposure", "1",  "--row", "mine=bright.png"};
-    ASSERT_EQ(run_cli(with_small_quick_frame(words)).exit_code, 0);
+    ASSERT_EQ(run_cli(add_small_frame_options(words)).exit_code, 0);
     EXPECT_NEAR(read_report_row(1)["error"]["rmse"],
                 read_report_row(0)["error"]["rmse"].get<double>(), .005);
 }
@@ -127,7 +127,7 @@ TEST_F(PictureRowsCliTest, TimesOfOtherRenderersRankTheirRowsOnTheirDevice) {
         Words words{"compare",          "-o",    "out",         "--techniques",
                     "parallax:face=16", "--row", "mine=own.exr"};
         words.insert(words.end(), options.begin(), options.end());
-        return run_cli(with_small_quick_frame(words));
+        return run_cli(add_small_frame_options(words));
     };
     const test::ProcessResult ended = compare_with_times(
         {"--row-times", "here.json", "--row-times", "card.json", "--costs", "costs.json"});

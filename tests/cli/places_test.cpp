@@ -20,11 +20,11 @@ protected:
         Words words{"render", scene, "--technique", "raytrace:depth=1"};
         words.insert(words.end(), outputs.begin(), outputs.end());
         words.push_back("--quiet");
-        return with_small_quick_frame(words);
+        return add_small_frame_options(words);
     }
     static Words make_compare_words(const std::string& scene) {
-        return with_small_quick_frame({"compare", scene, "--quiet", "-o", "out", "--techniques",
-                                       "raytrace:depth=1", "reuse"});
+        return add_small_frame_options({"compare", scene, "--quiet", "-o", "out", "--techniques",
+                                        "raytrace:depth=1", "reuse"});
     }
     void expect_inputs_unchanged() const {
         EXPECT_EQ(read_output_file("room.obj"), kMirror);

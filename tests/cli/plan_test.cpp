@@ -72,7 +72,7 @@ TEST_F(CommandLineTest, AutoReportsAPlanThatDrawsTheSamePicture) {
 /// If a technique cannot draw a mirror, its row of the table and stderr say so.
 TEST_F(CommandLineTest, CompareRowNamesMirrorsThatItsTechniqueCannotDraw) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"compare", "-o", "out", "--techniques", "planar"}));
+        add_small_frame_options({"compare", "-o", "out", "--techniques", "planar"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const std::string said = "not flat, drawn by reuse";
     EXPECT_NE(ended.err.find("planar: mirrors 1 'ball1', 2 'ball2', 3 'ball3' and 1 more: " + said),

@@ -28,7 +28,7 @@ protected:
     }
 
     /// Appends options for one small and quick frame to the command line of a verb that renders.
-    static Words with_small_quick_frame(Words words) {
+    static Words add_small_frame_options(Words words) {
         words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "1"});
         return words;
     }

@@ -68,11 +68,11 @@ TEST_F(CommandLineTest, RenderReportsThePicturesMeanAndThePassesTimes) {
 
 TEST_F(CommandLineTest, DiffFiguresMatchThePicturesUnderTheMask) {
     for (const std::string technique : {"reuse:face=32", "raytrace"})
-        ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", technique, "-o",
-                                                  technique.substr(0, 5) + ".exr"}))
+        ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", technique, "-o",
+                                                   technique.substr(0, 5) + ".exr"}))
                       .exit_code,
                   0);
-    ASSERT_EQ(run_cli(with_small_quick_frame(
+    ASSERT_EQ(run_cli(add_small_frame_options(
                           {"render", "--technique", "naive:bounces=0", "-o", "mask.png"}))
                   .exit_code,
               0); // mirrors and background are black, so they are masked out
@@ -115,12 +115,12 @@ TEST_F(CommandLineTest, DiffFiguresMatchThePicturesUnderTheMask) {
 /// A mask without pixels leaves nothing to compare. `diff` must then fail every threshold.
 TEST_F(CommandLineTest, DiffWithAnEmptyMaskFailsEveryThreshold) {
     write_input_file("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "scene.obj", "--technique", "raytrace",
-                                              "--camera", "0,0,9:0,0,20:40", "--environment",
-                                              "none", "-o", "black.png"}))
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "scene.obj", "--technique", "raytrace",
+                                               "--camera", "0,0,9:0,0,20:40", "--environment",
+                                               "none", "-o", "black.png"}))
                   .exit_code,
               0);
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.exr"}))
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "raytrace", "-o", "a.exr"}))
                   .exit_code,
               0);
     for (const std::string option : {"--max-flip", "--max-rmse"}) {

@@ -45,7 +45,7 @@ TEST_F(CommandLineTest, ListMetricsShowsEveryMetric) {
     EXPECT_EQ(flip["mask"], "each");
     EXPECT_EQ(flip["better"], "less");
 
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.exr"}))
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "raytrace", "-o", "a.exr"}))
                   .exit_code,
               0);
     const json document = json::parse(run_cli({"diff", "a.exr", "a.exr", "--json"}).out);
@@ -58,7 +58,7 @@ TEST_F(CommandLineTest, ListMetricsShowsEveryMetric) {
 
 TEST_F(CommandLineTest, ReportStatesTheNumberOfLanes) {
     ASSERT_EQ(
-        run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "reuse:face=8"}))
+        run_cli(add_small_frame_options({"compare", "-o", "out", "--techniques", "reuse:face=8"}))
             .exit_code,
         0);
     const json report = json::parse(read_file_at_path(folder / "out/report.json"))["device"],
@@ -81,11 +81,11 @@ TEST_F(CommandLineTest, InfoJsonIsValid) {
 TEST_F(CommandLineTest, SameRenderCommandWritesTheSameBytes) {
     for (const std::string ending : {".png", ".exr"})
         for (const std::string technique : {"raytrace:samples=3", "parallax:face=32"}) {
-            ASSERT_EQ(run_cli(with_small_quick_frame(
+            ASSERT_EQ(run_cli(add_small_frame_options(
                                   {"render", "--technique", technique, "-o", "a" + ending}))
                           .exit_code,
                       0);
-            ASSERT_EQ(run_cli(with_small_quick_frame(
+            ASSERT_EQ(run_cli(add_small_frame_options(
                                   {"render", "--technique", technique, "-o", "b" + ending}))
                           .exit_code,
                       0);
@@ -101,7 +101,7 @@ TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
     const auto compare = [&](const Words& more) {
         Words words{"compare", "-o", "out", "--techniques", "reuse:face=8", "raytrace:depth=2"};
         words.insert(words.end(), more.begin(), more.end());
-        return run_cli(with_small_quick_frame(words));
+        return run_cli(add_small_frame_options(words));
     };
     const test::ProcessResult plenty = compare({"--max-ms", "100000"});
     EXPECT_EQ(plenty.exit_code, 0) << plenty.err;
@@ -130,19 +130,19 @@ TEST_F(CommandLineTest, CompareSaysWhichRowKeepsABudget) {
 
 TEST_F(CommandLineTest, CameraOptionPlacesTheCamera) {
     // The text `same` below describes the camera that the scene uses by default.
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.png"}))
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "raytrace", "-o", "a.png"}))
                   .exit_code,
               0);
     const std::string same = "278,273,-800:278,273,0:37.5", other = "278,273,-700:278,273,0:37.5";
-    ASSERT_EQ(run_cli(with_small_quick_frame(
+    ASSERT_EQ(run_cli(add_small_frame_options(
                           {"render", "--technique", "raytrace", "-o", "b.png", "--camera", same}))
                   .exit_code,
               0);
-    ASSERT_EQ(run_cli(with_small_quick_frame(
+    ASSERT_EQ(run_cli(add_small_frame_options(
                           {"render", "--technique", "raytrace", "-o", "c.png", "--camera", other}))
                   .exit_code,
               0);
-    ASSERT_EQ(run_cli(with_small_quick_frame(
+    ASSERT_EQ(run_cli(add_small_frame_options(
                           {"render", "--technique", "raytrace", "-o", "d.png", "--camera", "0"}))
                   .exit_code,
               0);
@@ -155,7 +155,7 @@ TEST_F(CommandLineTest, SeededCameraCanBeRepeatedFromItsPrintedText) {
     const auto render = [&](const std::string& picture, const Words& more) {
         Words words{"render", "--technique", "parallax:face=32", "-o", picture};
         words.insert(words.end(), more.begin(), more.end());
-        const test::ProcessResult ended = run_cli(with_small_quick_frame(words));
+        const test::ProcessResult ended = run_cli(add_small_frame_options(words));
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
         return ended.err;
     };
@@ -217,8 +217,8 @@ TEST_F(CommandLineTest, OriginInThePicturesHeaderIsEnoughToMakeThePictureAgain) 
 
 TEST_F(CommandLineTest, RenderWritesJsonAndATraceOfItsPasses) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"render", "--technique", "naive:bounces=1", "--model", "everything",
-                                "-o", "x.exr", "--trace", "t.json", "--json"}));
+        add_small_frame_options({"render", "--technique", "naive:bounces=1", "--model",
+                                 "everything", "-o", "x.exr", "--trace", "t.json", "--json"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
     EXPECT_EQ(document["label"], "naive:bounces=1");
@@ -284,10 +284,10 @@ TEST_F(CommandLineTest, RenderOfAStillSceneStopsWhenFramesStopChanging) {
 
 TEST_F(CommandLineTest, PixelsThatAreNotFiniteAreReported) {
     const Words too_bright{"--ambient", "1e300", "--quiet"};
-    Words render = with_small_quick_frame({"render", "--technique", "raytrace", "-o", "x.exr"});
+    Words render = add_small_frame_options({"render", "--technique", "raytrace", "-o", "x.exr"});
     render.insert(render.end(), too_bright.begin(), too_bright.end());
     EXPECT_THAT(run_cli(render).err, testing::HasSubstr("pixels are not finite"));
-    Words compare = with_small_quick_frame({"compare", "-o", "out", "--techniques", "raytrace"});
+    Words compare = add_small_frame_options({"compare", "-o", "out", "--techniques", "raytrace"});
     compare.insert(compare.end(), too_bright.begin(), too_bright.end());
     const test::ProcessResult ended = run_cli(compare);
     EXPECT_EQ(ended.exit_code, 70);
@@ -297,7 +297,7 @@ TEST_F(CommandLineTest, PixelsThatAreNotFiniteAreReported) {
 
 TEST_F(CommandLineTest, QuietRenderPrintsNothing) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
+        add_small_frame_options({"render", "--technique", "reuse", "-o", "x.png", "--quiet"}));
     EXPECT_EQ(ended.exit_code, 0);
     EXPECT_EQ(ended.err, "");
     EXPECT_EQ(ended.out, "");
@@ -347,8 +347,8 @@ TEST_F(CommandLineTest, GraphWhyListsTheCapturesThatAPictureRequires) {
 
 TEST_F(CommandLineTest, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
     const auto render = [&](const char* depth, const char* name) {
-        ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "--exposure",
-                                                  depth, "-o", name}))
+        ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "raytrace",
+                                                   "--exposure", depth, "-o", name}))
                       .exit_code,
                   0);
     };
@@ -366,11 +366,11 @@ TEST_F(CommandLineTest, DiffComputesFlipFromFloatsUnlessAFileHasEightBits) {
 }
 
 TEST_F(CommandLineTest, DiffIsZeroForEqualPicturesOnly) {
-    ASSERT_EQ(
-        run_cli(with_small_quick_frame({"render", "--technique", "naive:bounces=0", "-o", "a.exr"}))
-            .exit_code,
-        0);
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "b.exr"}))
+    ASSERT_EQ(run_cli(add_small_frame_options(
+                          {"render", "--technique", "naive:bounces=0", "-o", "a.exr"}))
+                  .exit_code,
+              0);
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "raytrace", "-o", "b.exr"}))
                   .exit_code,
               0);
     const json equal = json::parse(run_cli({"diff", "a.exr", "a.exr", "--json"}).out);
@@ -401,9 +401,10 @@ TEST_F(CommandLineTest, DiffIsZeroForEqualPicturesOnly) {
 
 TEST_F(CommandLineTest, DiffOfAPngAndItsExrHasFlipZero) {
     for (const std::string name : {"a.exr", "a.png"})
-        ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", name}))
-                      .exit_code,
-                  0);
+        ASSERT_EQ(
+            run_cli(add_small_frame_options({"render", "--technique", "raytrace", "-o", name}))
+                .exit_code,
+            0);
     const json document = json::parse(run_cli({"diff", "a.exr", "a.png", "--json"}).out);
     EXPECT_EQ(document["flip"], 0.0) << "a PNG shows what its EXR shows";
     EXPECT_LT(document["max"], 0.01);
@@ -413,7 +414,7 @@ TEST_F(CommandLineTest, DiffOfAPngAndItsExrHasFlipZero) {
 }
 
 TEST_F(CommandLineTest, DiffRefusesPicturesOfDifferentSizes) {
-    ASSERT_EQ(run_cli(with_small_quick_frame({"render", "--technique", "raytrace", "-o", "a.png"}))
+    ASSERT_EQ(run_cli(add_small_frame_options({"render", "--technique", "raytrace", "-o", "a.png"}))
                   .exit_code,
               0);
     ASSERT_EQ(run_cli({"render", "--technique", "raytrace", "-o", "b.png", "--size", "16x32",
@@ -427,7 +428,7 @@ TEST_F(CommandLineTest, DiffRefusesPicturesOfDifferentSizes) {
 }
 
 TEST_F(CommandLineTest, CompareWritesReportFilesAndPrintsTheTable) {
-    const Words words = with_small_quick_frame(
+    const Words words = add_small_frame_options(
         {"compare", "-o", "out", "--techniques", "naive:bounces=1", "reuse", "raytrace:depth=16"});
     const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
@@ -444,8 +445,8 @@ TEST_F(CommandLineTest, CompareWritesReportFilesAndPrintsTheTable) {
 
 TEST_F(CommandLineTest, CompareJsonEqualsTheReportFile) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"compare", "-o", "out", "--json", "--together", "--techniques",
-                                "reuse:face=32", "raytrace:depth=1"}));
+        add_small_frame_options({"compare", "-o", "out", "--json", "--together", "--techniques",
+                                 "reuse:face=32", "raytrace:depth=1"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out), json::parse(read_output_file("out/report.json")));
 }
@@ -476,8 +477,8 @@ f 7 8 9
 TEST_F(CommandLineTest, CompareReportsLagIfAsked) {
     write_input_file("two.obj", kTwoMirrorObjText);
     write_input_file("two.mtl", "newmtl mirror\nillum 3\nKs 1 1 1\nnewmtl lamp\nKe 5 5 5\n");
-    Words words = with_small_quick_frame({"compare", "two.obj", "-o", "out", "--lag", "--json",
-                                          "--techniques", "reuse:face=16", "raytrace"});
+    Words words = add_small_frame_options({"compare", "two.obj", "-o", "out", "--lag", "--json",
+                                           "--techniques", "reuse:face=16", "raytrace"});
     const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json lag = json::parse(ended.out)["lag"];
@@ -495,7 +496,7 @@ TEST_F(CommandLineTest, CompareReportsLagIfAsked) {
 }
 
 TEST_F(CommandLineTest, CompareGivesNoValidationMessages) {
-    const test::ProcessResult ended = run_cli(with_small_quick_frame(
+    const test::ProcessResult ended = run_cli(add_small_frame_options(
         {"compare", "-o", "out", "--validate", "--techniques", "parallax:face=32", "raytrace"}));
     if (ended.err.find("vulkan-validationlayers") != std::string::npos) GTEST_SKIP() << ended.err;
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -18,9 +18,9 @@ protected:
     /// all tests.
     const json& report_of_two_scenes() const {
         static const json report = [&] {
-            Words words = with_small_quick_frame({"compare", "cornell-mirrors", "flat", "-o", "out",
-                                                  "--json", "--techniques", "raytrace",
-                                                  "reuse:face=16"});
+            Words words = add_small_frame_options({"compare", "cornell-mirrors", "flat", "-o",
+                                                   "out", "--json", "--techniques", "raytrace",
+                                                   "reuse:face=16"});
             const test::ProcessResult ended = run_cli(words);
             EXPECT_EQ(ended.exit_code, 0) << ended.err;
             return json::parse(ended.out);
@@ -29,7 +29,7 @@ protected:
     }
     json report_of_one_scene() const { return report_of_two_scenes()["scenes"][0]; }
 
-    std::string add_to_site(const json& report, const std::string& site) const {
+    std::string add_report_to_results_site(const json& report, const std::string& site) const {
         write_input_file("report.json", report.dump());
         const test::ProcessResult ended = run_cli({"results", "add", "report.json", site});
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -58,8 +58,10 @@ protected:
 };
 
 TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
-    EXPECT_THAT(add_to_site(report_of_two_scenes(), "site"), testing::HasSubstr("2 scenes"));
-    EXPECT_THAT(add_to_site(report_of_two_scenes(), "site"), testing::HasSubstr("has this report"));
+    EXPECT_THAT(add_report_to_results_site(report_of_two_scenes(), "site"),
+                testing::HasSubstr("2 scenes"));
+    EXPECT_THAT(add_report_to_results_site(report_of_two_scenes(), "site"),
+                testing::HasSubstr("has this report"));
     build("site");
     EXPECT_EQ(read_pages("site").size(), 3u);
     for (const json& one : report_of_two_scenes()["scenes"]) {
@@ -104,7 +106,7 @@ TEST_F(ResultsSite, LabelsNameTheModelOnce) {
         report["rows"][0]["label"] = std::string("reuse") + (both ? ", model=required" : "");
         report["rows"][0]["model"] = "required";
         const std::string site = both ? "both" : "one";
-        add_to_site(report, site);
+        add_report_to_results_site(report, site);
         build(site);
         EXPECT_THAT(find_page(site, report["scene"]["name"]),
                     testing::HasSubstr(">reuse, model=required</th>"));
@@ -119,7 +121,7 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     late["rows"][1]["gpu_ms"]["median"] = 222.25;
     for (const auto& [site, order] :
          std::map<std::string, std::vector<json>>{{"a", {old, late}}, {"b", {late, old}}}) {
-        for (const json& report : order) add_to_site(report, site);
+        for (const json& report : order) add_report_to_results_site(report, site);
         build(site);
     }
     EXPECT_EQ(read_pages("a"), read_pages("b"));
@@ -132,7 +134,7 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
     json other = late;
     other["exposure"] = 3;
     other["size"] = {64, 32};
-    add_to_site(other, "a");
+    add_report_to_results_site(other, "a");
     build("a");
     EXPECT_EQ(read_pages("a").size(), 3u);
     for (const auto& entry : std::filesystem::directory_iterator(folder / "a/reports"))
@@ -148,7 +150,7 @@ TEST_F(ResultsSite, TextOfReportsCannotBecomeMarkup) {
     report["device"]["name"] = "\"><img src=x onerror=alert(2)>";
     report["rows"][0]["label"] = "</title><b onclick='alert(3)'>";
     report["commit"] = "<i>";
-    add_to_site(report, "site");
+    add_report_to_results_site(report, "site");
     build("site");
     for (const auto& [name, page] : read_pages("site"))
         for (const char* markup : {"<script>alert", "<img", "<b onclick", "<i>"})
@@ -187,7 +189,7 @@ TEST_F(ResultsSite, RefusalsNameTheMember) {
     expect_usage_refused({"results"}, 2, {"add or build"});
     expect_usage_refused({"results", "ad", "x"}, 2, {"'ad'", "add"});
     expect_usage_refused({"results", "build"}, 2, {"wanted SITE"});
-    add_to_site(report_of_one_scene(), "site");
+    add_report_to_results_site(report_of_one_scene(), "site");
     write_input_file("site/reports/broken.json", "{");
     expect_usage_refused({"results", "build", "site"}, 65, {"broken.json"});
     EXPECT_FALSE(std::filesystem::exists(folder / "site/index.html"));

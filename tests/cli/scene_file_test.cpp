@@ -19,7 +19,7 @@ protected:
     static Words make_scene_render_words(const std::string& scene, const Words& more = {}) {
         Words words = {"render", scene, "--technique", "raytrace", "-o", "x.png"};
         words.insert(words.end(), more.begin(), more.end());
-        return with_small_quick_frame(words);
+        return add_small_frame_options(words);
     }
 };
 
@@ -84,7 +84,7 @@ TEST_F(SceneFile, CostOfManyMirrorsIsReported) {
                 testing::HasSubstr("catoptric: warning: " + sentence + "\n"));
     const Json info = Json::parse(run_cli({"info", "x.gltf", "--json", "--mirror", "m*"}).out);
     EXPECT_THAT(info["warnings"], testing::Contains(Json(sentence)));
-    const test::ProcessResult compared = run_cli(with_small_quick_frame(
+    const test::ProcessResult compared = run_cli(add_small_frame_options(
         {"compare", "x.gltf", "--mirror", "m*", "--techniques", "reuse:face=1", "-o", "out"}));
     EXPECT_EQ(compared.exit_code, 0) << compared.err;
     EXPECT_THAT(Json::parse(read_output_file("out/report.json"))["warnings"],
@@ -107,7 +107,7 @@ TEST_F(SceneFile, NamesPrintNoTerminalControlCharacters) {
     EXPECT_TRUE(is_printable_text(run_cli(make_scene_render_words(evil + ".gltf")).err));
 
     const test::ProcessResult compare = run_cli(
-        with_small_quick_frame({"compare", evil + ".obj", "-o", "out", "--techniques", "reuse"}));
+        add_small_frame_options({"compare", evil + ".obj", "-o", "out", "--techniques", "reuse"}));
     EXPECT_EQ(compare.exit_code, 0) << compare.err;
     EXPECT_TRUE(is_printable_text(compare.out)) << compare.out;
     EXPECT_TRUE(is_printable_text(compare.err));

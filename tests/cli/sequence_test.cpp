@@ -77,9 +77,9 @@ TEST_F(CommandLineTest, MoreRoundsThanFramesAreRefused) {
 }
 
 TEST_F(CommandLineTest, CompareReportsTenthsOfProgressIfStderrIsNoTerminal) {
-    const Words words = with_small_quick_frame({"compare", "-o", "out", "--techniques",
-                                                "naive:bounces=0", "reuse:face=16",
-                                                "parallax:face=16"});
+    const Words words = add_small_frame_options({"compare", "-o", "out", "--techniques",
+                                                 "naive:bounces=0", "reuse:face=16",
+                                                 "parallax:face=16"});
     const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     for (const char* part : {"30 % done", "60 % done", "left"})
@@ -108,7 +108,7 @@ std::map<std::string, std::string> first_csv_row_by_column(const std::string& cs
 }
 
 TEST_F(CommandLineTest, CsvHasTheColumnsOfTheTableOrAllIfAsked) {
-    const Words words = with_small_quick_frame(
+    const Words words = add_small_frame_options(
         {"compare", "-o", "out", "--techniques", "reuse:face=16"});
     ASSERT_EQ(run_cli(words).exit_code, 0);
     const auto few = first_csv_row_by_column(read_output_file("out/rows.csv"));
@@ -131,10 +131,10 @@ TEST_F(CommandLineTest, CsvHasTheColumnsOfTheTableOrAllIfAsked) {
 }
 
 TEST_F(CommandLineTest, ReportHasTheDateOfTheRun) {
-    ASSERT_EQ(
-        run_cli(with_small_quick_frame({"compare", "-o", "out", "--techniques", "naive:bounces=0"}))
-            .exit_code,
-        0);
+    ASSERT_EQ(run_cli(add_small_frame_options(
+                          {"compare", "-o", "out", "--techniques", "naive:bounces=0"}))
+                  .exit_code,
+              0);
     const std::string date = nlohmann::json::parse(read_output_file("out/report.json"))["date"];
     EXPECT_THAT(date, testing::MatchesRegex("20[0-9][0-9]-[01][0-9]-[0-3][0-9]T[0-9:]{8}Z"));
     const std::time_t now = std::time(nullptr);

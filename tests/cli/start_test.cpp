@@ -22,8 +22,8 @@ protected:
     /// files.
     void write_exr_picture() const {
         const test::ProcessResult ended = test::run_process(make_process_start(
-            with_small_quick_frame({"render", "--technique", "raytrace:depth=0,shadow=none",
-                                    "--quiet", "-o", "a.exr"})));
+            add_small_frame_options({"render", "--technique", "raytrace:depth=0,shadow=none",
+                                     "--quiet", "-o", "a.exr"})));
         ASSERT_EQ(ended.exit_code, 0) << ended.err;
     }
 };
@@ -36,7 +36,7 @@ TEST_F(ProgramStartCliTest, OpenImageIoIsLoadedOnlyIfAFileNeedsIt) {
         EXPECT_THAT(ended.err, Not(HasSubstr(kLibrary))) << words.front();
     };
     expect_none({"--version"});
-    expect_none(with_small_quick_frame(
+    expect_none(add_small_frame_options(
         {"render", "--technique", "raytrace:depth=0,shadow=none", "-o", "a.png"}));
     expect_none({"diff", "a.png", "a.png"});
     write_exr_picture();

@@ -295,11 +295,11 @@ TEST_F(CommandLineTest, TwoResultsForStdoutAreRefused) {
 }
 
 TEST_F(CommandLineTest, SameTechniqueTwiceIsRefused) {
-    expect_usage_refused(with_small_quick_frame({"compare", "-o", "x", "--techniques", "reuse",
-                                                 "reuse", "--together"}),
+    expect_usage_refused(add_small_frame_options({"compare", "-o", "x", "--techniques", "reuse",
+                                                  "reuse", "--together"}),
                          2, {"'reuse'", "twice"});
     expect_usage_refused(
-        with_small_quick_frame({"compare", "-o", "x", "--techniques", "reuse", "reuse:face=256"}),
+        add_small_frame_options({"compare", "-o", "x", "--techniques", "reuse", "reuse:face=256"}),
         2, {"'reuse:face=256' is asked for twice"});
 }
 

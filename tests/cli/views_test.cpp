@@ -17,9 +17,9 @@ protected:
     /// Runs a small and quick comparison over drawn views. Returns its JSON document.
     json compare_over_drawn_views(const std::string& folder_name, const std::string& seed,
                                   const Words& techniques) const {
-        Words words = with_small_quick_frame({"compare", "-o", folder_name, "--views",
-                                              std::to_string(kDrawnViewCount), "--seed", seed,
-                                              "--json"});
+        Words words = add_small_frame_options({"compare", "-o", folder_name, "--views",
+                                               std::to_string(kDrawnViewCount), "--seed", seed,
+                                               "--json"});
         words.emplace_back("--techniques");
         words.insert(words.end(), techniques.begin(), techniques.end());
         const test::ProcessResult ended = run_cli(words);
@@ -111,7 +111,7 @@ TEST_F(DrawnViews, ViewsAreDrawnFromTheSeedAndSeeAMirror) {
 
 /// With `--views 1`, the report has no drawn views and no pictures of worst views.
 TEST_F(DrawnViews, ReportHasNoDrawnViewsUnlessAsked) {
-    const test::ProcessResult ended = run_cli(with_small_quick_frame(
+    const test::ProcessResult ended = run_cli(add_small_frame_options(
         {"compare", "-o", "out", "--json", "--views", "1", "--techniques", "naive:bounces=0"}));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(json::parse(ended.out)["views"], json::array());

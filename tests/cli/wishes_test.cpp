@@ -145,7 +145,7 @@ TEST_F(SceneOverrides, OverrideFileBesideTheSceneIsRead) {
     EXPECT_THAT(list_unsupported_ids(found["gaps"]),
                 testing::ElementsAre("indirect-left-out", "environment-unshadowed"));
     EXPECT_NE(found["hash"], run_info_as_json({"--no-scene-file"})["hash"]);
-    const Words render = with_small_quick_frame(
+    const Words render = add_small_frame_options(
         {"render", "x.obj", "--technique", "raytrace", "-o", "x.png"});
     EXPECT_THAT(run_cli(render).err, HasSubstr("read beside the scene: x.obj.catoptric.json"));
     write_input_file("x.obj.catoptric.json", R"({"mirror": ["tin"]})");
@@ -170,15 +170,15 @@ TEST_F(SceneOverrides, DrawnCameraIsWrittenAsNumbers) {
 TEST_F(SceneOverrides, OutputOverTheOverrideFileIsRefused) {
     write_input_file("x.obj.catoptric.json", "{}");
     expect_usage_refused(
-        with_small_quick_frame({"render", "x.obj", "--technique", "raytrace", "-o", "y.png",
-                                "--quiet", "--mirror", "tin", "--trace", "x.obj.catoptric.json"}),
+        add_small_frame_options({"render", "x.obj", "--technique", "raytrace", "-o", "y.png",
+                                 "--quiet", "--mirror", "tin", "--trace", "x.obj.catoptric.json"}),
         2, {"x.obj.catoptric.json", "which the scene is read from"});
 }
 
 TEST_F(SceneOverrides, CompareReportsGapsAndOverridesOfTheScene) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"compare", "x.obj", "-o", "out", "--mirror", "tin", "--exposure",
-                                "-1", "--techniques", "reuse"}));
+        add_small_frame_options({"compare", "x.obj", "-o", "out", "--mirror", "tin", "--exposure",
+                                 "-1", "--techniques", "reuse"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(read_output_file("out/report.json"));
     EXPECT_EQ(document["exposure"], -1);
@@ -197,8 +197,8 @@ TEST_F(SceneOverrides, CompareReportsGapsAndOverridesOfTheScene) {
 }
 
 TEST_F(SceneOverrides, CompareOfSeveralScenesWritesOneReport) {
-    Words words = with_small_quick_frame({"compare", "x.obj", "cornell-mirrors", "-o", "out",
-                                          "--mirror", "*o*", "--techniques", "reuse", "proxy"});
+    Words words = add_small_frame_options({"compare", "x.obj", "cornell-mirrors", "-o", "out",
+                                           "--mirror", "*o*", "--techniques", "reuse", "proxy"});
     const test::ProcessResult ended = run_cli(words);
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("x\n"));
@@ -233,8 +233,8 @@ TEST_F(SceneOverrides, CompareOfSeveralScenesWritesOneReport) {
 
 TEST_F(SceneOverrides, CompareOfSeveralScenesPrintsOneJsonDocument) {
     const test::ProcessResult ended = run_cli(
-        with_small_quick_frame({"compare", "cornell-mirrors", "cornell-mirrors-closed", "-o", "out",
-                                "--techniques", "proxy", "--json"}));
+        add_small_frame_options({"compare", "cornell-mirrors", "cornell-mirrors-closed", "-o",
+                                 "out", "--techniques", "proxy", "--json"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(ended.out, read_output_file("out/report.json"));
 }

@@ -13,8 +13,9 @@ class SecondDriverSweepTest : public CommandLineTest {
 protected:
     /// Runs `count` pieces of the sweep in this environment. The first of these pieces is piece
     /// number `first`.
-    void run_pieces(std::size_t first, std::size_t count,
-                    const std::map<std::string, std::string>& environment) const {
+    void
+    run_sweep_pieces_with_environment(std::size_t first, std::size_t count,
+                                      const std::map<std::string, std::string>& environment) const {
         test::ProcessStartOptions start = make_process_start({"sweep", "run", "sweep", "--quiet"});
         const json plan = json::parse(read_output_file("sweep/plan.json"));
         for (std::size_t i = first; i < first + count; ++i) {
@@ -38,8 +39,8 @@ TEST_F(SecondDriverSweepTest, PicturesOfTwoDriversAreMergedOnRequestWithTheirDif
     write_input_file("sweep.json", sweep.dump());
     ASSERT_EQ(run_cli({"sweep", "plan", "sweep.json", "-o", "sweep"}).exit_code, 0);
     // Pieces are listed scene by scene, so each of the two drivers runs pieces of both scenes.
-    run_pieces(0, 3, {}), run_pieces(3, 3, *second);
-    run_pieces(6, 3, *second), run_pieces(9, 3, {});
+    run_sweep_pieces_with_environment(0, 3, {}), run_sweep_pieces_with_environment(3, 3, *second);
+    run_sweep_pieces_with_environment(6, 3, *second), run_sweep_pieces_with_environment(9, 3, {});
     expect_usage_refused({"sweep", "merge", "sweep", "-o", "merged"}, 65,
                          {"2 identities", "driver: ", "Mesa 22", "Mesa 25", "--across-identities"});
     EXPECT_FALSE(std::filesystem::exists(folder / "merged"));

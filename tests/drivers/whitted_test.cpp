@@ -34,7 +34,8 @@ float largest_of_channels(const vec3& v) {
 
 /// Returns how much each pixel of our picture changes if hit points are computed in double
 /// precision.
-std::vector<float> sensitivity(const measure::Picture& single, const measure::Picture& precise) {
+std::vector<float> pixel_changes_by_double_precision(const measure::Picture& single,
+                                                     const measure::Picture& precise) {
     std::vector<float> result;
     for (std::size_t i = 0; i < single.pixels.size(); ++i)
         result.push_back(largest_of_channels(single.pixels[i] - precise.pixels[i]));
@@ -52,12 +53,12 @@ std::size_t count_differing_pixels(const measure::Picture& a,
     return count;
 }
 
-void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
+void expect_same_picture_as_peer(const scene::Scene& scene, int depth, bool exact) {
     const std::string technique = "raytrace:depth=" + std::to_string(depth) +
                                   (exact ? ",sphere=exact" : "");
     const app::Request asked = test::make_test_request(scene, {technique}, kComparedPictureSize);
     const app::TechniqueResult ours = render_scene_picture(scene, technique);
-    const std::vector<float> sensitive = sensitivity(
+    const std::vector<float> sensitive = pixel_changes_by_double_precision(
         ours.hdr, render_scene_picture(scene, technique + ",hit=f64").hdr);
     EXPECT_LE(std::ranges::count_if(
                   sensitive, [](float apart) { return !(apart <= kEqualRadianceTolerance); }),
@@ -76,15 +77,19 @@ void expect_the_same(const scene::Scene& scene, int depth, bool exact) {
 }
 
 TEST(Whitted, PictureOfMeshesMatchesEmbree) {
-    for (const int depth : {1, 4}) expect_the_same(scene::make_cornell_mirrors(), depth, false);
+    for (const int depth : {1, 4})
+        expect_same_picture_as_peer(scene::make_cornell_mirrors(), depth, false);
 }
 
 TEST(Whitted, PictureOfExactSpheresMatchesEmbree) {
-    for (const int depth : {1, 4}) expect_the_same(scene::make_cornell_mirrors(), depth, true);
+    for (const int depth : {1, 4})
+        expect_same_picture_as_peer(scene::make_cornell_mirrors(), depth, true);
 }
 
 // The scene `room` has textures, smooth dielectrics, two-sided surfaces, lamps without a cosine
 // factor and a spot light.
-TEST(Whitted, PictureOfTheRoomMatchesEmbree) { expect_the_same(scene::load("room"), 4, false); }
+TEST(Whitted, PictureOfTheRoomMatchesEmbree) {
+    expect_same_picture_as_peer(scene::load("room"), 4, false);
+}
 
 } // namespace

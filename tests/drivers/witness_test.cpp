@@ -110,8 +110,8 @@ bool is_hit_wrong(const bvh::Triangle& t, const DeviceRay& ray, const DeviceHit&
     return std::isfinite(limit) && !(std::abs(double{hit.t} - exact) <= limit);
 }
 
-RayWitnessVerdict find_verdict(const WitnessRayBatch& batch, const DeviceRay& ray,
-                               const DeviceHit& a, const DeviceHit& b) {
+RayWitnessVerdict compare_two_hits_of_ray(const WitnessRayBatch& batch, const DeviceRay& ray,
+                                          const DeviceHit& a, const DeviceHit& b) {
     if (a.is_hit() != b.is_hit()) return kHitOrMiss;
     if (!a.is_hit() || a.triangle == b.triangle) return kSameTriangle;
     const double limit = ray_parameter_rounding_slack(batch.triangles[a.triangle], ray) +
@@ -140,7 +140,7 @@ bool is_answer_backed_by_geometry(const WitnessRayBatch& batch, const bvh::Bvh& 
             if (hit)
                 found = {
                     static_cast<float>(hit->t), vec3(hit->barycentric), hit->triangle, 0, 1, 0};
-            if (find_verdict(batch, ray, found, answer) <= kSamePlace) return true;
+            if (compare_two_hits_of_ray(batch, ray, found, answer) <= kSamePlace) return true;
         }
     return false;
 }
@@ -189,7 +189,8 @@ void judge_unfounded_answers(const WitnessRayBatch& batch, const bvh::Bvh& hiera
                              std::vector<RayWitness>& witnesses) {
     for (std::size_t i = 0; i < batch.rays.size(); ++i) {
         const auto differs = [&](const RayWitness& w) {
-            return find_verdict(batch, batch.rays[i], witnesses[0].hits[i], w.hits[i]) > kSamePlace;
+            return compare_two_hits_of_ray(batch, batch.rays[i], witnesses[0].hits[i], w.hits[i]) >
+                   kSamePlace;
         };
         if (std::none_of(witnesses.begin(), witnesses.end(), differs)) continue;
         for (std::size_t k = 0; k < witnesses.size(); ++k) {
@@ -220,15 +221,15 @@ void print_witness_pair_agreement(const WitnessRayBatch& batch, const RayWitness
                                   const RayWitness& b) {
     std::array<std::size_t, kVerdictNames.size()> counts{};
     for (std::size_t i = 0; i < batch.rays.size(); ++i)
-        ++counts[find_verdict(batch, batch.rays[i], a.hits[i], b.hits[i])];
+        ++counts[compare_two_hits_of_ray(batch, batch.rays[i], a.hits[i], b.hits[i])];
     std::cout << "  " << a.name << " and " << b.name << ":";
     for (std::size_t kind = 0; kind < counts.size(); ++kind)
         std::cout << (kind ? ", " : " ") << counts[kind] << ' ' << kVerdictNames[kind];
     std::cout << "\n";
 }
 
-void compare_witnesses(const WitnessRayBatch& batch, const bvh::Bvh& hierarchy,
-                       std::vector<RayWitness>& witnesses) {
+void compare_ray_tracers(const WitnessRayBatch& batch, const bvh::Bvh& hierarchy,
+                         std::vector<RayWitness>& witnesses) {
     std::cout << "[ MEASURED ] " << batch.name << ": " << batch.rays.size() << " rays, "
               << batch.triangles.size() << " triangles\n";
     for (RayWitness& witness : witnesses) count_answers_unlike_all_witnesses(batch, witness);
@@ -301,7 +302,7 @@ TEST(Witnesses, RayTracersAgreeRayByRay) {
         if (ray_query)
             witnesses.push_back(
                 {"ray query", ray_query->find_closest_hits(batch.triangles, batch.rays)});
-        compare_witnesses(batch, kernel.traversed_bvh(), witnesses);
+        compare_ray_tracers(batch, kernel.traversed_bvh(), witnesses);
         EXPECT_EQ(witnesses[0].leaks, 0u);
         EXPECT_EQ(witnesses[0].count_unfounded_answers(), 0u);
         for (const RayWitness& witness : witnesses) {

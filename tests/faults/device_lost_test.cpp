@@ -27,13 +27,13 @@ protected:
         if (IsSkipped() || HasFatalFailure()) return;
         write_input_file("x.exr", "old");
     }
-    void expect_given_up(const VulkanCallFault& fault, const Words& any_of) const {
+    void expect_lost_device_is_abandoned(const VulkanCallFault& fault, const Words& any_of) const {
         const std::string place = fault.call + std::to_string(fault.at) +
                                   std::to_string(
                                       fault.result); // tests that run at once use different folders
         std::filesystem::create_directory(folder / place);
         write_input_file(place + "/x.exr", "old");
-        const WatchedRun watched = watch(words, fault, place);
+        const WatchedRun watched = run_with_fault_layer(words, fault, place);
         const std::string where = fault.call + " " + std::to_string(fault.at) + ": " +
                                   watched.ended.err;
         if (fault.result == VK_ERROR_DEVICE_LOST)
@@ -44,13 +44,13 @@ protected:
             return watched.ended.err.find(part) != std::string::npos;
         })) << where;
         EXPECT_LT(watched.ended.seconds, kMaxSecondsAfterDeviceLoss) << where;
-        EXPECT_EQ(watched.unfit(), "") << where;
+        EXPECT_EQ(watched.describe_objects_destroyed_after_loss(), "") << where;
         EXPECT_EQ(read_output_file(place + "/x.exr"), "old") << where;
         std::printf("  %s in %.2f s: %s", fault.call.c_str(), watched.ended.seconds,
                     watched.ended.err.c_str());
     }
     int count_calls(const std::string& call) const {
-        const WatchedRun whole = watch(words, std::nullopt);
+        const WatchedRun whole = run_with_fault_layer(words, std::nullopt);
         EXPECT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
         write_input_file("x.exr", "old");
         return whole.counts.at(call).calls;
@@ -63,15 +63,15 @@ TEST_F(DeviceLost, LossAtASubmitExitsWith76AndKeepsTheOldPicture) {
     const std::set chosen{1, 2, last / 2, last - 1, last};
     const std::vector<int> at(chosen.begin(), chosen.end());
     run_on_two_threads(at.size(), [&](std::size_t i) {
-        expect_given_up({"vkQueueSubmit2", at[i], VK_ERROR_DEVICE_LOST},
-                        {"'view'", "read back image '", "clear image '"});
+        expect_lost_device_is_abandoned({"vkQueueSubmit2", at[i], VK_ERROR_DEVICE_LOST},
+                                        {"'view'", "read back image '", "clear image '"});
     });
 }
 
 /// In each run, another wait for the device fails. In further runs, the first or the last read of
 /// timestamps fails.
 TEST_F(DeviceLost, FailedWaitExitsWithAnErrorAndKeepsTheOldPicture) {
-    const WatchedRun whole = watch(words, std::nullopt);
+    const WatchedRun whole = run_with_fault_layer(words, std::nullopt);
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
     std::vector<VulkanCallFault> faults;
     for (const char* call : {"vkWaitSemaphores", "vkQueueWaitIdle"}) {
@@ -83,9 +83,9 @@ TEST_F(DeviceLost, FailedWaitExitsWithAnErrorAndKeepsTheOldPicture) {
     for (const int at : {1, whole.counts.at("vkGetQueryPoolResults").calls})
         faults.push_back({"vkGetQueryPoolResults", at, VK_ERROR_DEVICE_LOST});
     run_on_two_threads(faults.size(), [&](std::size_t i) {
-        expect_given_up(faults[i],
-                        {"passes '", "'view'", "read back ", "clear image 'capture/cubes.",
-                         "clear image 'pyramid'", "clear image 'shadow_map'"});
+        expect_lost_device_is_abandoned(
+            faults[i], {"passes '", "'view'", "read back ", "clear image 'capture/cubes.",
+                        "clear image 'pyramid'", "clear image 'shadow_map'"});
     });
 }
 
@@ -122,14 +122,14 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
                     if (again != "the device was given up: " + first) wrong += again;
                     if (engine.usable()) wrong += "usable though it is lost; ";
                 });
-            wrong += lost.unfit();
+            wrong += lost.describe_objects_destroyed_after_loss();
             if (!catoptric::app::has_abandoned_device()) wrong += "no device was abandoned; ";
             std::vector<catoptric::measure::Picture> pictures;
             for (int i = 0; i < 2; ++i) {
                 const WatchedRun next = here.run(std::nullopt, [&](catoptric::app::Engine& engine) {
                     pictures.push_back(catoptric::app::run(engine, request).parts.front().hdr);
                 });
-                wrong += next.ended.err + next.leaks();
+                wrong += next.ended.err + next.describe_undestroyed_objects();
             }
             if (pictures.size() != 2 || pictures[0].pixels != pictures[1].pixels)
                 wrong += "two engines, two pictures";
@@ -140,10 +140,10 @@ TEST_F(DeviceLost, AnotherEngineRendersAfterTheLoss) {
 }
 
 TEST_F(DeviceLost, LossWhileOpeningTheDeviceExitsWith76) {
-    const WatchedRun watched = watch(words,
-                                     VulkanCallFault{"vkCreateDevice", 1, VK_ERROR_DEVICE_LOST});
+    const WatchedRun watched = run_with_fault_layer(
+        words, VulkanCallFault{"vkCreateDevice", 1, VK_ERROR_DEVICE_LOST});
     expect_exit_code(watched.ended, 76, {"open device '", "VK_ERROR_DEVICE_LOST"});
-    EXPECT_EQ(watched.leaks(), "");
+    EXPECT_EQ(watched.describe_undestroyed_objects(), "");
 }
 
 TEST_F(DeviceLost, LossDuringAComparisonKeepsTheOldReport) {
@@ -160,10 +160,10 @@ TEST_F(DeviceLost, LossDuringAComparisonKeepsTheOldReport) {
                            "1",
                            "--techniques",
                            "parallax:face=16,shadow_map=16"};
-    const WatchedRun watched = watch(compare,
-                                     VulkanCallFault{"vkWaitSemaphores", 6, VK_ERROR_DEVICE_LOST});
+    const WatchedRun watched = run_with_fault_layer(
+        compare, VulkanCallFault{"vkWaitSemaphores", 6, VK_ERROR_DEVICE_LOST});
     expect_exit_code(watched.ended, 76, {"VK_ERROR_DEVICE_LOST", "passes '"});
-    EXPECT_EQ(watched.unfit(), "");
+    EXPECT_EQ(watched.describe_objects_destroyed_after_loss(), "");
     EXPECT_EQ(read_output_file("out/report.json"), "old");
     EXPECT_TRUE(std::filesystem::is_empty(folder / "out/images")) << "made before measuring";
 }
@@ -173,14 +173,14 @@ class ReadBackDeviceLostTest : public DeviceLost {};
 TEST_F(ReadBackDeviceLostTest, FailedMemoryMappingExitsWith75) {
     const int last = count_calls("vkMapMemory");
     for (const int at : std::set{1, last / 2, last}) {
-        const WatchedRun watched = watch(
+        const WatchedRun watched = run_with_fault_layer(
             words, VulkanCallFault{"vkMapMemory", at, VK_ERROR_MEMORY_MAP_FAILED});
         expect_exit_code(watched.ended, 75, {"map buffer '", "VK_ERROR_MEMORY_MAP_FAILED"});
-        EXPECT_EQ(watched.leaks(), "");
+        EXPECT_EQ(watched.describe_undestroyed_objects(), "");
         EXPECT_EQ(read_output_file("x.exr"), "old");
     }
-    const WatchedRun end = watch(words,
-                                 VulkanCallFault{"vkMapMemory", last, VK_ERROR_MEMORY_MAP_FAILED});
+    const WatchedRun end = run_with_fault_layer(
+        words, VulkanCallFault{"vkMapMemory", last, VK_ERROR_MEMORY_MAP_FAILED});
     EXPECT_THAT(end.ended.err, testing::HasSubstr("read-back of "));
 }
 
@@ -188,10 +188,10 @@ TEST_F(ReadBackDeviceLostTest, FailedMemoryMappingExitsWith75) {
 /// with 70 and keeps the old picture.
 TEST_F(ReadBackDeviceLostTest, UnknownVulkanResultExitsWith70) {
     const int last = count_calls("vkQueueWaitIdle");
-    const WatchedRun watched = watch(words,
-                                     VulkanCallFault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});
+    const WatchedRun watched = run_with_fault_layer(
+        words, VulkanCallFault{"vkQueueWaitIdle", last, VK_ERROR_UNKNOWN});
     expect_exit_code(watched.ended, 70, {"read back image '", "-13"});
-    EXPECT_EQ(watched.unfit(), "");
+    EXPECT_EQ(watched.describe_objects_destroyed_after_loss(), "");
     EXPECT_EQ(read_output_file("x.exr"), "old");
 }
 

@@ -40,20 +40,20 @@ TEST_F(NoDevice, DriverThatRefusesExitsWith69) {
           VulkanCallFault{"vkEnumeratePhysicalDevices", 2, VK_ERROR_INITIALIZATION_FAILED},
           VulkanCallFault{"vkEnumeratePhysicalDevices", 1, kNoForcedDeviceResult},
           VulkanCallFault{"vkEnumeratePhysicalDevices", 2, kNoForcedDeviceResult}}) {
-        const WatchedRun watched = watch(words, fault);
+        const WatchedRun watched = run_with_fault_layer(words, fault);
         expect_exit_code(watched.ended, 69, {"apt-get install mesa-vulkan-drivers"});
-        EXPECT_EQ(watched.leaks(), "");
+        EXPECT_EQ(watched.describe_undestroyed_objects(), "");
         EXPECT_LT(watched.ended.seconds, kMaxSecondsWithoutDevice);
     }
 }
 
 TEST_F(NoDevice, DeviceThatCannotBeOpenedExitsWith69) {
-    const WatchedRun watched = watch(
+    const WatchedRun watched = run_with_fault_layer(
         words, VulkanCallFault{"vkCreateDevice", 1, VK_ERROR_INITIALIZATION_FAILED});
     expect_exit_code(
         watched.ended, 69,
         {"no usable Vulkan device", "open device '", "VK_ERROR_INITIALIZATION_FAILED"});
-    EXPECT_EQ(watched.leaks(), "");
+    EXPECT_EQ(watched.describe_undestroyed_objects(), "");
 }
 
 /// A layer, extension or feature that the driver lacks is no internal error, so the exit code is
@@ -65,9 +65,9 @@ TEST_F(NoDevice, MissingLayerExtensionOrFeatureExitsWith69) {
           std::tuple{"vkCreateDevice", VK_ERROR_FEATURE_NOT_PRESENT, "FEATURE_NOT_PRESENT"},
           std::tuple{"vkCreateDevice", VK_ERROR_EXTENSION_NOT_PRESENT, "EXTENSION_NOT_PRESENT"},
           std::tuple{"vkCreateImage", VK_ERROR_FORMAT_NOT_SUPPORTED, "FORMAT_NOT_SUPPORTED"}}) {
-        const WatchedRun watched = watch(words, VulkanCallFault{call, 1, result});
+        const WatchedRun watched = run_with_fault_layer(words, VulkanCallFault{call, 1, result});
         expect_exit_code(watched.ended, 69, {"Vulkan: cannot ", name});
-        EXPECT_EQ(watched.leaks(), "");
+        EXPECT_EQ(watched.describe_undestroyed_objects(), "");
     }
     test::ProcessStartOptions process = make_process_start(
         {"render", "--technique", "reuse", "-o", "x.png", "--validate"});
@@ -80,11 +80,11 @@ TEST_F(NoDevice, MissingLayerExtensionOrFeatureExitsWith69) {
 /// that are listed.
 TEST_F(NoDevice, ChangedNumberOfDevicesIsTolerated) {
     for (const int at : {1, 2}) {
-        const WatchedRun watched = watch(
+        const WatchedRun watched = run_with_fault_layer(
             {"list", "devices"}, VulkanCallFault{"vkEnumeratePhysicalDevices", at, VK_INCOMPLETE});
         EXPECT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
         EXPECT_EQ(watched.ended.out, run_cli({"list", "devices"}).out);
-        EXPECT_EQ(watched.leaks(), "");
+        EXPECT_EQ(watched.describe_undestroyed_objects(), "");
     }
 }
 

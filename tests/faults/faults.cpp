@@ -66,7 +66,7 @@ void read_fault_layer_report(const std::string& report, WatchedRun& watched) {
 
 } // namespace
 
-std::string WatchedRun::leaks() const {
+std::string WatchedRun::describe_undestroyed_objects() const {
     if (counts.empty()) return "no report of the layer: the program crashed";
     std::string text;
     for (const auto& [call, count] : counts)
@@ -77,7 +77,7 @@ std::string WatchedRun::leaks() const {
     return text;
 }
 
-std::string WatchedRun::unfit() const {
+std::string WatchedRun::describe_objects_destroyed_after_loss() const {
     if (counts.empty()) return "no report of the layer";
     std::string text;
     for (const char* call : {"vkCreateInstance", "vkCreateDevice"})
@@ -88,14 +88,15 @@ std::string WatchedRun::unfit() const {
 }
 
 void Faults::SetUp() {
-    static const WatchedRun probe = watch({"list", "devices"}, std::nullopt);
+    static const WatchedRun probe = run_with_fault_layer({"list", "devices"}, std::nullopt);
     if (!probe.counts.empty()) return;
     FAIL() << "the loader did not load the layer of " << CATOPTRIC_FAULTS_LAYER << ": "
            << probe.ended.err;
 }
 
-WatchedRun Faults::watch(const Words& words, const std::optional<VulkanCallFault>& fault,
-                         const std::string& place) const {
+WatchedRun Faults::run_with_fault_layer(const Words& words,
+                                        const std::optional<VulkanCallFault>& fault,
+                                        const std::string& place) const {
     test::ProcessStartOptions process = make_process_start(words);
     process.folder = folder / place;
     const fs::path report = folder / (place == "." ? "calls.txt" : place + ".calls.txt");

@@ -31,10 +31,10 @@ struct WatchedRun {
     std::uint64_t most_bytes = 0; ///< largest amount of device memory at one time
 
     /// Returns a text about objects that the run never destroyed or destroyed wrongly; empty: none.
-    std::string leaks() const;
+    std::string describe_undestroyed_objects() const;
     /// Returns a text that lists the objects destroyed after a lost device or a failed wait; empty:
     /// none. After such a failure the engine must destroy no object, not even device and instance.
-    std::string unfit() const;
+    std::string describe_objects_destroyed_after_loss() const;
 };
 
 /// Fixture that runs the program with the fault layer over its driver. All runs of a test program
@@ -46,8 +46,8 @@ protected:
 
     /// Runs the program with the fault layer in `place`, an existing folder below the folder of the
     /// test. `fault`: the call that must fail, if any.
-    WatchedRun watch(const Words& words, const std::optional<VulkanCallFault>& fault,
-                     const std::string& place = ".") const;
+    WatchedRun run_with_fault_layer(const Words& words, const std::optional<VulkanCallFault>& fault,
+                                    const std::string& place = ".") const;
 };
 
 /// Puts the fault layer over the driver of this process, which must be a child process

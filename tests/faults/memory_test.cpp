@@ -102,7 +102,9 @@ protected:
             watched.ended.err.find(name) == std::string::npos ||
             watched.ended.err.find(kFailingCallsAndErrorTexts.at(fault.call)) == std::string::npos)
             wrong += "the message '" + watched.ended.err + "'; ";
-        wrong += kWaitingVulkanCalls.contains(fault.call) ? watched.unfit() : watched.leaks();
+        wrong += kWaitingVulkanCalls.contains(fault.call)
+                     ? watched.describe_objects_destroyed_after_loss()
+                     : watched.describe_undestroyed_objects();
         return wrong.empty() ? ""
                              : fault.call + " " + std::to_string(fault.at) + ": " + wrong + "\n";
     }
@@ -144,7 +146,7 @@ TEST_F(Memory, FailureOfAnyVulkanCallLeaksNothing) {
         const std::string said = test::run_in_forked_process([&] {
             FaultLayerInThisProcess here(folder / ("calls-" + std::to_string(child)));
             const WatchedRun whole = here.run(std::nullopt, render);
-            std::string wrong = whole.ended.err + whole.leaks();
+            std::string wrong = whole.ended.err + whole.describe_undestroyed_objects();
             const std::vector<VulkanCallFault> faults = list_faults_of_run(whole, most);
             for (std::size_t i = child; i < faults.size(); i += kChildProcessCount)
                 wrong += describe_wrong_behaviour(faults[i], here.run(faults[i], render), "");
@@ -181,16 +183,16 @@ TEST_F(Memory, FailureOfEachKindOfCallInAComparisonKeepsItsFiles) {
         return read_all_files_of_folder(folder / place);
     };
     lay_out("whole");
-    const WatchedRun whole = watch(words, std::nullopt, "whole");
+    const WatchedRun whole = run_with_fault_layer(words, std::nullopt, "whole");
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
-    ASSERT_EQ(whole.leaks(), "");
+    ASSERT_EQ(whole.describe_undestroyed_objects(), "");
     const std::vector<VulkanCallFault> faults = list_faults_of_run(
         whole, [](int calls) { return std::vector{(calls + 1) / 2}; });
     std::atomic<int> kept = 0;
     run_on_two_threads(faults.size(), [&](std::size_t i) {
         const std::string place = std::to_string(i);
         const auto before = lay_out(place);
-        WatchedRun watched = watch(words, faults[i], place);
+        WatchedRun watched = run_with_fault_layer(words, faults[i], place);
         const std::string after = ", after 1 of 2 rows; what there is lies in out, marked "
                                   "incomplete\n";
         if (watched.ended.err.ends_with(after)) {
@@ -263,14 +265,14 @@ TEST_F(Memory, FullDescriptorPoolIsFollowedByAnother) {
                          "--size", "64x64",       "--frames",
                          "1",      "--warmup",    "1",
                          "-o",     "x.exr"};
-    const WatchedRun whole = watch(words, std::nullopt);
+    const WatchedRun whole = run_with_fault_layer(words, std::nullopt);
     ASSERT_EQ(whole.ended.exit_code, 0) << whole.ended.err;
     const std::string picture = read_output_file("x.exr");
     for (const int result : {VK_ERROR_OUT_OF_POOL_MEMORY, VK_ERROR_FRAGMENTED_POOL}) {
-        const WatchedRun watched = watch(words,
-                                         VulkanCallFault{"vkAllocateDescriptorSets", 3, result});
+        const WatchedRun watched = run_with_fault_layer(
+            words, VulkanCallFault{"vkAllocateDescriptorSets", 3, result});
         EXPECT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
-        EXPECT_EQ(watched.leaks(), "");
+        EXPECT_EQ(watched.describe_undestroyed_objects(), "");
         EXPECT_EQ(watched.counts.at("vkCreateDescriptorPool").calls,
                   whole.counts.at("vkCreateDescriptorPool").calls + 1);
         EXPECT_EQ(read_output_file("x.exr"), picture);

@@ -77,7 +77,7 @@ protected:
 };
 
 TEST_F(Results, FailureInTheFifthRowKeepsFourFinishedRows) {
-    const WatchedRun four = watch(make_comparison_of_rows(4), std::nullopt);
+    const WatchedRun four = run_with_fault_layer(make_comparison_of_rows(4), std::nullopt);
     ASSERT_EQ(four.ended.exit_code, 0) << four.ended.err;
     for (const auto& [call, result, exit_code, why] :
          {std::tuple{"vkWaitSemaphores", VK_ERROR_DEVICE_LOST, 76, "VK_ERROR_DEVICE_LOST"},
@@ -86,7 +86,7 @@ TEST_F(Results, FailureInTheFifthRowKeepsFourFinishedRows) {
           std::tuple{"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY, 75,
                      "VK_ERROR_OUT_OF_DEVICE_MEMORY"}}) {
         fs::remove_all(folder / "out");
-        const WatchedRun watched = watch(
+        const WatchedRun watched = run_with_fault_layer(
             make_comparison_of_rows(8),
             VulkanCallFault{call, four.counts.at(call).calls + 1, result});
         EXPECT_EQ(watched.ended.exit_code, exit_code) << watched.ended.err;
@@ -154,7 +154,7 @@ TEST_F(Results, InterruptedStressKeepsItsFinishedRows) {
     process.signal_at = "[2/3]";
     expect_one_row(test::run_process(process), 129, "stopped by signal 1");
 
-    const WatchedRun one = watch(words({"N10"}), std::nullopt);
+    const WatchedRun one = run_with_fault_layer(words({"N10"}), std::nullopt);
     ASSERT_EQ(one.ended.exit_code, 0) << one.ended.err;
     for (const auto& [result, exit_code, why] :
          {std::tuple{VK_ERROR_DEVICE_LOST, 76, "VK_ERROR_DEVICE_LOST"},
@@ -162,15 +162,16 @@ TEST_F(Results, InterruptedStressKeepsItsFinishedRows) {
         fs::remove_all(folder / "out");
         const int images = one.counts.at("vkCreateImage").calls;
         if (exit_code == 75) { // an exhausted device is no lost device: it stays usable
-            expect_one_row(watch(words({"N10", "N1", "N9"}),
-                                 VulkanCallFault{"vkCreateImage", images + 1, result})
-                               .ended,
-                           exit_code, why);
+            expect_one_row(
+                run_with_fault_layer(words({"N10", "N1", "N9"}),
+                                     VulkanCallFault{"vkCreateImage", images + 1, result})
+                    .ended,
+                exit_code, why);
             fs::remove_all(folder / "out");
         }
         const int waits = one.counts.at("vkWaitSemaphores").calls;
-        expect_one_row(watch(words({"N10", "N1", "N9"}),
-                             VulkanCallFault{"vkWaitSemaphores", waits + 1, result})
+        expect_one_row(run_with_fault_layer(words({"N10", "N1", "N9"}),
+                                            VulkanCallFault{"vkWaitSemaphores", waits + 1, result})
                            .ended,
                        exit_code, why);
     }

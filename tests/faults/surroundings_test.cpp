@@ -8,7 +8,7 @@ namespace fs = std::filesystem;
 
 class RunEnvironmentFaultTest : public CommandLineTest {
 protected:
-    static Words with_small_picture(Words words) {
+    static Words add_small_picture_options(Words words) {
         words.insert(words.end(), {"--size", "32x32", "--frames", "1", "--warmup", "0"});
         return words;
     }
@@ -16,11 +16,11 @@ protected:
 
 TEST_F(RunEnvironmentFaultTest, ClosedPipeAfterTheWorkExitsWith74) {
     for (const Words& words :
-         {with_small_picture({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
-          with_small_picture(
+         {add_small_picture_options({"render", "--technique", "raytrace:depth=1", "-o", "-"}),
+          add_small_picture_options(
               {"render", "--technique", "raytrace:depth=1", "--json", "-o", "x.png"}),
-          with_small_picture({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
-          with_small_picture(
+          add_small_picture_options({"compare", "-o", "out", "--techniques", "raytrace:depth=1"}),
+          add_small_picture_options(
               {"compare", "-o", "json", "--json", "--techniques", "raytrace:depth=1"}),
           Words{"diff", "--json", "x.png", "x.png"}}) {
         test::ProcessStartOptions process = make_process_start(words);
@@ -36,8 +36,8 @@ TEST_F(RunEnvironmentFaultTest, ClosedPipeAfterTheWorkExitsWith74) {
 TEST_F(RunEnvironmentFaultTest, UnwritableCacheFolderOnlyGivesAWarning) {
     write_input_file("file", "");
     for (const fs::path& place : {fs::path("/proc/none"), folder / "file"}) {
-        test::ProcessStartOptions process = make_process_start(
-            with_small_picture({"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
+        test::ProcessStartOptions process = make_process_start(add_small_picture_options(
+            {"render", "--technique", "parallax", "-o", "x.png", "--quiet"}));
         for (const char* variable : {"HOME", "XDG_CACHE_HOME", "MESA_SHADER_CACHE_DIR"})
             process.environment[variable] = place.string();
         const test::ProcessResult ended = test::run_process(process);

@@ -11,13 +11,13 @@ class Verdict : public Faults {};
 TEST_F(Verdict, ExecutionBarrierFollowsEachTimestamp) {
     const Words words{"compare",  "-o", "out",          "--size",   "32x32",    "--frames", "2",
                       "--warmup", "0",  "--techniques", "parallax", "raytrace", "hybrid"};
-    const WatchedRun watched = watch(words, std::nullopt);
+    const WatchedRun watched = run_with_fault_layer(words, std::nullopt);
     ASSERT_EQ(watched.ended.exit_code, 0) << watched.ended.err;
     EXPECT_GT(watched.counts.at("vkCmdWriteTimestamp2").calls, 30);
     EXPECT_EQ(watched.loose_stamps, 0);
     Words pipelined = words;
     pipelined.insert(pipelined.end() - 4, {"--timing", "pipelined"});
-    EXPECT_GT(watch(pipelined, std::nullopt).loose_stamps, 0)
+    EXPECT_GT(run_with_fault_layer(pipelined, std::nullopt).loose_stamps, 0)
         << "the layer sees none that is loose";
 }
 
@@ -25,9 +25,9 @@ TEST_F(Verdict, ExecutionBarrierFollowsEachTimestamp) {
 /// picture holds undefined memory, so the measured value may be no number (null).
 TEST_F(Verdict, StressWithAFailedRowExitsWithOne) {
     const Words words{"stress", "--json", "--size", "32x32", "--only", "N4"};
-    const WatchedRun sound = watch(words, std::nullopt);
+    const WatchedRun sound = run_with_fault_layer(words, std::nullopt);
     ASSERT_EQ(sound.ended.exit_code, 0) << sound.ended.err;
-    const WatchedRun broken = watch(words, VulkanCallFault{"vkCmdDispatch", 5, 1});
+    const WatchedRun broken = run_with_fault_layer(words, VulkanCallFault{"vkCmdDispatch", 5, 1});
     EXPECT_EQ(broken.ended.exit_code, 1) << broken.ended.err;
     const nlohmann::json rows = nlohmann::json::parse(broken.ended.out)["rows"];
     EXPECT_EQ(rows[0]["verdict"], "fail");

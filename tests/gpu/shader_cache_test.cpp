@@ -29,23 +29,24 @@ protected:
         for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
         return files;
     }
-    static std::span<const std::uint32_t> parallax_words() {
+    static std::span<const std::uint32_t> parallax_shader_words() {
         return gpu::find_shader("reflect/parallax.frag").words;
     }
     /// Returns the constant_id of a named switch (a specialisation constant) of
     /// reflect/parallax.frag.
     static std::uint32_t find_constant_id(const char* name) {
         for (const auto& constant :
-             gpu::reflect_spirv("reflect/parallax.frag", parallax_words()).constants)
+             gpu::reflect_spirv("reflect/parallax.frag", parallax_shader_words()).constants)
             if (constant.name == name) return constant.id;
         ADD_FAILURE() << "no constant " << name;
         return 0;
     }
     static ShaderWords find_in(gpu::SpecialisedShaderCache& cache, const ConstantBits& constants) {
-        return cache.find_or_specialise("reflect/parallax.frag", parallax_words(), constants);
+        return cache.find_or_specialise("reflect/parallax.frag", parallax_shader_words(),
+                                        constants);
     }
     static ShaderWords specialise_without_cache(const ConstantBits& constants) {
-        return gpu::specialise_shader("reflect/parallax.frag", parallax_words(), constants);
+        return gpu::specialise_shader("reflect/parallax.frag", parallax_shader_words(), constants);
     }
 
     fs::path folder;
@@ -68,7 +69,7 @@ TEST_F(ShaderCache, NextCacheReadsWhatTheFirstStored) {
     EXPECT_EQ(next.count_loaded(), 2u);
     EXPECT_EQ(next.count_stored(), 0u);
     // A different shader with the same constants has its own file in the cache.
-    ShaderWords other(parallax_words().begin(), parallax_words().end());
+    ShaderWords other(parallax_shader_words().begin(), parallax_shader_words().end());
     other[2] ^= 1; // the word of the SPIR-V header that names the generator
     const ShaderWords of_other = next.find_or_specialise("other", other, on);
     EXPECT_EQ(of_other, gpu::specialise_shader("other", other, on));

@@ -7,7 +7,7 @@ namespace {
 
 class SmallDeviceLimitsTest : public CommandLineTest {
 protected:
-    test::ProcessResult run_on_small_device(const Words& words) const {
+    test::ProcessResult run_on_device_with_small_limits(const Words& words) const {
         test::ProcessStartOptions process = make_process_start(words);
         process.environment["VK_ADD_LAYER_PATH"] = CATOPTRIC_LIMITS_LAYER;
         process.environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_CATOPTRIC_limits";
@@ -16,10 +16,11 @@ protected:
     /// Renders on the small device and on the usual device. Expects equal bytes.
     void expect_same_picture(Words words) const {
         words.insert(words.end(), {"--validate", "-o", "small.exr"});
-        const test::ProcessResult small = run_on_small_device(with_small_quick_frame(words));
+        const test::ProcessResult small = run_on_device_with_small_limits(
+            add_small_frame_options(words));
         ASSERT_EQ(small.exit_code, 0) << small.err;
         words.back() = "usual.exr";
-        ASSERT_EQ(run_cli(with_small_quick_frame(words)).exit_code, 0);
+        ASSERT_EQ(run_cli(add_small_frame_options(words)).exit_code, 0);
         EXPECT_EQ(read_output_file("small.exr"), read_output_file("usual.exr"))
             << testing::PrintToString(words);
     }
@@ -45,10 +46,10 @@ TEST_F(SmallDeviceLimitsTest, HalfFloatDistancesGiveTheSamePicture) {
 /// itself, with other rounding errors than the driver.
 TEST_F(SmallDeviceLimitsTest, FilteredDistancesGiveNearlyTheSamePicture) {
     for (const std::string technique : {"parallax", "secant", "pyramid", "hybrid"}) {
-        Words words = with_small_quick_frame(
+        Words words = add_small_frame_options(
             {"render", "--technique", technique + ":face=64", "--validate"});
         words.insert(words.end(), {"-o", "small.exr"});
-        const test::ProcessResult small = run_on_small_device(words);
+        const test::ProcessResult small = run_on_device_with_small_limits(words);
         ASSERT_EQ(small.exit_code, 0) << technique << ": " << small.err;
         words.back() = "usual.exr";
         ASSERT_EQ(run_cli(words).exit_code, 0);
@@ -80,12 +81,13 @@ TEST_F(SmallDeviceLimitsTest, BlendedSurfacesAreCutAtHalf) {
     write_input_file("veil.obj", wall + veil), write_input_file("wall.obj", wall);
     for (const std::string technique : {"naive:bounces=0", "raytrace", "raytrace:first=raster"}) {
         const auto make_words = [&](const char* file, const char* picture) {
-            return with_small_quick_frame({"render", file, "--technique", technique, "--camera",
-                                           "0,0,4:0,0,0:40", "--validate", "-o", picture});
+            return add_small_frame_options({"render", file, "--technique", technique, "--camera",
+                                            "0,0,4:0,0,0:40", "--validate", "-o", picture});
         };
         for (const auto& [file, picture] :
              {std::pair{"veil.obj", "small.exr"}, {"wall.obj", "usual.exr"}}) {
-            const test::ProcessResult ended = run_on_small_device(make_words(file, picture));
+            const test::ProcessResult ended = run_on_device_with_small_limits(
+                make_words(file, picture));
             ASSERT_EQ(ended.exit_code, 0) << technique << ": " << ended.err;
         }
         EXPECT_LT(difference_of_pictures(), 1e-4) << technique << ": the veil is cut out";
@@ -95,12 +97,12 @@ TEST_F(SmallDeviceLimitsTest, BlendedSurfacesAreCutAtHalf) {
 }
 
 TEST_F(SmallDeviceLimitsTest, ColourOf32BitFloatsIsRefused) {
-    expect_exit_code(
-        run_on_small_device({"render", "--technique", "parallax:colour=float", "-o", "x.png"}), 69,
-        {"colour=float filters images of 32-bit floats", "take colour=half"});
+    expect_exit_code(run_on_device_with_small_limits(
+                         {"render", "--technique", "parallax:colour=float", "-o", "x.png"}),
+                     69, {"colour=float filters images of 32-bit floats", "take colour=half"});
     EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
-    const test::ProcessResult half = run_on_small_device(
-        with_small_quick_frame({"render", "--technique", "parallax:colour=half", "-o", "x.png"}));
+    const test::ProcessResult half = run_on_device_with_small_limits(
+        add_small_frame_options({"render", "--technique", "parallax:colour=half", "-o", "x.png"}));
     EXPECT_EQ(half.exit_code, 0) << half.err;
 }
 

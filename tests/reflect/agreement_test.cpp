@@ -99,8 +99,8 @@ scene::Camera draw_random_camera_of_kind(test::RandomNumbers& random, int kind) 
 }
 
 /// Returns the share of pixels outside mirrors in which the pictures differ by more than .02.
-double share_of_pixels_off_outside_mirrors(const app::TechniqueResult& raster,
-                                           const app::TechniqueResult& traced) {
+double share_of_differing_pixels_outside_mirrors(const app::TechniqueResult& raster,
+                                                 const app::TechniqueResult& traced) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < traced.hits.size(); ++i) {
         if (traced.hits[i] != 0) continue;
@@ -132,7 +132,8 @@ TEST(ShadowMap, RasterAndRaysShadeTheSamePointsFromAnyCamera) {
                                   : draw_random_camera_of_kind(random, i % 5);
         request.time = i == 0 ? 1.9 : i == 1 ? 0 : .7 * (i % 6);
         const app::RunResult result = app::run(test::get_test_engine(), request);
-        const double off = share_of_pixels_off_outside_mirrors(result.parts[0], result.parts[1]);
+        const double off = share_of_differing_pixels_outside_mirrors(result.parts[0],
+                                                                     result.parts[1]);
         EXPECT_LE(off, 1e-4) << "eye " << request.camera.eye.x << "," << request.camera.eye.y << ","
                              << request.camera.eye.z;
         worst = std::max(worst, off), sum += off;

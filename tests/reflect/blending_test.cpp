@@ -13,7 +13,7 @@ namespace {
 
 using namespace catoptric;
 
-scene::Material make_veil(const char* name, vec3 emission, float alpha) {
+scene::Material make_transparent_sheet_material(const char* name, vec3 emission, float alpha) {
     return {.name = name,
             .albedo = vec3(0),
             .emission = emission,
@@ -25,14 +25,14 @@ scene::Material make_veil(const char* name, vec3 emission, float alpha) {
 
 /// Returns a scene of two emitting, half-transparent sheets ("veils") in front of an emitting wall.
 /// The nearest sheet is listed first, so drawing objects in the order of the list would be wrong.
-scene::Scene make_two_veils() {
+scene::Scene make_two_transparent_sheets() {
     scene::Scene scene{.name = "veils"};
     const auto add = [&](const char* name, scene::Material material, double z) {
         test::add_quad(scene, name, test::add_material(scene, std::move(material)), {-9, -9, z},
                        {9, -9, z}, {9, 9, z}, {-9, 9, z});
     };
-    add("near", make_veil("red", {.8f, 0, 0}, .25f), 1);
-    add("far", make_veil("green", {0, .8f, 0}, .75f), 0);
+    add("near", make_transparent_sheet_material("red", {.8f, 0, 0}, .25f), 1);
+    add("far", make_transparent_sheet_material("green", {0, .8f, 0}, .75f), 0);
     add("wall", {.name = "wall", .emission = {.1f, .2f, .8f}}, -3);
     scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
     return scene;
@@ -43,8 +43,9 @@ TEST(Blending, VeilsCoverWhatIsBehindThemInOrder) {
                         .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
     for (const char* technique : {"naive:bounces=0", "secant", "hybrid:force=unknown", "raytrace",
                                   "raytrace:first=raster", "raytrace:rays=64,indirect=paths"}) {
-        const vec3 seen =
-            test::render_without_ambient(make_two_veils(), technique, {1, 1}).hdr.at(0, 0);
+        const vec3 seen = test::render_without_ambient(make_two_transparent_sheets(), technique,
+                                                       {1, 1})
+                              .hdr.at(0, 0);
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(seen[channel], wanted[channel], 1e-5) << technique << " " << channel;
     }
@@ -52,7 +53,7 @@ TEST(Blending, VeilsCoverWhatIsBehindThemInOrder) {
 
 /// Returns a room with half-transparent sheets ("veils") at random places, with alpha from 1/512 to
 /// 1.
-scene::Scene make_room_with_veils(std::uint64_t seed, bool has_mirrors) {
+scene::Scene make_room_with_transparent_sheets(std::uint64_t seed, bool has_mirrors) {
     scene::Scene scene = test::make_lit_room(has_mirrors ? 2 : 0, 1);
     test::RandomNumbers numbers(seed);
     const auto draw = [&](double low, double high) {
@@ -83,7 +84,7 @@ TEST(Blending, RasterShowsWhatRaysShow) {
     const uvec2 size{64, 48};
     int off = 0, all = 0, other = 0;
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-        scene::Scene scene = make_room_with_veils(seed, false);
+        scene::Scene scene = make_room_with_transparent_sheets(seed, false);
         scene::Scene without = scene;
         for (scene::Material& material : without.materials)
             if (material.blended) material.blended = false; // cut out where alpha is below .5
@@ -108,7 +109,7 @@ TEST(Blending, RasterShowsWhatRaysShow) {
 /// A capture shows a half-transparent sheet (a "veil") together with the surface behind it.
 TEST(Blending, CapturesShowVeils) {
     const uvec2 size{64, 48};
-    const scene::Scene scene = make_room_with_veils(5, true);
+    const scene::Scene scene = make_room_with_transparent_sheets(5, true);
     const app::TechniqueResult traced = test::render_technique(scene, "raytrace", size);
     const measure::Picture found = test::render_technique(scene, "pyramid", size, 6).hdr;
     int off = 0, mirrors = 0;
@@ -125,7 +126,7 @@ TEST(Blending, CapturesShowVeils) {
 /// A half-transparent sheet (a "veil") must cover the sky, although the sky is drawn after all
 /// opaque surfaces.
 TEST(Blending, VeilsCoverTheSky) {
-    scene::Scene scene = make_two_veils();
+    scene::Scene scene = make_two_transparent_sheets();
     scene.objects.pop_back(); // removes the wall
     auto sky = std::make_shared<scene::Environment>();
     sky->size = {16, 8};
@@ -150,7 +151,7 @@ TEST(Blending, VeilsCoverTheSky) {
 TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
     const uvec2 size{64, 48};
     scene::Scene scene = test::make_lit_room(2, 1);
-    scene::Material veil = make_veil("veil", {0, 0, 0}, .4f);
+    scene::Material veil = make_transparent_sheet_material("veil", {0, 0, 0}, .4f);
     veil.emission = vec3(0), veil.albedo = {.9f, .5f, .1f}, veil.unlit = true;
     veil.dielectric_f0 = vec3(.04f), veil.dielectric_f90 = vec3(1), veil.roughness = .8f;
     test::add_quad(scene, "veil", test::add_material(scene, veil), {-1.5, -1.8, -1.2},
@@ -173,7 +174,7 @@ TEST(Blending, TracedMirrorsBehindVeilsAreRight) {
 /// For an orthographic camera, the order of half-transparent sheets ("veils") does not depend on
 /// the camera's position.
 TEST(Blending, VeilsAreSortedInParallelViews) {
-    scene::Scene scene = make_two_veils();
+    scene::Scene scene = make_two_transparent_sheets();
     const vec3 wanted = .25f * vec3(.8f, 0, 0) +
                         .75f * (.75f * vec3(0, .8f, 0) + .25f * vec3(.1f, .2f, .8f));
     scene.cameras.front().orthographic_height = .1;
@@ -196,7 +197,8 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
     test::add_quad(scene, "flat", mirror, {-1.6, -1.6, 1}, {-1.6, 1.6, 1}, {1.6, 1.6, 1},
                    {1.6, -1.6, 1});
     for (const double z : {-.5, 1.5}) {
-        scene::Material veil = make_veil(z < 1 ? "before" : "behind", vec3(0), .5f);
+        scene::Material veil = make_transparent_sheet_material(z < 1 ? "before" : "behind", vec3(0),
+                                                               .5f);
         veil.albedo = {.9f, .4f, .1f}, veil.unlit = true;
         test::add_quad(scene, veil.name, test::add_material(scene, veil), {-.3, -1.5, z},
                        {1.5, -1.5, z}, {1.5, .9, z}, {-.3, .9, z});
@@ -220,7 +222,7 @@ TEST(Blending, FlatMirrorsShowVeilsBeforeThem) {
 /// Where a blended surface has an alpha of 1, it hides all objects behind it, in whatever order
 /// objects are drawn.
 TEST(Blending, AlphaOfOneIsOpaque) {
-    scene::Scene scene = make_two_veils();
+    scene::Scene scene = make_two_transparent_sheets();
     scene.materials[0].alpha = 1;
     for (const char* technique : {"naive:bounces=0", "raytrace"}) {
         const vec3 seen = test::render_without_ambient(scene, technique, {1, 1}).hdr.at(0, 0);

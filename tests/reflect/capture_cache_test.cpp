@@ -38,7 +38,7 @@ protected:
                 names.push_back(graph.list_passes()[planned.pass].name);
         return names;
     }
-    void render_until_kept(const std::string& technique = "parallax:face=8") {
+    void render_until_captures_are_kept(const std::string& technique = "parallax:face=8") {
         for (int k = 0; k < 40; ++k)
             if (render_and_list_passes(technique).empty()) return;
         ADD_FAILURE() << "captures are still drawn";
@@ -70,7 +70,7 @@ protected:
 TEST_F(CaptureCacheFramesTest, FacesWithAChangedContentHashAreDrawn) {
     // Without this loop, mirrors that see mirror 1 would be drawn as well.
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
-    render_until_kept();
+    render_until_captures_are_kept();
     EXPECT_EQ(render_and_list_passes(), Names());
     const std::vector<std::byte> before = read_capture_colours(0, 0, 2);
     for (const std::size_t face : {2, 3, 5}) model_.mirrors[0].content_hashes[face] += 1;
@@ -111,7 +111,7 @@ TEST_F(CaptureCacheFramesTest, OnlyThePartOfAFaceInWhichSomethingMovedIsDrawn) {
         }
     };
     tell(1, {dvec2(-.5, -.25), dvec2(0)});
-    render_until_kept(technique);
+    render_until_captures_are_kept(technique);
     scene_.update(room_, room_.cameras.front(), kCachedPictureSize, .5);
     // The frame draws the area from the mover's old place to its new place, and one texel around.
     tell(2, {dvec2(.5, 0), dvec2(.75, .25)});
@@ -141,7 +141,7 @@ TEST_F(CaptureCacheFramesTest, PyramidIsMadeAgainWhenAFaceIsDrawn) {
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     const std::string pyramid = "pyramid:face=8";
     EXPECT_EQ(render_and_list_passes(pyramid).back(), "pyramid");
-    render_until_kept(pyramid);
+    render_until_captures_are_kept(pyramid);
     EXPECT_EQ(render_and_list_passes(pyramid), Names());
     for (const std::size_t mirror : {0, 1, 2}) {
         model_.mirrors[mirror].content_hashes[5] += 1;
@@ -167,13 +167,13 @@ TEST_F(CaptureCacheFramesTest, LevelsAreFilteredAgainWhenAFaceIsDrawn) {
     ASSERT_GE(first.size(), 2u);
     EXPECT_EQ(first[first.size() - 2], "rough/prefilter16/boxes");
     EXPECT_EQ(first.back(), "rough/prefilter16");
-    render_until_kept(levels);
+    render_until_captures_are_kept(levels);
     EXPECT_EQ(render_and_list_passes(levels), Names());
     model_.mirrors[1].content_hashes[5] += 1;
     EXPECT_EQ(
         render_and_list_passes(levels),
         (Names{"capture.keep", "capture/2.6-6", "rough/prefilter16/boxes", "rough/prefilter16"}));
-    render_until_kept(levels);
+    render_until_captures_are_kept(levels);
     EXPECT_EQ(render_and_list_passes(levels), Names());
     EXPECT_EQ(render_and_list_passes("parallax:face=8,rough=mips").back(), "rough/mips/boxes");
 }
@@ -187,14 +187,14 @@ TEST_F(CaptureCacheFramesTest, FacesThatNobodyReadsAreCleared) {
     EXPECT_TRUE(std::ranges::all_of(empty, [](std::byte byte) {
         return byte == std::byte{0} || byte == std::byte{0x3c}; // half floats of black with alpha 1
     }));
-    render_until_kept();
+    render_until_captures_are_kept();
     model_.mirrors[1].faces = require::kAllCubeFaceBits;
     const Names names = render_and_list_passes();
     EXPECT_TRUE(std::ranges::find(names, "capture/2.4-6") != names.end()) << "now they are";
-    render_until_kept();
+    render_until_captures_are_kept();
     const std::vector<std::byte> late = read_capture_colours(1);
     kept_ = nullptr, runner_.discard_persistent_image_contents();
-    render_until_kept();
+    render_until_captures_are_kept();
     EXPECT_EQ(late, read_capture_colours(1));
 }
 
@@ -209,18 +209,18 @@ TEST_F(CaptureCacheFramesTest, MirrorsThatAreCapturedLaterAreAdded) {
     const Names second = render_and_list_passes();
     EXPECT_TRUE(std::ranges::find(second, "capture.keep") != second.end()) << "into more layers";
     EXPECT_TRUE(std::ranges::find(second, "capture/2") != second.end());
-    render_until_kept();
+    render_until_captures_are_kept();
     std::vector<std::vector<std::byte>> late;
     for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
         late.push_back(read_capture_colours(mirror));
     // If a mirror goes out of sight again, its capture is not drawn any more, and the arrays of
     // captures keep their size.
     model_.mirrors[1].is_captured = false;
-    render_until_kept();
+    render_until_captures_are_kept();
     model_.mirrors[1].is_captured = true;
-    render_until_kept();
+    render_until_captures_are_kept();
     kept_ = nullptr, runner_.discard_persistent_image_contents();
-    render_until_kept();
+    render_until_captures_are_kept();
     for (std::uint32_t mirror = 0; mirror < 3; ++mirror)
         EXPECT_EQ(late[mirror], read_capture_colours(mirror)) << mirror;
 }
@@ -230,7 +230,7 @@ TEST_F(CaptureCacheFramesTest, MirrorsTakeTurnsUnderACaptureBudget) {
     const auto change = [&](std::initializer_list<std::size_t> mirrors) {
         for (const std::size_t mirror : mirrors) model_.mirrors[mirror].content_hashes[5] += 1;
     };
-    render_until_kept();
+    render_until_captures_are_kept();
     render_and_list_passes(), most_ = 1;
     change({0, 1, 2});
     EXPECT_EQ(render_and_list_passes(), (Names{"capture.keep", "capture/1.6-6"}));
@@ -258,7 +258,7 @@ TEST_F(CaptureCacheFramesTest, MirrorsTakeTurnsUnderACaptureBudget) {
 TEST_F(CaptureCacheFramesTest, MirrorsThatWaitAreDrawnThoughTheirCauseHasEnded) {
     for (require::MirrorRequirements& mirror : model_.mirrors) mirror.sees.clear();
     model_.mirrors[1].sees = {0}, model_.mirrors[2].sees = {0};
-    render_until_kept();
+    render_until_captures_are_kept();
     most_ = 1;
     model_.mirrors[0].content_hashes.fill(77);
     EXPECT_EQ(render_and_list_passes(), (Names{"capture.keep", "capture/1"}));
@@ -289,7 +289,7 @@ TEST_F(CaptureCacheFramesTest, BudgetIsRefusedBeforeChangesAreKnown) {
 
 TEST_F(CaptureCacheFramesTest, OnlyShadowMapsThatAreNeededAreDrawn) {
     model_.lights[1].has_map = false;
-    render_until_kept();
+    render_until_captures_are_kept();
     model_.lights[0].content_hash += 1;
     EXPECT_EQ(render_and_list_passes("naive:bounces=0"), Names{"shadow/1"});
     model_.lights[1].has_map = true;

@@ -52,8 +52,8 @@ ErrorCauseSplit split_error_by_causes(const app::Request& request, const std::st
 
 /// Returns a request for a settled picture. Its 16 warm-up frames let one sequence of frames serve
 /// all pictures.
-app::Request make_settled_request(const scene::Scene& scene, const std::string& technique,
-                                  uvec2 size) {
+app::Request make_request_of_settled_picture(const scene::Scene& scene,
+                                             const std::string& technique, uvec2 size) {
     app::Request request = test::make_test_request(scene, {technique}, size);
     request.warmup = 16;
     return request;
@@ -61,7 +61,8 @@ app::Request make_settled_request(const scene::Scene& scene, const std::string& 
 
 ErrorCauseSplit split_error_by_causes(const scene::Scene& scene, const std::string& technique,
                                       uvec2 size = kCausesPictureSize) {
-    return split_error_by_causes(make_settled_request(scene, technique, size), technique);
+    return split_error_by_causes(make_request_of_settled_picture(scene, technique, size),
+                                 technique);
 }
 
 /// Returns the mean squared error over all mirrors, as `split_error_by_causes` reports it, without
@@ -69,8 +70,9 @@ ErrorCauseSplit split_error_by_causes(const scene::Scene& scene, const std::stri
 double mean_squared_mirror_error(const scene::Scene& scene, const std::string& technique) {
     const app::TechniqueResult truth = test::render_technique(scene, app::kReference,
                                                               kCausesPictureSize);
-    const app::RunResult row = app::run(test::get_test_engine(),
-                                        make_settled_request(scene, technique, kCausesPictureSize));
+    const app::RunResult row = app::run(
+        test::get_test_engine(),
+        make_request_of_settled_picture(scene, technique, kCausesPictureSize));
     return std::pow(test::rmse_of_pictures(row.parts.front().hdr, truth.hdr,
                                            measure::mask_mirror_pixels(truth.hits)),
                     2);
@@ -78,7 +80,7 @@ double mean_squared_mirror_error(const scene::Scene& scene, const std::string& t
 
 /// Expects that the shares of all causes add up to the whole error. The shares of a cause by pixel
 /// class, and by mirror, must add up to its whole share.
-void expect_adds_up(const ErrorCauseSplit& found) {
+void expect_cause_shares_add_up(const ErrorCauseSplit& found) {
     double all = 0;
     for (const report::ErrorCauseShare& cause : found.causes.list) {
         all += cause.share;
@@ -118,13 +120,13 @@ TEST_P(EveryErrorCauseTest, CausesAddUpToTheWholeErrorOfEachTechnique) {
     EXPECT_LE(std::abs(found.error_share_of_cause("silhouettes")), .03)
         << "the last step takes what is true: it must be next to nothing";
     EXPECT_EQ(found.causes.squared_error_per_mirror.size(), 4u);
-    expect_adds_up(found);
+    expect_cause_shares_add_up(found);
 }
 
 TEST(Causes, CausesAddUpForEveryFormatAndKindOfShadow) {
     const auto expect_whole = [](const ErrorCauseSplit& found, const std::string& what) {
         EXPECT_LE(found.causes.rest_rmse, 1e-3) << what;
-        expect_adds_up(found);
+        expect_cause_shares_add_up(found);
     };
     for (const std::string technique :
          {"parallax:face=32,shadow_map=64,distance=r16f",
@@ -172,7 +174,7 @@ TEST(Causes, ErrorBesideGlassAndBlendedSurfacesIsTheRest) {
     const auto rest = [](const scene::Scene& scene) {
         const ErrorCauseSplit found = split_error_by_causes(scene, "secant:face=128",
                                                             kSmallCausesPictureSize);
-        expect_adds_up(found);
+        expect_cause_shares_add_up(found);
         return found.causes.rest_rmse / std::sqrt(found.causes.squared_error);
     };
     const double of_veiled = rest(veiled), of_glass = rest(glass), of_plain = rest(plain);
@@ -209,7 +211,7 @@ TEST(Causes, EightBitDistancesCountAsStorageFormat) {
                                                          "parallax:face=128,distance=unorm8");
     EXPECT_GT(coarse.error_share_of_cause("storage format"), .7);
     EXPECT_GT(coarse.error_of_cause_alone("storage format"), .7);
-    expect_adds_up(coarse);
+    expect_cause_shares_add_up(coarse);
     EXPECT_EQ(split_error_by_causes(scene::make_cornell_mirrors(), "parallax:face=64",
                                     kSmallCausesPictureSize)
                   .error_share_of_cause("storage format"),
@@ -218,8 +220,8 @@ TEST(Causes, EightBitDistancesCountAsStorageFormat) {
 
 // Compares two rows that differ in one cause. The difference of their errors must equal the part of
 // that cause in the worse row. This check uses no picture with a removed cause.
-void expect_part_is_difference(const std::string& cause, const scene::Scene& scene,
-                               const std::string& with, const std::string& without) {
+void expect_cause_part_is_row_difference(const std::string& cause, const scene::Scene& scene,
+                                         const std::string& with, const std::string& without) {
     const ErrorCauseSplit worse = split_error_by_causes(scene, with);
     const double gone = worse.causes.squared_error - mean_squared_mirror_error(scene, without);
     std::cout << "[ MEASURED ] " << cause << ": part in " << with << " "
@@ -243,32 +245,33 @@ scene::Scene make_ball_over_mirror_scene() {
 }
 
 TEST(CausesBesideRows, DirectionIsTheDifferenceBetweenReuseAndPyramid) {
-    expect_part_is_difference("direction", test::make_coloured_box({}),
-                              "reuse:face=128,shadow=none", "pyramid:face=128,shadow=none");
+    expect_cause_part_is_row_difference("direction", test::make_coloured_box({}),
+                                        "reuse:face=128,shadow=none",
+                                        "pyramid:face=128,shadow=none");
 }
 
 TEST(CausesBesideRows, HiddenTargetIsTheDifferenceBetweenPyramidAndHybrid) {
-    expect_part_is_difference(
+    expect_cause_part_is_row_difference(
         "hidden target",
         test::make_coloured_box({{-1.2, .2, -.6}, {1.9, .6, -.3}, {.2, -1.6, -.4}}),
         "pyramid:face=512,shadow=none", "hybrid:face=512,shadow=none");
 }
 
 TEST(CausesBesideRows, TexelsAreTheDifferenceBetweenCoarseAndFineCaptures) {
-    expect_part_is_difference("texels", test::make_lit_room(1, 1), "pyramid:face=16",
-                              "pyramid:face=256");
+    expect_cause_part_is_row_difference("texels", test::make_lit_room(1, 1), "pyramid:face=16",
+                                        "pyramid:face=256");
 }
 
 // With one bounce, mirrors are black in captures.
 TEST(CausesBesideRows, MirrorInMirrorIsTheDifferenceBetweenOneAndThreeBounces) {
-    expect_part_is_difference("mirror in mirror", make_ball_over_mirror_scene(),
-                              "naive:bounces=1,face=64,shadow=none",
-                              "naive:bounces=3,face=64,shadow=none");
+    expect_cause_part_is_row_difference("mirror in mirror", make_ball_over_mirror_scene(),
+                                        "naive:bounces=1,face=64,shadow=none",
+                                        "naive:bounces=3,face=64,shadow=none");
 }
 
 TEST(CausesBesideRows, ShadowMapIsTheDifferenceBetweenNoShadowsAndAMap) {
-    expect_part_is_difference("shadow map", test::make_lit_room(1, 1),
-                              "pyramid:face=128,shadow=none", "pyramid:face=128");
+    expect_cause_part_is_row_difference("shadow map", test::make_lit_room(1, 1),
+                                        "pyramid:face=128,shadow=none", "pyramid:face=128");
 }
 
 // A cause that cannot occur in a scene must have no share there, whatever other causes occur.
@@ -346,7 +349,7 @@ TEST(Causes, HollowMirrorsOwnReflectionCountsAsMirrorInMirror) {
     const ErrorCauseSplit found = split_error_by_causes(scene, "pyramid:face=64");
     EXPECT_GT(found.error_share_of_cause("mirror in mirror"), .3);
     EXPECT_LE(found.causes.rest_rmse, 1e-3);
-    expect_adds_up(found);
+    expect_cause_shares_add_up(found);
 }
 
 TEST(Causes, OnlyMovingScenesHaveLag) {
@@ -362,7 +365,7 @@ TEST(Causes, OnlyMovingScenesHaveLag) {
     EXPECT_NE(moving.error_share_of_cause("last frame"), 0.0);
     EXPECT_NE(moving.error_of_cause_alone("last frame"), 0.0);
     EXPECT_LE(moving.causes.rest_rmse, 1e-3);
-    expect_adds_up(moving);
+    expect_cause_shares_add_up(moving);
 }
 
 } // namespace

@@ -59,7 +59,7 @@ WrongPixelsByTarget count_wrong_pixels_by_target(const scene::Scene& scene,
     return found;
 }
 
-app::TechniqueResult trace_claims_scene(const scene::Scene& scene, bool exact) {
+app::TechniqueResult ray_trace_scene_for_claims(const scene::Scene& scene, bool exact) {
     return test::render_technique(
         scene, std::string("raytrace:depth=9,shadow=none,sphere=") + (exact ? "exact" : "mesh"),
         kClaimsPictureSize);
@@ -69,7 +69,7 @@ TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
     for (const bool exact : {true, false})
         for (const std::size_t seen : {0u, 1u}) {
             const scene::Scene scene = make_two_ball_scene(seen, {.02, .1, .05}, .6, exact);
-            const app::TechniqueResult truth = trace_claims_scene(scene, exact);
+            const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const WrongPixelsByTarget found = count_wrong_pixels_by_target(scene, truth,
                                                                                search);
@@ -85,7 +85,7 @@ TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
             // Selects the ball that has the board behind the other ball, as seen from the camera.
             const std::size_t seen = board.x > 0 ? 0 : 1;
             const scene::Scene scene = make_two_ball_scene(seen, board, .35, exact);
-            const app::TechniqueResult truth = trace_claims_scene(scene, exact);
+            const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
                 const WrongPixelsByTarget found = count_wrong_pixels_by_target(scene, truth,
                                                                                search);
@@ -114,7 +114,7 @@ scene::Scene make_row_of_balls(bool near_first) {
 TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
     for (const bool near_first : {true, false}) {
         const scene::Scene scene = make_row_of_balls(near_first);
-        const app::TechniqueResult truth = trace_claims_scene(scene, true);
+        const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
             const test::PixelComparison found =
                 count_wrong_pixels_by_target(scene, truth, search).ball;
@@ -142,7 +142,7 @@ scene::Scene make_flat_mirrors_beside_ball() {
 
 TEST(Claims, SurfaceInTheSecondLayerBehindAMirrorIsNoMirror) {
     const scene::Scene scene = make_flat_mirrors_beside_ball();
-    const app::TechniqueResult truth = trace_claims_scene(scene, true);
+    const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
     const measure::Picture picture = test::render_technique(
                                          scene, "layered:face=128,shadow=none,continue=8",
                                          kClaimsPictureSize)
@@ -204,7 +204,7 @@ CaptureAnswerCounts count_capture_answers(const scene::Scene& scene, const std::
         if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         if (!is_unknown(0, i) || is_unknown(1, i)) continue;
         const vec3 own = result.parts[0].hdr.pixels[i], all = result.parts[1].hdr.pixels[i];
-        const bool is_off = test::is_pixel_off(all, truth.hdr.pixels[i]),
+        const bool is_off = test::do_pixel_channels_differ(all, truth.hdr.pixels[i]),
                    meets = bool(measure::second_mirror_of_hit_word(truth.hits[i]));
         ++found.all, found.off += is_off;
         found.mirrors += meets, found.mirrors_off += meets && is_off;

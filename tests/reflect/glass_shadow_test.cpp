@@ -83,7 +83,7 @@ dvec3 measure_share_on_floor(scene::Scene scene, const std::string& technique) {
     return sum;
 }
 
-double reflected_at(double cosine) {
+double reflected_share_at_cosine(double cosine) {
     double behind;
     return f64::fresnel_dielectric(cosine, kGlassIor, behind);
 }
@@ -111,7 +111,8 @@ TEST(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
         const dvec3 above = -axis / -axis.y; // length of the way for each unit of height
         add_unseen_glass(
             scene, make_closed_box(above - dvec3(.5, 0, .5), above + dvec3(.5, thickness, .5)));
-        const double cosine = -glm::normalize(axis).y, passing = 1 - reflected_at(cosine);
+        const double cosine = -glm::normalize(axis).y,
+                     passing = 1 - reflected_share_at_cosine(cosine);
         expect_share(scene,
                      kGlassTint * kGlassTint * passing * passing *
                          glm::exp(-kGlassAbsorption * thickness / cosine),
@@ -119,7 +120,7 @@ TEST(GlassShadow, PaneTakesTintFresnelAndAbsorption) {
     }
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(scene, make_closed_box({-.5, 1, -.5}, {.5, 1 + thickness, .5}));
-    const double passing = 1 - reflected_at(1);
+    const double passing = 1 - reflected_share_at_cosine(1);
     expect_share(scene,
                  kGlassTint * kGlassTint * passing * passing *
                      glm::exp(-kGlassAbsorption * thickness),
@@ -132,7 +133,7 @@ TEST(GlassShadow, SheetTakesTintAndFresnelOnce) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(
         scene, scene::quad("sheet", {-.5, 1, .5}, {.5, 1, .5}, {.5, 1, -.5}, {-.5, 1, -.5}), false);
-    expect_share(scene, kGlassTint * (1 - reflected_at(1)), "sheet");
+    expect_share(scene, kGlassTint * (1 - reflected_share_at_cosine(1)), "sheet");
 }
 
 /// Glass close to a light is not clipped by the near plane of the shadow map, because the near
@@ -140,7 +141,7 @@ TEST(GlassShadow, SheetTakesTintAndFresnelOnce) {
 TEST(GlassShadow, PaneNearTheLightCounts) {
     scene::Scene scene = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(scene, make_closed_box({-.5, 1.89, -.5}, {.5, 1.99, .5}));
-    const double passing = 1 - reflected_at(1);
+    const double passing = 1 - reflected_share_at_cosine(1);
     expect_share(scene,
                  kGlassTint * kGlassTint * passing * passing * glm::exp(-kGlassAbsorption * .1),
                  "pane near the light");
@@ -149,7 +150,7 @@ TEST(GlassShadow, PaneNearTheLightCounts) {
 /// Light from a point inside a glass ball passes only half of the ball. The light on a board inside
 /// the ball does, too.
 TEST(GlassShadow, LightAndSurfaceInABody) {
-    const dvec3 half_way = kGlassTint * (1 - reflected_at(1));
+    const dvec3 half_way = kGlassTint * (1 - reflected_share_at_cosine(1));
     scene::Scene bulb = make_lit_floor(scene::PunctualLight::Kind::point, {0, 2, 0}, {0, -1, 0});
     add_unseen_glass(bulb, scene::ball("bulb", 5));
     bulb.objects.back().world_from_object = glm::translate(dmat4(1), dvec3(0, 2, 0)) *
@@ -175,7 +176,7 @@ TEST(GlassShadow, BallTakesTheChordThroughIt) {
         scene::find_mirrors(scene);
         scene.cameras.front().vertical_fov_degrees = .1;
         const double cosine = std::sqrt(.25 - beside * beside) / .5,
-                     passing = 1 - reflected_at(cosine);
+                     passing = 1 - reflected_share_at_cosine(cosine);
         const dvec3 wanted = kGlassTint * kGlassTint * passing * passing *
                              glm::exp(-kGlassAbsorption * cosine);
         expect_share(scene, wanted, "ball at " + std::to_string(beside), .02);

@@ -29,8 +29,8 @@ scene::Material make_glass(float ior, bool solid) {
 
 /// Returns the light that a ray brings from a glass ball and from the environment around it. The
 /// ball has radius 1 and its centre at the origin. `inside`: whether the ray starts in the ball.
-dvec3 trace_ball(const scene::Scene& scene, const dvec3& origin, const dvec3& direction,
-                 bool inside, double weight, int depth) {
+dvec3 trace_ray_through_glass_ball(const scene::Scene& scene, const dvec3& origin,
+                                   const dvec3& direction, bool inside, double weight, int depth) {
     const scene::Material& glass = scene.materials[0];
     const double b = glm::dot(origin, direction), c = glm::dot(origin, origin) - 1;
     const double t = inside ? -2 * b : -b - std::sqrt(std::max(b * b - c, 0.));
@@ -43,13 +43,14 @@ dvec3 trace_ball(const scene::Scene& scene, const dvec3& origin, const dvec3& di
     double behind;
     const double reflected = f64::fresnel_dielectric(cosine, ratio, behind);
     const dvec3 absorbed = inside ? glm::exp(-dvec3(glass.absorption) * t) : dvec3(1);
-    dvec3 light = reflected * trace_ball(scene, at, direction + 2 * cosine * normal, inside,
-                                         weight * reflected, depth - 1);
+    dvec3 light = reflected * trace_ray_through_glass_ball(scene, at,
+                                                           direction + 2 * cosine * normal, inside,
+                                                           weight * reflected, depth - 1);
     if (reflected < 1)
         light += (1 - reflected) * dvec3(glass.albedo) *
-                 trace_ball(scene, at,
-                            f64::refract_direction(direction, normal, cosine, ratio, behind),
-                            !inside, weight * (1 - reflected), depth - 1);
+                 trace_ray_through_glass_ball(
+                     scene, at, f64::refract_direction(direction, normal, cosine, ratio, behind),
+                     !inside, weight * (1 - reflected), depth - 1);
     return absorbed * light;
 }
 
@@ -76,8 +77,8 @@ TEST(GlassBall, EqualsATracerInDoublePrecision) {
             for (int x = 0; x < kGlassEdge; ++x) {
                 const dvec3 direction = test::camera_direction_of_pixel(scene.cameras.front(), x, y,
                                                                         kGlassEdge);
-                const dvec3 wanted = trace_ball(scene, scene.cameras.front().eye, direction, false,
-                                                1, 16);
+                const dvec3 wanted = trace_ray_through_glass_ball(scene, scene.cameras.front().eye,
+                                                                  direction, false, 1, 16);
                 const dvec3 difference = glm::abs(dvec3(found.at(x, y)) - wanted);
                 const double error = std::max({difference.x, difference.y, difference.z});
                 off += error > .02;
@@ -108,8 +109,8 @@ TEST(GlassBall, DispersionBendsEachColourByItsOwnIndex) {
                                                                         kGlassEdge);
                 const auto trace_with = [&](double ior) {
                     scene.materials[0].ior = static_cast<float>(ior);
-                    return trace_ball(scene, scene.cameras.front().eye, direction, false, 1,
-                                      16)[channel];
+                    return trace_ray_through_glass_ball(scene, scene.cameras.front().eye, direction,
+                                                        false, 1, 16)[channel];
                 };
                 const double wanted = trace_with(1.5 + (channel - 1) * half_spread);
                 off += std::abs(found.at(x, y)[channel] - wanted) > .02;
@@ -200,7 +201,7 @@ TEST(GlassPane, RoughSheetSpreadsLightByItsLobe) {
 }
 
 /// Returns the scene with a directional light along `direction` as its only light.
-scene::Scene lit_by_sun_alone(scene::Scene scene, const dvec3& direction) {
+scene::Scene make_scene_lit_by_sun_alone(scene::Scene scene, const dvec3& direction) {
     scene.environment.reset();
     scene::PunctualLight sun{
         .name = "sun", .kind = scene::PunctualLight::Kind::directional, .intensity = vec3(3)};
@@ -216,8 +217,8 @@ TEST(GlassBall, RoughBallBeforeTheSunIsBlack) {
     glass.roughness = .4f;
     scene::Scene scene = make_glass_ball(glass, 4);
     const dvec3 to_eye = scene.cameras.front().eye - scene.cameras.front().target;
-    const scene::Scene against = lit_by_sun_alone(scene, to_eye),
-                       along = lit_by_sun_alone(scene, -to_eye);
+    const scene::Scene against = make_scene_lit_by_sun_alone(scene, to_eye),
+                       along = make_scene_lit_by_sun_alone(scene, -to_eye);
     for (const bool is_two_sided : {false, true})
         for (const char* technique : {"raytrace", "raytrace:rays=16", "secant:face=16"}) {
             const auto brightest = [&](scene::Scene lit) {
@@ -251,7 +252,7 @@ TEST(GlassPane, RoughSheetHasAHighlightOnBothSides) {
                 test::add_quad(scene, "pane", pane, {-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0});
             scene.cameras.push_back(
                 {.eye = {0, 1, 3}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
-            scene = lit_by_sun_alone(scene, {0, 1, -3});
+            scene = make_scene_lit_by_sun_alone(scene, {0, 1, -3});
             scene::find_mirrors(scene);
             seen.push_back(
                 test::render_without_ambient(scene, technique, {1, 1}, 2).hdr.at(0, 0).x);

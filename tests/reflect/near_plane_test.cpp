@@ -21,7 +21,7 @@ struct GlowingBoard {
         : board_centre(from + distance * direction),
           along(glm::normalize(glm::cross(direction, dvec3(.1, 1, .2)))),
           up(glm::cross(along, direction)), half(half_width) {}
-    void add_to_scene(scene::Scene& scene, std::size_t material) const {
+    void add_board_quad_to_scene(scene::Scene& scene, std::size_t material) const {
         const dvec3 a = half * (along + up), b = half * (along - up);
         test::add_quad(scene, "board", material, board_centre - a, board_centre + b,
                        board_centre + a, board_centre - b);
@@ -95,7 +95,7 @@ TEST(NearPlane, CapturesShowBoardsInTheCornersOfFaces) {
         for (const dvec3& direction : list_cube_corner_directions())
             boards.emplace_back(dvec3(0), direction, distance, .15 * distance);
         for (const GlowingBoard& board : boards)
-            board.add_to_scene(scene, add_glowing_material(scene));
+            board.add_board_quad_to_scene(scene, add_glowing_material(scene));
         EXPECT_EQ(count_wrong_texels(scene, boards, kGlowColour), 0u) << distance;
     }
 }
@@ -106,7 +106,7 @@ TEST(NearPlane, NearPlaneFollowsTheNearestPointOfATriangle) {
     for (const dvec3& direction : {dvec3(1, 0, 0), list_cube_corner_directions()[3]}) {
         scene::Scene scene = make_mirror_plates_scene();
         const GlowingBoard board(dvec3(0), direction, .05, 1.2);
-        board.add_to_scene(scene, add_glowing_material(scene));
+        board.add_board_quad_to_scene(scene, add_glowing_material(scene));
         EXPECT_EQ(count_wrong_texels(scene, {board}, kGlowColour), 0u);
     }
 }
@@ -116,7 +116,7 @@ TEST(NearPlane, CapturesShowNearMirrorsInTheCornersOfFaces) {
     const std::size_t mirror = test::add_material(scene, {.name = "mirror", .mirror = true});
     std::vector<GlowingBoard> boards;
     for (const dvec3& direction : list_cube_corner_directions())
-        boards.emplace_back(dvec3(0), direction, .05, .01).add_to_scene(scene, mirror);
+        boards.emplace_back(dvec3(0), direction, .05, .01).add_board_quad_to_scene(scene, mirror);
     EXPECT_EQ(count_wrong_texels(scene, boards, vec3(0)), 0u); // captures show mirrors black
 }
 
@@ -133,7 +133,7 @@ TEST(NearPlane, ViewShowsBoardsInItsCorners) {
                 GlowingBoard(camera.eye,
                              glm::normalize(dvec3(3.8 * x * tangent, .95 * y * tangent, 1)), .03,
                              .004)
-                    .add_to_scene(scene, add_glowing_material(scene));
+                    .add_board_quad_to_scene(scene, add_glowing_material(scene));
         const app::TechniqueResult truth = test::render_technique(scene, "raytrace:shadow=none",
                                                                   kNearPlanePictureSize),
                                    drawn = test::render_technique(
@@ -142,7 +142,7 @@ TEST(NearPlane, ViewShowsBoardsInItsCorners) {
         std::size_t shown = 0, off = 0;
         for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
             shown += truth.hdr.pixels[i] == kGlowColour;
-            off += test::is_pixel_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
+            off += test::do_pixel_channels_differ(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
         }
         EXPECT_GT(shown, 20u) << fov;
         EXPECT_LE(off, shown / 20) << fov; // outlines may cut pixels at their centre
@@ -162,7 +162,7 @@ TEST(NearPlane, ShadowMapsHoldBoardsInTheCornersOfFaces) {
                    {-.3, 1.9, .3});
     for (const dvec3& direction : list_cube_corner_directions())
         if (direction.y < 0)
-            GlowingBoard({0, 1.9, 0}, direction, .05, .02).add_to_scene(scene, black);
+            GlowingBoard({0, 1.9, 0}, direction, .05, .02).add_board_quad_to_scene(scene, black);
     scene.cameras.push_back(
         {.eye = {0, 1.5, 0}, .target = {0, -2, 0}, .up = {0, 0, 1}, .vertical_fov_degrees = 130});
     constexpr uvec2 kSquarePictureSize{48, 48};
@@ -175,8 +175,8 @@ TEST(NearPlane, ShadowMapsHoldBoardsInTheCornersOfFaces) {
                                    kSquarePictureSize);
     std::size_t dark = 0, off = 0;
     for (std::size_t i = 0; i < truth.hdr.pixels.size(); ++i) {
-        dark += test::is_pixel_off(lit.hdr.pixels[i], truth.hdr.pixels[i]);
-        off += test::is_pixel_off(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
+        dark += test::do_pixel_channels_differ(lit.hdr.pixels[i], truth.hdr.pixels[i]);
+        off += test::do_pixel_channels_differ(drawn.hdr.pixels[i], truth.hdr.pixels[i]);
     }
     std::cout << "[ MEASURED ] in shadow " << dark << " pixels, off " << off << "\n";
     EXPECT_GT(dark, 50u);

@@ -17,7 +17,7 @@ struct SamePixelCounts {
     std::size_t compared = 0, other = 0, off = 0; ///< off: a channel differs by more than 1/255
 };
 
-bool is_channel_off(const vec3& a, const vec3& b) {
+bool do_channels_differ(const vec3& a, const vec3& b) {
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(std::clamp(a[i], 0.f, 1.f) - std::clamp(b[i], 0.f, 1.f)) <= 1.f / 255))
             return true;
@@ -61,7 +61,7 @@ SamePixelCounts compare_mirror_of_plan(const scene::Scene& scene, const app::Tec
         ++result.compared;
         const vec3 &a = mixed.hdr.pixels[i], &b = uniform.hdr.pixels[i];
         if (std::memcmp(&a, &b, sizeof a) != 0) ++result.other;
-        if (is_channel_off(a, b)) ++result.off;
+        if (do_channels_differ(a, b)) ++result.off;
     }
     return result;
 }
@@ -230,7 +230,7 @@ TEST(Plan, PlanOfTracedMirrorsDrawsNoCaptures) {
         for (std::size_t i = 0; i < truth.hits.size(); ++i) {
             if (measure::first_mirror_of_hit_word(truth.hits[i]) != MirrorId(mirror)) continue;
             ++pixels;
-            off += is_channel_off(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
+            off += do_channels_differ(mixed.hdr.pixels[i], alone.hdr.pixels[i]);
         }
         EXPECT_GT(pixels, 100u);
         EXPECT_LE(off, 3u) << technique << " of " << pixels;
@@ -273,7 +273,7 @@ TEST(Plan, CapturesOfManyMirrorsUseSeveralArrays) {
         if (mirror.mirror_number() <= 100)
             continue; // compare only mirrors far from the removed ones
         ++pixels;
-        other += is_channel_off(part.hdr.pixels[i], alone.hdr.pixels[i]);
+        other += do_channels_differ(part.hdr.pixels[i], alone.hdr.pixels[i]);
     }
     EXPECT_GT(pixels, 100u);
     EXPECT_LT(static_cast<double>(other), .02 * static_cast<double>(pixels)) << other;

@@ -57,7 +57,7 @@ using FindCrossing = std::function<std::optional<BodyCrossing>(
     const std::function<dvec3(const dvec3& normal)>& into)>;
 
 /// Returns the refracted direction by Snell's law in vector form.
-dvec3 bend(const dvec3& direction, const dvec3& normal, double ratio) {
+dvec3 refract_direction_by_snell(const dvec3& direction, const dvec3& normal, double ratio) {
     const dvec3 across = (direction - glm::dot(direction, normal) * normal) / ratio;
     return across - std::sqrt(1 - glm::dot(across, across)) * normal;
 }
@@ -75,18 +75,20 @@ std::optional<dvec3> radiance_of_body(const scene::Scene& scene, const dvec3& di
     double behind;
     const double cosine = -glm::dot(direction, crossing.near_normal),
                  reflected = f64::fresnel_dielectric(cosine, ior, behind);
-    const dvec3 inside = bend(direction, crossing.near_normal, ior);
+    const dvec3 inside = refract_direction_by_snell(direction, crossing.near_normal, ior);
     const double far_cosine = glm::dot(inside, crossing.far_normal),
                  kept = f64::fresnel_dielectric(far_cosine, 1 / ior, behind);
     if (kept == 1) return std::nullopt;
     const dvec3 tint = dvec3(glass.albedo) * dvec3(glass.albedo) *
                        glm::exp(-dvec3(glass.absorption) * crossing.way);
     return reflected * sky(direction + 2 * cosine * crossing.near_normal) +
-           (1 - reflected) * (1 - kept) * tint * sky(bend(inside, -crossing.far_normal, 1 / ior));
+           (1 - reflected) * (1 - kept) * tint *
+               sky(refract_direction_by_snell(inside, -crossing.far_normal, 1 / ior));
 }
 
-std::optional<BodyCrossing> cross_ball(const dvec3& eye, const dvec3& direction,
-                                       const std::function<dvec3(const dvec3&)>& into) {
+std::optional<BodyCrossing>
+find_ray_path_through_ball(const dvec3& eye, const dvec3& direction,
+                           const std::function<dvec3(const dvec3&)>& into) {
     const double b = glm::dot(eye, direction), c = glm::dot(eye, eye) - 1;
     // Near the outline, a pixel of the mesh may differ from the same pixel of the exact ball, so
     // such pixels are skipped.
@@ -97,8 +99,9 @@ std::optional<BodyCrossing> cross_ball(const dvec3& eye, const dvec3& direction,
 }
 
 /// Returns the way of a ray through the box from -half to half.
-std::optional<BodyCrossing> cross_box(const dvec3& half, const dvec3& eye, const dvec3& direction,
-                                      const std::function<dvec3(const dvec3&)>& into) {
+std::optional<BodyCrossing>
+find_ray_path_through_box(const dvec3& half, const dvec3& eye, const dvec3& direction,
+                          const std::function<dvec3(const dvec3&)>& into) {
     BodyCrossing crossing{};
     double enters = 0, leaves = 1e9;
     for (int axis = 0; axis < 3; ++axis) {
@@ -134,7 +137,7 @@ void expect_radiance_by_closed_form(const scene::Scene& scene, const std::string
         for (int x = 0; x < kRefractionEdge; ++x) {
             const dvec3 direction = test::camera_direction_of_pixel(camera, x, y, kRefractionEdge);
             const auto crossing = find_crossing(camera.eye, direction, [&](const dvec3& normal) {
-                return bend(direction, normal, scene.materials[0].ior);
+                return refract_direction_by_snell(direction, normal, scene.materials[0].ior);
             });
             if (!crossing) continue;
             const std::optional<dvec3> wanted = radiance_of_body(scene, direction, *crossing);
@@ -156,7 +159,7 @@ TEST(Refraction, BallBendsLightAsTheClosedForm) {
                                                    {.6, .5, 4.5});
     for (const char* technique : {"secant:refract=sphere", "parallax", "hybrid:refract=auto",
                                   "layered:refract=traced", "reuse:refract=sphere,face=512"})
-        expect_radiance_by_closed_form(scene, technique, .02, cross_ball);
+        expect_radiance_by_closed_form(scene, technique, .02, find_ray_path_through_ball);
 }
 
 TEST(Refraction, BoxBendsLightAsTheClosedForm) {
@@ -167,7 +170,8 @@ TEST(Refraction, BoxBendsLightAsTheClosedForm) {
         expect_radiance_by_closed_form(scene, technique, .02,
                                        [&](const dvec3& eye, const dvec3& direction,
                                            const std::function<dvec3(const dvec3&)>& into) {
-                                           return cross_box(half, eye, direction, into);
+                                           return find_ray_path_through_box(half, eye, direction,
+                                                                            into);
                                        });
 }
 
@@ -178,7 +182,7 @@ TEST(Refraction, BackFacesOfBallAndTurnedBoxBendLightAsTheClosedForm) {
                                                   {.6, .5, 4.5});
     for (const char* technique :
          {"secant:refract=backface", "hybrid:refract=backface", "reuse:refract=backface,face=512"})
-        expect_radiance_by_closed_form(ball, technique, .02, cross_ball);
+        expect_radiance_by_closed_form(ball, technique, .02, find_ray_path_through_ball);
     const dvec3 half(.9, .7, .4);
     scene::Scene box = make_body_below_sky(scene::box("box", -half, half), make_tinted_glass(),
                                            {2.5, 2.1, 3.4});
@@ -189,7 +193,7 @@ TEST(Refraction, BackFacesOfBallAndTurnedBoxBendLightAsTheClosedForm) {
         box, "secant:refract=backface", .02,
         [&](const dvec3& eye, const dvec3& direction,
             const std::function<dvec3(const dvec3&)>& into) {
-            std::optional<BodyCrossing> crossing = cross_box(
+            std::optional<BodyCrossing> crossing = find_ray_path_through_box(
                 half, back * eye, back * direction,
                 [&](const dvec3& normal) { return back * into(turn * normal); });
             if (!crossing) return crossing;

@@ -70,7 +70,7 @@ public:
     }
     /// Renders twice `most` frames. Expects that the pictures of both sessions are equal after the
     /// first `most` frames. Returns the number of the last frame in which they differed.
-    int render_until_equal(int most) {
+    int render_until_pictures_are_equal(int most) {
         int last = 0; // number of the last frame with a difference
         for (int k = 1; k <= 2 * most; ++k) {
             const auto [wanted, found] = render_next_frames();
@@ -298,7 +298,7 @@ TEST(RequiredFrames, PicturesAreRightAfterRandomEvents) {
         for (const std::size_t mirror : scene::mirrors(hall)) { // each mirror comes into view
             const dvec3 place(hall.objects[mirror].world_from_object[3]);
             pair.frame_spec.camera = {.eye = place + dvec3(.3, .2, -1.7), .target = place};
-            late = std::max(late, pair.render_until_equal(kMaxVisibleBounces));
+            late = std::max(late, pair.render_until_pictures_are_equal(kMaxVisibleBounces));
         }
         const scene::Material lit = pair.edited_scene().materials[3];
         scene::Material dark = lit;

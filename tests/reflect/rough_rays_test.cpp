@@ -200,9 +200,10 @@ TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
     /// Sums of a block's red value, and of its square, over all seeds.
     struct PixelBlockSums {
         double values = 0, squares = 0;
-        double mean_of_block() const { return values / kSeedCount; }
-        double variance_of_block() const {
-            return std::max(squares / kSeedCount - mean_of_block() * mean_of_block(), 0.) /
+        double mean_of_pixel_block() const { return values / kSeedCount; }
+        double variance_of_pixel_block() const {
+            return std::max(squares / kSeedCount - mean_of_pixel_block() * mean_of_pixel_block(),
+                            0.) /
                    (kSeedCount - 1);
         }
     };
@@ -228,12 +229,13 @@ TEST(RoughRays, SampledLampsKeepTheMeanAndLowerTheNoise) {
                met = trace("raytrace:rays=512,depth=3,lamps=met");
     double most = 0, sampled_variance = 0, met_variance = 0;
     for (std::size_t i = 0; i < sampled.size(); ++i) {
-        const double apart = std::abs(sampled[i].mean_of_block() - met[i].mean_of_block());
-        most = std::max(most, apart / std::sqrt(sampled[i].variance_of_block() +
-                                                met[i].variance_of_block() + 1e-12));
-        sampled_variance += sampled[i].variance_of_block(),
-            met_variance += met[i].variance_of_block();
-        EXPECT_GT(met[i].mean_of_block(), 0) << i;
+        const double apart = std::abs(sampled[i].mean_of_pixel_block() -
+                                      met[i].mean_of_pixel_block());
+        most = std::max(most, apart / std::sqrt(sampled[i].variance_of_pixel_block() +
+                                                met[i].variance_of_pixel_block() + 1e-12));
+        sampled_variance += sampled[i].variance_of_pixel_block(),
+            met_variance += met[i].variance_of_pixel_block();
+        EXPECT_GT(met[i].mean_of_pixel_block(), 0) << i;
     }
     std::cout << "[ MEASURED ] blocks at most " << most << " standard errors apart; variance "
               << sampled_variance << " with 64 sampled rays, " << met_variance

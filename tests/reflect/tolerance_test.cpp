@@ -16,7 +16,7 @@ constexpr double kMirrorPlaneZ = 2, kOppositeWallZ = -4; // z of the mirror and 
 /// Returns a box with a flat mirror and upright boards in front of the opposite wall. The boards
 /// are nearer to the mirror by the share `nearer` of the distance. Their edges hide parts of the
 /// wall from the mirror's centre, but not from all points of the mirror.
-scene::Scene make_slat_scene(double nearer) {
+scene::Scene make_scene_of_boards_before_wall(double nearer) {
     scene::Scene scene{.name = "slats"};
     test::add_bright_box(scene, {-4, -4, kOppositeWallZ}, {4, 4, 4});
     test::add_quad(scene, "mirror", test::add_material(scene, {.name = "mirror", .mirror = true}),
@@ -41,7 +41,7 @@ struct HitCounts {
 HitCounts count_hits_between_slats(double nearer, const std::string& technique, double degrees) {
     HitCounts found;
     for (const measure::LookupDirectionError& pixel : test::measure_lookup_directions(
-             make_slat_scene(nearer), technique, kTolerancePictureSize)) {
+             make_scene_of_boards_before_wall(nearer), technique, kTolerancePictureSize)) {
         ++found.pixels;
         if (pixel.state != 0) continue;
         ++found.hits;

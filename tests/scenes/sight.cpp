@@ -85,7 +85,8 @@ SceneSurfaceCaster::SceneSurfaceCaster(const app::Request& request)
 }
 
 std::optional<SceneSurfaceCaster::CutOutSurface>
-SceneSurfaceCaster::meet(f32::Ray ray, float farthest, std::uint32_t skipped, int& cut) const {
+SceneSurfaceCaster::find_first_solid_hit(f32::Ray ray, float farthest, std::uint32_t skipped,
+                                         int& cut) const {
     constexpr int kMaxCutOutSurfaces = 64; // most cut-out surfaces along a ray
     for (cut = 0; cut < kMaxCutOutSurfaces; ++cut) {
         const auto hit = bvh::find_closest_hit<float>(tree_, ray, farthest, skipped);
@@ -118,7 +119,8 @@ SceneSurfaceCaster::meet(f32::Ray ray, float farthest, std::uint32_t skipped, in
     return {};
 }
 
-std::uint32_t SceneSurfaceCaster::shadows(const SeenSurface& seen, std::uint32_t triangle) const {
+std::uint32_t SceneSurfaceCaster::find_lights_hidden_from_place(const SeenSurface& seen,
+                                                                std::uint32_t triangle) const {
     std::uint32_t hidden = 0;
     for (std::size_t i = 0; i < lights_.size() && i < 32; ++i) {
         const scene::PointLight& light = lights_[i];
@@ -130,17 +132,19 @@ std::uint32_t SceneSurfaceCaster::shadows(const SeenSurface& seen, std::uint32_t
         if (is_dark_side || dot(to, seen.normal) <= 0) continue;
         const vec3 side = dot(to, seen.facet) > 0 ? seen.facet : -seen.facet;
         int cut = 0;
-        if (meet({seen.place + side * 1e-5f, to, triangle + 1},
-                 light.directional ? kInfiniteDistance : .9999f, bvh::kCastsNoShadowFlag, cut))
+        if (find_first_solid_hit({seen.place + side * 1e-5f, to, triangle + 1},
+                                 light.directional ? kInfiniteDistance : .9999f,
+                                 bvh::kCastsNoShadowFlag, cut))
             hidden |= 1u << i;
     }
     return hidden;
 }
 
-SeenSurface SceneSurfaceCaster::see(const f32::Ray& ray) const {
+SeenSurface SceneSurfaceCaster::find_surface_seen_by_ray(const f32::Ray& ray) const {
     SeenSurface seen;
-    const auto met = meet(ray, std::numeric_limits<float>::max(),
-                          bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag, seen.cut);
+    const auto met = find_first_solid_hit(ray, std::numeric_limits<float>::max(),
+                                          bvh::kHiddenFromCameraFlag | bvh::kOneSidedFlag,
+                                          seen.cut);
     if (!met) return seen;
     const uvec3 corners = triangles_[met->hit.triangle];
     vec3 at[3], normal(0);
@@ -170,7 +174,7 @@ SeenSurface SceneSurfaceCaster::see(const f32::Ray& ray) const {
                           nearest_texel_index(*texture, met->uv) + 1;
     if (material.albedo_texture)
         seen.texel = sample_texture_filtered(*material.albedo_texture, met->uv);
-    seen.shadowed = shadows(seen, met->hit.triangle);
+    seen.shadowed = find_lights_hidden_from_place(seen, met->hit.triangle);
     return seen;
 }
 
@@ -178,7 +182,7 @@ std::vector<SeenSurface> SceneSurfaceCaster::find_surfaces_seen_by_camera() cons
     const uvec2 fine = size_ * kRaysAlongPixelEdge;
     std::vector<SeenSurface> seen;
     for (std::size_t i = 0; i < std::size_t{fine.x} * fine.y; ++i)
-        seen.push_back(see(app::make_camera_ray(view_, fine, i)));
+        seen.push_back(find_surface_seen_by_ray(app::make_camera_ray(view_, fine, i)));
     return seen;
 }
 

@@ -48,10 +48,11 @@ private:
     };
     /// Returns the first hit outside the cut-out parts of surfaces. `cut` becomes the number of
     /// cut-out surfaces before the hit.
-    std::optional<CutOutSurface> meet(f32::Ray ray, float farthest, std::uint32_t skipped,
-                                      int& cut) const;
-    SeenSurface see(const f32::Ray& ray) const;
-    std::uint32_t shadows(const SeenSurface& seen, std::uint32_t triangle) const;
+    std::optional<CutOutSurface> find_first_solid_hit(f32::Ray ray, float farthest,
+                                                      std::uint32_t skipped, int& cut) const;
+    SeenSurface find_surface_seen_by_ray(const f32::Ray& ray) const;
+    std::uint32_t find_lights_hidden_from_place(const SeenSurface& seen,
+                                                std::uint32_t triangle) const;
     const scene::Material& material_of_object(std::uint32_t object) const {
         return current_scene_.materials[current_scene_.objects[object].material];
     }

@@ -62,7 +62,7 @@ struct PixelComparison {
     }
 };
 
-inline bool is_pixel_off(const vec3& a, const vec3& b) {
+inline bool do_pixel_channels_differ(const vec3& a, const vec3& b) {
     // A channel that is NaN counts as off, because the comparison is then false.
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(a[i] - b[i]) <= static_cast<float>(measure::kMaxInvisibleChannelDifference)))
@@ -87,7 +87,7 @@ PixelComparison compare_pixels_of_mirrors(const measure::Picture& picture,
         if (!measure::first_mirror_of_hit_word(truth.hits[i])) continue;
         if (!counts(truth.hits[i], truth.hdr.pixels[i])) continue;
         ++result.pixels;
-        result.off += is_pixel_off(picture.pixels[i], truth.hdr.pixels[i]);
+        result.off += do_pixel_channels_differ(picture.pixels[i], truth.hdr.pixels[i]);
     }
     return result;
 }

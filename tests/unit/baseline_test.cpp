@@ -21,7 +21,7 @@ using catoptric::report::sample::make_usual_comparison;
 using testing::HasSubstr;
 
 /// Returns six rounds of one frame each whose times are `ms` times 0.98 to 1.02.
-catoptric::measure::SampleSummary make_rounds(double ms) {
+catoptric::measure::SampleSummary make_six_timed_rounds(double ms) {
     std::vector<std::vector<double>> rounds;
     for (const double factor : {.98, .99, 1.0, 1.0, 1.01, 1.02}) rounds.push_back({ms * factor});
     return summarise_samples(rounds);
@@ -33,9 +33,11 @@ Comparison make_timed_comparison() {
     Comparison made = make_usual_comparison();
     made.rows.resize(2);
     for (Row& row : made.rows) row.passes.clear();
-    made.rows[0].gpu_ms = make_rounds(10), made.rows[1].gpu_ms = make_rounds(20);
-    made.rows[1].passes = {{"capture", make_rounds(5)}, {"search", make_rounds(15)}};
-    made.clear_ms = make_rounds(1);
+    made.rows[0].gpu_ms = make_six_timed_rounds(10),
+    made.rows[1].gpu_ms = make_six_timed_rounds(20);
+    made.rows[1].passes = {{"capture", make_six_timed_rounds(5)},
+                           {"search", make_six_timed_rounds(15)}};
+    made.clear_ms = make_six_timed_rounds(1);
     return made;
 }
 
@@ -44,8 +46,8 @@ std::vector<BaselineFinding> judge(const Comparison& now, const Comparison& befo
     return judge_comparison_against_baseline(now, to_json(before), "old.json", limits);
 }
 
-std::vector<std::string> list_quantities(const std::vector<BaselineFinding>& findings,
-                                         BaselineVerdict verdict) {
+std::vector<std::string> list_quantities_with_verdict(const std::vector<BaselineFinding>& findings,
+                                                      BaselineVerdict verdict) {
     std::vector<std::string> list;
     for (const BaselineFinding& finding : findings)
         if (finding.verdict == verdict) list.push_back(finding.row + ": " + finding.quantity);
@@ -58,19 +60,19 @@ TEST(Baseline, EqualComparisonIsKept) {
     const Comparison made = make_timed_comparison();
     const std::vector<BaselineFinding> findings = judge(made, made);
     EXPECT_EQ(findings.size(), 6U); // FLIP and time of two rows, and the times of two passes
-    EXPECT_EQ(list_quantities(findings, BaselineVerdict::kept).size(), 6U);
+    EXPECT_EQ(list_quantities_with_verdict(findings, BaselineVerdict::kept).size(), 6U);
     EXPECT_EQ(format_baseline_findings(findings), "baseline: 0 worse, 0 unknown, 6 kept\n");
 }
 
 TEST(Baseline, SlowerPassIsNamedWithItsRow) {
     const Comparison before = make_timed_comparison();
     Comparison now = before;
-    now.rows[1].passes[1].gpu_ms = make_rounds(15 * 1.2);
-    now.rows[1].gpu_ms = make_rounds(20 * 1.15);
+    now.rows[1].passes[1].gpu_ms = make_six_timed_rounds(15 * 1.2);
+    now.rows[1].gpu_ms = make_six_timed_rounds(20 * 1.15);
     const std::string row = before.rows[1].label;
     // The least ratios of the intervals are 1.2 * .98 / 1.02 = 1.153 and 1.15 * .98 / 1.02 = 1.105.
     // Both are above the limit 1.1.
-    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
               (Names{row + ": ms", row + ": ms of search"}));
     EXPECT_THAT(format_baseline_findings(judge(now, before)),
                 HasSubstr("worse: " + row +
@@ -78,54 +80,56 @@ TEST(Baseline, SlowerPassIsNamedWithItsRow) {
                           "times by both 95 % intervals; at most 1.1 times"));
     // With a limit of 1.3 all times are kept. With a limit of 1.2, the intervals contain the limit,
     // so the verdict is unknown.
-    EXPECT_TRUE(list_quantities(judge(now, before, {.max_time_ratio = 1.3}), BaselineVerdict::worse)
+    EXPECT_TRUE(list_quantities_with_verdict(judge(now, before, {.max_time_ratio = 1.3}),
+                                             BaselineVerdict::worse)
                     .empty());
-    EXPECT_EQ(
-        list_quantities(judge(now, before, {.max_time_ratio = 1.2}), BaselineVerdict::unknown),
-        (Names{row + ": ms of search"}));
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before, {.max_time_ratio = 1.2}),
+                                           BaselineVerdict::unknown),
+              (Names{row + ": ms of search"}));
     // A row that became faster is never worse.
-    EXPECT_EQ(list_quantities(judge(before, now), BaselineVerdict::kept).size(), 6U);
+    EXPECT_EQ(list_quantities_with_verdict(judge(before, now), BaselineVerdict::kept).size(), 6U);
 }
 
 TEST(Baseline, ShortPassIsNotJudged) {
     Comparison before = make_timed_comparison();
-    before.rows[1].passes.push_back({"clear", make_rounds(.6)}); // a pass of .6 ms in a row of 20
-                                                                 // ms
+    before.rows[1].passes.push_back({"clear", make_six_timed_rounds(.6)}); // a pass of .6 ms in a
+                                                                           // row of 20 ms
     Comparison now = before;
-    now.rows[1].passes[2].gpu_ms = make_rounds(.9);
+    now.rows[1].passes[2].gpu_ms = make_six_timed_rounds(.9);
     EXPECT_EQ(judge(now, before).size(), 6U);
-    EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
-    now.rows[1].passes[2].gpu_ms = make_rounds(1.2); // now 6 % of the row's time
-    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
+    EXPECT_TRUE(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse).empty());
+    now.rows[1].passes[2].gpu_ms = make_six_timed_rounds(1.2); // now 6 % of the row's time
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
               (Names{before.rows[1].label + ": ms of clear"}));
 }
 
 TEST(Baseline, SlowMachineAnotherDeviceAndNoiseSayNothingOfTimes) {
     const Comparison before = make_timed_comparison();
     Comparison slow = before;
-    for (Row& row : slow.rows) row.gpu_ms = make_rounds(row.gpu_ms.median * 1.3);
-    slow.clear_ms = make_rounds(1.3); // constant work takes longer by the same factor
-    EXPECT_TRUE(list_quantities(judge(slow, before), BaselineVerdict::worse).empty());
-    EXPECT_TRUE(
-        list_quantities(judge(slow, before, {.max_time_ratio = 1.2}), BaselineVerdict::unknown)
-            .empty())
+    for (Row& row : slow.rows) row.gpu_ms = make_six_timed_rounds(row.gpu_ms.median * 1.3);
+    slow.clear_ms = make_six_timed_rounds(1.3); // constant work takes longer by the same factor
+    EXPECT_TRUE(list_quantities_with_verdict(judge(slow, before), BaselineVerdict::worse).empty());
+    EXPECT_TRUE(list_quantities_with_verdict(judge(slow, before, {.max_time_ratio = 1.2}),
+                                             BaselineVerdict::unknown)
+                    .empty())
         << "passes and rows are 1 to 1.3 times as slow on a machine that is 1.3 times as slow";
     slow.clear_ms = before.clear_ms;
-    EXPECT_EQ(list_quantities(judge(slow, before), BaselineVerdict::worse).size(), 2U);
+    EXPECT_EQ(list_quantities_with_verdict(judge(slow, before), BaselineVerdict::worse).size(), 2U);
     Comparison other = slow;
     other.device.name = "another";
-    EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
-    EXPECT_EQ(list_quantities(judge(other, before), BaselineVerdict::unknown).size(), 4U);
+    EXPECT_TRUE(list_quantities_with_verdict(judge(other, before), BaselineVerdict::worse).empty());
+    EXPECT_EQ(list_quantities_with_verdict(judge(other, before), BaselineVerdict::unknown).size(),
+              4U);
     other = slow, other.device.threads = 16; // a processor of the same name with another number of
                                              // threads
-    EXPECT_TRUE(list_quantities(judge(other, before), BaselineVerdict::worse).empty());
+    EXPECT_TRUE(list_quantities_with_verdict(judge(other, before), BaselineVerdict::worse).empty());
     Comparison noisy = slow;
     noisy.rows[0].noisy = true;
-    EXPECT_EQ(list_quantities(judge(noisy, before), BaselineVerdict::worse),
+    EXPECT_EQ(list_quantities_with_verdict(judge(noisy, before), BaselineVerdict::worse),
               (Names{before.rows[1].label + ": ms"}));
     Comparison short_run = slow;
     short_run.rows[0].gpu_ms = summarise_samples(std::vector<std::vector<double>>{{99}});
-    EXPECT_EQ(list_quantities(judge(short_run, before), BaselineVerdict::unknown),
+    EXPECT_EQ(list_quantities_with_verdict(judge(short_run, before), BaselineVerdict::unknown),
               (Names{before.rows[0].label + ": ms"}));
 }
 
@@ -134,18 +138,19 @@ TEST(Baseline, RiseOfFlipIsWorseAboveTheShareAndAboveTheNoise) {
     Comparison now = before;
     now.rows[0].error.flip = before.rows[0].error.flip * 1.05;
     const Names row{before.rows[0].label + ": flip"};
-    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse), row);
-    EXPECT_TRUE(list_quantities(judge(now, before, {.max_flip_rise = .06}), BaselineVerdict::worse)
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse), row);
+    EXPECT_TRUE(list_quantities_with_verdict(judge(now, before, {.max_flip_rise = .06}),
+                                             BaselineVerdict::worse)
                     .empty());
     now.noise = std::make_shared<catoptric::measure::ReferenceNoise>();
     now.noise->flip_floor = before.rows[0].error.flip * .06;
-    EXPECT_TRUE(list_quantities(judge(now, before), BaselineVerdict::worse).empty());
+    EXPECT_TRUE(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse).empty());
     now.noise->flip_floor = before.rows[0].error.flip * .04;
-    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse), row);
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse), row);
     // If a row had no error before, any error is worse.
     Comparison exact = before, inexact = before;
     exact.rows[0].error.flip = 0, inexact.rows[0].error.flip = 1e-5;
-    EXPECT_EQ(list_quantities(judge(inexact, exact), BaselineVerdict::worse), row);
+    EXPECT_EQ(list_quantities_with_verdict(judge(inexact, exact), BaselineVerdict::worse), row);
 }
 
 /// Counts of work are the same in each run. A count above the limit is therefore worse, also on
@@ -164,7 +169,7 @@ TEST(Baseline, MoreCountedWorkIsWorse) {
     }
     now.device.name = "another", now.studies.emplace_back("work");
     const auto judge_nodes = [&](double nodes) {
-        return list_quantities(
+        return list_quantities_with_verdict(
             judge_comparison_against_baseline(now, with_work(nodes), "old.json", {}),
             BaselineVerdict::worse);
     };
@@ -178,9 +183,9 @@ TEST(Baseline, MissingRowIsWorseAndNewRowIsNot) {
     const Comparison before = make_timed_comparison();
     Comparison now = before;
     now.rows.pop_back();
-    EXPECT_EQ(list_quantities(judge(now, before), BaselineVerdict::worse),
+    EXPECT_EQ(list_quantities_with_verdict(judge(now, before), BaselineVerdict::worse),
               (Names{before.rows[1].label + ": row"}));
-    EXPECT_EQ(list_quantities(judge(before, now), BaselineVerdict::worse), Names{});
+    EXPECT_EQ(list_quantities_with_verdict(judge(before, now), BaselineVerdict::worse), Names{});
 }
 
 TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {

@@ -113,7 +113,7 @@ TEST(Footprint, MirrorsOutsideThePictureNeedNoTexels) {
 struct FootprintMirror {
     std::vector<shared::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    double needed_face_edge(const dvec3& eye, const dvec3& target) const {
+    double needed_face_edge_of_mirror(const dvec3& eye, const dvec3& target) const {
         return cube_edge_needed_by_mesh(make_pixel_grid(eye, target), vertices, indices);
     }
 };
@@ -140,7 +140,7 @@ TEST(Footprint, BallMeshNeedsTheSameEdgeAsItsSphere) {
     for (const dvec3& target : {centre, centre + dvec3(.3, .1, 0)}) {
         const double wanted = cube_edge_needed_by_sphere(make_pixel_grid(eye, target), vec3(centre),
                                                          kMirrorBallRadius);
-        EXPECT_NEAR(ball.needed_face_edge(eye, target), wanted, .01 * wanted);
+        EXPECT_NEAR(ball.needed_face_edge_of_mirror(eye, target), wanted, .01 * wanted);
     }
 }
 
@@ -163,8 +163,8 @@ TEST(Footprint, HollowMirrorNeedsALargerEdgeThanABulgingMirror) {
                          kPixelAngleRadians * (1 + 2 * kDistance / kMirrorBallRadius)),
                      hollow = cube_edge_texels_for_footprint(
                          kPixelAngleRadians * (2 * kDistance / kMirrorBallRadius - 1));
-        EXPECT_NEAR(mirror.needed_face_edge(top + away, top), bulge, .01 * bulge);
-        EXPECT_NEAR(mirror.needed_face_edge(top - away, top), hollow, .01 * hollow);
+        EXPECT_NEAR(mirror.needed_face_edge_of_mirror(top + away, top), bulge, .01 * bulge);
+        EXPECT_NEAR(mirror.needed_face_edge_of_mirror(top - away, top), hollow, .01 * hollow);
     }
 }
 
@@ -187,15 +187,15 @@ TEST(Footprint, CylinderNeedsTheSameEdgeAsAFlatMirror) {
     // Squared tangent of the angle between the camera's axis and a corner of the plane.
     const double corner = 2 * .4 * .4 / (5 * 5);
     const double wanted = cube_edge_texels_for_footprint(kPixelAngleRadians) * (1 + corner);
-    EXPECT_NEAR(make_mirror_of_mesh(plane, bent).needed_face_edge(eye, middle), wanted,
+    EXPECT_NEAR(make_mirror_of_mesh(plane, bent).needed_face_edge_of_mirror(eye, middle), wanted,
                 .01 * wanted);
     const auto flat = [](const dvec3& p) { return shared::Vertex{vec3(p), vec3(0, 0, 1)}; };
-    EXPECT_NEAR(make_mirror_of_mesh(plane, flat).needed_face_edge(eye, middle), wanted,
+    EXPECT_NEAR(make_mirror_of_mesh(plane, flat).needed_face_edge_of_mirror(eye, middle), wanted,
                 1e-6 * wanted);
-    EXPECT_NEAR(make_mirror_of_mesh(plane, flat).needed_face_edge(-eye, middle), wanted,
+    EXPECT_NEAR(make_mirror_of_mesh(plane, flat).needed_face_edge_of_mirror(-eye, middle), wanted,
                 1e-6 * wanted);
     const auto nothing = [](const dvec3&) { return shared::Vertex{vec3(1), vec3(0, 0, 1)}; };
-    EXPECT_EQ(make_mirror_of_mesh(plane, nothing).needed_face_edge(eye, middle), 0);
+    EXPECT_EQ(make_mirror_of_mesh(plane, nothing).needed_face_edge_of_mirror(eye, middle), 0);
 }
 
 TEST(Footprint, CommonEdgeCoversTheLargestNeed) {

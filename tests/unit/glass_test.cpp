@@ -12,28 +12,30 @@ namespace {
 
 using namespace catoptric;
 
-double reflected_share(double cosine, double ratio) {
+double reflected_share_of_glass(double cosine, double ratio) {
     double behind;
     return f64::fresnel_dielectric(cosine, ratio, behind);
 }
 
 TEST(Glass, ReflectsTheTextbookShares) {
     for (const double ior : {1.0, 1.33, 1.5, 2.4}) {
-        EXPECT_NEAR(reflected_share(1, ior), std::pow((ior - 1) / (ior + 1), 2), 1e-15);
-        EXPECT_NEAR(reflected_share(1, 1 / ior), std::pow((ior - 1) / (ior + 1), 2), 1e-15);
+        EXPECT_NEAR(reflected_share_of_glass(1, ior), std::pow((ior - 1) / (ior + 1), 2), 1e-15);
+        EXPECT_NEAR(reflected_share_of_glass(1, 1 / ior), std::pow((ior - 1) / (ior + 1), 2),
+                    1e-15);
         // At Brewster's angle, whose tangent is the index of refraction, only light polarised
         // across the plane of incidence is reflected.
         const double brewster = std::atan(ior), across = std::cos(2 * brewster);
-        EXPECT_NEAR(reflected_share(std::cos(brewster), ior), across * across / 2, 1e-12);
+        EXPECT_NEAR(reflected_share_of_glass(std::cos(brewster), ior), across * across / 2, 1e-12);
     }
-    EXPECT_NEAR(reflected_share(0, 1.5), 1, 1e-12);
-    EXPECT_NEAR(reflected_share(std::cos(.8), 1), 0, 1e-15) << "equal media reflect nothing";
+    EXPECT_NEAR(reflected_share_of_glass(0, 1.5), 1, 1e-12);
+    EXPECT_NEAR(reflected_share_of_glass(std::cos(.8), 1), 0, 1e-15)
+        << "equal media reflect nothing";
 }
 
 TEST(Glass, ReflectsAllLightBeyondTheCriticalAngle) {
     const double critical = std::asin(1 / 1.5);
-    EXPECT_EQ(reflected_share(std::cos(critical + 1e-6), 1 / 1.5), 1);
-    EXPECT_LT(reflected_share(std::cos(critical - 1e-3), 1 / 1.5), 1);
+    EXPECT_EQ(reflected_share_of_glass(std::cos(critical + 1e-6), 1 / 1.5), 1);
+    EXPECT_LT(reflected_share_of_glass(std::cos(critical - 1e-3), 1 / 1.5), 1);
 }
 
 /// A slab of glass reflects the same share of a ray on its way in and on its way out. The ray

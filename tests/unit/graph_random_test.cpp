@@ -13,8 +13,8 @@ using ::testing::Not;
 
 constexpr unsigned kRandomGraphCount = 500;
 
-/// Returns a sizer with two heaps, and with alignments that do not divide the sizes.
-MemoryRequirementQueries make_two_heap_sizer() {
+/// Returns memory requirements with two heaps, and with alignments that do not divide the sizes.
+MemoryRequirementQueries make_memory_queries_with_two_heaps() {
     return {.image =
                 [](const ImageDesc& desc) {
                     return MemoryRequirements{.bytes = std::uint64_t{desc.layers} * 1000 *
@@ -30,7 +30,8 @@ MemoryRequirementQueries make_two_heap_sizer() {
 
 struct RandomGraphSample {
     explicit RandomGraphSample(unsigned seed)
-        : sizer(seed % 2 ? make_two_heap_sizer() : make_default_requirement_queries()) {
+        : sizer(seed % 2 ? make_memory_queries_with_two_heaps()
+                         : make_default_requirement_queries()) {
         std::mt19937 random(seed);
         graph = make_random_graph(random);
         right = plan_graph(graph, {}, sizer);

@@ -27,7 +27,7 @@ vec3 noise_free_pixel(int x, int y) {
     return vec3(.3f) + vec3(.2f, .1f, .2f) * (float(x + y) / kTestPictureEdge);
 }
 
-Picture make_true_picture() {
+Picture make_noise_free_picture() {
     Picture picture(kTestPictureEdge, kTestPictureEdge);
     for (int y = 0; y < kTestPictureEdge; ++y)
         for (int x = 0; x < kTestPictureEdge; ++x) picture.at(x, y) = noise_free_pixel(x, y);
@@ -45,8 +45,8 @@ Picture add_noise(Picture picture, double deviation, test::RandomNumbers& number
 
 /// Returns the true picture with an error of +-.05, in alternating columns. Its squared error is
 /// .0025.
-Picture make_wrong_picture() {
-    Picture picture = make_true_picture();
+Picture make_picture_with_known_error() {
+    Picture picture = make_noise_free_picture();
     for (int y = 0; y < kTestPictureEdge; ++y)
         for (int x = 0; x < kTestPictureEdge; ++x)
             picture.at(x, y) += vec3(x % 2 == 0 ? .05f : -.05f);
@@ -94,7 +94,7 @@ TEST(Halves, MeanAndVarianceAreThoseOfTheSamples) {
 /// The interval must contain the true error, which is known here. An estimate from one half alone
 /// is biased and must lie outside the interval.
 TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
-    const Picture truth = make_true_picture(), wrong = make_wrong_picture();
+    const Picture truth = make_noise_free_picture(), wrong = make_picture_with_known_error();
     int held = 0, biased_held = 0, held_by_deviation = 0;
     double mean = 0, width = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -132,7 +132,7 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
 }
 
 TEST(Halves, IntervalIsUnknownForFewTiles) {
-    const Picture picture = make_true_picture();
+    const Picture picture = make_noise_free_picture();
     measure::Mask mask(picture.pixels.size(), 0);
     for (int k = 0; k < 9; ++k)
         mask[std::size_t(k) * measure::kBootstrapTileEdge % kTestPictureEdge +
@@ -159,7 +159,7 @@ TEST(Halves, CrossingIsTheShareOfPixelsThatClampingBiases) {
 
 /// Returns the difference of a perfect picture from a reference whose halves lie on both sides of
 /// the picture.
-measure::Difference make_hidden_difference() {
+measure::Difference make_difference_below_noise() {
     Picture x(kTestPictureEdge, kTestPictureEdge), a = x, b = x;
     for (std::size_t i = 0; i < x.pixels.size(); ++i)
         x.pixels[i] = vec3(.5f), a.pixels[i] = vec3(.6f), b.pixels[i] = vec3(.4f);
@@ -169,7 +169,7 @@ measure::Difference make_hidden_difference() {
 }
 
 TEST(Halves, NegativeEstimateReadsBelowTheNoise) {
-    const measure::Difference hidden = make_hidden_difference();
+    const measure::Difference hidden = make_difference_below_noise();
     EXPECT_NEAR(hidden.rmse, -.1, 1e-6);
     EXPECT_FALSE(hidden.psnr);
     EXPECT_GT(hidden.flip_floor, hidden.flip);
@@ -205,7 +205,7 @@ TEST(Halves, ReportWithoutNoiseSaysNothingOfIt) {
 }
 
 TEST(Halves, EqualHalvesGiveTheFiguresWithoutNoise) {
-    const Picture truth = make_true_picture(), wrong = make_wrong_picture();
+    const Picture truth = make_noise_free_picture(), wrong = make_picture_with_known_error();
     const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(truth, truth,
                                                                                       1);
     const std::vector<float> map = measure::compute_flip_against_halves(wrong, halves, 1);

@@ -201,7 +201,7 @@ TEST_F(LoadUnreadFeaturesTest, ControlCharactersOfAFileAreEscapedInMessages) {
 // ---- repairs of loaded files
 
 /// Builds a glTF file of a closed box without normals. `node` gives the transform of the box.
-GltfFileBuilder load_unread_box(const Json& node) {
+GltfFileBuilder make_box_gltf_without_normals(const Json& node) {
     GltfFileBuilder gltf = make_small_gltf();
     gltf.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = gltf.add_accessor<float>(
         {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1}, "VEC3", 5126);
@@ -217,7 +217,8 @@ TEST_F(LoadUnreadFeaturesTest, FacetNormalsOfMirroredNodesPointOutwards) {
     for (const Json& node : {Json{{"scale", {1, 1, 1}}}, Json{{"scale", {-1, 1, 1}}},
                              Json{{"scale", {-2, -1, -3}}}, Json{{"scale", {1, -1, -1}}},
                              Json{{"matrix", {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}}) {
-        const Scene scene = load(write_loaded_file("x.glb", load_unread_box(node).glb_bytes()));
+        const Scene scene = load(
+            write_loaded_file("x.glb", make_box_gltf_without_normals(node).glb_bytes()));
         const Object& object = scene.objects.at(0);
         const Mesh& mesh = scene.meshes[object.mesh];
         const dvec3 centre = bounds(scene).centre();

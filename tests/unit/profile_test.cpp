@@ -27,8 +27,8 @@ app::DeviceInfo make_device_info(const std::string& driver = "driver 1.2 (build 
 
 /// Returns a measurement of a variant's second choice. In round i this choice takes `ratios[i]`
 /// times as long as the default.
-measure::ShaderVariantTrial make_variant_trial(std::size_t variant,
-                                               const std::vector<double>& ratios) {
+measure::ShaderVariantTrial make_shader_variant_trial(std::size_t variant,
+                                                      const std::vector<double>& ratios) {
     const gpu::ShaderBuildVariant& row = gpu::list_shader_variants()[variant];
     measure::ShaderVariantTrial one{.variant = std::string(row.name),
                                     .choice = std::string(row.choices[1]),
@@ -42,10 +42,10 @@ const std::vector<double> kFasterRoundRatios{.9, .91, .92, .93, .94, .95},
     kSlowerRoundRatios{1.1, 1.2, 1.3, 1.1, 1.2, 1.3}, kMixedRoundRatios{.5, .6, .7, .8, .9, 1.01};
 
 TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
-    const std::string text = app::make_profile_text(make_device_info(),
-                                                    {make_variant_trial(0, kFasterRoundRatios),
-                                                     make_variant_trial(1, kSlowerRoundRatios),
-                                                     make_variant_trial(2, kMixedRoundRatios)});
+    const std::string text = app::make_profile_text(
+        make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios),
+                             make_shader_variant_trial(1, kSlowerRoundRatios),
+                             make_shader_variant_trial(2, kMixedRoundRatios)});
     EXPECT_EQ(app::parse_device_profile(text, "p.json", make_device_info()),
               (gpu::ShaderVariantChoices{1, 0, 0}));
     const json document = json::parse(text);
@@ -55,14 +55,14 @@ TEST(Profile, ProfileStoresChoicesThatAreFasterWithConfidence) {
     EXPECT_DOUBLE_EQ(document["measured"][0]["ratio"], .925);
     EXPECT_DOUBLE_EQ(document["measured"][0]["ci95"][1], .95);
     EXPECT_EQ(document["measured"][2]["taken"], false) << "its interval holds 1";
-    EXPECT_FALSE(make_variant_trial(0, {.5, .5, .5, .5, .5}).is_faster_than_default())
+    EXPECT_FALSE(make_shader_variant_trial(0, {.5, .5, .5, .5, .5}).is_faster_than_default())
         << "too few rounds";
-    EXPECT_FALSE(make_variant_trial(0, {1, 1, 1, 1, 1, 1}).is_faster_than_default());
+    EXPECT_FALSE(make_shader_variant_trial(0, {1, 1, 1, 1, 1, 1}).is_faster_than_default());
 }
 
 TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
-    const std::string text = app::make_profile_text(make_device_info(),
-                                                    {make_variant_trial(0, kFasterRoundRatios)});
+    const std::string text = app::make_profile_text(
+        make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios)});
     const auto refuses = [&](const app::DeviceInfo& device, const std::string& member,
                              const std::string& wanted, const std::string& found) {
         test::expect_error([&] { app::parse_device_profile(text, "p.json", device); },
@@ -79,8 +79,8 @@ TEST(Profile, ProfileOfAnotherDeviceOrDriverIsRefused) {
 }
 
 TEST(Profile, InvalidProfilesAreRefusedWithTheReason) {
-    json good = json::parse(
-        app::make_profile_text(make_device_info(), {make_variant_trial(0, kFasterRoundRatios)}));
+    json good = json::parse(app::make_profile_text(
+        make_device_info(), {make_shader_variant_trial(0, kFasterRoundRatios)}));
     const auto refuses = [&](const std::string& text, const std::string& part) {
         test::expect_error([&] { app::parse_device_profile(text, "p.json", make_device_info()); },
                            Failure::bad_data, {"p.json: ", part});
@@ -113,7 +113,7 @@ protected:
     }
     std::string make_valid_profile_text() const {
         return app::make_profile_text(make_device_info(),
-                                      {make_variant_trial(0, kFasterRoundRatios)});
+                                      {make_shader_variant_trial(0, kFasterRoundRatios)});
     }
 };
 
@@ -133,8 +133,9 @@ TEST_F(ProfileFileTest, ProfileInTheUsersFolderIsUsedOrGivesAWarning) {
     EXPECT_EQ(device.profile, name);
     EXPECT_EQ(device.variants[0].second, "in order");
     for (const std::string& text :
-         {std::string("{"), app::make_profile_text(make_device_info("another"),
-                                                   {make_variant_trial(0, kFasterRoundRatios)})}) {
+         {std::string("{"),
+          app::make_profile_text(make_device_info("another"),
+                                 {make_shader_variant_trial(0, kFasterRoundRatios)})}) {
         write_profile_file(name, text);
         device = make_device_info();
         EXPECT_EQ(app::choose_shader_variants(options, device), gpu::ShaderVariantChoices{});
@@ -152,7 +153,7 @@ TEST_F(ProfileFileTest, ProfileNamedByAnOptionMustBeUsable) {
     write_profile_file("good.json", make_valid_profile_text()), write_profile_file("bad.json", "3");
     write_profile_file("other.json",
                        app::make_profile_text(make_device_info("another"),
-                                              {make_variant_trial(0, kFasterRoundRatios)}));
+                                              {make_shader_variant_trial(0, kFasterRoundRatios)}));
     EXPECT_EQ(choose("good.json"), (gpu::ShaderVariantChoices{1, 0, 0}));
     EXPECT_EQ(device.profile, "good.json");
     test::expect_error([&] { choose("bad.json"); }, Failure::bad_data, {"bad.json: wanted "});

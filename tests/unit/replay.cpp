@@ -66,7 +66,7 @@ public:
 
 private:
     template <typename... Parts>
-    void expect_for_cell(bool ok, const GraphContentCell& cell, const Parts&... parts) {
+    void record_fault_of_cell_unless(bool ok, const GraphContentCell& cell, const Parts&... parts) {
         if (ok) return;
         const std::string name = cell.kind == GraphCellKind::buffer
                                      ? replayed_graph_.list_buffers()[cell.id].name
@@ -127,16 +127,18 @@ private:
         std::vector<std::uint64_t> ends(plan_.heap_bytes.size(), 0);
         for (const auto& [cell, life] : lives) {
             const MemoryPlacement& p = placement_of_cell(cell);
-            expect_for_cell(p.used && std::pair(p.first, p.last) == life, cell, "wrong lifetime");
+            record_fault_of_cell_unless(p.used && std::pair(p.first, p.last) == life, cell,
+                                        "wrong lifetime");
             check_placement_size(cell);
-            expect_for_cell(p.heap < ends.size(), cell, "no such heap");
+            record_fault_of_cell_unless(p.heap < ends.size(), cell, "no such heap");
             ends.at(p.heap) = std::max(ends.at(p.heap), p.offset + p.bytes);
             for (const auto& [other, life2] : lives) {
                 if (!(cell < other) || !do_cells_share_memory(cell, other)) continue;
-                expect_for_cell(life.second < life2.first || life2.second < life.first, cell,
-                                "shares memory while alive");
-                expect_for_cell(!must_have_own_memory(cell) && !must_have_own_memory(other), cell,
-                                "should be alone");
+                record_fault_of_cell_unless(life.second < life2.first || life2.second < life.first,
+                                            cell, "shares memory while alive");
+                record_fault_of_cell_unless(!must_cell_have_own_memory(cell) &&
+                                                !must_cell_have_own_memory(other),
+                                            cell, "should be alone");
             }
         }
         std::uint64_t sum = 0;
@@ -145,7 +147,7 @@ private:
             faults_.push_back("heap sizes are wrong");
     }
 
-    bool must_have_own_memory(const GraphContentCell& cell) const {
+    bool must_cell_have_own_memory(const GraphContentCell& cell) const {
         if (cell.kind == GraphCellKind::buffer)
             return std::ranges::count(replayed_graph_.list_output_buffers(), cell.id,
                                       &BufferHandle::id) > 0;
@@ -165,10 +167,11 @@ private:
             const std::uint64_t padding = wanted.alignment - 1;
             bytes = 2 * ((bytes + padding) / wanted.alignment * wanted.alignment);
         }
-        expect_for_cell(p.bytes == bytes && p.heap == wanted.heap &&
-                            p.offset % wanted.alignment == 0,
-                        cell, "wrong size, heap or alignment");
-        expect_for_cell(p.alone == must_have_own_memory(cell), cell, "wrong `alone`");
+        record_fault_of_cell_unless(p.bytes == bytes && p.heap == wanted.heap &&
+                                        p.offset % wanted.alignment == 0,
+                                    cell, "wrong size, heap or alignment");
+        record_fault_of_cell_unless(p.alone == must_cell_have_own_memory(cell), cell,
+                                    "wrong `alone`");
     }
 
     /// Applies all barriers of one pass at once, because barriers of the same command do not order
@@ -187,8 +190,9 @@ private:
                 const bool same = !b.before.nothing && b.before.use == b.after.use;
                 const bool moves = !b.is_buffer && !same;
                 if (!b.is_buffer && !b.before.nothing)
-                    expect_for_cell(layouts_.contains(cell) && layouts_[cell] == b.before.use, cell,
-                                    "barrier from a layout that it has not");
+                    record_fault_of_cell_unless(layouts_.contains(cell) &&
+                                                    layouts_[cell] == b.before.use,
+                                                cell, "barrier from a layout that it has not");
                 if (b.before.nothing) contents_.set_content_of_cell(cell, kGarbageContent);
                 if (moves) transitions[cell] = b.after;
                 for (auto& [other, events] : events_) {
@@ -197,7 +201,7 @@ private:
                         if (e.is_in_barrier_scope(cell, scope))
                             ordered.emplace_back(&e, cell, b.after);
                         else if (moves)
-                            expect_for_cell(false, cell, "change of layout races");
+                            record_fault_of_cell_unless(false, cell, "change of layout races");
                     }
                 }
             }
@@ -218,7 +222,7 @@ private:
         for (const GraphCellUse& u : uses)
             for (const auto& [other, events] : events_)
                 if (u.write && do_cells_share_memory(u.cell, other))
-                    contents_.set_garbage(other.kind, other.id);
+                    contents_.set_contents_to_garbage(other.kind, other.id);
         contents_.execute_pass(pass, index);
         for (std::size_t i = 0; i < pass.images.size(); ++i)
             if (planned.unread >> i & 1) mark_attachment_lost(pass.images[i]);
@@ -234,9 +238,9 @@ private:
         for (std::uint32_t l = 0; l < use.image.layer_count; ++l) {
             const GraphContentCell cell{GraphCellKind::image, use.image.id,
                                         use.image.first_layer + l};
-            expect_for_cell(use.write &&
-                                (use.use == ResourceUse::colour || use.use == ResourceUse::depth),
-                            cell, "not stored, but no attachment");
+            record_fault_of_cell_unless(
+                use.write && (use.use == ResourceUse::colour || use.use == ResourceUse::depth),
+                cell, "not stored, but no attachment");
             contents_.set_content_of_cell(cell, kGarbageContent);
         }
     }
@@ -247,16 +251,18 @@ private:
 
     void check_access_state_of_use(const GraphCellUse& u, const AccessState& t) {
         if (u.cell.kind != GraphCellKind::buffer)
-            expect_for_cell(layouts_.contains(u.cell) && layouts_[u.cell] == u.use, u.cell,
-                            "wrong layout for ", std::string(resource_use_name(u.use)));
+            record_fault_of_cell_unless(layouts_.contains(u.cell) && layouts_[u.cell] == u.use,
+                                        u.cell, "wrong layout for ",
+                                        std::string(resource_use_name(u.use)));
         for (const auto& [other, events] : events_) {
             if (other != u.cell && !do_cells_share_memory(u.cell, other)) continue;
             for (const PastCellAccess& e : events)
                 if (u.write || e.is_write)
-                    expect_for_cell(e.is_ordered_before(u.cell, t), u.cell,
-                                    std::string(resource_use_name(u.use)), " races with ",
-                                    std::string(resource_use_name(e.touch.use)), " of image ",
-                                    std::to_string(other.id));
+                    record_fault_of_cell_unless(e.is_ordered_before(u.cell, t), u.cell,
+                                                std::string(resource_use_name(u.use)),
+                                                " races with ",
+                                                std::string(resource_use_name(e.touch.use)),
+                                                " of image ", std::to_string(other.id));
         }
     }
 
@@ -267,7 +273,8 @@ private:
         const std::vector<Value> ideal = simulate_with_separate_memory(replayed_graph_, all, cells);
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const GraphContentCell& cell = cells[i];
-            expect_for_cell(contents_.content_of_cell(cell) == ideal[i], cell, "wrong contents");
+            record_fault_of_cell_unless(contents_.content_of_cell(cell) == ideal[i], cell,
+                                        "wrong contents");
             if (cell.kind == GraphCellKind::image)
                 check_no_access_left_unordered(cell);
             else
@@ -284,15 +291,15 @@ private:
         const ResourceUse use = (replayed_graph_.image_lifetime(cell.id) == ImageLifetime::previous)
                                     ? ResourceUse::sampled
                                     : ResourceUse::copy_from;
-        expect_for_cell(layouts_.contains(cell) && layouts_[cell] == use, cell,
-                        "left in a wrong layout");
+        record_fault_of_cell_unless(layouts_.contains(cell) && layouts_[cell] == use, cell,
+                                    "left in a wrong layout");
         expect_ordered_access(cell, use);
     }
 
     void expect_ordered_access(const GraphContentCell& cell, ResourceUse use) {
         for (const PastCellAccess& e : events_[cell])
-            expect_for_cell(e.is_ordered_before(cell, {.nothing = false, .use = use}), cell,
-                            "races with its reader");
+            record_fault_of_cell_unless(e.is_ordered_before(cell, {.nothing = false, .use = use}),
+                                        cell, "races with its reader");
     }
 
     const Graph& replayed_graph_;

@@ -63,7 +63,7 @@ public:
         return found == values_.end() ? kGarbageContent : found->second;
     }
     void set_content_of_cell(const GraphContentCell& cell, Value value) { values_[cell] = value; }
-    void set_garbage(GraphCellKind kind, std::uint32_t id) {
+    void set_contents_to_garbage(GraphCellKind kind, std::uint32_t id) {
         for (auto& [cell, value] : values_)
             if (cell.kind == kind && cell.id == id) value = kGarbageContent;
     }

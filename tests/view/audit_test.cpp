@@ -31,7 +31,7 @@ protected:
         write_input_file("plan.json", plan.dump());
         return path_in_test_folder("plan.json");
     }
-    Words audit_words(double limit, const std::string& frames) const {
+    Words make_audit_command_words(double limit, const std::string& frames) const {
         return {"cornell-mirrors", "--audit", write_plan_file(limit),
                 "--audit-every",   "1",       "--audit-percent",
                 "1000000",         "--size",  "32x32",
@@ -40,7 +40,7 @@ protected:
 };
 
 TEST_F(ViewAuditTest, AlarmChangesThePlanUpToTheSurest) {
-    Words words = audit_words(0, "120");
+    Words words = make_audit_command_words(0, "120");
     words.emplace_back("--animate");
     std::vector<std::string> plans, said;
     SimulatedUser driver;
@@ -62,7 +62,7 @@ TEST_F(ViewAuditTest, AlarmChangesThePlanUpToTheSurest) {
 
 /// If the plan keeps its limit, it stays, and the audit changes no byte of the pictures.
 TEST_F(ViewAuditTest, AuditedWindowShowsThePicturesOfRender) {
-    Words words = audit_words(1, "40");
+    Words words = make_audit_command_words(1, "40");
     words.insert(words.end(), {"--animate", "--screenshot", path_in_test_folder("a.exr")});
     EXPECT_EQ(run_view_in_test(words), 0);
     expect_same_as_rendered("a.exr", {"cornell-mirrors", "--technique", "reuse:face=16", "--size",
@@ -73,8 +73,9 @@ TEST_F(ViewAuditTest, StillSceneIsNotAudited) {
     std::string said;
     SimulatedUser driver;
     driver.after = [&](const ViewReport& report) { said += report.state.said; };
-    EXPECT_EQ(run_view_in_test(audit_words(0, "60"), driver), 0); // every audited frame would break
-                                                                  // the limit of 0
+    EXPECT_EQ(run_view_in_test(make_audit_command_words(0, "60"), driver),
+              0); // every audited frame would break
+                  // the limit of 0
     EXPECT_EQ(said, "");
 }
 
@@ -84,7 +85,7 @@ TEST_F(ViewAuditTest, InvalidPlansAreRefused) {
         expect_view_refused({"--audit", path_in_test_folder("bad.json"), "--frames", "1"},
                             Failure::bad_data, "bad.json: " + text);
     };
-    Words both = audit_words(1, "1");
+    Words both = make_audit_command_words(1, "1");
     both.insert(both.end(), {"--technique", "reuse"});
     expect_view_refused(both, Failure::usage, "wanted no --technique and no --plan beside it");
     expect_view_refused({"--audit", path_in_test_folder("none.json")}, Failure::missing_input,
@@ -104,7 +105,7 @@ TEST_F(ViewAuditTest, InvalidPlansAreRefused) {
     refused_file(plan, R"(certificate.quantity: wanted "flip" or "rmse", found "mae")");
     plan["proofs"][0]["technique"] = 1;
     refused_file(plan, "proofs[0].technique: wanted text, found number");
-    Words rough = audit_words(1, "1");
+    Words rough = make_audit_command_words(1, "1");
     rough.front() = "cornell-rough";
     expect_view_refused(rough, Failure::usage, "audit: wanted a scene without rough surfaces");
 }

@@ -328,7 +328,7 @@ VkResult hook_create_instance(const VkInstanceCreateInfo* create,
     reset_layer_state();
     if (const VkResult result = find_forced_result("vkCreateInstance"); result != VK_SUCCESS)
         return result;
-    auto* link = test::find_link<VkLayerInstanceCreateInfo>(
+    auto* link = test::find_next_layer_link<VkLayerInstanceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_instance_proc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
@@ -385,7 +385,7 @@ VkResult hook_create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo*
                             const VkAllocationCallbacks* callbacks, VkDevice* device) {
     if (const VkResult result = find_forced_result("vkCreateDevice"); result != VK_SUCCESS)
         return result;
-    auto* link = test::find_link<VkLayerDeviceCreateInfo>(
+    auto* link = test::find_next_layer_link<VkLayerDeviceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     state.next_device_proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;

@@ -302,7 +302,7 @@ const FunctionHook kInstanceHooks[] = {
 
 VkResult hook_create_instance(const VkInstanceCreateInfo* create,
                               const VkAllocationCallbacks* callbacks, VkInstance* instance) {
-    auto* link = test::find_link<VkLayerInstanceCreateInfo>(
+    auto* link = test::find_next_layer_link<VkLayerInstanceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     const PFN_vkGetInstanceProcAddr proc = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
@@ -331,7 +331,7 @@ void hook_destroy_instance(VkInstance instance, const VkAllocationCallbacks* cal
 
 VkResult hook_create_device(VkPhysicalDevice physical, const VkDeviceCreateInfo* create,
                             const VkAllocationCallbacks* callbacks, VkDevice* device) {
-    auto* link = test::find_link<VkLayerDeviceCreateInfo>(
+    auto* link = test::find_next_layer_link<VkLayerDeviceCreateInfo>(
         create, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
     if (!link) return VK_ERROR_INITIALIZATION_FAILED;
     const PFN_vkGetDeviceProcAddr proc = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
@@ -355,20 +355,22 @@ void hook_destroy_device(VkDevice device, const VkAllocationCallbacks* callbacks
     devices.erase(key), window_used.erase(key);
 }
 
-PFN_vkVoidFunction find_hook(std::span<const FunctionHook> hooks, const char* name) {
+PFN_vkVoidFunction find_intercepting_function(std::span<const FunctionHook> hooks,
+                                              const char* name) {
     const auto found = std::ranges::find(hooks, std::string_view(name), &FunctionHook::name);
     return found == hooks.end() ? nullptr : found->function;
 }
 
 PFN_vkVoidFunction find_device_function(VkDevice device, const char* name) {
-    if (const PFN_vkVoidFunction hook = find_hook(kDeviceHooks, name)) return hook;
+    if (const PFN_vkVoidFunction hook = find_intercepting_function(kDeviceHooks, name)) return hook;
     const std::lock_guard lock(mutex);
     return devices.at(dispatch_key_of_handle(device)).device_proc(device, name);
 }
 
 PFN_vkVoidFunction find_instance_function(VkInstance instance, const char* name) {
-    if (const PFN_vkVoidFunction hook = find_hook(kInstanceHooks, name)) return hook;
-    if (const PFN_vkVoidFunction hook = find_hook(kDeviceHooks, name)) return hook;
+    if (const PFN_vkVoidFunction hook = find_intercepting_function(kInstanceHooks, name))
+        return hook;
+    if (const PFN_vkVoidFunction hook = find_intercepting_function(kDeviceHooks, name)) return hook;
     if (!instance) return nullptr;
     const std::lock_guard lock(mutex);
     return instances.at(dispatch_key_of_handle(instance)).instance_proc(instance, name);
