@@ -38,7 +38,7 @@ void list_pixels_of_block(uvec2 pixel) {
     uint is_mirror = uint(inside) & uint(is_first_hit_on_mirror(words));
     uint is_listed = uint(inside) & uint(is_first_hit_for_tracer(words, tracer));
 #else
-    // `mark` is the number of the tracer that takes the pixel, or 0. `find_ablated_lookup_colour` is 0 where no mirror
+    // `mark` is the number of the tracer that takes the pixel, or 0. `looked_up` is 0 where no mirror
     // looked its reflection up in a capture (lib/surface.glsl).
     float mark = imageLoad(marks, place).r, looked_up = imageLoad(lookup, place).w;
     uint is_mirror = uint(inside) & (uint(mark != 0.0) | uint(looked_up != 0.0));

@@ -221,7 +221,7 @@ private:
     }
 
     /// Returns where a shadow ray along `direction` starts. A ray that goes below the facet starts
-    /// on the smooth surface (leaving_lifted of shaders/lib/whitted.glsl).
+    /// on the smooth surface (lifted_shadow_ray_origin of shaders/lib/whitted.glsl).
     V offset_shadow_ray_origin(const V& direction, const V& normal) const {
         const V unit = normalize_vector(facet_);
         const V facet = select_lanes(is_lane_greater(Real{}, dot_product(normal, unit)),

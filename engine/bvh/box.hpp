@@ -16,10 +16,10 @@ inline double bounding_box_surface_area(const BoundingBox& box) {
 }
 
 /// Returns by how much the box of a triangle outside the core must grow on each side. The ray
-/// traversal widens every box by a slack that box_ray (shaders/lib/math/ray.glsl) derives from the
-/// size of the core. That slack is too small for a triangle that reaches out of the core. This pad
-/// adds the same fraction of the triangle's distance from the middle of the core. Returns 0 for a
-/// box inside the core.
+/// traversal widens every box by a slack that make_box_ray (shaders/lib/math/ray.glsl) derives from
+/// the size of the core. That slack is too small for a triangle that reaches out of the core. This
+/// pad adds the same fraction of the triangle's distance from the middle of the core. Returns 0 for
+/// a box inside the core.
 inline float compute_box_padding(const BoundingBox& box, const BoundingBox& core) {
     const bool inside = all(lessThanEqual(core.lo, box.lo)) && all(lessThanEqual(box.hi, core.hi));
     if (inside) return 0;

@@ -41,7 +41,8 @@ inline VkSurfaceKHR vulkan_surface_from_integer_handle(std::uint64_t number) {
 /// A device handle for objects made from the device, with its abandoned flag.
 struct DeviceHandle {
     VkDevice device = VK_NULL_HANDLE;
-    const bool* abandoned = nullptr; ///< the flag of Device::abandoned(); null: never abandoned
+    /// The flag of GpuDevice::is_abandoned(); null: the device is never abandoned.
+    const bool* abandoned = nullptr;
     operator VkDevice() const { return device; }
 };
 

@@ -189,7 +189,8 @@ struct ImageContentHashRecord {
 class Graph {
 public:
     Graph() = default;
-    /// `history`: the runner's record of the last frame (Runner::history()); empty = first frame.
+    /// `history`: the runner's record of the last frame (GraphRunner::make_history()); empty =
+    /// first frame.
     explicit Graph(GraphHistory history) : history_(std::move(history)) {}
 
     /// Adds an image. Returns a handle of all its layers and mips.

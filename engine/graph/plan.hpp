@@ -105,7 +105,7 @@ struct GraphPlan {
     std::vector<std::uint64_t> heap_bytes; ///< size of each heap
     std::uint64_t bytes = 0;               ///< sum over all heaps
     std::uint64_t bytes_unshared = 0;      ///< the sum if no memory were shared
-    int scene_passes = 0;                  ///< executed passes with Tag::scene
+    int scene_passes = 0;                  ///< executed passes with PassPurpose::scene
 };
 
 /// Validates, culls, places and orders a graph. Needs no device. Passes run in order of

@@ -103,7 +103,7 @@ inline constexpr TechniqueKnob kShownDebugPictureKnob{
     .choices = kShownDebugPictureChoices};
 
 /// Names of the methods for rough mirrors and of the distance laws, in the order of
-/// KnobsSharedByTechniques::Rough and KnobsSharedByTechniques::Law.
+/// KnobsSharedByTechniques::RoughMirrorLookup and KnobsSharedByTechniques::DistanceLaw.
 inline constexpr std::array<std::string_view, 5> kRoughMirrorMethodChoices{
     "none", "mips", "prefilter", "rays", "fast"};
 inline constexpr std::array<std::string_view, 5> kBlurLawChoices{"none", "frostbite", "square",

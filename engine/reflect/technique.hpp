@@ -112,7 +112,7 @@ struct Technique {
     const char* in_captures = nullptr; ///< path of a fragment shader
     bool reads_whole_cubes = false;    ///< captures need all six faces
     /// Path of a fragment shader that needs only the captures. If set, `look` is null
-    /// (reflect/captures.hpp, shading_of_search).
+    /// (reflect/captures.hpp, make_search_shader).
     const char* search = nullptr;
     /// Returns how the technique draws its mirrors, and declares the passes that this needs.
     MirrorShadingSetup (*look)(graph::Graph& graph, const render::FrameInputs& inputs,

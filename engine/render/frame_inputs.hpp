@@ -11,9 +11,10 @@ namespace catoptric::render {
 struct FrameInputs {
     const GpuScene& scene;
     uvec2 size{512, 512};
-    std::string prefix;        ///< starts the names of passes and images
-    std::uint64_t seed = 1;    ///< seed of the stratified samples
-    std::uint32_t ablated = 0; ///< causes of error to remove in the camera's view: shared::kMend...
+    std::string prefix;     ///< starts the names of passes and images
+    std::uint64_t seed = 1; ///< seed of the stratified samples
+    /// Causes of error to remove in the camera's view: a sum of shared::kAblate...
+    std::uint32_t ablated = 0;
     /// Adds an output of where mirrors looked; for measuring, costs an attachment.
     bool with_lookup = false;
 };

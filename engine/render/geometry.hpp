@@ -71,8 +71,9 @@ struct FrameGeometry {
     std::uint32_t flat_indices = 0; ///< number of indices in scene units
 };
 /// Builds the geometry of a scene. With VertexCoordinateSpaceChoice::object_space, an object keeps
-/// an object space if it is small (is_small) or one of many copies (shared_objects). Costs O(n) in
-/// stored vertices and triangles; a copy that shares its mesh costs O(1).
+/// an object space if it is small (is_object_small_for_its_distance) or one of many copies
+/// (find_objects_sharing_meshes). Costs O(n) in stored vertices and triangles; a copy that shares
+/// its mesh costs O(1).
 FrameGeometry
 make_frame_geometry(const scene::Scene& now, const SceneUnitTransform& space,
                     VertexCoordinateSpaceChoice spaces = VertexCoordinateSpaceChoice::scene_space);
@@ -83,7 +84,7 @@ bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene&
 
 /// Moves an object's triangles to their present place. Nothing else about the object may have
 /// changed since `make_frame_geometry`. Returns whether vertices changed; moving only an object
-/// space changes none. Throws as check_reach does.
+/// space changes none. Throws as check_object_distance does.
 bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now,
                           const SceneUnitTransform& space, std::size_t index);
 

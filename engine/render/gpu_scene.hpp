@@ -27,8 +27,8 @@ namespace catoptric::render {
 class GpuScene {
 public:
     /// Prepares for a scene, which the first update writes. `scene` at rest fixes the scene units
-    /// for all later frames. `slots`: the most frames in flight at once. Throws as check_limits
-    /// (render/limits.hpp) does if the device cannot hold the scene.
+    /// for all later frames. `slots`: the most frames in flight at once. Throws as
+    /// check_geometry_limits (render/limits.hpp) does if the device cannot hold the scene.
     GpuScene(gpu::GpuDevice& device, const scene::Scene& scene, std::size_t slots = 1);
 
     /// Writes the data that differ from the last update, and nothing else. `now` is
@@ -223,7 +223,8 @@ private:
     std::vector<shared::Probe> probes_;
     std::vector<scene::PointLight> world_lights_;
     std::vector<shared::Light> lights_;
-    std::vector<std::vector<std::uint8_t>> backdrops_; ///< result of find_backdrops for each light
+    /// Result of find_shadowless_backdrops for each light.
+    std::vector<std::vector<std::uint8_t>> backdrops_;
     std::vector<std::size_t> mirror_objects_;
     std::vector<InnerOccluderBall> inner_balls_;                ///< ball inside each mirror
     std::vector<std::optional<scene::GlassBody>> glass_bodies_; ///< body of each glass mirror

@@ -12,7 +12,7 @@ struct SceneDataAmounts {
     std::uint64_t vertices = 0, triangles = 0, objects = 0, mirrors = 0;
     std::uint64_t environment_texels = 0;
 };
-/// Returns the amounts of a scene. Costs as much as shared_objects.
+/// Returns the amounts of a scene. Costs as much as find_objects_sharing_meshes.
 SceneDataAmounts count_scene_amounts(const scene::Scene& scene);
 
 /// The limits of a device.

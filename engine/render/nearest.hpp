@@ -78,7 +78,7 @@ private:
 };
 
 /// Returns a lower bound of the distance from the point to the box. The bound also holds for the
-/// rounded result of squared_distance.
+/// rounded result of squared_distance_from_point_to_triangle.
 float min_distance_to_box(const vec3& point, const Bounds<float>& box);
 
 template <typename Visit>

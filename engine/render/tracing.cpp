@@ -93,7 +93,8 @@ std::array<double, 15> make_object_space_key(const ObjectDrawRange& range) {
 constexpr std::string_view kBvhInStorageConstant = "bvh_in_storage";
 
 /// Returns the list with which shaders find the hierarchy's copy of a triangle that the rasteriser
-/// drew (known_hit in shaders/lib/whitted.glsl). `count`: number of stored triangles.
+/// drew (intersect_rasterised_triangle in shaders/lib/whitted.glsl). `count`: number of stored
+/// triangles.
 std::vector<std::uint32_t> list_first_hit_words(const bvh::Bvh& shown,
                                                 std::span<const bvh::BvhInstance> instances,
                                                 const FrameGeometry& geometry, std::size_t count) {

@@ -91,8 +91,8 @@ private:
                                  ///< `assemble_two_level_tree`
         bool lists_first_hits = false; ///< `first_hits` describes the hierarchy
         DoubleBufferedDeviceList node_list, triangles;
-        /// Finds a triangle of the rasteriser in the hierarchy: see known_hit in
-        /// shaders/lib/whitted.glsl.
+        /// Finds a triangle of the rasteriser in the hierarchy: see intersect_rasterised_triangle
+        /// in shaders/lib/whitted.glsl.
         DoubleBufferedDeviceList first_hits;
     };
     DeviceBvh& bvh_of_sphere_mode(SphereIntersectionMode spheres) {

@@ -93,7 +93,7 @@ struct MultiSceneReport {
 std::string to_json(const MultiSceneReport& scenes);
 std::string to_csv(const MultiSceneReport& scenes, CsvColumnSet which = CsvColumnSet::table);
 std::string to_markdown(const MultiSceneReport& scenes);
-/// Returns the page of all scenes. `sections` holds html_section of each.
+/// Returns the page of all scenes. `sections` holds the make_html_section of each.
 std::string to_html(const MultiSceneReport& scenes, const std::vector<std::string>& sections);
 /// Returns the folder below images/ of the scene at `index`, from 0, such as "1-room/".
 std::string scene_images_folder(std::size_t index, const std::string& scene);
@@ -117,7 +117,7 @@ private:
     PagePictures page_;
     MultiSceneReport scenes_;
     std::vector<EncodedPictures> pictures_; ///< encoded pictures of each scene
-    std::vector<std::string> sections_;     ///< html_section of each scene
+    std::vector<std::string> sections_;     ///< make_html_section of each scene
 };
 
 /// Returns the files that a writer may put into its folder, relative to it, for rows with these

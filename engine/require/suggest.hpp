@@ -50,13 +50,13 @@ struct PlanSuggestion {
     std::vector<PlanCandidate> candidates; ///< all that were compared, the chosen one first
 };
 
-/// Suggests a plan from what the pixels show (paths_of) and from shapes (scene::find_flat_faces).
-/// Mirrors that are hardly seen get `reuse` with small faces.
+/// Suggests a plan from what the pixels show (MirrorPathCounts) and from shapes
+/// (scene::find_flat_faces). Mirrors that are hardly seen get `reuse` with small faces.
 ///
 /// Two candidates are compared for the other mirrors: `planar` for flat mirrors with a search for
 /// curved mirrors, and a search for all mirrors. The search of a mirror is `hybrid`. It is `march`
-/// if tracing what captures do not show (Paths::hidden) would reduce the mirror's estimated error
-/// by less than a tenth.
+/// if tracing what captures do not show (MirrorPathCounts::hidden) would reduce the mirror's
+/// estimated error by less than a tenth.
 ///
 /// Glass is traced: by `hybrid`, or by `raytrace` without captures if no other mirror is seen and
 /// the estimated cost is less.

@@ -39,8 +39,8 @@ SurfaceKindShares measure_surface_kinds(const Scene& scene, const Object& object
 /// the unsupported feature "glass-as-diffuse".
 /// Adds the unsupported features "smooth-dielectric", "rough-dielectric" and "rough-metal", counted
 /// once per material. With `dielectric_mirrors`, dielectrics that are no rougher than mirrors
-/// become mirrors and are not listed. Then finds which mirrors are spheres (find_spheres). May be
-/// called again.
+/// become mirrors and are not listed. Then finds which mirrors are spheres (find_exact_spheres).
+/// May be called again.
 void find_mirrors(Scene& scene, bool dielectric_mirrors = false);
 
 /// Puts first the unsupported features of light that no technique computes, counted once per

@@ -23,7 +23,7 @@ std::size_t count_corners_without_normal(const Mesh& mesh);
 bool is_valid_radiance(const vec3& emission);
 
 /// Drops objects that have no triangle with an area, or that lie too far out
-/// (leave_out_unreachable). Turns `notes` into the scene's warnings and `unsupported` into its
+/// (remove_distant_objects). Turns `notes` into the scene's warnings and `unsupported` into its
 /// unsupported features. Throws `bad_data`, naming `file`, if no object is left or if coordinates
 /// exceed 1e150.
 void finish_loaded_scene(Scene& scene, const std::string& file, LoaderNotes& notes,

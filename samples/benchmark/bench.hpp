@@ -35,8 +35,9 @@ BenchmarkSubject make_benchmark_subject(std::string name, std::function<void()> 
                                         int warmup = 1);
 
 struct BenchOptions {
-    int iterations = 20; ///< of each subject over all rounds; frames_of_round distributes them
-    int rounds = 6;      ///< at most one per iteration
+    /// Iterations of each subject over all rounds; choose_frame_count_of_round distributes them.
+    int iterations = 20;
+    int rounds = 6; ///< at most one per iteration
     Watcher watcher;
 };
 

@@ -17,7 +17,7 @@ std::vector<std::string> make_command_words_for_round(const std::vector<std::str
 
 /// Runs `PROGRAM bench WORDS...` of both programs for this number of rounds, and returns the
 /// measurements of each over all rounds. The order of the two alternates between rounds. Throws as
-/// output_of and report::read_benchmarks do.
+/// run_and_read_output and report::read_benchmarks do.
 std::array<measure::BenchmarkRun, 2>
 bench_programs_in_turn(const std::array<std::string, 2>& programs,
                        const std::vector<std::string>& words, int rounds,

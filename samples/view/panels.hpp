@@ -20,8 +20,8 @@ struct PanelButtonRequests {
     std::optional<std::size_t> camera; ///< index of a camera in the scene
 };
 
-/// Draws the controls at the right of the window and edits the state. Call between Controls::begin
-/// and end.
+/// Draws the controls at the right of the window and edits the state. Call between
+/// ImGuiControls::begin and end.
 void draw_control_panels(ViewState& state, const PanelShownData& seen, uvec2 window,
                          PanelButtonRequests& wants);
 

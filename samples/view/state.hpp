@@ -41,7 +41,7 @@ struct ViewState {
     ComparisonPicture against = ComparisonPicture::other;
     double divider = .5;      ///< position as a share of the picture's width
     int gain = 4;             ///< factor on differences: 1, 2, 4 ... 64
-    std::uint32_t cause = 16; ///< the cause of error to remove, a bit of shared::kMend...
+    std::uint32_t cause = 16; ///< the cause of error to remove, a bit of shared::kAblate...
     scene::Camera camera;
     bool flies = false;
     ScenePlayback motion;
@@ -67,7 +67,7 @@ struct ShownTechniquesAndPictures {
 bool needs_host_picture(const ViewState& state);
 ShownTechniquesAndPictures choose_shown_pictures(const ViewState& state);
 
-/// A cause of error with its name for the user. Bits are shared::kMend...
+/// A cause of error with its name for the user. Bits are shared::kAblate...
 struct ErrorCauseLabel {
     std::uint32_t bit;
     const char* name;

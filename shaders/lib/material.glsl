@@ -134,7 +134,8 @@ vec3 apply_normal_texture(uint detail, VertexAttribute at, vec3 normal, Triangle
     return dot(bent, bent) > 0.0 ? normalize(bent) : normal;
 }
 
-// Returns the facet normal for `shade`, or zero if the mesh's vertex normals agree with its facet normals everywhere.
+// Returns the facet normal for shade_surface, or zero if the mesh's vertex normals agree with its facet normals
+// everywhere.
 vec3 find_facet_normal_for_shading(uint detail, vec3 facet) {
     if (details == 0u || (read_material_parameters(detail).flags & kMaterialTestsFacetSideFlag) == 0u) return vec3(0);
     return facet;

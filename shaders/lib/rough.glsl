@@ -7,7 +7,7 @@
 #include "lib/captures.glsl"
 
 const uint kRoughNone = 0u, kRoughMips = 1u, kRoughPrefilter = 2u, kRoughRays = 3u;
-layout(constant_id = ROUGH_CONSTANT) const uint rough = kRoughNone; // how rough surfaces are looked up, kRoughCornellScene...
+layout(constant_id = ROUGH_CONSTANT) const uint rough = kRoughNone; // how rough surfaces are looked up, kRoughNone...
 const bool has_levels = rough == kRoughMips || rough == kRoughPrefilter; // captures have blurred levels
 layout(constant_id = LAW_CONSTANT) const uint distance_law = kLawNone;
 layout(constant_id = LOBE_RAYS_CONSTANT) const uint lobe_rays = 1u; // searches of a rough surface, for kRoughRays

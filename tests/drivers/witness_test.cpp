@@ -82,7 +82,8 @@ std::array<double, 3> signed_distances_to_edges(const bvh::Triangle& t, const De
 }
 
 /// Returns how far rounding errors of floats may move a ray at the triangle. The bound is 16
-/// roundings of the distance to the farthest corner, as in box_ray (shaders/lib/math/ray.glsl).
+/// roundings of the distance to the farthest corner, as in make_box_ray
+/// (shaders/lib/math/ray.glsl).
 double ray_rounding_slack(const bvh::Triangle& t, const DeviceRay& ray) {
     double reach = 0;
     for (const dvec3& corner : list_corners(t))

@@ -24,7 +24,7 @@ struct ProcessStartOptions {
     std::vector<std::string> command;
     /// Variables that are added to the environment of this process.
     std::map<std::string, std::string> environment = {};
-    std::string out_path = {};       ///< file for stdout, instead of `Ended::out`
+    std::string out_path = {};       ///< file for stdout, instead of `ProcessResult::out`
     bool no_reader = false;          ///< stdout is a pipe whose other end is closed
     std::uint64_t file_limit = 0;    ///< bytes after which writing to a file fails; 0 = no limit
     std::uint64_t memory_limit = 0;  ///< largest address space in bytes; 0 = no limit

@@ -302,7 +302,7 @@ TEST(ClosestHit, ShadowRaysDoNotWalkTrianglesWithoutShadows) {
 }
 
 /// Rays pass close to a very long edge. There, rounding errors of the triangle test exceed those of
-/// the box test. Without the slack in box_ray, boxes would cull half of these hits.
+/// the box test. Without the slack in make_box_ray, boxes would cull half of these hits.
 TEST(ClosestHit, HitsBesideLongEdgesAreNotCulledByBoxes) {
     test::RandomNumbers random(21);
     int hits = 0;
