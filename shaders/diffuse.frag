@@ -27,7 +27,7 @@ void main() {
 #ifdef FIRST_HIT
     bool reflects = details != 0u && surface.reflectance != vec3(0);
     if (traces_lobes != 0u) reflects = reflects || has_rough_lobe() || (has_clear_coats != 0u && clear_coat.strength > 0.0);
-    if (has_glass != 0u && is_glass(surface.detail)) reflects = true; // rays pass through it
+    if (has_glass != 0u && is_glass(surface.detail)) reflects = true; // rays pass through a surface of glass
     if (masks != 0u && has_blending != 0u && is_blended(drawn_material_parameters())) reflects = true; // rays go on behind it
     if (reflects || shadow_is_open) {
         out_colour = make_first_hit_words(uint(gl_PrimitiveID), drawn_object_index(), 0u, tracer);

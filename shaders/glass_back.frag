@@ -1,5 +1,6 @@
-// Draws the back faces of bodies of glass, where light leaves them (lib/refraction.glsl): x and y of the unit normal, which
-// points outwards; the distance along the view's axis, negative if the normal's z is; and the body's mirror number.
+// Draws the back faces of bodies of glass, where light leaves them (lib/refraction.glsl). A pixel stores x and y of the
+// unit normal, which points outwards; the distance along the view's axis, negative if the normal's z is negative; and
+// the body's mirror number.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "lib/drawn.glsl"
@@ -12,7 +13,8 @@ layout(location = 2) in vec3 from_eye;
 layout(location = 0) out vec4 out_back;
 
 void main() {
-    if (!is_solid_glass(drawn_material_parameters())) discard; // a sheet has no back, and would hide those behind it
+    // A sheet has no back, and would hide the backs of bodies behind the sheet.
+    if (!is_solid_glass(drawn_material_parameters())) discard;
     View view = views[draw.first_view];
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye));
     if (dot(facet, normal) < 0.0) facet = -facet;

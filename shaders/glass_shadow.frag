@@ -16,7 +16,8 @@ layout(location = 0) out vec4 out_depth;
 layout(set = 0, binding = SHADOW_DEPTHS_BINDING) uniform sampler2DArray shadow_depths;
 
 void main() {
-    // The triangle's normal, on the side to which the vertex normals point: that is the outside of a solid body.
+    // The triangle's normal, turned to the side to which the vertex normals point. For a solid body, this is the
+    // outside.
     vec3 facet = cross(dFdx(from_eye), dFdy(from_eye));
     if (dot(facet, normal) < 0.0) facet = -facet;
     VertexAttribute at = VertexAttribute(in_uv, in_colour);
@@ -28,7 +29,8 @@ void main() {
     vec3 direction = orthographic != 0u ? view.forward : normalize(from_eye);
     vec3 depth = glass_surface_depth(detail, read_drawn_surface().albedo, at, abs(dot(normalize(normal), direction)));
     if (is_solid_glass(detail)) {
-        // The way from here to the surface in the shadow map; if there is none, to the light, against the direction.
+        // The way from the drawn glass to the surface in the shadow map. If the map shows no surface there, the way
+        // from the glass back to the light, which is negative.
         float way = orthographic != 0u ? (gl_FragCoord.z - opaque) / view.near
             : length(from_eye) * (opaque > 0.0 ? gl_FragCoord.z / opaque - 1.0 : -1.0);
         depth += read_material_parameters(detail).absorption * (dot(facet, direction) < 0.0 ? way : -way);

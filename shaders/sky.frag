@@ -4,12 +4,12 @@
 #include "lib/environment.glsl"
 #include "lib/surface.glsl"
 
-// 1: the picture has few texels, so each shows the mean of the environment around its direction, if the scene has filtered
-// levels. A small sun would fall between the texels.
+// 1: the picture has few texels, so each texel shows the mean of the environment around its direction, if the scene has
+// filtered levels. A small sun would otherwise fall between the texels.
 layout(constant_id = OWN_CONSTANTS) const uint blurs_sky = 0u;
 
 void main() {
-    const uint kLevel = 2u; // filtered by a lobe about as wide as a texel of a light probe
+    const uint kLevel = 2u; // environment level filtered by a lobe about as wide as a texel of a light probe
     vec3 direction = normalize(from_eye);
     if (blurs_sky != 0u && sky.value.level_width[kLevel - 1u] > 0u) write_captured_surface(environment_level_radiance(direction, kLevel));
     else write_captured_surface(environment_radiance(direction));

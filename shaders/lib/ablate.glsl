@@ -83,7 +83,8 @@ RayEndPoint find_captured_ray_end(uint mirror, Lookup lookup) {
     return end;
 }
 
-// Returns the diffuse and emitted radiance of a point, seen along `direction`.
+// Returns the diffuse and emitted radiance of a point, seen along `direction`. `by`: how shadows are computed (see
+// shadow_by).
 vec3 shade_surface_point(SurfacePoint at, vec3 direction, uint by) {
     shadow_by = by;
     Surface surface = evaluate_surface(at, direction);

@@ -13,7 +13,7 @@
 // shaders read them, for which texel lists were not cheaper.
 layout(set = 0, binding = 0, scalar) uniform FrameBuffer { Frame value; } frame;
 layout(set = 0, binding = 1, scalar) readonly buffer Views { View views[]; };
-#ifdef VERTEX_STAGE // all lanes of a vertex shader read lists at one index, so storage buffers are cheap
+#ifdef VERTEX_STAGE // a vertex shader reads a list at one index for all lanes, so storage buffers are cheap
 #define STORED_FOR_VERTICES true
 #else
 #define STORED_FOR_VERTICES false

@@ -25,19 +25,19 @@ layout(set = 0, binding = 31, scalar) uniform Captures { CaptureLookupTable capt
 #define DISTANCE_CUBES_NEAREST(i) samplerCubeArray(distance_cubes[i], nearest_texels)
 #define SURFACE_CUBES(i) samplerCubeArray(surface_cubes[i], nearest_texels)
 // FACES declares a technique's texture array with one layer for each cube face, and FACES_OF reads such an array.
-// WHOLE_FACES and WHOLE_FACES_OF are the same for unsigned integers.
+// WHOLE_FACES and WHOLE_FACES_OF do the same for arrays of unsigned integers.
 #define FACES(name) texture2DArray name[kMaxCubeArrays]
 #define FACES_OF(name, i) sampler2DArray(name[i], nearest_texels)
 #define WHOLE_FACES(name) utexture2DArray name[kMaxCubeArrays]
 #define WHOLE_FACES_OF(name, i) usampler2DArray(name[i], nearest_texels)
-// 1: the table gives each mirror its array and cube. 0: mirror n's capture is cube n of the only array.
-// The engine specialises shaders before the driver sees them. Comparisons with absent arrays cost nothing, and a shader
-// without a table has no binding for one.
+// 1: a table gives each mirror its array of captures, and its cube in that array. 0: mirror n's capture is cube n of
+// the only array. The engine specialises shaders before the driver sees them. Comparisons with absent arrays therefore
+// cost nothing, and a shader without a table has no binding for a table.
 layout(constant_id = HAS_CAPTURE_TABLE_CONSTANT) const uint has_capture_table = 0u;
 layout(constant_id = ARRAY_COUNT_CONSTANT) const uint array_count = 1u;
 // The scene units of the stored distance 1, if they are the same in all arrays; 0: the arrays differ.
 layout(constant_id = STORED_UNIT_CONSTANT) const float stored_unit = 1.0;
-// Without a table: 1 if the stored distance 1 is the end of the range, as in unorm8.
+// Without a table of captures: 1 if the stored distance 1 is the end of the range, as in unorm8.
 layout(constant_id = RANGE_ENDS_CONSTANT) const uint range_ends = 0u;
 
 uint capture_array_of_mirror(uint mirror) { return captures.places[mirror] >> 16u; }

@@ -32,7 +32,7 @@ dvec3 refine_exact_triangle_hit(dvec3 a, dvec3 b, dvec3 c, vec3 w) {
     double size = dot(n, n), slope = dot(n, exact_direction);
     exact_facet = n / sqrt(size);
     dvec3 from_a = exact_origin - a, at = double(w.y) * e + double(w.z) * f;
-    // Slope 0: the ray sees the triangle edge-on.
+    // Slope 0: the ray sees the triangle edge-on, and the point is not refined.
     if (slope != 0.0LF) at = from_a - dot(n, from_a) / slope * exact_direction;
     exact_point = a + at;
     double v = dot(cross(at, f), n) / size, u = dot(cross(e, at), n) / size;

@@ -30,7 +30,8 @@ DRAWN(13) uvec3 drawn_numbers;
 
 #ifdef VERTEX_STAGE
 
-// Returns the layer and the object that gl_InstanceIndex encodes.
+// Returns the layer of the view in which the object is drawn, from gl_InstanceIndex. drawn_object_index decodes the
+// object.
 uint drawn_view_layer() { return uint(gl_InstanceIndex) & ((1u << kInstanceLayerBits) - 1u); }
 uint drawn_object_index() { return uint(gl_InstanceIndex) >> kInstanceLayerBits; }
 

@@ -5,9 +5,10 @@
 
 #include "lib/math.glsl"
 
-// Returns the texel of a pixel that the view leaves to tracer `tracer`, from 1. The pixel shows a triangle, given by its
-// number in the object, of mirror `mirror`, from 1, or of no mirror (0). The tag keeps a word that is read as a float
-// from being denormal, infinite or NaN. The alpha is negative, which tells the texel from a colour.
+// Returns the texel of a pixel that the view leaves to ray tracer number `tracer`, from 1. The pixel shows a triangle,
+// given by its number in the object, of mirror `mirror`, from 1, or of no mirror (0). A tag bit keeps a word that is
+// read as a float from being denormal, infinite or NaN. The alpha is negative, which distinguishes the texel from a
+// colour.
 vec4 make_first_hit_words(uint triangle, uint object, uint mirror, uint tracer) {
     return vec4(uintBitsToFloat(triangle | kBvhNormalFloatBit), uintBitsToFloat(object | kBvhNormalFloatBit), mirror,
         -float(tracer));

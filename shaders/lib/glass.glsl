@@ -1,10 +1,11 @@
-// Glass and blended surfaces in rays. At each surface of glass a ray splits into a reflected ray and one that passes
-// through. The path goes on with the one that passes, and follows the reflected ones afterwards. At a blended surface the
-// path goes on as at an opaque one, and the ray behind the surface is followed afterwards.
+// Glass and blended surfaces in rays. At each surface of glass a ray splits into a reflected ray and a ray that passes
+// through. The path goes on with the ray that passes, and follows the reflected rays afterwards. At a blended surface
+// the path goes on as at an opaque surface, and the ray behind the surface is followed afterwards.
 #ifndef CATOPTRIC_GLASS_GLSL
 #define CATOPTRIC_GLASS_GLSL
 
-// A ray that is traced after the path, with the rounding error of its origin, its weight, and the path's bounces so far.
+// A ray that is traced after the current path has ended, with the rounding error of the ray's origin, the ray's weight,
+// and the number of bounces before the ray.
 struct PendingRay {
     Ray ray;
     vec3 low;
@@ -15,10 +16,10 @@ const uint kMaxPendingRays = 8u;
 PendingRay pending_rays[kMaxPendingRays];
 uint pending_count = 0u;
 
-// Rays below this weight are not followed. It is less than the smallest step of an 8-bit picture.
+// The weight below which a ray is not followed. The weight is less than the smallest step of an 8-bit picture.
 const float kMinGlassWeight = 1.0 / 512.0;
 
-// Sets the ray to one that leaves the point.
+// Sets `ray` to a ray that leaves the surface point along `direction`.
 void leave_point(SurfacePoint p, vec3 direction, out Ray ray) { ray = Ray(find_leaving_ray_origin(p, direction), direction, p.leaves); }
 
 // Returns the index of refraction of each colour (KHR_materials_dispersion: the index of green, and a spread of which 20
@@ -101,7 +102,7 @@ void split_at_glass(SurfacePoint p, uint detail, uint bounce, inout Ray ray, ino
         vec3 part = is_dispersive ? vec3(colour == 0u, colour == 1u, colour == 2u) * passing_weight : passing_weight;
         if (!(largest_vector_component(part) > kMinGlassWeight)) continue;
         if (!is_first && pending_count == kMaxPendingRays) {
-            weight += part; // this colour goes the way of the first
+            weight += part; // this colour goes the same way as the first colour
             continue;
         }
         float ratio = is_inside ? 1.0 / iors[colour] : iors[colour];

@@ -12,12 +12,12 @@
 // 1: the scene has glass that tints the light behind it (scene::Scene::tints_glass_shadows).
 layout(constant_id = TINTS_SHADOWS_CONSTANT) const uint tints_shadows = 0u;
 
-// The share of each colour of the light that passes glass on the way to the point that visible_share_of_light was asked for
-// last.
+// The share of each colour of the light that passes glass on the way to a surface point. The point is that of the last
+// call of visible_share_of_light.
 vec3 light_tint = vec3(1);
 
-// Returns the optical depth of a surface of glass with that base colour. `cosine` is that of the angle between the ray and the
-// surface's normal, 0 to 1.
+// Returns the optical depth of a surface of glass with the base colour `albedo`. `cosine`: cosine of the angle between
+// the ray and the surface's normal, 0 to 1.
 vec3 glass_surface_depth(uint detail, vec3 albedo, VertexAttribute at, float cosine) {
     const float kMinShare = 1e-9; // far less than a picture shows, so that sums of depths stay finite
     MaterialParameters glass = read_material_parameters(detail);
@@ -26,7 +26,7 @@ vec3 glass_surface_depth(uint detail, vec3 albedo, VertexAttribute at, float cos
     return -log(max((1.0 - reflected) * tint, vec3(kMinShare)));
 }
 
-// Returns the share of light that passes glass of that optical depth.
+// Returns the share of light that passes glass of the optical depth `depth`.
 vec3 share_behind_glass(vec3 depth) { return exp(-max(depth, vec3(0))); }
 
 bool is_solid_glass(uint detail) { return (read_material_parameters(detail).flags & kMaterialSolidFlag) != 0u; }

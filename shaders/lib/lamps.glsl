@@ -22,7 +22,8 @@ struct LampPoint {
     uint object;
 };
 
-// Returns the density, per area, with which draw_lamp_point draws a point on the object. Textures do not change it.
+// Returns the density, per area, with which draw_lamp_point draws a point on the object. Textures of the lamp do not
+// change the density.
 float lamp_point_density(uint object) { return dot(read_surface(object).emission, vec3(1)) * lamp_texels_at(0u).x; }
 
 // Draws a triangle by its power (alias method: Walker, "An Efficient Method for Generating Discrete Random

@@ -10,8 +10,8 @@ float emitted_intensity_share(uint light, float cosine) {
     return spot_attenuation(cosine, read_light(light).cos_outer, read_light(light).sharpness);
 }
 
-// Computes the direction to a light, its distance, and the factor by which its emission becomes irradiance. Does so for
-// lights of every kind, as compute_point_light_factor does for points.
+// Computes the direction to a light, the light's distance, and the factor by which its emission becomes irradiance.
+// Handles lights of every kind, as compute_point_light_factor handles points.
 bool sample_light_of_any_kind(uint light, vec3 position, vec3 normal, out vec3 direction, out float distance, out float factor) {
     if (is_directional_light(light)) return compute_directional_light_factor(normal, read_light(light).forward, direction,
         distance, factor);

@@ -11,7 +11,8 @@
 
 // 1: light probes replace the ambient light and the environment's unoccluded light.
 layout(constant_id = HAS_LIGHT_PROBES_CONSTANT) const uint has_light_probes = 0u;
-// The grid, a LightProbeGrid. All is 0 in the first frame, in which no probe has been drawn yet.
+// The grid of light probes, a LightProbeGrid. All values are 0 in the first frame, in which no probe has been drawn
+// yet.
 layout(set = 0, binding = 34) uniform sampler2D probe_grid;
 layout(set = 0, binding = 35) uniform samplerCubeArray probe_light;     // irradiance at each probe, by the surface's normal
 layout(set = 0, binding = 36) uniform samplerCubeArray probe_distances; // 1 / distance from each probe, scene units; 0: sky
@@ -28,12 +29,12 @@ vec3 irradiance_at_light_probe(uint probe, vec3 normal) {
     return textureLod(probe_light, vec4(normal, float(probe)), 0.0).rgb;
 }
 
-// Returns the share to which the probe at `centre` sees the surface point, times the cosine between the normal and the
-// direction to the probe; 0 if the probe lies behind the surface.
+// Returns how well the probe at `centre` sees the surface point, 0 to 1, times the cosine between the normal and the
+// direction to the probe. Returns 0 if the probe lies behind the surface.
 float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     vec3 to_point = position - centre;
     float height = -dot(to_point, normal), distance = length(to_point);
-    if (!(height > 0.0)) return 0.0; // so the distance is above 0, too
+    if (!(height > 0.0)) return 0.0; // a probe in front of the surface also has a distance above 0
     float cosine = height / distance;
     // The inverse distance of a plane is the cosine of an angle, which is nearly linear between texels. At the outline of
     // an object the mean of inverses is near the smaller distance, which keeps light out rather than in.
@@ -42,9 +43,9 @@ float light_probe_sight(uint probe, vec3 centre, vec3 position, vec3 normal) {
     return cosine * (1.0 - smoothstep(1.0 + kSlack, 1.0 + 2.0 * kSlack, nearness));
 }
 
-// Returns the irradiance from other surfaces and the environment at a surface point with the unit normal `normal`. Where
-// none of the eight probes around the point sees it, all probes are asked, and nearer ones count more. Returns 0 where no
-// probe sees the point.
+// Returns the irradiance from other surfaces and the environment at a surface point with the unit normal `normal`. If
+// none of the eight probes around the point sees the point, all probes are asked, and nearer probes count more. Returns
+// 0 if no probe sees the point.
 vec3 light_probe_irradiance(vec3 position, vec3 normal) {
     LightProbeGrid grid = read_light_probe_grid();
     if (grid.counts.x == 0u) return vec3(0);
@@ -66,8 +67,8 @@ vec3 light_probe_irradiance(vec3 position, vec3 normal) {
             weights += weight;
         }
     } while (++corner < 8u);
-    // Share of the weights that all eight probes have if they see the surface head-on. Below it, single texels at the
-    // outlines of objects would decide.
+    // Share of the weights that all eight probes have if they see the surface head-on. Below this share, single texels
+    // at the outlines of objects would decide the result.
     const float kLeastWeight = 1e-3;
     if (weights > kLeastWeight) return sum / weights;
     uint probe = 0u, count = grid.counts.x * grid.counts.y * grid.counts.z;

@@ -15,7 +15,8 @@
 // Returns the direction from the surface to the viewer in the tangent space of `normal`. An interpolated normal that
 // points away from the viewer counts as if it pointed to the viewer.
 vec3 to_viewer_in_tangent_space(vec3 normal, vec3 tangent, vec3 bitangent, vec3 to_viewer) {
-    // The lobe divides by this cosine. The bound is a view from 0.06 degrees above the surface.
+    // The least cosine between normal and viewer. The lobe's formula divides by this cosine. The bound is a view from
+    // 0.06 degrees above the surface.
     const float kMinViewCosine = 1e-3;
     return normalize(vec3(dot(tangent, to_viewer), dot(bitangent, to_viewer), max(abs(dot(normal, to_viewer)), kMinViewCosine)));
 }

@@ -7,7 +7,7 @@
 #include "lib/shadow.glsl"
 
 #ifdef FIRST_HIT
-bool shadow_is_open = false; // whether the shadow map could not tell for some light
+bool shadow_is_open = false; // whether the shadow map could not tell whether some light reaches the surface
 #endif
 
 float visible_share_of_light(uint light, vec3 at, vec3 n, vec3 direction, float distance) {
@@ -22,8 +22,8 @@ float visible_share_of_light(uint light, vec3 at, vec3 n, vec3 direction, float 
 }
 #include "lib/lighting.glsl"
 
-// Returns the radiance of the drawn surface without what captures show (shade_surface). `n` is the unit shading normal,
-// and `facet` points along the triangle's normal.
+// Returns the radiance of the drawn surface without the reflections that captures show (shade_surface). `n` is the unit
+// shading normal, and `facet` points along the triangle's normal.
 vec3 shade_drawn_fragment(Surface surface, vec3 n, vec3 facet) {
     return shade_surface(surface, fragment_surface_position(), n, find_facet_normal_for_shading(surface.detail, facet),
                          -normalize(direction_from_viewer()), surface.reflectance != vec3(0));

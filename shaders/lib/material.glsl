@@ -11,8 +11,8 @@ layout(constant_id = DETAILS_CONSTANT) const uint details = 0u; // 1: some mater
 layout(constant_id = MASKS_CONSTANT) const uint masks = 0u;     // 1: some material has an alpha test
 TEXEL_LIST(DETAILS_BINDING, detail_quads, uvec4, usamplerBuffer, false) // list of MaterialParameters
 TEXEL_LIST(ATTRIBUTES_BINDING, attribute_texels, vec4, samplerBuffer, false) // two texels for each attribute
-// List of words: first a table that maps an sRGB byte to linear light as a float, then the table of lobe_albedo_terms,
-// then all texels, red in the low byte.
+// List of words for textures. The list holds a table that maps an sRGB byte to linear light as a float, then the table
+// of lobe_albedo_terms, then the texels of all textures, red in the low byte.
 TEXEL_LIST(TEXELS_BINDING, texture_words, uint, usamplerBuffer, false)
 
 // Returns four words of a MaterialParameters.
@@ -88,7 +88,7 @@ bool fails_alpha_test(uint number, VertexAttribute at) {
 
 // 1: some surface is blended: it covers the share `alpha` of the light that comes from behind it.
 layout(constant_id = HAS_BLENDING_CONSTANT) const uint has_blending = 0u;
-const float kOpaqueAlpha = 511.0 / 512.0; // from here on a blended surface counts as opaque
+const float kOpaqueAlpha = 511.0 / 512.0; // a blended surface with at least this alpha counts as opaque
 bool is_blended(uint detail) {
     return has_blending != 0u && (read_material_parameters(detail).flags & kMaterialBlendedFlag) != 0u;
 }
@@ -116,7 +116,7 @@ struct TriangleTextureSides {
 vec3 apply_normal_texture(uint detail, VertexAttribute at, vec3 normal, TriangleTextureSides sides) {
     TextureUse use = read_material_parameters(detail).normal;
     if (use.size == 0u) return normal;
-    const float kFlat = 1e-4; // far less than the step of a texel, 1 / 127
+    const float kFlat = 1e-4; // below this tilt a normal counts as flat; a texel's step, 1 / 127, is far larger
     vec3 bend = sample_texture(use, at.uv).xyz * 255.0;
     bend = vec3((bend.xy - 128.0) / 127.0 * read_material_parameters(detail).normal_scale, bend.z / 127.5 - 1.0);
     bool is_second = (use.how & kTextureSecondUvFlag) != 0u;
@@ -211,8 +211,8 @@ vec2 lobe_albedo_terms_of(float roughness, float cosine) {
                y - float(top));
 }
 
-// Returns the share of light that the rough lobe evaluated last reflects to that viewer, if equal light arrives from
-// everywhere.
+// Returns the share of light that the rough lobe evaluated last reflects to a viewer at the angle `cosine` to the
+// normal, if equal light arrives from everywhere.
 vec3 specular_lobe_albedo(float cosine) {
     vec2 terms = lobe_albedo_terms_of(specular_lobe.roughness, cosine);
     return specular_lobe.gain * (specular_lobe.f0 * terms.x + specular_lobe.f90 * terms.y);
@@ -248,7 +248,7 @@ struct ClearCoat {
     float roughness;
     float reflected;    // share of the light from the viewer's mirrored direction that the coat reflects
     bool is_shown;      // whether rays or captures show what the coat reflects
-    bool is_base_shown; // whether they show what the surface below it reflects
+    bool is_base_shown; // whether rays or captures show what the surface below the coat reflects
 };
 ClearCoat clear_coat = ClearCoat(0.0, 0.0, 0.0, false, false);
 const float kClearCoatF0 = 0.04;

@@ -65,8 +65,8 @@ bool reflect_at_exact_sphere(inout MirrorPath path) {
     float t;
     Ray ray = Ray(path.at, path.direction, 0u);
     if (!find_first_exact_sphere(ray, path.mirror, next, t)) return false;
-    // Read once: the driver simplifies c + x - c to x only if both c come from the same read, so two reads would make the
-    // normal's rounding depend on how the lists are bound.
+    // The probe is read once. The driver simplifies c + x - c to x only if both c come from the same read, so two reads
+    // would make the normal's rounding depend on how the lists are bound.
     vec3 centre = read_probe(next).sphere;
     float radius = read_probe(next).radius;
     vec3 error;
@@ -86,7 +86,7 @@ bool reflect_at_captured_mirror(inout MirrorPath path, Lookup lookup) {
     vec4 surface = read_captured_surface(path.mirror, lookup.direction);
     if (lookup.state != kHit || lookup.layer != 0.0 || !is_mirror_surface(surface)) return false;
     uint next = uint(surface.x) - 1u;
-    // Exact sphere: reflect_at_exact_sphere has found that the ray misses the sphere.
+    // If the captured mirror is an exact sphere, reflect_at_exact_sphere has found that the ray misses that sphere.
     if (read_probe(next).radius > 0.0) return false;
     // Only the capture knows the light of a lit mirror.
     if (details != 0u && read_probe(next).kind >= kMirrorNeedsDiffuseLight) return false;
@@ -118,7 +118,7 @@ float find_path_distance_to_end(uint mirror, MirrorPath path, Lookup lookup) {
 void search_other_captures(inout MirrorPath path, inout Lookup lookup) {
     float distance = distance_of_last_search_hit();
     Ray ray = Ray(path.at, path.direction, 0u);
-    // The first mirror whose sphere or bounds the ray meets is the same for all captures.
+    // The first mirror whose sphere or bounds the ray meets is the same for the captures of all mirrors.
     uint first;
     float met;
     bool meets = mirror_tree != 0u && find_first_mirror_by_tree(ray, path.mirror, false, first, met);
@@ -175,14 +175,16 @@ float rough_lookup_alpha(MirrorPath path, Lookup lookup, float roughness) {
     float ratio = 1.0, foreshortening = 1.0;
     float from_centre = distance_of_last_search_hit();
     if (distance_law != kLawNone && !(from_centre > 0.0)) from_centre = captured_distance(path.mirror, lookup.direction);
-    // What leaves the scene is so far away that the mirror and the capture's centre see it alike.
+    // A surface outside the scene is so far away that the mirror and the capture's centre see it alike.
     if (distance_law != kLawNone && lookup.state != kSearchMissState && is_finite(from_centre) && from_centre > 0.0) {
         vec3 end = path.centre + lookup.direction * from_centre;
         ratio = distance(end, path.at) / from_centre;
         if (distance_law == kLawExact && has_surfaces != 0u) {
-            // Zero beside a silhouette, where the nearest texel shows no surface. Both cosines are then at their least.
+            // The captured normal is zero beside a silhouette, where the nearest texel shows no surface. Both cosines
+            // then have their least value.
             vec3 n = read_captured_surface(path.mirror, lookup.direction).yzw;
-            const float kMinNormalLength = 1e-3; // a divisor for a normal of length 0; all others are far longer
+            // Shortest captured normal; a normal of length 0 is divided by this, all other normals are far longer.
+            const float kMinNormalLength = 1e-3;
             float size = max(length(n), kMinNormalLength);
             float to_centre = abs(dot(n, lookup.direction)) / size, to_surface = abs(dot(n, path.direction)) / size;
             // At grazing angles the surface ends before the lobe's cross section does.
@@ -192,14 +194,15 @@ float rough_lookup_alpha(MirrorPath path, Lookup lookup, float roughness) {
     return lookup_alpha_by_distance_law(distance_law, roughness, ratio, foreshortening);
 }
 
-// Returns the radiance that the path brings from its end to the surface of that roughness at its start.
+// Returns the radiance that the path brings from its end to a surface of roughness `roughness` at its start.
 vec3 rough_path_radiance(MirrorPath path, Lookup lookup, float roughness) {
     float level = rough_lookup_level(path.mirror, rough_lookup_alpha(path, lookup, roughness));
     vec3 blurred = capture_colour_at_level(path.mirror, lookup.direction, max(level, 1.0));
     return level < 1.0 ? mix(lookup_colour(path.mirror, lookup), blurred, level) : blurred;
 }
 
-// Returns the radiance that the path brings to glass whose passing light is spread as by a mirror of that roughness.
+// Returns the radiance that the path brings to a glass surface. The glass spreads the light that passes as a mirror of
+// roughness `roughness` spreads reflected light.
 vec3 passing_radiance(MirrorPath path, Lookup lookup, float roughness) {
     if (has_lobes != 0u && has_levels && roughness > kMaxSharpRoughness) return rough_path_radiance(path, lookup, roughness);
     return lookup_colour(path.mirror, lookup);
@@ -216,7 +219,8 @@ vec3 clear_coat_radiance(MirrorPath path, Lookup lookup, vec3 sharp, float cosin
 
 void main() {
     vec3 facet = normalize(cross(dFdx(from_eye), dFdy(from_eye)));
-    // A discard before the derivatives would make them undefined.
+    // Fragments are discarded after the derivatives, because a discard before the derivatives would make them
+    // undefined.
     if (peels != 0u && is_peeled_from_second_layer()) discard;
     discard_cut_out_fragments();
     vec3 n = normalize(normal);
@@ -225,7 +229,8 @@ void main() {
     MirrorPath path = MirrorPath(drawn_mirror_number() - 1u, fragment_surface_position(), reflect_above_facet(seen, n, facet),
                                  read_probe(drawn_mirror_number() - 1u).centre, surface.reflectance, 0u);
     bool is_glass = is_refracting(surface.detail);
-    // The conditions repeat the constants, because only branches on constants are removed with what they use.
+    // These conditions repeat the shader constants, because the compiler removes only branches on constants, with the
+    // code in them.
     bool is_traced_glass = has_glass != 0u && refract_model == kRefractTraced && tracer != 0u && is_glass;
     RefractedRay behind;
     if (has_glass != 0u && refract_model != kRefractNone && is_glass) {
@@ -257,7 +262,8 @@ void main() {
     vec3 base_weight = path.weight;
     if (has_clear_coats != 0u) path.weight = vec3(1); // the surface and its coat share the path
     MirrorPath first = path;
-    // A lobe reflects a mirror and what is beside it at once, which only the blurred capture shows.
+    // A blurred look-up does not follow the path through further mirrors. A lobe reflects a mirror and its
+    // neighbourhood at once, which only the blurred capture shows.
     Lookup lookup = follow_path_through_mirrors(path, looks_up_level || coat_looks_up_level ? 0u : hops);
     vec3 colour;
     if (rough == kRoughNone || !is_rough)

@@ -9,8 +9,9 @@
 
 // 1: the mirrors have a tree (engine/render/mirror_tree.hpp).
 layout(constant_id = MIRROR_TREE_CONSTANT) const uint mirror_tree = 0u;
-// Two texels for each tree node: lowest corner of the box and mirror number (from 1; 0: inner node); highest corner and
-// the number of the node that follows the node's subtree.
+// Two texels for each node of the tree over mirrors. The first texel is the lowest corner of the box, and the mirror
+// number (from 1; 0: inner node). The second texel is the highest corner of the box, and the number of the node that
+// follows the node's subtree.
 TEXEL_LIST(MIRROR_NODES_BINDING, mirror_nodes, vec4, samplerBuffer, false)
 
 // The factor by which boxes are widened for spheres. The sphere test accepts a sphere that misses the ray by up to 22

@@ -3,9 +3,10 @@
 #ifndef CATOPTRIC_PATHS_GLSL
 #define CATOPTRIC_PATHS_GLSL
 
-// First dimension of sample_pattern_point that draws the part of the surface, and whether the path ends.
+// First dimension of sample_pattern_point that decides which part of the surface a path follows, and whether the path
+// ends.
 const uint kPartDimensions = 0x20000u;
-// First dimension that draws the layer of a coated surface, and the one that draws directions of rough glass.
+// First dimensions of sample_pattern_point for the layer of a coated surface, and for directions of rough glass.
 const uint kLayerDimensions = 0x30000u, kGlassDimensions = 0x40000u;
 // Reflections after which a path may end by chance (Russian roulette).
 const uint kBouncesBeforeRoulette = 3u;
@@ -26,7 +27,7 @@ bool draws_from_lobe() { return traces_lobes != 0u && has_rough_lobe(); }
 Reflection split_reflection(Surface surface, bool has_specular_part, float cosine) {
     Reflection parts = Reflection(vec3(0), surface.reflectance, 1.0, surface.detail);
     if (traces_paths == 0u) return parts;
-    // Without MaterialParameters a mirror has no diffuse part.
+    // Without MaterialParameters, a mirror has no diffuse part.
     if (!has_specular_part || details != 0u) parts.diffuse = surface.albedo;
     float specular = has_specular_part ? largest_vector_component(has_rough_lobe() ? specular_lobe_albedo(cosine) : surface.reflectance) : 0.0;
     float whole = specular + largest_vector_component(parts.diffuse);
@@ -75,7 +76,8 @@ bool draw_reflection(SurfacePoint p, Reflection parts, vec3 direction, uint boun
     if (is_drawn) {
         if (!has_specular_part) leaving = sample_cosine(p.normal, u, v);
         vec3 reflected = evaluate_reflection(p, parts, direction, leaving, density);
-        // The weight of a drawn lobe is exact for lobes of any width, while the quotient is not.
+        // The weight of a drawn lobe direction is exact for lobes of any width, but the quotient of lobe and density is
+        // not.
         if (traces_paths == 0u || parts.specular_share == 1.0) weight *= lobe_weight;
         else weight *= density > 0.0 ? reflected / density : vec3(0);
     } else {

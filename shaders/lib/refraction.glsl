@@ -9,10 +9,12 @@
 #include "lib/material.glsl"
 
 layout(constant_id = REFRACT_CONSTANT) const uint refract_model = kRefractNone;
-// A model of camera views alone: light leaves the body at the back face that an image of the view shows (Wyman, "An
-// Approximate Image-Space Approach for Interactive Refraction", 2005). Where the image shows none, the model is auto.
+// A model of refraction for camera views only: light leaves the body at the back face that an image of the view shows
+// (Wyman, "An Approximate Image-Space Approach for Interactive Refraction", 2005). Where the image shows no back face,
+// the shader uses the model kRefractAuto.
 const uint kRefractBackface = 6u;
-layout(set = 0, binding = GLASS_BACKS_BINDING) uniform sampler2D glass_backs; // see glass_back.frag
+// Back faces of glass bodies, drawn by glass_back.frag.
+layout(set = 0, binding = GLASS_BACKS_BINDING) uniform sampler2D glass_backs;
 
 // Returns whether light passes the surface that was evaluated last.
 bool is_refracting(uint detail) {
@@ -21,11 +23,11 @@ bool is_refracting(uint detail) {
 
 // A ray of light behind a glass surface.
 struct RefractedRay {
-    vec3 origin;    // where it leaves the body, scene units
-    vec3 direction; // unit direction in which it leaves
-    vec3 weight;    // share of its light that reaches the viewer
+    vec3 origin;    // point where the ray leaves the glass body, scene units
+    vec3 direction; // unit direction in which the ray leaves the glass body
+    vec3 weight;    // share of the ray's light that reaches the viewer
     float reflected; // share of the light that the drawn surface reflects instead
-    float roughness; // of a mirror that spreads light as much as the glass does; 0: the glass is smooth
+    float roughness; // roughness of a mirror that spreads light as much as the glass does; 0: the glass is smooth
 };
 
 // Returns the roughness of a mirror that spreads light as much as the rough glass that was evaluated last. A facet tilted by
@@ -36,7 +38,8 @@ float passing_roughness(bool is_solid, float ior) {
     return has_lobes == 0u ? 0.0 : is_solid ? specular_lobe.roughness * sqrt(min((ior - 1.0) * kRootOfHalf, 1.0)) : specular_lobe.roughness;
 }
 
-// Returns the way along `direction` from `at` to where the ray leaves the box, and the normal there, which points inwards.
+// Returns the length of the way along `direction` from `at` to where the ray leaves the box. Also sets the normal of
+// the box there, which points inwards.
 float find_way_out_of_box(vec3 at, vec3 direction, vec3 lowest, vec3 highest, out vec3 normal) {
     float way = kLargestFloat;
     normal = -direction;
@@ -98,7 +101,8 @@ vec3 interpolate_back_normal(View view, vec2 place, vec3 normal) {
 // leave through a face in view.
 bool find_way_to_back_face(vec3 at, vec3 inside, out float way, out vec3 normal) {
     const int kSteps = 12;
-    const float kTolerance = 1e-3, kMinCosine = 1e-2; // of the way; between the ray and the normal
+    // kTolerance: share of the way; kMinCosine: cosine between the ray and the back face's normal.
+    const float kTolerance = 1e-3, kMinCosine = 1e-2;
     View view = views[draw.first_view];
     way = 0.0;
     normal = -inside;
@@ -151,7 +155,7 @@ RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float
     if (is_inside) return ray;
     vec3 inside = ray.direction, size = body.highest - body.lowest;
     if (refract_model == kRefractBackface && has_back_face) {
-        // The way and the normal are known.
+        // The way through the body and the normal at its end are already known.
     } else if (is_box) {
         way = find_way_out_of_box(at, inside, body.lowest, body.highest, far_normal);
     } else {

@@ -53,7 +53,8 @@ vec3 world_to_light_axes(uint light, vec3 v) {
 // kShadowBiasTexels. Towards the light, shadows keep their place, but begin late where a surface touches what shades
 // it. The height above the surface is the same, so that a plane does not shadow itself.
 const uint kBiasAlongNormal = 0u, kBiasTowardsLight = 1u;
-const float kMinLightCosine = 1.0 / 64.0; // limits how far a point moves towards the light
+// Least cosine to the light, which limits how far a point moves towards the light.
+const float kMinLightCosine = 1.0 / 64.0;
 
 vec3 shadow_bias_offset(uint lift, vec3 normal, vec3 to_light, float height) {
     return lift == kBiasAlongNormal ? normal * height

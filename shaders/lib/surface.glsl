@@ -13,8 +13,8 @@ layout(location = 3) in vec4 in_uv; // VertexAttribute::uv, two sets of texture 
 layout(location = 4) in vec4 in_colour;
 
 layout(location = 0) out vec4 out_colour;
-// A capture stores the distance from its centre. A camera view that leaves pixels to tracing instead stores the number,
-// from 1, of the tracer that takes the pixel. In such a view distance_scale is 0.
+// Output of a distance. A capture stores the distance from its centre. A camera view that leaves pixels to ray tracing
+// stores instead the number, from 1, of the tracer that takes the pixel. In such a view distance_scale is 0.
 layout(location = 1) out float out_distance;
 // The camera's view stores the lookup of a mirror: its direction, and 1 + state + 4 layer + 8 mirror + residual as one
 // number. Pixels without a mirror store 0.

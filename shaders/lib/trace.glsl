@@ -58,9 +58,10 @@ shared uint trace_stack[kBvhMaxStack * TRACE_LOCAL_SIZE];
 
 // The number of node visits and triangle tests of all rays of this invocation.
 uint trace_steps = 0u;
-// The same, each for itself, and the number of times that this invocation stood for its subgroup in a node visit or a
-// triangle test. The sum of the latter over all lanes is the number of visits and tests that subgroups executed, so
-// nodes / node_lanes is the mean number of live lanes. Only counted if count_work is 1.
+// The node visits and the triangle tests, counted separately, and the number of times that this invocation stood for
+// its subgroup in a node visit or a triangle test. The sum of the latter over all lanes is the number of visits and
+// tests that subgroups executed, so nodes / node_lanes is the mean number of live lanes. These numbers are counted only
+// if count_work is 1.
 uint nodes_visited = 0u, triangles_tested = 0u, node_lanes = 0u, triangle_lanes = 0u;
 // Whether some walk of this invocation stopped before its end, so that its answer is wrong. A walk stops at
 // kMaxTraceSteps, or because the driver stops its loops. The software driver silently ends all loops of an invocation
@@ -322,7 +323,7 @@ bool find_hit_in_trees(Ray ray, float t_max, uint skipped_flags, bool any, out T
                 ++i;
             }
         } while (i < count);
-        // If one of the two loops above has work left, the walk ran out of steps or the driver stopped its loops.
+        // If the descent or the leaf's loop has work left, the walk ran out of steps or the driver stopped its loops.
         if (!enters && (is_bvh_word_inner_node(child) || i < count)) break;
         if (enters) continue;
         child = kBvhEmptyChild;

@@ -62,8 +62,8 @@ layout(constant_id = SHADOW_CONSTANT) const uint shadow = 2u; // shadow method: 
 // then traced only where the shadow map cannot tell.
 layout(constant_id = FIRST_RASTER_CONSTANT) const uint first_raster = 0u;
 
-// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: rough mirrors reflect sharply. 1 as well
-// if traces_paths is 1.
+// 1: rays leave rough surfaces in a direction drawn from the surface's lobe. 0: rough mirrors reflect sharply. Path
+// tracing (traces_paths 1) also sets this constant to 1.
 layout(constant_id = TRACES_LOBES_CONSTANT) const uint traces_lobes = 0u;
 // The arguments of sample_pattern_point for the traced path.
 uint path_pixel = 0u, path_sample = 0u, path_seed = 0u;
@@ -202,7 +202,7 @@ vec4 first_words = vec4(0); // texel of the picture of triangles (lib/first_hit.
 TEXEL_LIST(FIRST_HITS_BINDING, first_hits, uint, usamplerBuffer, false)
 const uint kNoFirstHit = 0xffffffffu;
 
-// What is known of a ray before it is traced.
+// What is known of a ray's hit before the ray is traced: nothing (kUnknownHit), or the hit (kKnownHit).
 const uint kUnknownHit = 0u, kKnownHit = 1u;
 
 // Intersects the camera ray with the triangle that the rasteriser drew in the ray's pixel. Returns kUnknownHit if no
@@ -250,7 +250,7 @@ Surface evaluate_surface(inout SurfacePoint p, vec3 direction) {
     Surface surface = read_surface(p.object);
     if (details != 0u) {
         vec3 turned = turn_shading_normal_to_viewer(surface.detail, p.normal, p.facet, direction);
-        // From the back the smooth surface is hollow, so it lies below the triangle.
+        // Seen from the back, the smooth surface is hollow, so it lies below the triangle.
         bool is_front = turned == p.normal;
         if (!is_front) p.lift = 0.0;
         if (has_normal_textures != 0u) {
@@ -297,7 +297,8 @@ float draw_layer_choice(uint bounce) {
     return choice;
 }
 
-// Returns the origin of a ray that leaves the surface along `direction`, for paths that leave diffuse surfaces, too.
+// Returns the origin of a ray that leaves the surface along `direction`. Works for reflected rays and for paths that
+// leave diffuse surfaces.
 vec3 reflected_ray_origin(SurfacePoint p, vec3 direction) {
     bool goes_below = traces_paths != 0u && is_precision_rule_kept(kOriginErrorBoundRule) && dot(direction, facet_normal_on_shading_side(p.normal, p.facet)) < 0.0;
     return goes_below ? lifted_shadow_ray_origin(p, p.normal) : find_leaving_ray_origin(p, direction);
@@ -332,7 +333,7 @@ void replace_ray_by_ray_to_lamp(SurfacePoint p, Reflection parts, vec3 direction
     ++shadow_rays;
 }
 
-// Goes on with the path after its ray to a lamp.
+// Goes on with the path after the path's ray to a lamp has been traced.
 void resume_path_after_lamp_ray(out Ray ray) {
     ray = path_ray;
     trace_low = path_low;
@@ -422,7 +423,7 @@ float visible_share_of_light(uint light, vec3 position, vec3 normal, vec3 direct
     }
     bool is_hidden = has_any_hit(ray, t, kBvhCastsNoShadow | skipped_triangle_flags());
     if (tints_shadows != 0u) {
-        // A light in a body of glass: its light has passed the glass from the light on.
+        // If the light is inside a body of glass, its light starts in the glass.
         if (!is_directional_light(light)) passed_depth += max(entered_absorption, vec3(0)) * length(shadow_direction);
         light_tint = share_behind_glass(passed_depth);
     }
@@ -463,7 +464,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
     if (first_raster != 0u && first == 0u) known = intersect_rasterised_triangle(ray, hit);
     if (known == kUnknownHit && first == 0u) ++camera_rays;
     do {
-        // A camera ray that passes a blended surface stays one.
+        // A camera ray that passes a blended surface still counts as a camera ray.
         if (has_blending != 0u && first == 0u && bounce == 0u) skipped = kBvhHiddenFromCamera;
         bool found = trace_ray(ray, skipped, known, hit, point);
         known = kUnknownHit;

@@ -9,10 +9,11 @@
 
 layout(constant_id = COUNT_WORK_CONSTANT) const uint count_work = 0u;
 
-// The counts of the pass: the low and the high word of each.
+// The work counts of the pass. Each count is a low word and a high word.
 layout(set = 0, binding = 43, scalar) buffer WorkBuffer { uvec2 work_counts[kShaderWorkKindCount]; };
 
-// Adds to a count of the pass, kWork... in shared.h. Helper invocations of a fragment shader add nothing.
+// Adds `count` to the pass's count of work kind `kind` (kWork... in shared.h). Helper invocations of a fragment shader
+// add nothing.
 void add_to_work_count(uint kind, uint count) {
     if (count_work == 0u || count == 0u) return;
     uint before = atomicAdd(work_counts[kind].x, count);

@@ -6,7 +6,7 @@
 #include "reflect/pyramid.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 20) uniform samplerCubeArray distances; // of one array of captures
+layout(set = 0, binding = 20) uniform samplerCubeArray distances; // captured distances of one array of captures
 layout(set = 0, binding = 21, r32ui) uniform uimage2DArray bounds;
 layout(push_constant, scalar) uniform Push { int level; };
 layout(constant_id = OWN_CONSTANTS) const uint from_cells = 0u;

@@ -11,7 +11,7 @@ const float kMaxSurfaceSlope = 4.0;
 // step of unorm8 distances is smaller than this step.
 const float kMaxContinuousStep = 1.0 / 128.0;
 
-// Angle of a texel in the middle of a face.
+// Angle of a texel in the middle of a face of the mirror's capture, radians.
 float texel_angle_of_mirror_capture(uint mirror) { return 2.0 / float(distance_edge(mirror)); }
 // inverse distance; 0: no surface
 float reciprocal_or_zero(float distance) { return is_miss(distance) ? 0.0 : 1.0 / distance; }

@@ -6,7 +6,7 @@
 #include "lib/constants.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 20) uniform sampler2DArray captured; // faces of one array of captures
+layout(set = 0, binding = 20) uniform sampler2DArray captured; // cube faces of one array of captures
 layout(set = 0, binding = 21, rgba16f) readonly uniform image2DArray below;
 layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
 layout(constant_id = OWN_CONSTANTS) const uint from_level = 0u; // 0: the level below is the captured colour
@@ -20,7 +20,8 @@ void main() {
     ivec2 size = imageSize(level).xy, texel = ivec2(gl_GlobalInvocationID.xy);
     int source = from_level != 0u ? imageSize(below).x : textureSize(captured, 0).x, layer = int(gl_WorkGroupID.z);
     if (texel.x >= size.x || texel.y >= size.y) return;
-    // The area of the texel in texels of the level below. If the edge below is odd, it has parts of texels.
+    // The width of a texel in texels of the level below. If the level below has an odd edge, a texel covers parts of
+    // texels.
     float scale = float(source) / float(size.x);
     vec2 low = vec2(texel) * scale, high = low + scale;
     ivec2 first = ivec2(low), last = min(ivec2(ceil(high)), ivec2(source)) - 1;

@@ -8,12 +8,14 @@
 #include "lib/constants.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 20) uniform samplerCubeArray captured; // one array of captures, linear
-layout(set = 0, binding = 21) uniform samplerCubeArray boxes; // levels from 1 on of its box-filtered chain, mipmapped
+// Captured colours of one array of captures, filtered linearly.
+layout(set = 0, binding = 20) uniform samplerCubeArray captured;
+// Box-filtered levels, from 1, of the same captures, with mipmaps.
+layout(set = 0, binding = 21) uniform samplerCubeArray boxes;
 layout(set = 0, binding = 22, rgba16f) writeonly uniform image2DArray level;
 layout(push_constant, scalar) uniform Push {
-    float alpha; // width of the lobe
-    uint rings;  // of four samples each
+    float alpha; // width alpha of the lobe
+    uint rings;  // number of rings of samples; each ring has four samples
 };
 
 // Area of a sample's box in areas for which the sample stands. Larger boxes blur the level more than the lobe does.
@@ -29,7 +31,8 @@ void main() {
     float captured_edge = float(textureSize(captured, 0).x), texel_area = 4.0 * kPi / (6.0 * captured_edge * captured_edge);
     vec3 sum = vec3(0);
     float weights = 0.0;
-    // Samples lie on rings of four, because a ring leaves the filtered light in its place.
+    // Samples lie on rings of four. The mean direction of a ring is the lobe's axis, so filtering does not shift the
+    // light.
     for (uint i = 0u; i < rings; ++i) {
         float u, v;
         hammersley_point(i, rings, u, v);

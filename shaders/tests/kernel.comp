@@ -10,11 +10,12 @@ layout(constant_id = EXACT_SPHERES_CONSTANT) const uint exact_spheres = 0u;
 #include "lib/trace.glsl"
 
 layout(local_size_x = TRACE_LOCAL_SIZE) in;
-// Two words of four per ray: origin, t_max; direction, leaves.
+// Two elements of four words for each ray: origin and t_max; direction and `leaves`.
 layout(set = 0, binding = 2, std430) readonly buffer Rays { uvec4 rays[]; };
-// Two elements per ray: t, weights; triangle, object, outcome, steps.
+// Two elements of four words for each ray's hit: t and the barycentric weights; triangle, object, outcome and number of
+// steps.
 layout(set = 0, binding = 3, std430) writeonly buffer Hits { uvec4 hits[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Lows { uvec4 lows[]; };  // rounding errors of the origins
+layout(set = 0, binding = 4, std430) readonly buffer Lows { uvec4 lows[]; };  // rounding errors of the rays' origins
 layout(push_constant) uniform Push {
     uint count;
     uint skipped;  // flags of triangles that rays ignore

@@ -1,9 +1,10 @@
 // Part of lib/math.glsl; only lib/math.glsl includes this file.
 // Mathematics of lights, Lambertian surfaces, mirror reflection and sRGB encoding.
 
-// Computes the geometric factor of a light's contribution: max(0, -w.n_l) / t^2 * max(0, n.w), where w is the direction
-// and t the distance to the light. A zero light_normal means that the light has no cosine factor. Returns false, with
-// factor 0, if a cosine is not positive or the light is at the point. The caller then needs no shadow ray.
+// Computes the geometric factor of a light's contribution: max(0, -w.n_l) / t^2 * max(0, n.w). Here w is the direction
+// to the light, t the distance to the light, n the surface's normal, and n_l the light's normal. A zero light_normal
+// means that the light has no cosine factor. Returns false, with factor 0, if a cosine is not positive or the light is
+// at the point. The caller then needs no shadow ray.
 INLINE bool compute_point_light_factor(vec3 position, vec3 normal, vec3 light_position, vec3 light_normal,
                        OUT(vec3) direction, OUT(real) distance, OUT(real) factor) {
     vec3 to_light = light_position - position;

@@ -52,7 +52,7 @@ INLINE real lookup_alpha_by_distance_law(uint law, real roughness, real ratio, r
     return alpha;
 }
 
-// Returns point `index` of Hammersley's set of `count` points, in [0, 1)^2.
+// Returns point `index` of Hammersley's set of `count` points, in [0, 1)^2. The points are evenly spread.
 INLINE void hammersley_point(uint index, uint count, OUT(real) u, OUT(real) v) {
     u = (real(index) + real(0.5)) / real(count);
     v = word_to_unit_fraction(reverse_bits_of_word(index));

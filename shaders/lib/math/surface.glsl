@@ -3,9 +3,9 @@
 
 const uint kWrapRepeat = 0u, kWrapMirrored = 1u, kWrapClamp = 2u;
 
-// Returns the texel index, 0 to size - 1, to which the wrap mode maps the index `i` of an axis with `size` texels.
-// `i` is -1 or more, or any number if a coordinate is not finite. The remainder of a negative number is undefined in
-// GLSL, so the function takes that of an unsigned one.
+// Returns the texel index, 0 to size - 1, to which the wrap mode maps the index `i` of an axis with `size` texels. `i`
+// is -1 or more, or any number if a coordinate is not finite. The remainder of a negative number is undefined in GLSL,
+// so the function takes the remainder of an unsigned number.
 INLINE int wrap_texel_index_by_mode(int i, int size, uint wrap) {
     if (wrap == kWrapClamp) return i < 0 ? 0 : i < size ? i : size - 1;
     int period = wrap == kWrapMirrored ? 2 * size : size;
