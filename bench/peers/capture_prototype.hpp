@@ -54,9 +54,10 @@ private:
     catoptric::gpu::GpuDevice& peer_device_;
     std::uint32_t face_;
     catoptric::render::FrameGeometry geometry_;
-    std::vector<PrototypeMaterial> materials_;   ///< by object
-    std::vector<std::size_t> mirrors_;           ///< indices of the objects that are mirrors
-    std::vector<catoptric::shared::View> views_; ///< in the order of Frame in shaders/draw.glsl
+    std::vector<PrototypeMaterial> materials_; ///< material of each object
+    std::vector<std::size_t> mirrors_;         ///< indices of the objects that are mirrors
+    std::vector<catoptric::shared::View>
+        views_; ///< views in the order of Frame in shaders/draw.glsl
     catoptric::gpu::GpuBuffer vertices_, indices_, frame_, pixels_;
     catoptric::gpu::UniqueSampler linear_, compare_;
     GeneralLayoutVulkanImage shadow_map_, depth_, view_, view_depth_;

@@ -14,8 +14,8 @@ struct Ray {
 
 /// The first hit of a ray.
 struct FirstRayHit {
-    /// Values of `triangle`: the ray meets no triangle; the ray was not traced, or our walk stopped
-    /// at its step limit.
+    /// Values of `triangle` without a hit. kNoTriangle: the ray meets no triangle. kUntraced: the
+    /// ray was not traced, or our walk stopped at its step limit.
     static constexpr std::uint32_t kNoTriangle = 0xffffffff, kUntraced = 0xfffffffe;
     float t = 0;
     std::uint32_t triangle = kUntraced;

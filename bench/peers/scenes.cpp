@@ -13,7 +13,7 @@ namespace {
 /// torus of around^2 triangles.
 scene::Scene make_finely_tessellated_cornell_mirrors(int levels, int around) {
     scene::Scene scene = scene::make_cornell_mirrors();
-    // All four balls share this mesh.
+    // All four balls share the mesh that is replaced here.
     scene.meshes[scene.objects.back().mesh] = scene::ball("ball", levels);
     scene::add_mesh(scene, scene::torus("ring", 130, 50, around),
                     scene::add_material(scene, {.name = "paint", .albedo = {.3f, .4f, .7f}}));

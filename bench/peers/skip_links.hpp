@@ -4,8 +4,8 @@
 
 namespace peers {
 
-/// A tree as a list of nodes in the order of the walk, one texel each. A walk of this list needs no
-/// stack.
+/// A bounding volume hierarchy as a list of nodes in the order of the walk, one texel for each
+/// node. A walk of this list needs no stack.
 struct SkipLinkBvh {
     /// Node 0 holds the number of nodes, itself included, in w. Each other node holds its box in
     /// x, y and z: the low plane, counted in steps, in bits 0 to 15, and the high plane in bits 16

@@ -6,7 +6,7 @@
 namespace peers {
 
 /// Simple Vulkan prototype of Whitted ray tracing in a compute shader (shaders/trace.comp), without
-/// the engine's robustness. Its picture shows the same as Embree's.
+/// the engine's robustness. Its picture shows the same as the picture that is traced with Embree.
 class RayTracingPrototype {
 public:
     enum class PrototypeBvhKind {

@@ -29,8 +29,8 @@ public:
                     std::vector<PeerVector3>& pixels)
         : whitted_scene_(scene), rays_(rays), pixels_(pixels) {
         rtcInitIntersectContext(&context_);
-        // Reflected packets stay mostly coherent in these scenes. This flag takes .9 times as long
-        // as the flag for incoherent rays.
+        // Reflected packets stay mostly coherent in these scenes. With the flag for coherent rays,
+        // a frame takes .9 times as long as with the flag for incoherent rays.
         context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     }
 
@@ -135,7 +135,8 @@ private:
         const PacketVector<float> normal = read_lane(normal_, i), facet = read_lane(facet_, i);
         if (dot_product(normal, facet) * dot_product(read_lane(direction_, i), facet) > 0) {
             write_lane(normal_, i, packet_lane_to_vector(-1.0f * normal));
-            // From this side the smooth surface is hollow, below the facet.
+            // Seen from the back of the facet, the smooth surface is hollow and lies below the
+            // facet.
             write_lane(surface_lift_, i, 0.0f);
         }
     }

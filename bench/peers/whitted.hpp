@@ -21,7 +21,7 @@ struct PeerSphere {
     float radius = 0;
 };
 
-/// Texture coordinates.
+/// Texture coordinates of a point.
 struct UvCoordinates {
     float u = 0, v = 0;
 };
@@ -36,11 +36,12 @@ struct PeerAlbedoTexture {
 /// The reflection and emission of an object's surface.
 struct PeerSurfaceMaterial {
     PeerVector3 albedo, emission;
-    PeerVector3 reflectance; ///< of a mirror at any angle, of a smooth dielectric head-on; else 0
+    /// Reflectance of a mirror at any angle, or of a smooth dielectric seen head-on; else 0.
+    PeerVector3 reflectance;
     bool is_mirror = false;
-    bool is_sharp = false;              ///< a smooth dielectric, whose F90 is 1
-    bool turns = false;                 ///< two-sided: the normal turns to the viewer's side
-    bool fades = false;                 ///< light fades towards the planes of the facets
+    bool is_sharp = false;              ///< the surface is a smooth dielectric, whose F90 is 1
+    bool turns = false;                 ///< the surface's normal turns to the viewer's side
+    bool fades = false;                 ///< light fades towards the planes of the surface's facets
     std::optional<std::size_t> texture; ///< texture that multiplies the albedo
 };
 
@@ -65,9 +66,9 @@ struct WhittedTracerScene {
     std::size_t first_lamp = 0; ///< first triangle of a lamp; lamps' triangles follow all others
     std::vector<PeerSphere> spheres;
     std::vector<std::uint32_t> sphere_objects;
-    std::vector<PeerSurfaceMaterial> surfaces; ///< by object
+    std::vector<PeerSurfaceMaterial> surfaces; ///< surface of each object
     std::vector<PeerAlbedoTexture>
-        textures; ///< by material; empty for a material without a texture
+        textures; ///< texture of each material; empty for a material without a texture
     std::vector<PeerSceneLight> lights;
     float ambient = 0;
     PeerVector3 eye, forward, right,

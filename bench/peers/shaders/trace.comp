@@ -5,9 +5,11 @@
 #version 460
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0) uniform samplerBuffer nodes;
-layout(set = 0, binding = 1) uniform samplerBuffer triangles; // three texels each: corner (w: object), two edges
+// Three texels for each triangle: corner (w: object), two edges.
+layout(set = 0, binding = 1) uniform samplerBuffer triangles;
 layout(set = 0, binding = 2) uniform samplerBuffer normals;   // three normals for each triangle
-layout(set = 0, binding = 3) uniform samplerBuffer surfaces;  // three texels: albedo (w: mirror), emission, reflectance
+// Three texels for each surface: albedo (w: mirror), emission, reflectance.
+layout(set = 0, binding = 3) uniform samplerBuffer surfaces;
 layout(set = 0, binding = 4, rgba32f) writeonly uniform image2D picture;
 layout(push_constant) uniform Push {
     vec4 eye;     // eye of the camera; w: ambient light
@@ -46,7 +48,7 @@ void intersect_stored_triangle(int i, vec3 from, vec3 along, inout TraceHit hit)
 #ifdef SKIP_LINKS
 
 void walk_tree(vec3 from, vec3 along, bool any, inout TraceHit hit) {
-    // The ray is transformed to steps of the grid, in which its points keep their t.
+    // The ray is transformed to steps of the grid of box planes. The ray's points keep their t.
     vec3 inverse = 1.0 / (along * grid.w);
     vec3 start = -(from - grid.xyz) * grid.w * inverse;
     int node = 0, end = int(texelFetch(nodes, 0).w);
