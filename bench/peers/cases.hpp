@@ -14,7 +14,7 @@ struct EmbreeComparisonBench {
     catoptric::app::Engine& engine;
     const catoptric::app::ProcessorUsageMeter& meter; ///< measures the whole process
     const EmbreeDevice& device;
-    int threads = 1; ///< for our tracer and for Embree, each
+    int threads = 1; ///< number of threads for our tracer, and for Embree
     int rounds = 0;
 };
 

@@ -138,6 +138,6 @@ double compute_sah_cost(const Bvh& bvh);
 void write_bvh_traversal_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
 
 std::size_t count_nodes(const Bvh& bvh);     ///< including the header
-std::size_t count_triangles(const Bvh& bvh); ///< of the triangles that the build kept
+std::size_t count_triangles(const Bvh& bvh); ///< number of triangles that the build kept
 
 } // namespace catoptric::bvh

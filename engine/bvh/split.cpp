@@ -112,7 +112,7 @@ std::optional<BinnedSahSplit> find_best_binned_sah_split(const SahSplitBins& bin
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto& extents = bins.extents_[axis];
         const auto& counts = bins.counts_[axis];
-        std::array<double, kSplitBinCount> right_cost; // of bins i to kSplitBinCount - 1
+        std::array<double, kSplitBinCount> right_cost; // cost of bins i to kSplitBinCount - 1
         std::array<std::size_t, kSplitBinCount> right_count;
         SimdBox right;
         std::size_t count = 0;

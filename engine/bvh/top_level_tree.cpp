@@ -22,7 +22,7 @@ struct ParallelBvhBranch {
     BvhSubtree subtree{};
     std::size_t first_node = 0;               ///< index in the whole tree
     std::size_t copies = 0;                   ///< copies left out before its first triangle
-    std::uint32_t word = f32::kBvhEmptyChild; ///< its word in the whole tree
+    std::uint32_t word = f32::kBvhEmptyChild; ///< word of the node in the whole tree
 };
 
 /// The division of a branch.

@@ -93,7 +93,7 @@ struct ExrPartHeader {
     std::array<std::int32_t, 4> window{0, 0, -1, -1};
     std::array<std::uint32_t, 2> tile{};
     bool is_tiled = false;
-    std::uint64_t chunk_count = 0; ///< as the file claims; 0 if it claims none
+    std::uint64_t chunk_count = 0; ///< number of chunks, as the file claims; 0 if it claims none
 
     std::uint64_t exr_data_window_side_length(std::size_t axis) const {
         const std::int64_t first = window[axis], last = window[axis + 2];

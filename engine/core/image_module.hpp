@@ -14,7 +14,7 @@ namespace catoptric {
 
 enum class ImageCodecStatus {
     done,
-    no_codec, ///< this OpenImageIO does not support the format
+    no_codec, ///< this build of OpenImageIO does not support the image format
     refused,
     out_of_memory,
     broken ///< OpenImageIO threw something else
@@ -36,7 +36,7 @@ struct ImageCodecs {
         int channel_count = 0;
         bool is_deep = false;
         std::vector<std::string> channels;
-        std::string description; ///< see ImageSizeAndChannels
+        std::string description; ///< text that describes the image, see ImageSizeAndChannels
     };
     struct PixelValueBuffer {
         uvec2 size{0};
@@ -44,7 +44,8 @@ struct ImageCodecs {
         ImageCodecValueType type = ImageCodecValueType::uint8;
         const void* values = nullptr;
         std::vector<std::string> channels; ///< empty: named by the format
-        std::string description;           ///< see ImageSizeAndChannels
+        /// Text that describes the image, see ImageSizeAndChannels.
+        std::string description;
     };
 
     /// Opens a picture. If the answer is `done`, the caller must close `picture`; otherwise it is

@@ -56,10 +56,10 @@ private:
     GpuDevice* buffer_device_ = nullptr;
     std::string name_;
     std::uint64_t bytes_ = 0;
-    UniqueMemory memory_; // before the buffer: destroyed after it
+    UniqueMemory memory_; // declared before the buffer, so destroyed after the buffer
     UniqueBuffer buffer_;
     UniqueBufferView view_;
-    PendingUpload upload_; // after the buffer: destroyed before it
+    PendingUpload upload_; // declared after the buffer, so destroyed before the buffer
     void* mapped_ = nullptr;
 };
 

@@ -26,7 +26,7 @@ enum class ShaderBindingKind {
     storage_buffer,
     texel_buffer,
     sampled_image, ///< combined with a sampler
-    texture,       ///< without a sampler
+    texture,       ///< a texture without a sampler
     sampler,
     storage_image
 };

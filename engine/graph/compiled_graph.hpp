@@ -39,7 +39,7 @@ struct CompiledGraphResources {
 /// A planned graph. After its first frame, it also has the images and buffers with which its frames
 /// run.
 struct CompiledRenderGraph {
-    Graph outline; ///< without bodies
+    Graph outline; ///< the graph without the passes' callbacks
     std::uint64_t hash = 0;
     GraphPlan plan;
     /// Whether a frame with this plan has run. Only such plans count for the size of memory.

@@ -71,8 +71,8 @@ enum class ImageLifetime {
     frame, ///< the contents live until the last pass of the frame that uses them
     /// Until the end of the next frame, which can read both this frame's and its own contents.
     previous,
-    persistent, ///< until a pass writes them again
-    imported,   ///< as long as the owner outside the graph says
+    persistent, ///< contents last until a pass writes them again
+    imported,   ///< contents last as long as the owner outside the graph says
 };
 
 /// Handle of an image of one graph: of all or some of its layers and mips, or of its contents in

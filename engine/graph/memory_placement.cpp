@@ -26,7 +26,7 @@ struct HeapOffsetSharedByResources {
         std::uint64_t end; ///< offset in the heap
     };
     std::uint64_t offset = 0;
-    std::vector<PassLifetimeInterval> lives; ///< from the earliest
+    std::vector<PassLifetimeInterval> lives; ///< lifetimes of passes, the earliest first
 
     /// Returns the end, in the heap, of the memory of all resources at this offset that are in use
     /// at the same time as `placement`; 0 if there are none.
@@ -127,8 +127,8 @@ void find_resource_lifetimes(const Graph& graph, const GraphAccesses& all, Graph
 
 void place_resources_in_memory(const Graph& graph, const MemoryRequirementQueries& sizer,
                                GraphPlan& plan) {
-    std::vector<std::uint64_t> unshared;      // per heap
-    std::vector<HeapOffsetAllocator> shelves; // per heap
+    std::vector<std::uint64_t> unshared;      // bytes of each heap if no memory were shared
+    std::vector<HeapOffsetAllocator> shelves; // allocator of each heap
     for (const ResourceToPlaceInHeap& item : list_resources_largest_first(graph, sizer, plan)) {
         MemoryPlacement& placement = *item.placement;
         if (placement.heap >= unshared.size()) {

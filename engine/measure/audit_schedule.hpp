@@ -12,7 +12,7 @@ namespace catoptric::measure {
 struct AuditPace {
     int every = 60;         ///< least number of frames in a block, from 1
     double most_time = .05; ///< limit of the audits' time, as a share of the frames' time
-    std::uint64_t seed = 1; ///< of the frames that are drawn
+    std::uint64_t seed = 1; ///< seed of the random choice of audited frames
 };
 
 /// Draws one frame at random from each block of successive frames. The draw makes the outcome of an

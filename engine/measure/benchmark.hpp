@@ -87,7 +87,7 @@ struct BenchmarkChange {
     BenchmarkCostKind cost = BenchmarkCostKind::real_time;
     std::array<double, 2> medians{};       ///< medians of the cost, before and after
     BenchmarkCostRatio ratio;              ///< cost after, divided by cost before
-    BenchmarkCostRatio real_ratio;         ///< the same for the elapsed time
+    BenchmarkCostRatio real_ratio;         ///< ratio of the elapsed times
     std::size_t compared_counts = 0;       ///< number of counts of work that both runs have
     std::vector<CountedWorkChange> counts; ///< counts that differ
     BenchmarkChangeOutcome outcome() const;

@@ -50,7 +50,7 @@ struct DeviceCosts {
     UnitCostOrigin origin = UnitCostOrigin::given;
     std::string note; ///< what the reader must know of the figures; may be empty
     std::vector<WorkUnitCost> units;
-    std::optional<UnitCostFitQuality> fit; ///< only if fitted by this program
+    std::optional<UnitCostFitQuality> fit; ///< quality of the fit, if this program fitted the costs
 };
 
 /// Time that costs predict for a frame, milliseconds, with the smallest and largest costs of their

@@ -95,7 +95,7 @@ void add_box_filter_pass(graph::Graph& graph, const std::string& name,
 /// Push constants of rough/prefilter.comp.
 struct PrefilterParameters {
     float alpha;
-    std::uint32_t rings; ///< of four samples each
+    std::uint32_t rings; ///< number of rings of four samples each
 };
 
 /// Returns the number of samples for a texel of a level. With `rough=fast`, each level has twice as

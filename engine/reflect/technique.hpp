@@ -37,9 +37,9 @@ struct TechniqueOutputs {
 
 /// Mirror inputs: captures and lighting for the mirrors that share a technique and its settings.
 struct MirrorShadingInputs {
-    std::shared_ptr<const render::MirrorCaptures>
-        captures;                       ///< of all mirrors; null if no technique asks for captures
-    render::ShadingLights lighting;     ///< as the settings ask for
+    /// Captures of all mirrors; null if no technique asks for captures.
+    std::shared_ptr<const render::MirrorCaptures> captures;
+    render::ShadingLights lighting;     ///< lights and shadows as the settings ask for
     std::vector<std::uint32_t> mirrors; ///< the mirrors that share the technique, from 0
     bool completes_view = false;        ///< see Technique::completes_view
 };

@@ -6,7 +6,8 @@
 namespace catoptric::reflect {
 
 struct TracerSettings {
-    enum class TracedShadow : std::uint32_t { none, map, ray }; ///< as in shaders/lib/bindings.glsl
+    /// Methods of shadows, numbered as in shaders/lib/bindings.glsl.
+    enum class TracedShadow : std::uint32_t { none, map, ray };
 
     std::uint32_t depth = render::kReferenceBounces; ///< mirror bounces; longer paths end black
     int samples = 1; ///< rays per pixel: 1 = its centre, n*n = a regular grid, else stratified

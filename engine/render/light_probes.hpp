@@ -17,7 +17,7 @@ shared::LightProbeGrid make_light_probe_grid(const Bounds<float>& bounds, std::s
 /// The light probes of a frame.
 struct LightProbes {
     shared::LightProbeGrid grid;
-    graph::ImageHandle colours, depths; ///< of the captures: rgba16f, and distances as r32f
+    graph::ImageHandle colours, depths; ///< images of the captures: colours rgba16f, distances r32f
     LightProbeImages images;
     std::string note; ///< sentence that says how the grid differs from the request; else empty
 

@@ -33,7 +33,8 @@ std::uint32_t to_unorm16(float value) {
 std::vector<std::uint32_t> compute_lobe_albedos() {
     constexpr std::uint32_t kLobeTableEdgeTexels = shared::kLobeTableEdge;
     constexpr int kLobeSampleGridEdge = 64;
-    constexpr float kMinLobeCosine = 1e-4f; // at a cosine of 0 no direction is sampled
+    // Least cosine, because no direction is sampled at a cosine of 0.
+    constexpr float kMinLobeCosine = 1e-4f;
     std::vector<std::uint32_t> words;
     for (std::uint32_t y = 0; y < kLobeTableEdgeTexels; ++y)
         for (std::uint32_t x = 0; x < kLobeTableEdgeTexels; ++x) {

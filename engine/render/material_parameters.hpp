@@ -41,9 +41,10 @@ private:
     shared::TextureUse texture_use_of_material(const std::optional<scene::Texture>& texture) const;
     void fill_texture_texels(const scene::Scene& now, std::uint64_t most);
 
-    std::vector<std::shared_ptr<const scene::Image>> images_; ///< in the order of the texel buffer
-    std::vector<std::uint32_t> first_texels_;                 ///< first texel of each image
-    std::vector<std::uint32_t> indices_;                      ///< index of each object's parameters
+    /// Images in the order of the texel buffer.
+    std::vector<std::shared_ptr<const scene::Image>> images_;
+    std::vector<std::uint32_t> first_texels_; ///< first texel of each image
+    std::vector<std::uint32_t> indices_;      ///< index of each object's parameters
     bool any_ = false, masks_ = false, any_normal_textures_ = false;
     bool any_lobes_ = false, any_glass_ = false, any_clear_coat_ = false, any_blended_ = false;
     bool any_tinted_shadow_ = false;

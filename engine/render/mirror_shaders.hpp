@@ -50,7 +50,7 @@ void declare_shader_reads(graph::PassBuilder& pass, const ShadingLights& lightin
 /// The tracer that completes surfaces that are no mirrors, where the shadow map leaves their light
 /// open or they reflect.
 struct ShadingTracer {
-    std::uint32_t number = 0;  ///< from 1; 0: none
+    std::uint32_t number = 0;  ///< number of the tracer, from 1; 0: none
     bool traces_lobes = false; ///< rough surfaces reflect as well
 };
 

@@ -16,7 +16,7 @@ struct MirroredView {
     std::uint32_t mirror = 0; ///< the mirror whose plane shows the view, from 0
     /// Index of the view that shows the plane; empty: the camera's view.
     std::optional<std::size_t> within;
-    shared::View view;          ///< as in shared.h, with the mirror's plane in `clip`
+    shared::View view;          ///< the view as in shared.h, with the mirror's plane in `clip`
     dvec3 eye{0};               ///< scene units
     graph::PixelRectangle area; ///< pixels of the picture, around the mirror
 };

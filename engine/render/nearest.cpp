@@ -139,7 +139,7 @@ void NearestTriangleQuery::visit_triangle_of_same_object(const FrameGeometry& ge
                                                          std::size_t object, const dvec3& point,
                                                          float& squared) {
     constexpr double kTransformRoundingError =
-        1e-5; // above the error of the transform there and back
+        1e-5; // larger than the error of the transform there and back
     const ObjectSpace& own = *geometry.ranges[object].own;
     // The search starts with the smallest distance known so far, so that farther triangles are
     // skipped.

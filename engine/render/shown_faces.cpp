@@ -25,9 +25,9 @@ float relative_place_rounding_error(const shared::View& view, const vec3& place)
 /// A sphere as a face sees it: x to the right, y down, z forward.
 struct SphereInCubeFaceView {
     vec3 centre;
-    float distance; ///< of the centre; above `radius`
+    float distance; ///< distance of the sphere's centre; above `radius`
     float radius;
-    float sine, cosine; ///< of half the angle that the sphere covers
+    float sine, cosine; ///< sine and cosine of half the angle that the sphere covers
 };
 
 SphereInCubeFaceView make_sphere_in_face_view(const shared::View& view, const vec3& from_eye,

@@ -16,7 +16,8 @@ namespace catoptric::render {
 /// k, from 1, holds the environment filtered by the GGX lobe of a surface of roughness k /
 /// SKY_LEVEL_COUNT that is seen along its normal (Karis, "Real Shading in Unreal Engine 4", 2013).
 struct FilteredSkyLevels {
-    std::vector<vec3> texels;                                    ///< of all levels, row by row
+    /// Texels of all levels, row by row.
+    std::vector<vec3> texels;
     std::array<std::uint32_t, SKY_LEVEL_COUNT> first{}, width{}; ///< first texel; texels of a row
 };
 

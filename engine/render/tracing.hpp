@@ -81,7 +81,7 @@ private:
             : node_list("bvh_nodes", gpu::BufferUsage::texels, slots),
               triangles("bvh_triangles", gpu::BufferUsage::texels, slots),
               first_hits("first_hits", gpu::BufferUsage::words, slots) {}
-        bvh::Bvh tree; ///< of the triangles in scene units
+        bvh::Bvh tree; ///< tree of the triangles in scene units
         double cost_when_built = 0;
         SceneGeometryVersion seen;
         std::vector<char> moved; ///< for each object in scene units: whether it moved since `seen`
@@ -114,8 +114,8 @@ private:
     void assemble_two_level_tree(DeviceBvh& hierarchy, const FrameGeometry& geometry,
                                  bool first_hits) const;
 
-    std::vector<bvh::Triangle> triangles_; ///< as FrameGeometry::indices lists them
-    std::vector<std::uint8_t> backdrops_;  ///< see set_backdrop_objects
+    std::vector<bvh::Triangle> triangles_; ///< triangles as FrameGeometry::indices lists them
+    std::vector<std::uint8_t> backdrops_;  ///< backdrop objects, see set_backdrop_objects
     std::vector<vec4> normals_;
     /// Trees of meshes in object space, by the object that owns the vertices.
     std::map<std::size_t, bvh::Bvh> own_trees_;

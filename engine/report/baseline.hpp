@@ -18,7 +18,7 @@ struct BaselineLimits {
 
 enum class BaselineVerdict : std::uint8_t {
     kept,    ///< within the limit
-    worse,   ///< above the limit, with 95 % confidence where times are compared
+    worse,   ///< the row is above the limit, with 95 % confidence where times are compared
     unknown, ///< cannot be told from these measurements
 };
 /// Returns "kept", "worse" or "unknown".

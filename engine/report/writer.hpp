@@ -18,8 +18,8 @@ enum class CsvColumnSet : std::uint8_t {
 };
 /// Where the pictures of report.html are.
 enum class PagePictures : std::uint8_t {
-    automatic, ///< in the page up to kMaxInlinedBytes, else in files beside it
-    inlined    ///< in the page, however large it becomes
+    automatic, ///< pictures are in the page up to kMaxInlinedBytes, else in files beside it
+    inlined    ///< pictures are in the page, however large it becomes
 };
 /// Pages with more bytes of pictures load them from files, as they come into view.
 inline constexpr std::size_t kMaxInlinedBytes = std::size_t{16} << 20;

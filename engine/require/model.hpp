@@ -75,7 +75,7 @@ using catoptric::CulledWork;
 struct RequiredWorkModel {
     bool is_everything = true;
     std::vector<MirrorRequirements> mirrors; ///< entry n-1 belongs to mirror n
-    std::vector<LightRequirements> lights;   ///< in the order of scene::list_lights
+    std::vector<LightRequirements> lights;   ///< lights in the order of scene::list_lights
     std::vector<ShadowCaster> casters;
     std::vector<CulledWork> left_out;
 };

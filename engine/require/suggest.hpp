@@ -20,14 +20,14 @@ inline constexpr double kMaxCurvedAreaShare = .1;
 /// Cost model of a picture, in drawn pixels: weights of passes and pixels. Measured on llvmpipe;
 /// docs/require.md has the figures.
 struct PictureCostTable {
-    double pass = 2000;   ///< per pass, whatever its size
-    double triangle = 1;  ///< per triangle of the scene, in each pass
-    double pixel = 1;     ///< per pixel drawn in a capture or view
-    double searched = 15; ///< per pixel that a search looks up
+    double pass = 2000;   ///< cost of a pass, whatever its size
+    double triangle = 1;  ///< cost of a triangle of the scene, in each pass
+    double pixel = 1;     ///< cost of a pixel drawn in a capture or view
+    double searched = 15; ///< cost of a pixel that a search looks up
     double bounds = .12;  ///< additional cost per capture pixel that `hybrid` searches
     /// Per pixel that `hybrid` traces, because the capture does not show the surface.
     double traced = 40;
-    double whole = 15; ///< per pixel of a picture that is traced as a whole
+    double whole = 15; ///< cost of a pixel of a picture that is traced as a whole
 };
 /// Mean FLIP of a mirror pixel by technique. Rounded averages over the scenes of docs/require.md.
 struct TechniqueErrorTable {

@@ -25,8 +25,8 @@ inline constexpr double kMinWallAreaShare = 1e-3;
 
 /// Facts about a mesh that do not depend on where an object is.
 struct MeshShapeSummary {
-    Bounds<double> box; ///< in the mesh's own space
-    double radius = 0;  ///< of all its triangles, around the middle of `box`
+    Bounds<double> box; ///< box in the mesh's own space
+    double radius = 0;  ///< radius of all triangles of the mesh, around the middle of `box`
     std::uint64_t content_hash = 0;
     std::vector<QuadCorners> quads;
     dvec3 flat_normal{0}; ///< normal of a flat mesh, zero for other meshes (require/reach.hpp)

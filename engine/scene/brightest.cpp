@@ -35,7 +35,7 @@ double light_strength_at_point(const dvec3& point, const PointLight& light) {
 
 /// One of the points from which an object, or a light without a surface, lights the scene.
 struct LightSource {
-    std::size_t index = 0; ///< of the object; lights without a surface follow the objects
+    std::size_t index = 0; ///< index of the object; lights without a surface follow the objects
     std::size_t point = 0; ///< number among the points of this index
     double strength = 0;
 };

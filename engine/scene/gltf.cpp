@@ -63,13 +63,13 @@ struct GltfBuilder {
     gltf::GltfReadContext context;
     Scene scene;
     std::vector<dmat4> at_rest;                         ///< transform from each node to world space
-    std::vector<std::vector<gltf::GltfMeshPart>> parts; ///< for each mesh
+    std::vector<std::vector<gltf::GltfMeshPart>> parts; ///< parts of each mesh
     std::vector<Camera> cameras;
     struct SharedMeshKey {
         std::size_t mesh, part;
         int skin; ///< -1 if the node has none
         bool inside_out;
-        std::vector<double> weights; ///< of morph targets
+        std::vector<double> weights; ///< weights of morph targets
         auto operator<=>(const SharedMeshKey&) const = default;
     };
     std::map<SharedMeshKey, std::size_t> meshes;

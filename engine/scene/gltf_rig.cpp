@@ -15,8 +15,8 @@ namespace {
 /// How a node moves, given its own tracks and those of the nodes above it.
 enum class NodeMotionKind {
     still,
-    slides, ///< only by one track of translations, on this node or one above it
-    turns   ///< in any other way
+    slides, ///< moved only by one track of translations, on this node or one above it
+    turns   ///< moved in any other way
 };
 
 /// The state of a node that its children continue from.

@@ -145,7 +145,8 @@ ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& worl
     const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
 
     ConnectedVertexSets islands(world.size());
-    std::vector<double> area(world.size(), 0); // of the triangles whose first corner is the vertex
+    // Area of the triangles whose first corner is the vertex.
+    std::vector<double> area(world.size(), 0);
     std::vector<dmat3> facets(world.size(), dmat3(0));
     std::vector<bool> used(world.size(), false);
     std::vector<TriangleCorners> corners;
@@ -202,7 +203,7 @@ struct LampFacet {
 /// Returns the place of a facet on a curve through space (Morton order). Facets that are near each
 /// other on the curve are near each other in space. `middle` has coordinates from 0 to 1.
 std::uint64_t morton_code(const dvec3& middle) {
-    constexpr int kMortonBitsPerAxis = 20; // of each coordinate
+    constexpr int kMortonBitsPerAxis = 20; // bits of each coordinate in a Morton code
     std::uint64_t code = 0;
     for (int bit = kMortonBitsPerAxis - 1; bit >= 0; --bit)
         for (int axis = 0; axis < 3; ++axis) {

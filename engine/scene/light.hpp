@@ -26,7 +26,7 @@ struct PointLight {
     double range = std::numeric_limits<double>::infinity();
     double cos_inner = 1, cos_outer = -1; ///< cosines of a spot's half angles
     bool directional = false;             ///< infinitely far away; shines along `axis`
-    PunctualLight::Kind kind = PunctualLight::Kind::point; ///< of a light without a surface
+    PunctualLight::Kind kind = PunctualLight::Kind::point; ///< kind of a light without a surface
 };
 
 /// Returns the scene's lights: Scene::light_samples lights for each connected component of each

@@ -210,7 +210,7 @@ private:
     std::map<std::string, std::shared_ptr<const Image>> images_;
 };
 
-constexpr double kUsualGlassIor = 1.5; // of a material without Ni
+constexpr double kUsualGlassIor = 1.5; // index of refraction of a material without Ni
 
 vec3 clamp_colour_to_unit_range(const dvec3& colour) { return vec3(glm::clamp(colour, 0.0, 1.0)); }
 

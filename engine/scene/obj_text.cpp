@@ -45,10 +45,11 @@ private:
     UnreadStatementCounts unread_;
     std::unordered_set<std::string> libraries_; ///< real paths of the libraries read so far
     std::unordered_map<std::string, std::size_t> material_of_;
-    std::optional<std::size_t> material_;               ///< of the next faces
+    std::optional<std::size_t> material_;               ///< material of the next faces
     std::size_t positions_ = 0, normals_ = 0, uvs_ = 0; ///< counts in the second pass so far
     bool has_faces_ = false;                            ///< whether the last shape has faces
-    std::vector<ObjCorner> polygon_, triangles_;        ///< of the current face
+    /// Corners and triangles of the current face.
+    std::vector<ObjCorner> polygon_, triangles_;
 };
 
 void ObjReader::library_file(const ObjLine& line, const std::string& name) {

@@ -74,7 +74,8 @@ private:
 struct ObjTextureUse {
     std::string file, place;    ///< name in the library; "FILE:LINE" of the statement
     std::filesystem::path real; ///< real path; empty if the file does not exist
-    std::array<double, 2> scale{1, 1}, offset{0, 0}; ///< of u and v, with v upwards
+    /// Scale and offset of u and v, with v upwards.
+    std::array<double, 2> scale{1, 1}, offset{0, 0};
     bool is_clamped = false;
 };
 
@@ -86,7 +87,7 @@ struct MtlMaterial {
     std::optional<double> shininess, ior, roughness, metallic, kind, alpha, clearcoat,
         clearcoat_roughness;
     std::optional<ObjTextureUse> colour, cut, normals; ///< map_Kd, map_d and norm
-    bool two_sided = false, fixed_normals = false;     ///< from `# catoptric` comments
+    bool two_sided = false, fixed_normals = false;     ///< set by `# catoptric` comments
 };
 
 /// The materials of all libraries of a file.
@@ -144,10 +145,10 @@ inline constexpr std::uint32_t kMissingObjIndex = ~0u;
 struct RewrittenObjText {
     /// Holds only `mtllib`, `o NUMBER`, `usemtl`, and triangles `f` with valid indices.
     std::string statements = "mtllib all\no 0\n";
-    std::vector<std::string> names{1};     ///< of shapes, by the number of `o`
+    std::vector<std::string> names{1};     ///< names of shapes, by the number of `o`
     std::vector<dvec3> positions, normals; ///< doubles, since tinyobjloader rounds to floats
     std::vector<vec3> colours;             ///< one per position, or empty
-    std::vector<vec2> uv;                  ///< with v upwards
+    std::vector<vec2> uv;                  ///< texture coordinates, with v upwards
     MtlLibrary library;
     ObjCatoptricComments remarks;
 };

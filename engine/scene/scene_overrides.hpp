@@ -15,7 +15,7 @@ namespace catoptric::scene {
 /// Mirror that reflects a constant share of all light. The rest of the object's material is
 /// dropped.
 struct MirrorOverride {
-    std::string pattern; ///< as `name_matches_pattern` takes it
+    std::string pattern; ///< a pattern as `name_matches_pattern` takes it
     vec3 reflectance{1}; ///< in [0,1]; of a rough mirror, seen head-on
     float roughness = 0; ///< in [0,1]; 0: a perfect mirror at every angle, else a metal's lobe
     bool operator==(const MirrorOverride&) const = default;
@@ -51,7 +51,7 @@ struct SceneOverrides {
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;
-    std::optional<std::string> camera; ///< as camera_named takes it
+    std::optional<std::string> camera; ///< a camera as camera_named takes it
     std::optional<UpAxis> up;
     std::optional<std::string> animation; ///< name, or "none"
     std::optional<double> ambient;

@@ -17,8 +17,9 @@ namespace catoptric::app {
 namespace {
 
 constexpr int kMaxRandomCameraAttempts = 1000;
-constexpr uvec2 kCameraRayGridSize{32, 32};   // rays through the picture
-constexpr std::size_t kMinTargetRays = 11;    // of the grid's 1024 rays
+constexpr uvec2 kCameraRayGridSize{32, 32}; // rays through the picture
+// Least number of the grid's 1024 rays that meet a target.
+constexpr std::size_t kMinTargetRays = 11;
 constexpr double kMaxCameraUpComponent = .99; // component of the view's direction along the up axis
 constexpr double kMinTargetDistance = 1.5, kMinFovDegrees = 25, kMaxFovDegrees = 60;
 

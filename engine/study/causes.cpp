@@ -125,7 +125,7 @@ MirrorPixelValues keep_values_of_chosen_pixels(const std::vector<bool>& chosen, 
 /// The histories that pictures of a row use. Some of them may be equal.
 struct ErrorHistorySources {
     HistorySourceFrames row, row_settled;
-    HistorySourceFrames stored, settled; ///< with distances stored as 32-bit floats
+    HistorySourceFrames stored, settled; ///< frames with distances stored as 32-bit floats
 };
 
 ErrorHistorySources choose_history_sources(const Request& base, const std::string& technique) {
@@ -151,7 +151,7 @@ list_needed_ablations(const ErrorHistorySources& histories) {
 
 /// Squared errors of the mirrors' pixels.
 struct AblatedPixelErrors {
-    measure::ShapleyValues shapley; ///< with the history `settled`
+    measure::ShapleyValues shapley; ///< Shapley values with the history `settled`
     /// Errors of those sets of removed causes whose pictures are evaluated one by one.
     std::map<std::pair<HistorySourceFrames, std::uint32_t>, MirrorPixelValues> kept;
     measure::Mask off; ///< pixels that are off in the row's own picture

@@ -254,7 +254,8 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
 std::vector<std::string> list_plans_to_prove(Engine& engine, const ResolvedChooseRequest& request,
                                              const measure::Comparison& training,
                                              const std::vector<JudgedPlan>& plans) {
-    constexpr std::size_t kMaxProvedPlans = 4; // without the mix
+    // Most plans that are proved, without the mix of techniques.
+    constexpr std::size_t kMaxProvedPlans = 4;
     std::vector<std::string> chain;
     for (const JudgedPlan* plan : list_unbeaten_plans(request, plans)) chain.push_back(plan->text);
     if (chain.empty()) return chain;

@@ -21,13 +21,13 @@ double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& m
 
 /// A plan with its cost and its errors over views.
 struct JudgedPlan {
-    std::string text; ///< for Request::techniques, such as "secant" or "1=reuse 2,3=secant"
+    std::string text; ///< text for Request::techniques, such as "secant" or "1=reuse 2,3=secant"
     double ms = 0;    ///< median time of a frame, or the predicted time
     /// 95 % interval of a measured time; of a predicted time, the times by the least and the
     /// largest cost of each kind of work.
     measure::Interval ms_range;
     std::vector<double> errors; ///< mirror_error_of_view of each view
-    double largest_error = 0;   ///< of `errors`
+    double largest_error = 0;   ///< largest of `errors`
 };
 
 /// The result of testing a plan on the proof views.
@@ -43,7 +43,7 @@ struct PlanProof {
                               ///< there is no limit
     bool holds() const { return keeps_error && keeps_time; }
     std::string device;     ///< whose times decide, with " (predicted)" if costs predict them
-    std::string scene_hash; ///< of the scene whose views were drawn
+    std::string scene_hash; ///< hash of the scene whose views were drawn
     double exposure = 0;    ///< stops
 };
 

@@ -291,7 +291,7 @@ private:
     /// The number of a row's last frame, to compute the row's errors again later.
     struct FrameNumberOfJudgedPicture {
         TechniqueResult part;
-        int number = 0; ///< from 1
+        int number = 0; ///< number of the frame, from 1
     };
 
     void compute_errors_of_measured_row(std::size_t index, const TechniqueResult& part,
@@ -491,19 +491,20 @@ private:
 
     Engine& comparison_engine_;
     CompareRequest compare_request_;
-    CompiledPipelines compiled_before_; ///< by the engine before this comparison
-    Session shared_session_;            ///< shared by all rows
+    /// Pipelines that the engine compiled before this comparison.
+    CompiledPipelines compiled_before_;
+    Session shared_session_; ///< shared by all rows
     ReferenceCache truths_;
     RowErrorJudge judge_;
     std::vector<RenderedWork> models_; ///< models of the rows
     std::vector<std::unique_ptr<RowMeasurement>>
         runs_;                                  ///< one per row, or one for all rows together
     std::vector<std::string> prefixes_;         ///< prefixes of the rows' passes
-    std::vector<std::vector<double>> clear_ms_; ///< by round
+    std::vector<std::vector<double>> clear_ms_; ///< clear times by round
     std::vector<std::vector<std::string>> row_warnings_;
     std::vector<std::string> study_warnings_;
     std::vector<FrameNumberOfJudgedPicture>
-        judged_; ///< of each row; empty frames if the reference has no noise
+        judged_; ///< frames of each row; empty if the reference has no noise
     std::vector<std::pair<std::size_t, FrameNumberOfJudgedPicture>>
         unjudged_; ///< pictures of the last round, with the row's index
     report::Comparison comparison_;

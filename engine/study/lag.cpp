@@ -291,8 +291,9 @@ private:
     LagMeasurementInstants path_;
     int mirrors_ = 0;
     std::vector<ReferenceAtInstant> instants_;
-    std::vector<measure::Picture> stills_;      ///< of the current technique, one per instant
-    int frames_done_ = 0, frames_expected_ = 0; ///< of the current row
+    /// Still pictures of the current technique, one per instant.
+    std::vector<measure::Picture> stills_;
+    int frames_done_ = 0, frames_expected_ = 0; ///< frames of the current row
 };
 
 /// Returns the reference. If the rays of the reference are random, it gets a seed that no row has.

@@ -21,7 +21,8 @@ namespace {
 
 using AuditJson = nlohmann::json;
 
-constexpr int kUncountedFramesOfPlan = 8; // until captures and mirrors in mirrors are complete
+// Frames until captures and mirrors in mirrors are complete.
+constexpr int kUncountedFramesOfPlan = 8;
 
 /// Returns a member that must be a number from `low` to `high`.
 double read_number_member(const AuditJson& object, const char* member, double low, double high,

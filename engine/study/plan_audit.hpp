@@ -17,11 +17,12 @@
 namespace catoptric::app {
 
 struct PlanAuditRequest {
-    std::vector<std::string> plans; ///< from the surest to the plan that runs first, the last
+    /// Plans from the one with the least error to the last, which runs first.
+    std::vector<std::string> plans;
     ErrorQuantity quantity = ErrorQuantity::flip;
     double max_error = 0;                        ///< limit of mirror_error_of_view in a frame, 0..1
     std::string reference = "raytrace:depth=16"; ///< a technique that traces without noise
-    std::string scene_hash; ///< of the scene that the plans were proved for; empty: not known
+    std::string scene_hash; ///< hash of the scene that the plans were proved for; empty: not known
     measure::AuditedShare tested;
     measure::AuditPace pace;
     /// Called before a frame is audited, while results of the frames before it can still be read.
@@ -53,10 +54,11 @@ measure::Picture sample_picture(const measure::Picture& picture, const SampledVi
 
 /// The result of one call of PlanAudit::watch_frame.
 struct PlanAuditOutcome {
-    std::optional<double> error; ///< of the frame, if it was audited and shows a mirror
+    std::optional<double> error; ///< error of the frame, if it was audited and shows a mirror
     bool is_alarm = false;       ///< the alarm sounds at this frame for the first time for its plan
     bool has_new_plan = false;   ///< PlanAudit::plan has changed to a surer plan
-    std::string message;         ///< of the alarm or the change, for the user; empty: neither
+    /// Message about the alarm or the change, for the user; empty: neither.
+    std::string message;
 };
 
 /// Audits the frames of one session. The samples of a shown frame are compared with a ray-traced
@@ -111,8 +113,8 @@ private:
     bool is_prepared_ = false, was_alarmed_ = false;
     bool is_rough_ = false;  ///< whether the scene has a rough surface, whose reference has noise
     int frames_of_plan_ = 0; ///< frames counted since the plan began
-    std::optional<FrameSpec> watched_; ///< of the last frame
-    std::uint64_t updates_ = 0;        ///< of the session's scene data after the last frame
+    std::optional<FrameSpec> watched_; ///< specification of the last frame
+    std::uint64_t updates_ = 0;        ///< updates of the session's scene data after the last frame
     Clock::time_point ended_;          ///< end of the last call
 };
 

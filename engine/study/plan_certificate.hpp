@@ -13,7 +13,7 @@ namespace catoptric::app {
 /// The contents of a certificate in a plan's file.
 struct PlanCertificate {
     std::string statement;  ///< "at least 95 % of views have flip <= 0.05, with ..."
-    std::string scene_hash; ///< of the scene whose views were drawn; empty: not known
+    std::string scene_hash; ///< hash of the scene whose views were drawn; empty: not known
 };
 
 /// Returns the certificate of each row that is a plan from a file. Other rows, and files without a

@@ -43,7 +43,7 @@ struct NoisyReference {
     ReferenceSeeds seeds;
     std::vector<int> used; ///< seeds of all frames
     measure::PictureMean a, b;
-    measure::NoisyReferenceHalves halves; ///< of these means, after exposure
+    measure::NoisyReferenceHalves halves; ///< halves of these means, after exposure
     double seconds = 0;                   ///< time in which the frames were rendered
 };
 
@@ -122,11 +122,12 @@ private:
     const Request& base_;
     const std::string& reference_;
     const Watcher& watcher_;
-    std::map<std::pair<std::string, int>, ReferencePicture> truths_; ///< by sample count and frame
+    /// References by sample count and frame.
+    std::map<std::pair<std::string, int>, ReferencePicture> truths_;
     /// First hits of the reference's camera rays, by frame number.
     std::map<int, std::vector<std::uint32_t>> hits_;
     mutable std::optional<bool> noisy_;
-    std::filesystem::path file_; ///< see keep_reference_in_file; empty: none
+    std::filesystem::path file_; ///< file of the reference, see keep_reference_in_file; empty: none
 };
 
 } // namespace catoptric::app

@@ -20,8 +20,8 @@ struct StudyInput {
     /// The request of the comparison. `base.techniques` has the text of each row, in the order of
     /// the rows.
     const CompareRequest& request;
-    int count = 1;                  ///< see StudyChoice
-    std::vector<std::string> texts; ///< see StudyChoice
+    int count = 1;                  ///< value of StudyChoice::count
+    std::vector<std::string> texts; ///< value of StudyChoice::texts
     ReferenceCache& truth; ///< reference pictures and first hits of the comparison's camera
     report::Comparison& comparison;
     /// Passes the unfinished comparison to a listener, such as the writer of reports. Call it after

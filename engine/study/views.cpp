@@ -117,7 +117,7 @@ std::size_t find_end_of_views_at_same_instant(const std::vector<measure::View>& 
     return end;
 }
 
-constexpr int kMaxViewWarnings = 3; // of all rows of files
+constexpr int kMaxViewWarnings = 3; // most warnings of all rows of files
 
 /// Adds the errors of a row of files in view `view` (from 1), if the row has a picture of this
 /// view. `warned` counts the warnings of all rows.

@@ -12,7 +12,7 @@ namespace catoptric::app {
 inline constexpr const char* kTuningTechnique = "raytrace:depth=4";
 
 struct TuningResult {
-    std::vector<measure::ShaderVariantTrial> tried; ///< in the table's order
+    std::vector<measure::ShaderVariantTrial> tried; ///< tried variants in the table's order
     /// Other processes used the processors during the measurement, and may have changed the time
     /// ratios.
     bool noisy = false;

@@ -52,7 +52,8 @@ Value find_tangent(const std::vector<CameraKey>& keys, std::size_t i,
 } // namespace
 
 scene::Camera CameraPath::camera_after(double seconds) const {
-    if (seconds >= duration()) return keys_.back().camera; // without rounding
+    // After the last key, its camera is returned without rounding.
+    if (seconds >= duration()) return keys_.back().camera;
     const double time = keys_.front().seconds + std::clamp(seconds, 0.0, duration());
     const auto next = std::ranges::upper_bound(keys_, time, {}, &CameraKey::seconds);
     const std::size_t to = std::min<std::size_t>(static_cast<std::size_t>(next - keys_.begin()),

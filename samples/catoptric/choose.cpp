@@ -40,7 +40,7 @@ keeps. The exit code is 1 if no plan keeps the limits.)";
 
 struct ChooseOptions {
     CommonOptions common;
-    app::ChooseRequest limits; ///< without scene, reference and watcher
+    app::ChooseRequest limits; ///< request without scene, reference and watcher
     std::string output, certified;
     std::vector<std::string> techniques;
     bool is_share_given = false, is_confidence_given = false, is_proof_seed_given = false;

@@ -64,7 +64,7 @@ struct CompareOptions {
     BaselineOptions baseline;
     std::optional<int> rounds; ///< none: app::kRounds, or one per frame if there are fewer frames
     report::CsvColumnSet csv = report::CsvColumnSet::table;
-    bool inlines_pictures = false; ///< in report.html, however large it becomes
+    bool inlines_pictures = false; ///< pictures are in report.html, however large it becomes
     FigureOptions figures;
     report::PagePictures page_pictures() const {
         return inlines_pictures ? report::PagePictures::inlined : report::PagePictures::automatic;
@@ -256,8 +256,7 @@ report::Comparison compare_scene(app::Engine& engine, app::CompareRequest& reque
     report_row_to_watcher(request.watcher, "reference " + request.reference, 0, row_count);
     request.on_finished_row = [&](const report::Comparison& so_far) {
         if (so_far.rows.size() == 1)
-            gate.check_baseline_scene(so_far); // before more time is spent
-                                               // on measuring
+            gate.check_baseline_scene(so_far); // the scene is checked before more time is spent
         output.write_scene_report(index, so_far);
     };
     report::Comparison comparison = app::compare(engine, request);

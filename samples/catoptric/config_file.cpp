@@ -64,7 +64,7 @@ std::vector<std::string> add_options_of_config_file(std::vector<std::string> wor
     const auto document = parse_json<nlohmann::json>(file, read_file(path));
     check(document.is_object(), Failure::bad_data, file, ": wanted an object, found ",
           document.dump());
-    std::map<std::string, std::vector<std::string>> added; // by option
+    std::map<std::string, std::vector<std::string>> added; // words added for each option
     const auto add = [&](const std::string& place, const std::string& key,
                          const nlohmann::json& value) {
         const CompletionOption* option = find_option(*verb, key);

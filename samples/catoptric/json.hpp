@@ -16,7 +16,7 @@ struct PictureDiffFacts {
     std::string a, b, mask;
     uvec2 size{0, 0};
     double exposure = 0;
-    std::string flip_source; ///< see measure/flip.hpp
+    std::string flip_source; ///< source of the FLIP code, see measure/flip.hpp
     measure::Difference difference;
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words

@@ -29,7 +29,7 @@ struct SweepPiece {
 
 struct SweepPlan {
     nlohmann::ordered_json sweep;   ///< content of the sweep's file
-    std::vector<SweepPiece> pieces; ///< in the order of scenes, axes and views
+    std::vector<SweepPiece> pieces; ///< pieces in the order of scenes, axes and views
     /// Indices in `pieces` of the common pieces: for each scene and device, one picture piece that
     /// a machine of each identity draws. `merge` compares the pictures of these pieces.
     std::vector<std::size_t> common;

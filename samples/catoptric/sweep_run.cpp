@@ -382,7 +382,7 @@ private:
     app::Watcher watcher_;
     std::unique_ptr<app::Engine> engine_;
     SweepJson engine_key_;
-    SweepJson identity_;                     ///< of the engine
+    SweepJson identity_;                     ///< identity of the engine
     bool has_drawn_common_pictures_ = false; ///< whether this process tried to draw the pictures
                                              ///< for this engine
     bool is_validated_ = false;              ///< whether the engine reports validation messages

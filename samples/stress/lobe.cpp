@@ -17,7 +17,7 @@ namespace catoptric::stress {
 namespace {
 
 constexpr double kMostGrazingDegrees = 89.99;
-constexpr float kTestReflectanceF0 = .3f; // of a surface whose reflectance depends on the angle
+constexpr float kTestReflectanceF0 = .3f; // f0 of a surface whose reflectance depends on the angle
 
 /// Draws a direction between these angles, in degrees, to the normal. Computed in the type of
 /// `Vector`, because GCC 12 may drop a rounding from double to float and back.
@@ -36,7 +36,7 @@ double relative_difference_of_values(double a, double b) {
     return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
 }
 
-constexpr int kDirectionPairs = 20'000; // of directions
+constexpr int kDirectionPairs = 20'000; // number of pairs of directions
 
 /// Returns the largest relative difference of `reflect` with viewer and light exchanged. Half of
 /// the pairs have a light less than a degree above the surface. `reflect(alpha, to_eye, to_light)`

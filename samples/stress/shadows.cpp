@@ -111,7 +111,7 @@ ShadowedPicture render_with_and_without_board(StressTestBench& bench, const scen
                                               const std::string& with, const std::string& without) {
     const auto render = [&](const std::string& technique) {
         app::Request request = bench.make_stress_request(scene, technique, 1);
-        request.ambient = 0; // then only the lamp lights the plane
+        request.ambient = 0; // without ambient light, only the lamp lights the plane
         return bench.render_technique(request).hdr;
     };
     return {render(with), render(without)};

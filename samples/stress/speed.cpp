@@ -21,7 +21,7 @@ scene::Scene add_ball_motion(scene::Scene scene, double distance) {
 
 struct CameraMotionMeasurement {
     measure::Picture last;
-    double brightest = 0; ///< of all frames; NaN if a pixel is not finite
+    double brightest = 0; ///< brightest channel of all frames; NaN if a pixel is not finite
 };
 
 /// Renders `moving` frames at instants far from whole periods, then `resting` frames at rest.

@@ -50,7 +50,7 @@ private:
     bool waits_ = false;       ///< whether it waits for window events, because nothing can be shown
     std::size_t frame_ = 0;
     int losses_ = 0;                      ///< device losses since the last rendered frame
-    std::optional<app::PlanAudit> audit_; ///< of the plan of --audit
+    std::optional<app::PlanAudit> audit_; ///< audit of the plan of --audit
     std::size_t audited_cuts_ = 0;        ///< number of cuts before the last frame
     double seconds_ = 0;                  ///< time of the frames shown so far
     double reach_ = 1, period_ = 0;

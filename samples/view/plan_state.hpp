@@ -18,8 +18,9 @@ struct TechniqueSettings {
 };
 
 struct EditedPlanState {
-    TechniqueSettings rest;                         ///< for mirrors without an entry in `own`
-    std::map<std::uint32_t, TechniqueSettings> own; ///< by mirror number, from 1
+    /// Technique of mirrors without an entry in `own`.
+    TechniqueSettings rest;
+    std::map<std::uint32_t, TechniqueSettings> own; ///< techniques by mirror number, from 1
     /// The plan as the user typed it, unless it lists techniques by mirror number. Examples are
     /// "auto", "plan:FILE" and patterns of names. Empty: the other members define the plan.
     std::string typed;

@@ -36,7 +36,7 @@ private:
     int passes_ = 0;
     bool is_rough_ = false;   ///< whether passes draw rays from lobes
     measure::Picture judged_; ///< the picture against which errors are measured
-    measure::Picture sum_;    ///< of the passes after the first
+    measure::Picture sum_;    ///< sum of the passes after the first
     int summed_ = 0;          ///< number of pictures in `sum_`
     std::vector<std::uint32_t> hits_;
     std::shared_ptr<const measure::Picture> display_;

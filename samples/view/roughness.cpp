@@ -24,7 +24,7 @@ void separate_mirror_materials(scene::Scene& scene) {
     std::vector<std::size_t> uses(scene.materials.size());
     for (const scene::Object& object : scene.objects) ++uses[object.material];
     for (const std::size_t mirror : scene::mirrors(scene)) {
-        scene.objects[mirror].mirror = true; // also as rough metal
+        scene.objects[mirror].mirror = true; // the object is a mirror also as rough metal
         std::size_t& material = scene.objects[mirror].material;
         if (uses[material]-- < 2) continue;
         scene.materials.push_back(scene::Material(scene.materials[material]));

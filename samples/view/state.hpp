@@ -49,7 +49,7 @@ struct ViewState {
     double exposure = 0;
     bool judges = false; ///< whether errors against the traced reference are measured at rest
     bool shows_panels = true, shows_keys = false;
-    MirrorRoughness roughness; ///< of mirrors whose roughness the user set
+    MirrorRoughness roughness; ///< roughness of mirrors whose roughness the user set
     std::uint32_t chosen = 0;  ///< number of the mirror whose technique is edited; 0: all
     bool edits_other = false;  ///< whether the controls edit `other` instead of `plan`
     std::string said;          ///< message to the user, until the next message

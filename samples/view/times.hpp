@@ -13,7 +13,7 @@ namespace catoptric::view {
 struct TimeTableRow {
     std::string name;
     double median = 0;
-    measure::Interval ci95; ///< of the median; unknown below six frames
+    measure::Interval ci95; ///< 95 % interval of the median; unknown below six frames
 };
 
 /// Times of the last frames. Starts again if the passes change.

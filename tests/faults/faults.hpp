@@ -23,8 +23,8 @@ struct CallCount {
 /// The result of a run under the fault layer (tests/faults/layer).
 struct WatchedRun {
     test::ProcessResult ended;
-    std::map<std::string, CallCount>
-        counts;                   ///< by call; empty if the program crashed or had no fault layer
+    /// Counts by call; empty if the program crashed or had no fault layer.
+    std::map<std::string, CallCount> counts;
     int strays = 0;               ///< handles destroyed although they were not alive
     int untimely = 0;             ///< handles destroyed while the device may use them
     int loose_stamps = 0;         ///< timestamps not directly followed by a barrier

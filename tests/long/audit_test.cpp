@@ -39,7 +39,8 @@ void run_audited_loop(uvec2 size) {
     for (int begin = 0; begin < kFramesOfLoop; begin += kFramesOfTurn)
         for (const bool is_audited : {true, false}) {
             const auto start = std::chrono::steady_clock::now();
-            const std::clock_t cpu_start = std::clock(); // of all threads, and so of the driver's
+            // Processor time of all threads, including the driver's.
+            const std::clock_t cpu_start = std::clock();
             for (int k = begin; k < begin + kFramesOfTurn; ++k) {
                 const app::FrameSpec spec = make_spec_of_loop_frame(scene, k, size);
                 app::Session& session = is_audited ? audited : plain;

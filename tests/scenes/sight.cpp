@@ -109,7 +109,8 @@ SceneSurfaceCaster::find_first_solid_hit(f32::Ray ray, float farthest, std::uint
             met.alpha *= sample_texture_filtered(*material.albedo_texture, met.uv).a;
         // Shadow rays end at surfaces with an alpha of at least .5. Other rays pass all surfaces
         // that are not opaque.
-        constexpr float kOpaqueAlpha = 511.f / 512; // as in shaders/lib/material.glsl
+        // The same value as in shaders/lib/material.glsl.
+        constexpr float kOpaqueAlpha = 511.f / 512;
         const bool is_blended = material.blended && skipped != bvh::kCastsNoShadowFlag;
         const float least = is_blended ? kOpaqueAlpha : material.alpha_cutoff;
         if (!(least > 0) || met.alpha >= least) return met;

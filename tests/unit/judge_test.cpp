@@ -48,7 +48,7 @@ TEST(Judge, FrontEqualsHandComputedFronts) {
               Front{1});
     EXPECT_EQ(measure::find_pareto_front_of_rows(
                   {make_row_with_equal_times(2, 1), make_row_with_equal_times(1, 1)}),
-              Front{1}); // of equal errors, the faster row is on the front
+              Front{1}); // if two rows have equal errors, the faster row is on the front
     EXPECT_EQ(measure::find_pareto_front_of_rows({make_row_with_equal_times(1, 1),
                                                   make_row_with_equal_times(2, 2),
                                                   make_row_with_equal_times(1, 1)}),

@@ -172,7 +172,8 @@ private:
             if (is_image_written(part) && is_chosen_with_chance(15))
                 graph_.mark_as_graph_output(part);
         }
-        for (const ImageHandle& image : images_) // so that most graphs have an output
+        // Output images are marked, so that most graphs have an output.
+        for (const ImageHandle& image : images_)
             if (graph_.list_output_images().empty() &&
                 is_image_written(image.select_image_layers(0, 1)))
                 graph_.mark_as_graph_output(image.select_image_layers(0, 1));

@@ -374,7 +374,7 @@ TEST(ReportFields, CsvReportHoldsEachFigureInItsColumn) {
     std::set<std::string> there;
     for (const auto& [name, field] : found) there.insert(name);
     EXPECT_EQ(there, wanted);
-    EXPECT_EQ(found["failed"], "1"); // because the row has pixels that are not finite
+    EXPECT_EQ(found["failed"], "1"); // the row failed, because it has pixels that are not finite
     EXPECT_EQ(found["on_front"], "0");
     EXPECT_EQ(found["moves"], "0");
     EXPECT_EQ(found["noisy"], "0");

@@ -197,10 +197,10 @@ dvec3 position_on_track(const TranslationTrack& keys, double seconds) {
 
 TEST(Motion, KeyframesInterpolateByStepsOrLinearlyAndRepeat) {
     TranslationTrack keys{.times = {1, 2, 4}, .values = {{0, 0, 0}, {2, 0, 0}, {6, 1, 0}}};
-    EXPECT_EQ(position_on_track(keys, 0.5), dvec3(0)); // before the first key
+    EXPECT_EQ(position_on_track(keys, 0.5), dvec3(0)); // the time is before the first key
     EXPECT_EQ(position_on_track(keys, 1.5), dvec3(1, 0, 0));
     EXPECT_EQ(position_on_track(keys, 3), dvec3(4, 0.5, 0));
-    EXPECT_EQ(position_on_track(keys, 4), dvec3(6, 1, 0));   // at the time of the last key
+    EXPECT_EQ(position_on_track(keys, 4), dvec3(6, 1, 0));   // the time is that of the last key
     EXPECT_EQ(position_on_track(keys, 5.5), dvec3(1, 0, 0)); // 4 s after t = 1.5, so the same place
     keys.interpolation = TranslationTrack::Interpolation::step;
     EXPECT_EQ(position_on_track(keys, 1.99), dvec3(0));

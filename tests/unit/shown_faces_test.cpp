@@ -152,7 +152,7 @@ TEST(ShownFaces, ABallBehindAnotherIsNotDrawn) {
 TEST(ShownFaces, AnObjectBetweenTexelCentresIsNotDrawn) {
     CapturedScene scene;
     scene.add_mirror_ball(.3, {0, 0, 0}, 3);
-    scene.add_mirror_ball(.01, {4, 0, 0}, 3); // at a corner of four texels
+    scene.add_mirror_ball(.01, {4, 0, 0}, 3); // the mirror is at a corner of four texels
     scene.add_mirror_ball(.01, {4, .25, .25}, 3);
     scene.finish_scene();
     EXPECT_EQ(scene.faces_showing_objects_around(0, 16), (std::vector<std::uint8_t>{0, 0, 1}));

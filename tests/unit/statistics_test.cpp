@@ -14,8 +14,8 @@ namespace {
 TEST(Summary, SummaryMatchesHandComputedValues) {
     const SampleSummary s = summarise_samples(std::vector<double>{4, 1, 3, 2, 10});
     EXPECT_DOUBLE_EQ(s.median, 3);
-    EXPECT_DOUBLE_EQ(s.p05, 1.2); // at rank 0.2 of the sorted samples
-    EXPECT_DOUBLE_EQ(s.p95, 8.8); // at rank 3.8 of the sorted samples
+    EXPECT_DOUBLE_EQ(s.p05, 1.2); // the 5th percentile is at rank 0.2 of the sorted samples
+    EXPECT_DOUBLE_EQ(s.p95, 8.8); // the 95th percentile is at rank 3.8 of the sorted samples
     EXPECT_DOUBLE_EQ(s.mad, 1);   // median of the deviations 1 2 0 1 7
     EXPECT_EQ(s.n, 5U);
     EXPECT_EQ(s.samples, (std::vector<double>{4, 1, 3, 2, 10})); // samples stay in their order

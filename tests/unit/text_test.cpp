@@ -62,7 +62,7 @@ TEST(Suggestion, NearestNameFindsTyposWithinItsLimits) {
     EXPECT_EQ(find_nearest_name("abc", std::vector{std::string(1 << 20, 'a'), std::string("abd")}),
               "abd");
     names.assign(200'000, "zzzzzzzz");
-    names.back() = "material"; // after the last name that is searched
+    names.back() = "material"; // the name is after the last name that is searched
     EXPECT_EQ(find_nearest_name("materia", names), "");
     EXPECT_EQ(suggest_nearest_name("a\x1b"
                                    "b",

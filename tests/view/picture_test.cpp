@@ -31,7 +31,7 @@ TEST_F(ViewPictureTest, ScreenshotEqualsThePictureOfRender) {
 /// In each mode the X server must show the picture that the window writes to a file.
 TEST_F(ViewPictureTest, DisplayShowsThePictureOfEachMode) {
     std::vector<std::string> seen;
-    std::vector<measure::Picture> first; // of the modes plan, split and difference
+    std::vector<measure::Picture> first; // pictures of the modes plan, split and difference
     const auto expect_shown = [&](const SceneViewer& viewer, const std::string& name) {
         viewer.write_picture(path_in_test_folder(name));
         const measure::Picture written = measure::to_display(

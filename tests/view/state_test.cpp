@@ -149,7 +149,7 @@ TEST(ViewHand, MouseDragsTheDividerAndClicksMirrors) {
     EXPECT_EQ(at(60, 40, false), std::nullopt);
     EXPECT_NE(state.camera, before);
     const scene::Camera turned = state.camera;
-    at(250, 40, true); // on the controls, outside the picture
+    at(250, 40, true); // the mouse is on the controls, outside the picture
     at(20, 40, true);
     EXPECT_EQ(at(20, 40, false), std::nullopt);
     EXPECT_EQ(state.camera, turned);
