@@ -20,7 +20,7 @@ struct ParallelBvhBranch {
     std::uint32_t depth = 0;
     std::size_t sides = 0; ///< index of the first of two branches; 0: a subtree
     BvhSubtree subtree{};
-    std::size_t first_node = 0;               ///< index in the whole tree
+    std::size_t first_node = 0;               ///< index of the first node in the whole tree
     std::size_t copies = 0;                   ///< copies left out before its first triangle
     std::uint32_t word = f32::kBvhEmptyChild; ///< word of the node in the whole tree
 };
@@ -218,7 +218,7 @@ private:
 
     const BvhBuildWorkspace& build_workspace_;
     unsigned threads_;
-    std::vector<ParallelBvhBranch> branches_{}; ///< the first is the root
+    std::vector<ParallelBvhBranch> branches_{}; ///< branches of the tree; the first is the root
     std::size_t node_count_ = 0, triangle_count_ = 0;
 };
 

@@ -118,7 +118,7 @@ void write_file(const fs::path& path, std::string_view content) {
     if (!fs::exists(status) || fs::is_regular_file(status))
         return replace_file(target, status, content, path);
 
-    FileHandle file(std::fopen(target.c_str(), "wb")); // a device or a pipe
+    FileHandle file(std::fopen(target.c_str(), "wb")); // the target is a device or a pipe
     const int open_error = errno;
     check(file != nullptr, Failure::cannot_create, path.string(),
           ": cannot be opened: ", describe_system_error(open_error));

@@ -130,7 +130,7 @@ struct ImageReader::CodecImageReadState {
     std::string name;
     ImageSizeAndChannels shape;
     std::optional<PngReader> png;
-    std::optional<ImageCodecReader> codec; ///< set for all formats but PNG
+    std::optional<ImageCodecReader> codec; ///< reader for all formats but PNG
 };
 
 ImageReader::ImageReader(const RandomAccessByteSource& bytes, const std::string& format,

@@ -55,7 +55,7 @@ ImageSizeAndChannels read_jpeg_header(const RandomAccessByteSource& bytes) {
     for (std::uint64_t at = 2; at + 9 < bytes.size();) {
         const std::uint32_t mark = numbers.read_big_endian(at, 2), kind = mark & 0xff;
         if (mark >> 8 != 0xff) break;
-        if (kind == 0xff) { // a fill byte
+        if (kind == 0xff) { // the byte is a fill byte
             ++at;
             continue;
         }

@@ -60,7 +60,7 @@ public:
 private:
     std::size_t value_index(const TechniqueKnob& knob) const;
     std::span<const TechniqueKnob> knobs_;
-    std::vector<std::optional<double>> values_; ///< no value: the special word
+    std::vector<std::optional<double>> values_; ///< values of the knobs; no value: the special word
 };
 
 /// Returns the name with the smallest edit distance to `word`. Returns an empty string if no name

@@ -73,7 +73,8 @@ public:
     const VkPhysicalDeviceLimits& vulkan_limits() const { return limits_; }
     DeviceHandle device_handle() const { return {device_, &abandoned_}; }
     VkPhysicalDevice physical_device() const { return physical_; }
-    VkSurfaceKHR window_surface() const { return surface_; } ///< null if none was asked for
+    /// Returns the surface of the window; null if none was asked for.
+    VkSurfaceKHR window_surface() const { return surface_; }
     VkQueue vulkan_queue() const { return queue_; }
     std::uint32_t queue_family_index() const { return queue_family_; }
     bool is_cpu_device() const { return info_.type == "cpu"; }

@@ -28,7 +28,7 @@ enum class Blending { none, cover, sum };
 /// greater is nearer.
 struct RasterPipelineState {
     std::string vertex;
-    std::string fragment; ///< empty: depth only
+    std::string fragment; ///< fragment shader; empty: the pipeline writes depth only
     ShaderConstantValues constants;
     TriangleWinding hidden = TriangleWinding::none; ///< triangles of this winding are culled
     ShaderConstantValues features =

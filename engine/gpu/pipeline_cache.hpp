@@ -33,7 +33,7 @@ private:
     void save() const;
 
     GpuDevice& cache_device_;
-    std::filesystem::path file_; ///< empty: nothing is stored
+    std::filesystem::path file_; ///< file of the cache; empty: nothing is stored
     std::string known_;          ///< data of the file
     std::string warning_;
     UniquePipelineCache cache_;

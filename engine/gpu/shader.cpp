@@ -51,7 +51,8 @@ enum SpirvStorageClass : std::uint32_t {
     kPushConstant = 9,
     kStorageBuffer = 12
 };
-constexpr std::uint32_t kGeometryCapability = 2, kFloat64Capability = 10; // numbers of capabilities
+// Numbers of SPIR-V capabilities.
+constexpr std::uint32_t kGeometryCapability = 2, kFloat64Capability = 10;
 enum SpirvImageDimension : std::uint32_t { kDim2D = 1, kDimCube = 3, kDimBuffer = 5 };
 
 struct SpirvType {

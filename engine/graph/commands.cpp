@@ -299,7 +299,7 @@ void PassCommands::write_bound_descriptors() {
         const std::size_t count = pipeline_->bindings.size();
         std::size_t image_count = 0;
         for (const gpu::ShaderBinding& binding : pipeline_->bindings) image_count += binding.count;
-        std::vector<VkDescriptorImageInfo> images; // the writes point into these
+        std::vector<VkDescriptorImageInfo> images; // the descriptor writes point into these lists
         images.reserve(image_count);
         std::vector<VkDescriptorBufferInfo> buffers(count);
         std::vector<VkBufferView> texels(count);

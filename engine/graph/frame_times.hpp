@@ -22,7 +22,7 @@ struct GraphPassTime {
 /// driver's threads. compile_ms and record_ms are the host's work and do not contain wait_ms.
 struct GraphFrameTimes {
     std::vector<GraphPassTime> passes; ///< passes in order of execution
-    double span_ms = 0;                ///< first to last timestamp
+    double span_ms = 0;                ///< time from the first to the last timestamp
     double compile_ms = 0; ///< host time to order passes, place barriers and make images
     double record_ms = 0;  ///< filling the command buffer, host clock
     double wait_ms =

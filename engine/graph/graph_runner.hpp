@@ -114,7 +114,8 @@ private:
     gpu::UniqueSemaphore timeline_;
     SharedGraphMemoryArena memory_;
     PersistentImages kept_;
-    std::vector<std::shared_ptr<CompiledRenderGraph>> shapes_; ///< most recently used first
+    /// Compiled graphs, the most recently used first.
+    std::vector<std::shared_ptr<CompiledRenderGraph>> shapes_;
     std::vector<FrameInFlightResources> slots_;
     std::uint64_t frame_ = 0; ///< number of the frame submitted last
     std::uint64_t plans_made_ = 0;

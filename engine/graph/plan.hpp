@@ -61,7 +61,7 @@ struct PlannedBarrier {
 };
 
 struct PlannedPass {
-    std::uint32_t pass = 0;               ///< index into Graph::passes()
+    std::uint32_t pass = 0;               ///< index of the pass in Graph::passes()
     std::vector<PlannedBarrier> barriers; ///< executed before the pass
     /// Bit i is set if the result in attachment Pass::images[i] is never read and need not be
     /// stored.

@@ -11,7 +11,7 @@ namespace catoptric::graph {
 /// An access state as a number from 1. The number 0 stands for no access.
 using AccessStateCode = std::uint8_t;
 constexpr AccessStateCode kNoAccessState = 0;
-constexpr int kAccessStateCodeCount = 64; ///< every code is smaller
+constexpr int kAccessStateCodeCount = 64; ///< every code of an access state is smaller
 
 constexpr AccessStateCode encode_access_state(const AccessState& touch) {
     if (touch.nothing) return kNoAccessState;

@@ -84,7 +84,8 @@ std::vector<PassWorkCounts> WorkCounter::read() {
             "read pipeline statistics");
     for (std::size_t i = 0; i < passes_.size(); ++i) {
         WorkCountsByKind& counts = passes_[i].counts;
-        std::uint32_t words[shared::kShaderWorkKindCount][2]; // the low word comes first
+        // Of each count, the low word comes first.
+        std::uint32_t words[shared::kShaderWorkKindCount][2];
         std::memcpy(words, bytes.data() + i * stride_, kShaderCounterBytes);
         for (std::size_t kind = 0; kind < shared::kShaderWorkKindCount; ++kind)
             counts.values[kind] = std::uint64_t{words[kind][1]} << 32 | words[kind][0];

@@ -33,7 +33,7 @@ AuditSchedule::AuditSchedule(const AuditPace& pace) : pace_(pace), random_(pace.
 bool AuditSchedule::count_frame(double frame_ms) {
     const double usual_ms = last_frames_.empty() ? frame_ms : median_frame_ms();
     const double counted_ms = std::min(frame_ms, kLongestFrame * usual_ms);
-    if (was_audited_) { // the frame before
+    if (was_audited_) { // the frame before was audited
         const double excess_ms = std::max(0.0, counted_ms - usual_ms);
         audits_ms_ += excess_ms, last_audits_.back() += excess_ms;
         frames_ms_ += counted_ms - excess_ms;

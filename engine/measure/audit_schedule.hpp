@@ -38,7 +38,7 @@ public:
     /// Returns the number of frames of the present block; 0 before the first.
     std::size_t block_length() const { return block_; }
     double frames_ms() const { return frames_ms_; } ///< all frames without their audits
-    double audits_ms() const { return audits_ms_; } ///< all audits
+    double audits_ms() const { return audits_ms_; } ///< time of all audits
 
 private:
     double median_frame_ms() const;
@@ -51,7 +51,7 @@ private:
     std::size_t drawn_ = 0;                        ///< index of the audited frame in its block,
                                                    ///< from 0
     double frames_ms_ = 0, audits_ms_ = 0;
-    bool was_audited_ = false; ///< the frame before
+    bool was_audited_ = false; ///< whether the frame before was audited
 };
 
 /// The current position in a list of plans, which is sorted from the plan with the least error to

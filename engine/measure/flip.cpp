@@ -306,7 +306,7 @@ inline double flip_feature_difference(double edge_a, double edge_b, double point
 struct FlipKernels {
     ColourKernels colour;
     FeatureKernels feature;
-    int reach; ///< the largest radius
+    int reach; ///< largest radius of the filters
 };
 
 /// Data of one picture that FLIP compares.

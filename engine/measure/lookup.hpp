@@ -21,7 +21,7 @@ struct LookupErrorSummary {
 struct LookupDirectionError {
     double angle_degrees = 0;  ///< angle between the two directions, 0..180
     bool wrong_object = false; ///< the capture shows another object in the looked-up direction
-    int state = 0;             ///< 0 hit, 1 unknown, 2 miss
+    int state = 0;             ///< state of the search: 0 hit, 1 unknown, 2 miss
     /// Relative difference between the distance that the search found and the captured one.
     double residual = 0;
 };

@@ -12,7 +12,7 @@ namespace catoptric::measure {
 
 /// View in which a row has its largest FLIP over the mirrors.
 struct WorstView {
-    std::size_t view = 0; ///< index into Comparison::views
+    std::size_t view = 0; ///< index of the view in Comparison::views
     Picture display;      ///< the row's picture, with the reference to its right
 };
 

@@ -47,7 +47,7 @@ TechniquePlan parse_plan(std::string_view text);
 /// entry n-1 belongs to mirror n.
 struct TechniqueOfEachMirror {
     std::vector<TechniqueChoice> choices; ///< all different; at least one
-    std::vector<std::uint32_t> of_mirror; ///< index into `choices`
+    std::vector<std::uint32_t> of_mirror; ///< index into `choices` for each mirror
     /// For each mirror: the pattern of the rule that chose its technique. Empty: one technique
     /// draws all mirrors.
     std::vector<std::string> patterns;

@@ -110,7 +110,7 @@ struct FrameCaptureUpdate {
     std::shared_ptr<const MirrorCaptures> last;
     std::vector<bool> was_there; ///< for each mirror: whether `last` has a capture of the mirror
     CaptureWorkOfFrame work;
-    std::shared_ptr<CaptureCache> kept; ///< null: captures do not persist
+    std::shared_ptr<CaptureCache> kept; ///< cache of captures; null: captures do not persist
 };
 
 /// The buffers of a session into which comparisons write their results.

@@ -76,7 +76,7 @@ void add_capture_comparison_pass(graph::Graph& graph, const FrameInputs& inputs,
         std::uint32_t before, after, mirror;
     };
     struct CubeImagePair {
-        CubeCaptureArray before, after; ///< the whole arrays
+        CubeCaptureArray before, after; ///< the whole arrays of captures
         CaptureComparisonParameters push;
         std::uint32_t faces;
     };

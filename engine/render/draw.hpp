@@ -16,7 +16,8 @@ using ObjectFilter = std::function<bool(std::size_t)>;
 
 /// The part of each object to draw.
 struct OpaqueOrBlendedParts {
-    const std::vector<scene::TriangleIndexRun>* triangles = nullptr; ///< null: all triangles
+    /// Runs of triangles to draw; null: all triangles.
+    const std::vector<scene::TriangleIndexRun>* triangles = nullptr;
     /// For each object, the layers to draw it into: bit k stands for layer k (shown_faces.hpp).
     /// Empty: all layers whose views may meet the object.
     std::span<const std::uint8_t> layers;

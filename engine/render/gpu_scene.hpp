@@ -213,10 +213,11 @@ private:
     NearestTriangleQuery nearest_;
     SceneChangeTracker seen_;
     DeviceVertices vertices_;
-    mutable std::vector<shared::View> views_; ///< all views
-    std::vector<shared::View> scene_views_;   ///< views of mirrors and lights
-    mutable std::size_t added_views_ = 0;     ///< the last of `views_`, valid in this frame only
-    std::vector<scene::FlatFaces> flats_;     ///< flat faces of each mirror
+    /// Views of the scene, then those added in this frame.
+    mutable std::vector<shared::View> views_;
+    std::vector<shared::View> scene_views_; ///< views of mirrors and lights
+    mutable std::size_t added_views_ = 0;   ///< the last of `views_`, valid in this frame only
+    std::vector<scene::FlatFaces> flats_;   ///< flat faces of each mirror
     std::vector<dvec3> probe_places_, light_places_; ///< scene units
     dvec3 eye_{0};
     std::vector<shared::Surface> surfaces_;

@@ -12,7 +12,7 @@ namespace catoptric::render {
 
 /// A fragment shader and the resources that it reads.
 struct MirrorShader {
-    std::string fragment; ///< empty: the mirror is black
+    std::string fragment; ///< fragment shader; empty: the mirror is black
     std::string variant;  ///< suffix of `fragment`, where no cause of error is removed
     gpu::ShaderConstantValues constants;
     std::shared_ptr<const MirrorCaptures> captures;
@@ -27,7 +27,7 @@ struct MirrorShader {
 
 /// A part of a mirror with its own shader.
 struct MirrorSubsetShader {
-    std::uint32_t mirror = 0; ///< number from 0
+    std::uint32_t mirror = 0; ///< number of the mirror, from 0
     std::uint32_t look = 0;   ///< index into ShaderOfEachMirror::looks
     std::vector<scene::TriangleIndexRun> triangles;
 };

@@ -18,7 +18,8 @@ namespace catoptric::render {
 struct FilteredSkyLevels {
     /// Texels of all levels, row by row.
     std::vector<vec3> texels;
-    std::array<std::uint32_t, SKY_LEVEL_COUNT> first{}, width{}; ///< first texel; texels of a row
+    /// Of each level: first texel, and texels of a row.
+    std::array<std::uint32_t, SKY_LEVEL_COUNT> first{}, width{};
 };
 
 /// Computes the levels by filtered importance sampling (Krivanek and Colbert, "Real-time Shading

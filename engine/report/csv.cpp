@@ -263,7 +263,7 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
         for (const Row& row : comparison->rows)
             lines.push_back(make_csv_line(*comparison, row, mirrors));
         if (comparison->complete || !comparison->rows.empty()) continue;
-        lines.emplace_back(); // a line with only this field
+        lines.emplace_back(); // a CSV line with only this field
         lines.back().add_field("incomplete", describe_incomplete_run(*comparison));
     }
     for (const CsvLine& line : lines) add_column_names(columns, line, which);

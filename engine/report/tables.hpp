@@ -17,7 +17,7 @@ struct TableColumn {
     TableColumn(std::string title) : name(std::move(title)) {}
     TableColumn(const char* title) : name(title) {}
     std::string name;
-    bool is_number = true; ///< right-aligned
+    bool is_number = true; ///< the column's cells are right-aligned
 };
 /// Returns a column of text.
 TableColumn make_text_column(const char* title);

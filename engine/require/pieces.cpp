@@ -55,7 +55,7 @@ CubeFacePart face_part_containing(int face, std::span<const dvec3> places) {
     const dvec3 right = f64::cube_direction(face, dvec3(1, 0, 0)),
                 down = f64::cube_direction(face, dvec3(0, 1, 0)),
                 forward = f64::cube_direction(face, dvec3(0, 0, 1));
-    std::array<LeastSlopeOfMovingHull, 4> slopes; // right, left, down, up
+    std::array<LeastSlopeOfMovingHull, 4> slopes; // slopes to the right, left, down and up
     for (const dvec3& place : places) {
         const double ahead = dot(forward, place), x = dot(right, place), y = dot(down, place);
         slopes[0].add_point(x, ahead), slopes[1].add_point(-x, ahead);

@@ -66,13 +66,13 @@ public:
     const std::vector<VisibilityObject>& list_objects() const { return things_; }
     const std::vector<std::size_t>& list_mirror_objects() const {
         return mirrors_;
-    } ///< indices of objects
+    } ///< indices of the mirrors' objects
     const std::vector<std::size_t>& list_moving_objects() const {
         return movers_;
-    } ///< indices of objects
+    } ///< indices of the moving objects
     const std::vector<OccluderWall>& list_occluder_walls() const {
         return walls_;
-    } ///< the largest first
+    } ///< walls, the largest first
     const std::vector<scene::PointLight>& list_point_lights() const { return lights_; }
     const std::vector<MeshShapeSummary>& list_mesh_shapes() const { return meshes_; }
     const Bounds<double>& bounds_of_static_objects() const {

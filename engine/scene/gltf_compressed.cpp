@@ -166,7 +166,7 @@ std::size_t read_draco_component_count(const JsonObject& accessor) {
 
 /// Elements that take the place of an accessor's.
 struct DecodedAccessor {
-    std::string attribute; ///< empty: the indices
+    std::string attribute; ///< name of the attribute; empty: the indices
     Json accessor;
     ByteList bytes;
 };

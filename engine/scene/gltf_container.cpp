@@ -39,7 +39,7 @@ constexpr UnsupportedCompression kUnsupportedCompressions[] = {
 
 struct GlbChunks {
     std::string_view json;
-    std::string_view binary; ///< empty if there is none
+    std::string_view binary; ///< the binary part; empty if the file has none
 };
 
 std::uint32_t read_glb_word(std::string_view bytes, std::size_t offset) {

@@ -56,7 +56,7 @@ std::vector<Material> read_materials(const MaterialReadContext& source);
 /// any.
 struct PunctualLights {
     std::vector<PunctualLight> lights;
-    std::vector<std::optional<std::size_t>> of_node; ///< index into `lights`
+    std::vector<std::optional<std::size_t>> of_node; ///< for each node, the index into `lights`
 };
 /// Reads all lights. Throws `bad_data`.
 PunctualLights read_lights(const MaterialReadContext& source);

@@ -18,7 +18,7 @@ constexpr double kFlatnessTolerance = 1e-4;     // share of the extent
 constexpr double kSphereVertexTolerance = 1e-3; // vertices: share of the radius
 constexpr double kMinBendingShare = .95;        // share of all bending (angle times length)
 constexpr double kFacetRadiusTolerance = .1;    // facets: share of the radius
-constexpr double kNormalAngleTolerance = .01;   // normals: radians
+constexpr double kNormalAngleTolerance = .01;   // tolerance of normals, radians
 
 /// Triangles of an object in the world, relative to the centre of its bounds. Each place has one
 /// number.

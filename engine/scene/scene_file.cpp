@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct SceneFileJsonKey {
     const char* name;
     void (*read)(const gltf::JsonObject& file, const gltf::Json& value, SceneOverrides& overrides);
-    gltf::Json (*written)(const SceneOverrides& overrides); ///< null: not set
+    gltf::Json (*written)(const SceneOverrides& overrides); ///< null: the member is not written
 };
 
 using gltf::Json;

@@ -25,7 +25,7 @@ struct MirrorOverride {
 Material make_mirror_material(std::string name, const MirrorOverride& wish);
 
 struct ExposureOverride {
-    std::optional<double> stops; ///< none: "auto"
+    std::optional<double> stops; ///< exposure in stops; none: "auto"
     bool operator==(const ExposureOverride&) const = default;
 };
 
@@ -47,7 +47,7 @@ struct SceneOverrides {
     std::optional<bool> dielectric_mirrors;
     std::optional<bool> multiple_scattering; ///< "turquin" in files and on the command line
     std::optional<bool> tints_glass_shadows; ///< "tint" in files and on the command line
-    std::optional<int> light_samples;        ///< 1 to kMaxLightSamples
+    std::optional<int> light_samples;        ///< points for each lamp, 1 to kMaxLightSamples
     std::optional<std::string> environment;  ///< "studio", "none", or a picture's file
     std::optional<double> environment_scale, environment_rotation;
     std::optional<ExposureOverride> exposure;

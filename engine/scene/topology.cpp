@@ -66,7 +66,7 @@ private:
 
     std::span<const dvec3> positions_;
     double scale_ = 0;
-    std::unordered_map<std::uint64_t, std::size_t> newest_; ///< last vertex added to each cube
+    std::unordered_map<std::uint64_t, std::size_t> newest_; ///< last vertex added to each grid cube
     std::vector<std::size_t> next_; ///< vertex added to the same cube before
 };
 

@@ -26,7 +26,7 @@ std::vector<std::size_t> find_first_vertex_of_each_place(std::span<const dvec3> 
 struct TriangleEdge {
     std::size_t low, high; ///< ends of the edge
     std::size_t triangle;
-    std::size_t tip; ///< the triangle's third corner
+    std::size_t tip; ///< third corner of the triangle
 };
 
 /// Returns the sides of all triangles, ordered by edge, then by triangle. A triangle with two equal

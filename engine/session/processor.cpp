@@ -17,7 +17,7 @@ namespace catoptric::app {
 namespace {
 
 constexpr double kMaxWaitingShare = .05; ///< share of the time that threads ran or were ready
-constexpr double kMaxBusyOtherProcessors = .25; ///< number of processors
+constexpr double kMaxBusyOtherProcessors = .25; ///< number of other processors that may be busy
 constexpr double kLoadAverageSeconds = 60;      ///< seconds after which a load counts 1/e
 constexpr double kSecondsPerNanosecond = 1e-9;
 
@@ -87,7 +87,7 @@ std::optional<ProcessorUsageSoFar> read_processor_use() {
         // The file begins with the nanoseconds that the thread ran, and those that it waited.
         std::ifstream file(task.path() / "schedstat");
         ThreadRunAndWaitTime time;
-        if (!(file >> time.ran >> time.waited)) continue; // the thread has ended
+        if (!(file >> time.ran >> time.waited)) continue; // the thread has ended meanwhile
         time.ran *= kSecondsPerNanosecond, time.waited *= kSecondsPerNanosecond;
         use.threads.emplace(std::stoi(task.path().filename().string()), time);
     }

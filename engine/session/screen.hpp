@@ -28,7 +28,7 @@ struct WindowOverlay {
 /// one pixel of a picture covers one pixel of the window.
 struct WindowPictures {
     enum class PictureArrangement {
-        one,   ///< the first picture
+        one,   ///< shows the first picture
         split, ///< the first picture left of the divider, the second picture right of the divider
         difference ///< difference of the displayed pictures, times `gain`
     };

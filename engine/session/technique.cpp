@@ -110,7 +110,7 @@ void add_search(Search search) {
                .scene_passes = reflect::count_capture_passes_with_feedback,
                .capture = reflect::make_capture_options,
                .in_captures = "reflect/parallax.frag",
-               .reads_whole_cubes = true, // the search may look anywhere
+               .reads_whole_cubes = true, // the search may look anywhere in the capture
                .search = row.search.shader.c_str()};
     reflect::RegisteredTechnique{row.row};
 }

@@ -11,7 +11,7 @@ namespace catoptric::app {
 /// For an unknown name, `parse_technique` throws `Failure::usage` with the nearest name.
 struct TechniqueChoice {
     std::string technique, label, file_name;
-    std::vector<Setting> settings; ///< all knobs
+    std::vector<Setting> settings; ///< values of all knobs
 };
 TechniqueChoice parse_technique(const std::string& text);
 

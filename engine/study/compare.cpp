@@ -190,7 +190,7 @@ private:
         const SetupTimes setup = Access::setup_times(shared_session_);
         const CompiledPipelines compiled = Access::compiled_pipelines(comparison_engine_);
         constexpr const char* kCacheStateNames[] = {"none", "made",
-                                                    "used"}; // indexed by PipelineCacheState
+                                                    "used"}; // texts indexed by PipelineCacheState
         comparison_.setup = std::make_shared<measure::SetupFacts>(measure::SetupFacts{
             compare_request_.base.load_ms, setup.upload_ms, setup.hierarchy_ms,
             compiled.ms - compiled_before_.ms, compiled.pipelines - compiled_before_.pipelines,

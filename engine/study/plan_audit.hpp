@@ -40,7 +40,7 @@ PlanAuditRequest read_plan_audit(const std::filesystem::path& file);
 struct SampledView {
     std::uint32_t step = 1; ///< odd, so that the samples are centres of pixels
     uvec2 first{0};         ///< pixel of the first sample
-    uvec2 size{0};          ///< number of samples
+    uvec2 size{0};          ///< number of samples along both axes
     /// A camera that sees only the sampled pixels. The ray through the centre of its pixel (x, y)
     /// meets the surface that the picture shows at `first` + `step` * (x, y).
     scene::Camera camera;

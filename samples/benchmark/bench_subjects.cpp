@@ -92,7 +92,7 @@ BenchmarkSubject make_frame_benchmark_subject(std::shared_ptr<Session> session, 
                               parse_technique(request.techniques.front()).label;
     const int warmup = request.warmup;
     request.frames = iterations;
-    request.scene = scene::Scene(); // the session has its own copy
+    request.scene = scene::Scene(); // the session has its own copy of the scene
     const auto work = std::make_shared<FrameBenchmark>(std::move(session), std::move(request));
     return {.name = "frame/" + place,
             .work = [work] { return work->render_next_frames(); },

@@ -9,10 +9,10 @@ namespace catoptric::cli {
 
 struct CostsArguments {
     CommonOptions common;
-    std::vector<std::string> scenes;     ///< empty: all built-in scenes
+    std::vector<std::string> scenes;     ///< names of scenes; empty: all built-in scenes
     std::vector<std::string> techniques; ///< empty: those that `compare` proposes for each scene
     std::string times;                   ///< file of times of another device; empty: measure
-    std::string output;                  ///< empty: only printed
+    std::string output;                  ///< output file; empty: the costs are only printed
     int rounds = 6;
 };
 

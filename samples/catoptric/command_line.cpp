@@ -253,7 +253,7 @@ std::vector<CompletionVerb> CommandLine::list_completion_verbs() const {
         for (const CLI::Option* option : app->get_options()) {
             const std::vector<std::string>&longs = option->get_lnames(),
                   &shorts = option->get_snames();
-            if (longs.empty() && shorts.empty()) continue; // an argument
+            if (longs.empty() && shorts.empty()) continue; // the option is a positional argument
             verb.options.push_back(
                 {.name = longs.empty() ? "-" + shorts.front() : "--" + longs.front(),
                  .short_name = longs.empty() || shorts.empty() ? "" : "-" + shorts.front(),

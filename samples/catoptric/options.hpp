@@ -43,9 +43,10 @@ struct CommonOptions {
     std::string reference_file; ///< file of the reference's halves; empty: none
     std::string reference;      ///< empty: app::choose_reference chooses
     DeviceOptions device;
-    std::optional<app::RenderedWork> model; ///< none: default of the verb
-    bool both_models = false;               ///< `compare` only: measures each row with both models
-    double budget_ms = 0; ///< time for captures per frame, milliseconds; 0: no limit
+    /// Model of the required work; none: default of the verb.
+    std::optional<app::RenderedWork> model;
+    bool both_models = false; ///< `compare` only: measures each row with both models
+    double budget_ms = 0;     ///< time for captures per frame, milliseconds; 0: no limit
     app::PassTimingMode timing = app::PassTimingMode::isolated;
 };
 

@@ -167,7 +167,7 @@ std::size_t count_pixels_near_cube_edges(const scene::Camera& camera, uvec2 size
 void judge_seams_at_cube_edges(StressTestBench& bench) {
     constexpr int kCaptureFaceEdge = 64;
     constexpr uvec2 kCaptureTestPictureSize{128, 128};
-    constexpr float kEmittingRoomColour = .7f; // no exact half-float number
+    constexpr float kEmittingRoomColour = .7f; // a colour that no half-float stores exactly
     scene::Scene scene = make_white_furnace_scene({});
     scene.materials.front().emission = vec3(kEmittingRoomColour);
     add_stress_ball(scene, add_material(scene, {.name = "mirror", .mirror = true}), {{0, 0, 0}, 1},

@@ -47,7 +47,7 @@ std::vector<std::string> make_render_words(const std::vector<std::string>& words
         if (is_one_of(kFlagsWithoutMeaningInCommands, word) || is_quiet_or_verbose_flag(word))
             continue;
         if (is_one_of(kReplacedOptions, name)) {
-            if (name == word) ++i; // the next word is its value
+            if (name == word) ++i; // the next word is the option's value
             continue;
         }
         made.push_back(word);

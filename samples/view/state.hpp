@@ -14,9 +14,9 @@
 namespace catoptric::view {
 
 enum class ViewMode {
-    plan,       ///< the plan's picture
+    plan,       ///< shows the plan's picture
     split,      ///< the plan left of the divider, the comparison right of it
-    difference, ///< the difference of the two
+    difference, ///< shows the difference of the two pictures
     answers,    ///< answers of searches: hit, unknown, miss
     numbers,    ///< number of the mirror that each pixel shows
     causes,     ///< change of the picture when a cause of error is removed
@@ -59,7 +59,7 @@ struct ViewState {
 struct ShownTechniquesAndPictures {
     std::vector<std::string> techniques;
     app::WindowPictures::PictureArrangement kind = app::WindowPictures::PictureArrangement::one;
-    std::size_t first = 0, second = 0; ///< indices for app::WindowPictures
+    std::size_t first = 0, second = 0; ///< indices of the pictures for app::WindowPictures
 };
 
 /// Returns whether the mode shows a picture that is made outside the frames: the reference, mirror

@@ -71,7 +71,8 @@ TEST_F(NoDevice, MissingLayerExtensionOrFeatureExitsWith69) {
     }
     test::ProcessStartOptions process = make_process_start(
         {"render", "--technique", "reuse", "-o", "x.png", "--validate"});
-    process.environment = {{"VK_LAYER_PATH", folder.string()}}; // a folder without layers
+    // The path is a folder without layers.
+    process.environment = {{"VK_LAYER_PATH", folder.string()}};
     expect_exit_code(test::run_process(process), 69,
                      {"--validate needs the layer", "apt-get install vulkan-validationlayers"});
 }

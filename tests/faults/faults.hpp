@@ -11,7 +11,7 @@
 struct VulkanCallFault {
     std::string call;
     int at = 1;
-    int result = 0; ///< a VkResult
+    int result = 0; ///< result of the call, a VkResult
 };
 
 /// How often a Vulkan call was made in a run, and how many objects that it created were never

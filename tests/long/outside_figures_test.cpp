@@ -12,7 +12,7 @@ using test::expect_share_of_pixels_within, test::trace_cornell_mirrors;
 TEST(OutsideFigures, MeansAndErrorsOfEachDepthEqualTheFigures) {
     struct TracedRayFigures {
         int depth;
-        double mean, clamped, rmse; ///< 0: no figure is known
+        double mean, clamped, rmse; ///< expected figures; 0: no figure is known
         double rmse_share;
     };
     const std::vector<TracedRayFigures> figures{{0, .108822, .044025, .1031, .05},

@@ -88,7 +88,7 @@ TEST(NoisyReference, DifferenceOfTheHalvesFallsByTwoPerQuadrupling) {
         for (std::size_t i = 0; i < a.mean().pixels.size(); ++i) {
             const vec3 both = a.variance().pixels[i] + b.variance().pixels[i];
             sum += double(both.x + both.y + both.z) / 3;
-            if (frames == 1) break; // no variance yet
+            if (frames == 1) break; // one frame has no variance yet
         }
         predicted.push_back(std::sqrt(sum / double(a.mean().pixels.size())));
     }

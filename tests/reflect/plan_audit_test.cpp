@@ -214,14 +214,15 @@ TEST(PlanAudit, UnchangedPicturesAndOtherPlansAreNotAudited) {
     spec.camera.eye.x += .1;
     EXPECT_EQ(run(1), moving + 1); // another plan than the audited plan
     spec.techniques = {kRunningPlan};
-    spec.camera.target = spec.camera.eye + dvec3(0, 0, -1); // a view without mirrors
+    // The camera turns to a view without mirrors.
+    spec.camera.target = spec.camera.eye + dvec3(0, 0, -1);
     EXPECT_EQ(run(1), moving + 1);
 }
 
 struct CaughtFault {
     bool is_early = false;  ///< whether an alarm was raised before the fault began
     int frames = 0;         ///< frames from the fault until the alarm
-    std::size_t audits = 0; ///< audited frames among them
+    std::size_t audits = 0; ///< number of audited frames among them
 };
 
 /// Runs frames in which a fault begins at some frame, until the audit raises an alarm. `fault`

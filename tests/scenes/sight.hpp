@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kRaysAlongPixelEdge = 3;
 
 struct SeenSurface {
     int object = -1;            ///< index; -1: the ray meets nothing
-    float distance = 0;         ///< along the ray, scene units
+    float distance = 0;         ///< distance along the ray, scene units
     vec3 place{0};              ///< scene units
     vec3 facet{0}, normal{0};   ///< unit vectors; `normal` faces the camera
     int cut = 0;                ///< cut-out surfaces that the ray passed through
@@ -60,7 +60,7 @@ private:
     scene::Scene current_scene_;
     render::SceneUnitTransform space_;
     render::FrameGeometry geometry_;
-    std::vector<uvec3> triangles_; ///< indices of corners, by triangle
+    std::vector<uvec3> triangles_; ///< indices of the corners of each triangle
     bvh::Bvh tree_;
     shared::View view_;
     uvec2 size_;

@@ -19,7 +19,7 @@ namespace {
 using namespace catoptric;
 using measure::Audit, measure::AuditSchedule, measure::PlanLadder;
 
-using Outcomes = std::vector<char>; ///< 1: the frame passed
+using Outcomes = std::vector<char>; ///< for each frame, 1: the frame passed
 
 Audit audit_of_outcomes(const Outcomes& passed, const measure::AuditedShare& tested = {}) {
     Audit audit(tested);
@@ -130,9 +130,9 @@ TEST(Audit, AssuranceDoesNotDependOnTheOrderAndTheAlarmDoes) {
         EXPECT_EQ(again.assurance(), first.assurance());
         EXPECT_EQ(again.assured_share(), first.assured_share());
     }
-    std::ranges::sort(passed); // all failures first
+    std::ranges::sort(passed); // all failures come first
     const double early = audit_of_outcomes(passed).alarm_evidence();
-    std::ranges::reverse(passed); // all failures last
+    std::ranges::reverse(passed); // all failures come last
     EXPECT_GT(audit_of_outcomes(passed).alarm_evidence(), 100 * early);
 }
 
@@ -308,7 +308,7 @@ TEST(AuditSchedule, CountsWhatTheNextFrameTakesLonger) {
     schedule.count_frame(5); // no audit preceded this frame
     EXPECT_EQ(schedule.audits_ms(), 7);
     EXPECT_EQ(schedule.frames_ms(), 23);
-    schedule.count_frame(1000); // a pause of the program
+    schedule.count_frame(1000); // a long frame means a pause of the program
     EXPECT_EQ(schedule.frames_ms(), 43);
 }
 

@@ -72,8 +72,9 @@ TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
         const RequiredWorkModel after = instants.required_work_model_at_time(.1 * frame);
         stays += count_unchanged_faces(before, after);
         for (std::size_t face = 0; face < 6; ++face)
+            // The moving ball's own capture changes.
             EXPECT_NE(before.mirrors[3].content_hashes[face],
-                      after.mirrors[3].content_hashes[face]); // the moving ball's own capture
+                      after.mirrors[3].content_hashes[face]);
         before = after;
     }
     EXPECT_GE(stays, 20 * 24 / 3);

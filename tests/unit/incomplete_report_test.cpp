@@ -180,7 +180,8 @@ TEST_F(GrowingReport, PageWithManyBytesOfPicturesLoadsThemFromFiles) {
     EXPECT_FALSE(holds(measure_page(PagePictures::automatic), lazy));
     std::mt19937 random(7);
     made.rows[1].flip_map.clear();
-    made.rows[1].display = catoptric::measure::Picture(2600, 2400); // noise, which no PNG shrinks
+    // A picture of noise, which no PNG shrinks.
+    made.rows[1].display = catoptric::measure::Picture(2600, 2400);
     for (auto& pixel : made.rows[1].display.pixels)
         for (int k = 0; k < 3; ++k) pixel[k] = static_cast<float>(random() % 256) / 255;
     const std::string page = measure_page(PagePictures::automatic);

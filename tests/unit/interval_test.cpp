@@ -16,7 +16,7 @@ namespace {
 std::vector<double> list_numbers_from_one_to(std::size_t n) {
     std::vector<double> values(n);
     std::iota(values.begin(), values.end(), 1.0);
-    std::ranges::reverse(values); // the order must not matter
+    std::ranges::reverse(values); // the order of the values must not matter
     return values;
 }
 

@@ -109,7 +109,7 @@ TEST(RequireFrustum, CaptureFacesThatMayShowABoxAreFound) {
               2 | 4 | 32); // faces -X, +Y and -Z show the box
     EXPECT_EQ(cube_faces_that_may_show_box(bounds_around_point({0, 0, 0}, .1)), kAllCubeFaceBits);
     EXPECT_EQ(cube_faces_in_front_of_plane({0, 0, 1}, .1),
-              kAllCubeFaceBits & ~(1 << 5)); // all faces except -Z
+              kAllCubeFaceBits & ~(1 << 5)); // all faces except -Z are in front of the plane
     EXPECT_EQ(cube_faces_in_front_of_plane(glm::normalize(dvec3(1, 0, 1)), .1), kAllCubeFaceBits);
 }
 
