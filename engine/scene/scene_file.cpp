@@ -35,6 +35,15 @@ std::string read_text_member(const JsonObject& file, const Json& value, const ch
     return value.get<std::string>();
 }
 
+/// Reads a member that is "none" or `word`. Returns whether it is `word`.
+bool read_none_or_word(const JsonObject& file, const Json& value, const char* key,
+                       const char* word) {
+    const std::string text = read_text_member(file, value, key);
+    file.require_condition(text == "none" || text == word, key, ": wanted \"none\" or \"", word,
+                           "\", found ", quote_text_with_escapes(text));
+    return text == word;
+}
+
 std::vector<std::string> read_text_list_member(const JsonObject& file, const Json& value,
                                                const char* key) {
     file.require_condition(value.is_array(), key, ": wanted a list of texts, found ",
@@ -66,6 +75,10 @@ auto rethrow_as_bad_data(const JsonObject& file, Read&& read) {
 template <typename Value>
 Json overrides_to_json(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
+}
+
+Json none_or_word_to_json(const std::optional<bool>& is_word, const char* word) {
+    return is_word ? Json(*is_word ? word : "none") : Json();
 }
 
 Json mirror_override_to_json(const MirrorOverride& wish) {
@@ -113,27 +126,18 @@ const std::array<SceneFileJsonKey, 15> kSceneFileKeys{
       }},
      {"multiple_scattering",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          const std::string text = read_text_member(file, value, "multiple_scattering");
-          file.require_condition(text == "none" || text == "turquin",
-                                 "multiple_scattering: wanted \"none\" or \"turquin\", found ",
-                                 quote_text_with_escapes(text));
-          overrides.multiple_scattering = text == "turquin";
+          overrides.multiple_scattering = read_none_or_word(file, value, "multiple_scattering",
+                                                            "turquin");
       },
       [](const SceneOverrides& overrides) {
-          if (!overrides.multiple_scattering) return Json();
-          return Json(*overrides.multiple_scattering ? "turquin" : "none");
+          return none_or_word_to_json(overrides.multiple_scattering, "turquin");
       }},
      {"glass_shadow",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
-          const std::string text = read_text_member(file, value, "glass_shadow");
-          file.require_condition(text == "none" || text == "tint",
-                                 "glass_shadow: wanted \"none\" or \"tint\", found ",
-                                 quote_text_with_escapes(text));
-          overrides.tints_glass_shadows = text == "tint";
+          overrides.tints_glass_shadows = read_none_or_word(file, value, "glass_shadow", "tint");
       },
       [](const SceneOverrides& overrides) {
-          if (!overrides.tints_glass_shadows) return Json();
-          return Json(*overrides.tints_glass_shadows ? "tint" : "none");
+          return none_or_word_to_json(overrides.tints_glass_shadows, "tint");
       }},
      {"light_samples",
       [](const JsonObject& file, const Json& value, SceneOverrides& overrides) {
