@@ -98,6 +98,13 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
     return options;
 }
 
+void remove_images_of_camera_view(render::MirrorShader& look) {
+    std::erase_if(look.images, [](const auto& image) { return image.first == kGlassBackImage; });
+    for (auto& [name, value] : look.constants)
+        if (name == "refract_model")
+            value = choose_refraction_model_of_other_views(std::get<std::uint32_t>(value));
+}
+
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
                                          const TechniqueKnobSettings& settings) {
     render::MirrorShader look;

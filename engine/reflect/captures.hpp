@@ -153,6 +153,17 @@ inline constexpr TechniqueKnob kGlassRefractionModelKnob{
     .value = shared::kRefractAuto,
     .choices = kGlassRefractionModelChoices};
 
+/// Name of the image of add_glass_back_pass in shaders/lib/refraction.glsl.
+inline constexpr const char* kGlassBackImage = "glass_backs";
+
+/// Returns the model of glass for views other than the camera's, which have no images of the
+/// camera's view.
+inline std::uint32_t choose_refraction_model_of_other_views(std::uint32_t refract) {
+    return refract == render::kRefractBackface ? shared::kRefractAuto : refract;
+}
+/// Makes a mirror's shader fit for other views than the camera's: it reads no images of that view.
+void remove_images_of_camera_view(render::MirrorShader& look);
+
 inline constexpr std::array<std::string_view, 2> kIndirectLightChoices{"ambient", "captures"};
 inline constexpr TechniqueKnob kIndirectLightKnob{
     .name = "indirect",

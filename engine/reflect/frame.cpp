@@ -12,14 +12,6 @@ namespace catoptric::reflect {
 
 namespace {
 
-constexpr const char* kGlassBacks = "glass_backs"; // image in shaders/lib/refraction.glsl
-
-/// Returns the model of glass for captures and mirrored views. These views have no image of back
-/// faces, which `refract=backface` reads.
-std::uint32_t choose_refraction_model_of_other_views(std::uint32_t refract) {
-    return refract == render::kRefractBackface ? shared::kRefractAuto : refract;
-}
-
 std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechniques& knobs) {
     if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return std::nullopt;
     return knobs.shadow_map;
@@ -233,10 +225,7 @@ choose_mirror_shaders_in_mirrored_views(const TechniqueOutputs& outputs,
         render::MirrorShader& look = looks.looks[i];
         std::erase_if(look.constants,
                       [](const auto& constant) { return constant.first == "tracer"; });
-        std::erase_if(look.images, [](const auto& image) { return image.first == kGlassBacks; });
-        for (auto& [name, value] : look.constants)
-            if (name == "refract_model")
-                value = choose_refraction_model_of_other_views(std::get<std::uint32_t>(value));
+        remove_images_of_camera_view(look);
         const Technique& technique = *assignment.choices[i].technique;
         if (is_drawn_by_mirrored_views(assignment.choices[i])) look = {};
         if (technique.capture || !technique.picture) continue;
@@ -300,7 +289,7 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                                                      look.mirror);
         if (choices[i].shared.refract == render::kRefractBackface && inputs.scene.has_glass()) {
             if (!glass_backs) glass_backs = render::add_glass_back_pass(graph, inputs);
-            look.mirror.images.emplace_back(kGlassBacks, std::vector{*glass_backs});
+            look.mirror.images.emplace_back(kGlassBackImage, std::vector{*glass_backs});
         }
         if (look.tracer) {
             if (!look.tracer->paths) look.tracer->lighting.probes = lighting.probes;

@@ -246,6 +246,23 @@ TEST(Refraction, BackFacesCostNothingWithoutGlass) {
     EXPECT_EQ(with.memory_bytes, without.memory_bytes);
 }
 
+/// The bounces of `naive` are captures, which have no images of the camera's view. Each of two
+/// balls shows the other in its captures.
+TEST(Refraction, ModelsOfTheCameraViewAreAutoInBounces) {
+    scene::Scene scene = make_body_below_sky(scene::ball("ball", 4), make_tinted_glass(),
+                                             {.6, .5, 4.5});
+    scene::add_mesh(scene, scene::ball("other", 4), 0);
+    scene.objects.back().world_from_object[3] = dvec4(2.2, 0, -1, 1);
+    scene::find_mirrors(scene);
+    for (const char* model : {"backface"})
+        EXPECT_EQ(test::count_nonfinite_pixels(
+                      test::render_technique(
+                          scene, std::string("naive:bounces=2,face=32,refract=") + model, {24, 24})
+                          .hdr),
+                  0u)
+            << model;
+}
+
 /// Through a pane of glass in front of a wall, the wall must appear at its true position.
 TEST(Refraction, ThinGlassShowsWhatIsBehindIt) {
     for (const bool solid : {false, true}) {
