@@ -99,7 +99,10 @@ render::CaptureOptions make_capture_options(const render::FrameInputs& inputs,
 }
 
 void remove_images_of_camera_view(render::MirrorShader& look) {
-    std::erase_if(look.images, [](const auto& image) { return image.first == kGlassBackImage; });
+    std::erase_if(look.images, [](const auto& image) {
+        return image.first == kGlassBackImage || image.first == kOpaquePictureImage ||
+               image.first == kOpaqueLevelImage;
+    });
     for (auto& [name, value] : look.constants)
         if (name == "refract_model")
             value = choose_refraction_model_of_other_views(std::get<std::uint32_t>(value));

@@ -140,26 +140,29 @@ inline constexpr TechniqueKnob kBlurLawKnob{
     .choices = kBlurLawChoices};
 
 /// Names of the models of glass, in the order of shared::kRefract....
-inline constexpr std::array<std::string_view, 7> kGlassRefractionModelChoices{
-    "none", "auto", "thin", "sphere", "box", "traced", "backface"};
+inline constexpr std::array<std::string_view, 8> kGlassRefractionModelChoices{
+    "none", "auto", "thin", "sphere", "box", "traced", "backface", "screen"};
 inline constexpr TechniqueKnob kGlassRefractionModelKnob{
     .name = "refract",
     .help =
         "light that passes glass: none (glass shows its diffuse part), auto (what fits the "
         "body: thin, sphere or box), thin (rays are not bent), sphere (a ball at each point), "
         "box (the body's bounds), traced (rays where a tracer completes the search, else auto), "
-        "backface (the back faces that the camera's view shows, else auto)",
-    .high = render::kRefractBackface,
+        "backface (the back faces that the camera's view shows, else auto), screen (the picture "
+        "without glass where the refracted ray leaves the body, else auto)",
+    .high = render::kRefractScreen,
     .value = shared::kRefractAuto,
     .choices = kGlassRefractionModelChoices};
 
-/// Name of the image of add_glass_back_pass in shaders/lib/refraction.glsl.
+/// Names of images of the camera's view in shaders/lib/refraction.glsl and opaque_picture.glsl.
 inline constexpr const char* kGlassBackImage = "glass_backs";
+inline constexpr const char* kOpaquePictureImage = "opaque_picture";
+inline constexpr const char* kOpaqueLevelImage = "opaque_levels";
 
 /// Returns the model of glass for views other than the camera's, which have no images of the
 /// camera's view.
 inline std::uint32_t choose_refraction_model_of_other_views(std::uint32_t refract) {
-    return refract == render::kRefractBackface ? shared::kRefractAuto : refract;
+    return refract >= render::kRefractBackface ? shared::kRefractAuto : refract;
 }
 /// Makes a mirror's shader fit for other views than the camera's: it reads no images of that view.
 void remove_images_of_camera_view(render::MirrorShader& look);

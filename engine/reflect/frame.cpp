@@ -12,6 +12,25 @@ namespace catoptric::reflect {
 
 namespace {
 
+/// Declares the opaque picture, if some glass looks it up. It has levels if some mirror of such a
+/// technique is rough, because shaders of rough mirrors read them.
+std::optional<render::OpaquePicture>
+declare_opaque_picture_of_techniques(graph::Graph& graph, const render::FrameInputs& inputs,
+                                     const TechniqueOfEachMirror& assignment) {
+    bool is_read = false, has_levels = false;
+    for (std::uint32_t mirror = 0; mirror < assignment.of_mirror.size(); ++mirror) {
+        const KnobsSharedByTechniques& knobs =
+            assignment.choices[assignment.of_mirror[mirror]].shared;
+        if (knobs.refract != render::kRefractScreen) continue;
+        const std::size_t object = inputs.scene.object_index_of_mirror(mirror);
+        is_read = is_read || inputs.scene.list_draw_ranges()[object].glass;
+        has_levels = has_levels ||
+                     (knobs.uses_filtered_levels() && inputs.scene.is_rough_mirror(mirror));
+    }
+    if (!is_read) return std::nullopt;
+    return render::declare_opaque_picture(graph, inputs, has_levels);
+}
+
 std::optional<std::uint32_t> choose_shadow_map_edge(const KnobsSharedByTechniques& knobs) {
     if (knobs.shadow != KnobsSharedByTechniques::ShadowMethod::map) return std::nullopt;
     return knobs.shadow_map;
@@ -268,6 +287,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     render::ShaderOfEachMirror looks{{}, assignment.of_mirror};
     std::vector<TracerSettings> tracers;
     std::optional<graph::ImageHandle> glass_backs;
+    const std::optional<render::OpaquePicture> opaque = declare_opaque_picture_of_techniques(
+        graph, inputs, assignment);
     const bool needs_looks = completes || !assignment.of_mirror.empty();
     for (std::size_t i = 0; i < choices.size() && needs_looks; ++i) {
         render::FrameInputs own = inputs;
@@ -291,6 +312,18 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
             if (!glass_backs) glass_backs = render::add_glass_back_pass(graph, inputs);
             look.mirror.images.emplace_back(kGlassBackImage, std::vector{*glass_backs});
         }
+        if (choices[i].shared.refract == render::kRefractScreen) {
+            if (!opaque) remove_images_of_camera_view(look.mirror);
+            if (opaque)
+                look.mirror.images.emplace_back(kOpaquePictureImage, std::vector{opaque->colour});
+            if (opaque && opaque->levels)
+                look.mirror.images.emplace_back(kOpaqueLevelImage, std::vector{*opaque->levels});
+        }
+        if (opaque && look.tracer && look.tracer->first_raster) {
+            // Glass would look up the numbers of triangles that such a shader draws.
+            look.mirror.variant.clear();
+            look.tracer->first_raster = false;
+        }
         if (look.tracer) {
             if (!look.tracer->paths) look.tracer->lighting.probes = lighting.probes;
             tracers.push_back(*look.tracer);
@@ -311,9 +344,15 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
                                choose_mirror_shaders_in_mirrored_views(outputs, assignment, looks),
                                looks),
             std::back_inserter(outputs.notes));
+    std::optional<render::GlassOverOpaquePicture> glass;
+    if (opaque) {
+        glass = {*opaque, looks};
+        std::ranges::for_each(glass->opaque_looks.looks, remove_images_of_camera_view);
+    }
     const render::CameraPassOutputs view = render::add_camera_view(
         graph, inputs, lighting, std::move(looks), !tracers.empty(),
-        completes ? render::ShadingTracer{1, tracers.front().rays > 0} : render::ShadingTracer{});
+        completes ? render::ShadingTracer{1, tracers.front().rays > 0} : render::ShadingTracer{},
+        std::move(glass));
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)

@@ -8,6 +8,7 @@
 #include "core/content_hash.hpp"
 #include "core/shader_math.hpp"
 #include "reflect/captures.hpp"
+#include "render/box_filter.hpp"
 
 #include <algorithm>
 
@@ -57,41 +58,6 @@ graph::ImageDesc make_level_image_desc(std::string name, const render::CubeCaptu
 /// Returns the number of compute work groups along an edge of a level's faces.
 std::uint32_t count_work_groups_along_edge(std::uint32_t edge) { return (edge + 7) / 8; }
 
-/// Declares that the pass writes all mips of the image of levels. Each storage image has a single
-/// mip.
-void declare_level_writes(graph::PassBuilder& pass, const ImageHandle& levels) {
-    for (std::uint32_t mip = 0; mip < levels.mip_count; ++mip)
-        pass.writes(levels.select_image_mip(mip), ResourceUse::storage_write);
-}
-
-void add_box_filter_pass(graph::Graph& graph, const std::string& name,
-                         const std::vector<CaptureLevelRange>& runs) {
-    graph::PassBuilder pass = graph.add_pass(name);
-    for (const CaptureLevelRange& run : runs) {
-        pass.reads(run.captured, ResourceUse::sampled);
-        declare_level_writes(pass, run.boxes);
-    }
-    pass.record([runs](graph::PassCommands& commands) {
-        const auto deepest = std::ranges::max(
-            runs, {}, [](const CaptureLevelRange& run) { return run.boxes.mip_count; });
-        for (std::uint32_t level = 1; level <= deepest.boxes.mip_count; ++level) {
-            if (level > 1) commands.storage_barrier();
-            commands.bind_pipeline(
-                gpu::ComputePipelineState{"rough/box.comp", {{"from_level", level > 1 ? 1u : 0u}}});
-            for (const CaptureLevelRange& run : runs) {
-                if (level > run.boxes.mip_count) continue;
-                commands.bind_resource("captured", run.captured);
-                commands.bind_resource("below",
-                                       run.boxes.select_image_mip(std::max(level, 2u) - 2));
-                commands.bind_resource("level", run.boxes.select_image_mip(level - 1));
-                const std::uint32_t groups = count_work_groups_along_edge(
-                    face_edge_of_level(RoughMirrorLookup::mips, run.face, level));
-                commands.dispatch(groups, groups, run.boxes.layer_count);
-            }
-        }
-    });
-}
-
 /// Push constants of rough/prefilter.comp.
 struct PrefilterParameters {
     float alpha;
@@ -113,7 +79,7 @@ void add_prefilter_pass(graph::Graph& graph, const std::string& name,
     graph::PassBuilder pass = graph.add_pass(name);
     for (const CaptureLevelRange& run : runs) {
         pass.reads(run.captured, ResourceUse::sampled).reads(run.boxes, ResourceUse::sampled);
-        declare_level_writes(pass, run.levels);
+        render::declare_writes_of_all_mips(pass, run.levels);
     }
     pass.record([runs, rough, taps](graph::PassCommands& commands) {
         commands.bind_pipeline(gpu::ComputePipelineState{"rough/prefilter.comp", {}});
@@ -241,7 +207,9 @@ void RoughLevels::add_passes_of_level_filter(graph::Graph& graph, const LevelFil
                             levels.select_image_layers(run.first, run.count), cubes.face});
     }
     if (runs.empty()) return;
-    add_box_filter_pass(graph, name + "/boxes", runs);
+    std::vector<render::BoxFilteredLayers> filtered_layers;
+    for (const CaptureLevelRange& run : runs) filtered_layers.push_back({run.captured, run.boxes});
+    render::add_box_filter_pass(graph, name + "/boxes", filtered_layers);
     if (filter.rough != RoughMirrorLookup::mips)
         add_prefilter_pass(graph, name, runs, filter.rough, filter.taps);
 }

@@ -1,8 +1,11 @@
 #include "render/passes.hpp"
 
+#include "render/box_filter.hpp"
 #include "render/draw.hpp"
 #include "render/pass_faces.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace catoptric::render {
@@ -33,20 +36,68 @@ ShaderOfEachMirror remove_error_causes_of_shaders(ShaderOfEachMirror looks,
     return looks;
 }
 
+/// The objects that a pass of the camera's view draws. Glass is that which is drawn as a mirror.
+enum class CameraViewObjects { all, opaque, glass };
+
+/// Records the draws of the camera's view. The sky belongs to the first of its passes, and blended
+/// surfaces to the last.
+void record_camera_view(PassCommands& commands, const GpuScene& scene,
+                        const SceneDrawSettings& drawing, CameraViewObjects drawn) {
+    const auto is_seen = [&](std::size_t object) {
+        return scene.list_draw_ranges()[object].seen_by_camera;
+    };
+    draw_scene(commands, scene, drawing, [&](std::size_t object) {
+        const ObjectDrawRange& range = scene.list_draw_ranges()[object];
+        const bool is_glass = range.glass && range.mirror;
+        return is_seen(object) &&
+               (drawn == CameraViewObjects::all || is_glass == (drawn == CameraViewObjects::glass));
+    });
+    if (drawn != CameraViewObjects::glass)
+        draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
+    if (drawn != CameraViewObjects::opaque)
+        draw_blended_surfaces(commands, scene, drawing, is_seen);
+}
+
+void add_opaque_picture_passes(graph::Graph& graph, const FrameInputs& inputs, ImageHandle hdr,
+                               const OpaquePicture& picture) {
+    graph.add_pass(inputs.prefix + "opaque_picture")
+        .reads(hdr, ResourceUse::copy_from)
+        .writes(picture.colour, ResourceUse::copy_to)
+        .record([hdr, colour = picture.colour](PassCommands& commands) {
+            commands.copy_image(hdr, colour);
+        });
+    if (picture.levels)
+        add_box_filter_pass(graph, inputs.prefix + "opaque_picture/levels",
+                            {{picture.colour, *picture.levels}});
+}
+
 } // namespace
+
+OpaquePicture declare_opaque_picture(graph::Graph& graph, const FrameInputs& inputs,
+                                     bool has_levels) {
+    const uvec2 size = inputs.size;
+    OpaquePicture picture{
+        graph.add_image({inputs.prefix + "opaque_picture", TexelFormat::rgba32f, size.x, size.y}),
+        {}};
+    const auto mips = static_cast<std::uint32_t>(std::bit_width(std::max(size.x, size.y)));
+    if (has_levels)
+        picture.levels = graph.add_image({inputs.prefix + "opaque_picture/levels",
+                                          TexelFormat::rgba16f, graph::size_at_mip(size.x, 1),
+                                          graph::size_at_mip(size.y, 1), 1, false,
+                                          std::max(mips, 2u) - 1});
+    return picture;
+}
 
 CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                                   const ShadingLights& lighting, ShaderOfEachMirror looks,
-                                  bool is_traced, ShadingTracer completing_tracer) {
+                                  bool is_traced, ShadingTracer completing_tracer,
+                                  std::optional<GlassOverOpaquePicture> glass) {
     const uvec2 size = inputs.size;
     const ImageHandle hdr = graph.add_image(
         {inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y});
     const ImageHandle depth = graph.add_image(
         {inputs.prefix + "view.depth", TexelFormat::d32f, size.x, size.y});
-    graph::PassBuilder pass = graph.add_pass(inputs.prefix + "view", PassPurpose::scene);
-    declare_shader_reads(pass, lighting, looks);
     CameraPassOutputs view{hdr, {}, {}};
-    pass.writes(hdr, ResourceUse::colour, kClearColourBlack);
     if ((is_traced && completing_tracer.number == 0) || inputs.with_lookup) {
         // The order of attachments is that of the shaders' outputs. `tracers` takes the location
         // that captures use for distance. The lookup follows.
@@ -54,28 +105,42 @@ CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs
             {inputs.prefix + "view.tracers", TexelFormat::r32f, size.x, size.y});
         view.lookup = graph.add_image(
             {inputs.prefix + "lookup", TexelFormat::rgba32f, size.x, size.y});
-        pass.writes(*view.tracers, ResourceUse::colour, ClearValue{})
-            .writes(*view.lookup, ResourceUse::colour, ClearValue{});
     }
-    SceneDrawSettings drawing{
-        .first_view = GpuScene::kCameraViewIndex,
-        .layers = 1,
-        .lighting = lighting,
-        .looks = std::make_shared<const ShaderOfEachMirror>(
-            remove_error_causes_of_shaders(std::move(looks), inputs, lighting)),
-        .store = {},
-        .completing_tracer = completing_tracer,
-        .peeled = {}};
-    if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
-    pass.writes(depth, ResourceUse::depth, kClearToFarthestDepth)
-        .record([&scene = inputs.scene, drawing = std::move(drawing)](PassCommands& commands) {
-            const auto is_seen = [&](std::size_t object) {
-                return scene.list_draw_ranges()[object].seen_by_camera;
-            };
-            draw_scene(commands, scene, drawing, is_seen);
-            draw_sky(commands, scene, drawing.first_view, drawing.layers, drawing.store);
-            draw_blended_surfaces(commands, scene, drawing, is_seen);
-        });
+    const auto add_pass = [&](const char* name, CameraViewObjects drawn, ShaderOfEachMirror own) {
+        const bool is_first = drawn != CameraViewObjects::glass;
+        const auto cleared_to = [&](const ClearValue& value) {
+            return is_first ? std::optional(value) : std::nullopt;
+        };
+        graph::PassBuilder pass = graph.add_pass(inputs.prefix + name,
+                                                 is_first ? PassPurpose::scene : PassPurpose::none);
+        declare_shader_reads(pass, lighting, own);
+        pass.writes(hdr, ResourceUse::colour, cleared_to(kClearColourBlack));
+        if (view.tracers)
+            pass.writes(*view.tracers, ResourceUse::colour, cleared_to(ClearValue{}))
+                .writes(*view.lookup, ResourceUse::colour, cleared_to(ClearValue{}));
+        SceneDrawSettings drawing{
+            .first_view = GpuScene::kCameraViewIndex,
+            .layers = 1,
+            .lighting = lighting,
+            .looks = std::make_shared<const ShaderOfEachMirror>(
+                remove_error_causes_of_shaders(std::move(own), inputs, lighting)),
+            .store = {},
+            .completing_tracer = completing_tracer,
+            .peeled = {}};
+        if (is_traced) drawing.store.emplace_back("distance_scale", 0.0f);
+        pass.writes(depth, ResourceUse::depth, cleared_to(kClearToFarthestDepth))
+            .record([&scene = inputs.scene, drawn,
+                     drawing = std::move(drawing)](PassCommands& commands) {
+                record_camera_view(commands, scene, drawing, drawn);
+            });
+    };
+    if (glass) {
+        add_pass("view", CameraViewObjects::opaque, std::move(glass->opaque_looks));
+        add_opaque_picture_passes(graph, inputs, hdr, glass->picture);
+        add_pass("view.glass", CameraViewObjects::glass, std::move(looks));
+    } else {
+        add_pass("view", CameraViewObjects::all, std::move(looks));
+    }
     return view;
 }
 

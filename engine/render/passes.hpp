@@ -39,6 +39,20 @@ inline constexpr std::uint32_t kRefractBackface = shared::kRefractTraced + 1;
 /// (shaders/glass_back.frag). It counts as no scene pass.
 graph::ImageHandle add_glass_back_pass(graph::Graph& graph, const FrameInputs& inputs);
 
+/// Number of the knob value refract=screen, as in shaders/lib/refraction.glsl. Only camera views
+/// have the picture that it reads.
+inline constexpr std::uint32_t kRefractScreen = kRefractBackface + 1;
+/// A copy of the camera's view as it is before glass is drawn (shaders/lib/opaque_picture.glsl).
+struct OpaquePicture {
+    graph::ImageHandle colour; ///< linear radiance, rgba32f
+    /// Levels from 1 on of its box-filtered chain, rgba16f, for rough glass; none: no glass is
+    /// rough.
+    std::optional<graph::ImageHandle> levels;
+};
+/// Declares the images of the opaque picture. add_camera_view declares the passes that fill them.
+OpaquePicture declare_opaque_picture(graph::Graph& graph, const FrameInputs& inputs,
+                                     bool has_levels);
+
 /// Declares one pass for each mirror with a capture. The pass draws all faces that need drawing. If
 /// some faces stay, each run of neighbours has its own pass, and so has each face of which only a
 /// part is drawn. A second layer needs a second pass. `looks`: shaders of the other mirrors; a
@@ -57,12 +71,20 @@ struct CameraPassOutputs {
     /// none.
     std::optional<graph::ImageHandle> tracers;
 };
+/// Glass that is drawn after everything opaque, because it looks up the opaque picture.
+struct GlassOverOpaquePicture {
+    OpaquePicture picture;
+    ShaderOfEachMirror opaque_looks; ///< of the mirrors in the picture; they do not read it
+};
 /// Declares the pass that draws the camera's view. `is_traced`: some shader leaves pixels to
 /// tracing. In that case `lookup` and `tracers` exist. `completing_tracer`: see Drawing. With such
-/// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl).
+/// a tracer, `hdr` itself says which pixels are left (shaders/lib/first_hit.glsl). With `glass`,
+/// further passes copy the picture, compute its levels, and draw glass and blended surfaces. They
+/// count as no scene passes.
 CameraPassOutputs add_camera_view(graph::Graph& graph, const FrameInputs& inputs,
                                   const ShadingLights& lighting, ShaderOfEachMirror looks,
-                                  bool is_traced = false, ShadingTracer completing_tracer = {});
+                                  bool is_traced = false, ShadingTracer completing_tracer = {},
+                                  std::optional<GlassOverOpaquePicture> glass = {});
 
 /// Declares a pass that draws a mirrored view within its area, and returns linear radiance,
 /// rgba32f. The image is defined only in that area. `number`: of the view in the scene's list of

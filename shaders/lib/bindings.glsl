@@ -43,6 +43,8 @@ layout(set = 0, binding = 5) uniform sampler2DArrayShadow shadow_map;
 #define ATTRIBUTES_BINDING 41
 #define TEXELS_BINDING 42
 // lib/work.glsl uses binding 43.
+#define OPAQUE_PICTURE_BINDING 44 // the camera's view without glass (lib/opaque_picture.glsl)
+#define OPAQUE_LEVELS_BINDING 45  // its box-filtered levels
 // Bindings from 64 on are texel lists that lib/texels.glsl keeps in storage buffers.
 
 // Reads the surface of an object.

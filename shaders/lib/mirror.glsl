@@ -16,6 +16,7 @@
 #include "lib/lit.glsl"
 #include "lib/rough.glsl"
 #endif
+#include "lib/opaque_picture.glsl"
 
 // The number of further mirrors through which the reflected ray is followed. Exact spheres are intersected before the
 // search, because the intersection costs no texture fetch. Other mirrors are met if a search ends on them.
@@ -308,16 +309,22 @@ void main() {
         passing.at = behind.origin;
         passing.direction = behind.direction;
         passing.weight = behind.weight;
+        vec3 shown;
+        if (refract_model == kRefractScreen && !is_inside_glass(surface.detail, seen, n) &&
+            find_light_in_opaque_picture(surface.detail, behind.origin, shown)) {
+            colour += passing.weight * shown;
+        } else {
 #ifdef ABLATE
-        Lookup passed = follow_path_through_mirrors(passing, hops);
-        colour += passing.weight * lookup_colour(passing.mirror, passed);
+            Lookup passed = follow_path_through_mirrors(passing, hops);
+            colour += passing.weight * lookup_colour(passing.mirror, passed);
 #else
-        Lookup passed = follow_path_through_mirrors(passing, has_levels && behind.roughness > kMaxSharpRoughness ? 0u : hops);
-        colour += passing.weight * passing_radiance(passing, passed, behind.roughness);
+            Lookup passed = follow_path_through_mirrors(passing, has_levels && behind.roughness > kMaxSharpRoughness ? 0u : hops);
+            colour += passing.weight * passing_radiance(passing, passed, behind.roughness);
 #endif
-        if (passed.state == kUnknown) {
-            lookup.state = kUnknown;
-            lookup.layer = 0.0;
+            if (passed.state == kUnknown) {
+                lookup.state = kUnknown;
+                lookup.layer = 0.0;
+            }
         }
     }
     write_captured_surface(apply_shown_picture_mode(colour, lookup));

@@ -13,6 +13,10 @@ layout(constant_id = REFRACT_CONSTANT) const uint refract_model = kRefractNone;
 // (Wyman, "An Approximate Image-Space Approach for Interactive Refraction", 2005). Where the image shows no back face,
 // the shader uses the model kRefractAuto.
 const uint kRefractBackface = 6u;
+// A model of refraction for camera views only: the body is that of kRefractAuto, and light is looked up in the picture of
+// the same view without glass, at the point where the ray leaves the body (lib/opaque_picture.glsl). Where the picture does
+// not show that point, the shader uses the model kRefractAuto.
+const uint kRefractScreen = 7u;
 // Back faces of glass bodies, drawn by glass_back.frag.
 layout(set = 0, binding = GLASS_BACKS_BINDING) uniform sampler2D glass_backs;
 
@@ -73,11 +77,14 @@ bool read_back_face(View view, ivec2 pixel, out BackFace back) {
     return true;
 }
 
-// Returns where the view shows a point, in pixels.
-vec2 find_pixel_of_point(View view, vec3 point) {
+// Returns where the view shows a point, from 0 to 1 across and down the picture.
+vec2 find_place_of_point(View view, vec3 point) {
     vec3 v = point - view.eye;
     float along = orthographic != 0u ? 1.0 : dot(view.forward, v);
-    return (vec2(dot(view.right, v), dot(view.down, v)) / along * 0.5 + 0.5) * vec2(textureSize(glass_backs, 0));
+    return vec2(dot(view.right, v), dot(view.down, v)) / along * 0.5 + 0.5;
+}
+vec2 find_pixel_of_point(View view, vec3 point) {
+    return find_place_of_point(view, point) * vec2(textureSize(glass_backs, 0));
 }
 
 // Returns the mean normal of the back faces around a place, in pixels. Those that belong to another side of the body than
@@ -132,7 +139,7 @@ bool find_way_to_back_face(vec3 at, vec3 inside, out float way, out vec3 normal)
 // normal; that of a solid body points outwards. `from_viewer`: the distance to the viewer, who may be inside the body.
 RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float from_viewer, Probe body) {
     MaterialParameters glass = read_material_parameters(detail);
-    bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced || refract_model == kRefractBackface;
+    bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced || refract_model >= kRefractBackface;
     bool is_thin = is_auto ? body.kind == kMirrorThinGlass : refract_model == kRefractThin;
     bool is_box = is_auto ? body.kind == kMirrorGlassBox : refract_model == kRefractBox;
     bool is_solid = (glass.flags & kMaterialSolidFlag) != 0u, is_inside = is_inside_glass(detail, seen, n);

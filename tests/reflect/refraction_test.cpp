@@ -47,6 +47,7 @@ scene::Scene make_body_below_sky(scene::Mesh mesh, const scene::Material& glass,
 /// The way of a ray through a body: the points where the ray enters and leaves the body, with their
 /// normals. No value: the ray misses the body.
 struct BodyCrossing {
+    dvec3 near;                    ///< where the ray enters
     dvec3 near_normal, far_normal; ///< unit, outwards
     double way;                    ///< length of the way through the glass
 };
@@ -86,6 +87,28 @@ std::optional<dvec3> radiance_of_body(const scene::Scene& scene, const dvec3& di
                sky(refract_direction_by_snell(inside, -crossing.far_normal, 1 / ior));
 }
 
+/// As radiance_of_body, for refract=screen: the light that passes is what the eye sees beyond the
+/// point where the ray leaves the body, which is in the picture.
+std::optional<dvec3> radiance_of_body_on_screen(const scene::Scene& scene, const dvec3& direction,
+                                                const BodyCrossing& crossing) {
+    const scene::Material& glass = scene.materials[0];
+    const auto sky = [&](const dvec3& to) {
+        return dvec3(scene::environment_radiance(*scene.environment, to));
+    };
+    double behind;
+    const double cosine = -glm::dot(direction, crossing.near_normal),
+                 reflected = f64::fresnel_dielectric(cosine, double{glass.ior}, behind);
+    const dvec3 inside = refract_direction_by_snell(direction, crossing.near_normal, glass.ior);
+    const double kept = f64::fresnel_dielectric(glm::dot(inside, crossing.far_normal),
+                                                1 / double{glass.ior}, behind);
+    if (kept == 1) return std::nullopt;
+    const dvec3 tint = dvec3(glass.albedo) * dvec3(glass.albedo) *
+                       glm::exp(-dvec3(glass.absorption) * crossing.way);
+    const dvec3 seen = crossing.near + crossing.way * inside - scene.cameras.front().eye;
+    return reflected * sky(direction + 2 * cosine * crossing.near_normal) +
+           (1 - reflected) * (1 - kept) * tint * sky(glm::normalize(seen));
+}
+
 std::optional<BodyCrossing>
 find_ray_path_through_ball(const dvec3& eye, const dvec3& direction,
                            const std::function<dvec3(const dvec3&)>& into) {
@@ -95,7 +118,7 @@ find_ray_path_through_ball(const dvec3& eye, const dvec3& direction,
     if (b * b - c < .05) return std::nullopt;
     const dvec3 near = eye + (-b - std::sqrt(b * b - c)) * direction, inside = into(near);
     const double way = -2 * glm::dot(near, inside);
-    return BodyCrossing{near, near + way * inside, way};
+    return BodyCrossing{near, near, near + way * inside, way};
 }
 
 /// Returns the way of a ray through the box from -half to half.
@@ -114,6 +137,7 @@ find_ray_path_through_box(const dvec3& half, const dvec3& eye, const dvec3& dire
     }
     if (enters > leaves - .05) return std::nullopt;
     const dvec3 at = eye + enters * direction, inside = into(crossing.near_normal);
+    crossing.near = at;
     crossing.way = 1e9;
     for (int axis = 0; axis < 3; ++axis) {
         const double side = inside[axis] < 0 ? -1 : 1,
@@ -127,7 +151,8 @@ find_ray_path_through_box(const dvec3& half, const dvec3& eye, const dvec3& dire
 /// Compares a picture with the expected radiances. `share`: largest allowed share of wrong pixels.
 void expect_radiance_by_closed_form(const scene::Scene& scene, const std::string& technique,
                                     double tolerance, const FindCrossing& find_crossing,
-                                    double share = .01) {
+                                    double share = .01,
+                                    decltype(radiance_of_body)* radiance = radiance_of_body) {
     const measure::Picture found =
         test::render_technique(scene, technique, {kRefractionEdge, kRefractionEdge}, 2).hdr;
     int compared = 0, off = 0;
@@ -140,7 +165,7 @@ void expect_radiance_by_closed_form(const scene::Scene& scene, const std::string
                 return refract_direction_by_snell(direction, normal, scene.materials[0].ior);
             });
             if (!crossing) continue;
-            const std::optional<dvec3> wanted = radiance_of_body(scene, direction, *crossing);
+            const std::optional<dvec3> wanted = radiance(scene, direction, *crossing);
             if (!wanted) continue;
             const dvec3 apart = glm::abs(dvec3(found.at(x, y)) - *wanted);
             const double difference = std::max({apart.x, apart.y, apart.z});
@@ -197,11 +222,267 @@ TEST(Refraction, BackFacesOfBallAndTurnedBoxBendLightAsTheClosedForm) {
                 half, back * eye, back * direction,
                 [&](const dvec3& normal) { return back * into(turn * normal); });
             if (!crossing) return crossing;
+            crossing->near = turn * crossing->near;
             crossing->near_normal = turn * crossing->near_normal;
             crossing->far_normal = turn * crossing->far_normal;
             return crossing;
         },
         .05);
+}
+
+TEST(Refraction, ScreenShowsThePointWhereTheRayLeavesTheBody) {
+    const scene::Scene ball = make_body_below_sky(scene::ball("ball", 6), make_tinted_glass(),
+                                                  {.6, .5, 4.5});
+    for (const char* technique :
+         {"secant:refract=screen", "hybrid:refract=screen", "reuse:refract=screen,face=512"})
+        expect_radiance_by_closed_form(ball, technique, .02, find_ray_path_through_ball, .01,
+                                       radiance_of_body_on_screen);
+    const dvec3 half(.9, .7, .4);
+    const scene::Scene box = make_body_below_sky(scene::box("box", -half, half),
+                                                 make_tinted_glass(), {2.5, 2.1, 3.4});
+    expect_radiance_by_closed_form(
+        box, "secant:refract=screen", .02,
+        [&](const dvec3& eye, const dvec3& direction,
+            const std::function<dvec3(const dvec3&)>& into) {
+            return find_ray_path_through_box(half, eye, direction, into);
+        },
+        .01, radiance_of_body_on_screen);
+}
+
+/// A pane whose index of refraction is 1 neither bends nor reflects light. Each pixel is that of
+/// the picture in which the pane is out of view.
+TEST(Refraction, ScreenShowsEachPixelThroughAPaneThatDoesNotBend) {
+    const auto render = [](const scene::Scene& scene, const char* technique) {
+        return test::render_technique(scene, technique, {48, 48}, 2);
+    };
+    const MirrorId ball = MirrorId::mirror_id_from_list_index(0),
+                   pane = MirrorId::mirror_id_from_list_index(1);
+    for (const double orthographic_height : {0., 3.}) {
+        const auto make_room = [&](const dvec3& low, const dvec3& high) {
+            scene::Scene room = test::make_lit_room(1, 1);
+            room.cameras.front().orthographic_height = orthographic_height;
+            scene::add_mesh(room, scene::box("pane", low, high),
+                            test::add_material(room, {.name = "index 1",
+                                                      .albedo = vec3(1),
+                                                      .roughness = 0,
+                                                      .dielectric_f0 = vec3(0),
+                                                      .dielectric_f90 = vec3(1),
+                                                      .transmission = 1,
+                                                      .ior = 1,
+                                                      .solid = true}));
+            scene::find_mirrors(room);
+            return room;
+        };
+        const scene::Scene before = make_room({-1.2, -1, -1.6}, {1, .8, -1.3}),
+                           aside = make_room({-1.9, -1.9, -2.98}, {-1.8, -1.8, -2.95});
+        const measure::Picture through = render(before, "secant:refract=screen,face=64").hdr,
+                               wanted = render(aside, "secant:refract=screen,face=64").hdr;
+        const std::vector<std::uint32_t> hits = render(before, "raytrace:depth=1").hits,
+                                         other_hits = render(aside, "raytrace:depth=1").hits;
+        int compared = 0, balls = 0;
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (measure::first_mirror_of_hit_word(hits[i]) != pane) continue;
+            // The ball is in the picture, and itself shows the pane.
+            if (measure::first_mirror_of_hit_word(other_hits[i]) == ball) {
+                ++balls;
+                EXPECT_LT(test::max_channel_difference(through.pixels[i], wanted.pixels[i]), .1f)
+                    << i;
+                continue;
+            }
+            ++compared;
+            for (int channel = 0; channel < 3; ++channel) // weights round to a few ulps below 1
+                EXPECT_NEAR(through.pixels[i][channel], wanted.pixels[i][channel],
+                            5e-7f * wanted.pixels[i][channel])
+                    << i;
+        }
+        EXPECT_GT(compared, 300);
+        EXPECT_GT(balls, 50);
+    }
+}
+
+/// The pane is larger than the picture and oblique to the view, so at one side rays leave it where
+/// the picture does not show them.
+TEST(Refraction, ScreenFallsBackToAutoOutsideThePicture) {
+    const dvec3 half(30, 30, .5);
+    const scene::Scene scene = make_body_below_sky(scene::box("pane", -half, half),
+                                                   make_tinted_glass(), {2.5, 0, 2});
+    const scene::Camera& camera = scene.cameras.front();
+    const double tangent = std::tan(glm::radians(camera.vertical_fov_degrees / 2));
+    const dvec3 forward = glm::normalize(camera.target - camera.eye),
+                right = glm::normalize(glm::cross(forward, camera.up)),
+                down = glm::cross(forward, right);
+    const uvec2 size{kRefractionEdge, kRefractionEdge};
+    const measure::Picture shown =
+                               test::render_technique(scene, "secant:refract=screen", size, 2).hdr,
+                           captured = test::render_technique(scene, "secant", size, 2).hdr;
+    int inside = 0, outside = 0, off = 0, equal = 0;
+    for (int y = 0; y < kRefractionEdge; ++y)
+        for (int x = 0; x < kRefractionEdge; ++x) {
+            const dvec3 direction = test::camera_direction_of_pixel(camera, x, y, kRefractionEdge);
+            const auto crossing = find_ray_path_through_box(
+                half, camera.eye, direction, [&](const dvec3& normal) {
+                    return refract_direction_by_snell(direction, normal, scene.materials[0].ior);
+                });
+            ASSERT_TRUE(crossing);
+            const dvec3 seen = crossing->near - camera.eye +
+                               crossing->way * refract_direction_by_snell(direction,
+                                                                          crossing->near_normal,
+                                                                          scene.materials[0].ior);
+            const double place = std::max(std::abs(glm::dot(seen, right)),
+                                          std::abs(glm::dot(seen, down))) /
+                                 glm::dot(seen, forward) / tangent;
+            const bool is_captured = shown.at(x, y) == captured.at(x, y);
+            if (std::abs(place - 1) < 1e-4) continue; // either side by rounding
+            if (place > 1) {
+                ++outside;
+                EXPECT_TRUE(is_captured) << x << ", " << y;
+                continue;
+            }
+            ++inside;
+            equal += is_captured;
+            const std::optional<dvec3> wanted = radiance_of_body_on_screen(scene, direction,
+                                                                           *crossing);
+            const dvec3 apart = glm::abs(dvec3(shown.at(x, y)) - *wanted);
+            off += std::max({apart.x, apart.y, apart.z}) > .02;
+        }
+    std::cout << "[ MEASURED ] " << inside << " pixels end in the picture, of which " << off
+              << " are off and " << equal << " equal refract=auto; " << outside << " do not\n";
+    EXPECT_GT(outside, 100);
+    EXPECT_GT(inside, 1000);
+    EXPECT_LE(off, inside / 100);
+    EXPECT_LE(equal, inside / 100);
+}
+
+/// At roughness 1 and an index of at least 1.5, glass shows the mean of the picture; between its
+/// levels, the two nearest by turns.
+TEST(Refraction, ScreenBlursRoughGlassByTheLevelOfThreeJs) {
+    constexpr std::uint32_t kEdge = 16;
+    scene::Scene scene{.name = "rough pane", .mirror_max_roughness = 1};
+    const std::array<vec3, 2> emissions{{{.8f, .4f, .2f}, {.1f, .6f, .3f}}};
+    for (int i = 0; i < 2; ++i) { // a wall whose left and right half differ
+        const double left = i == 0 ? -9 : 0, right = i == 0 ? 0 : 9;
+        test::add_quad(scene, "wall",
+                       test::add_material(scene, {.name = "wall", .emission = emissions[i]}),
+                       {left, -9, -3}, {right, -9, -3}, {right, 9, -3}, {left, 9, -3});
+    }
+    scene::Material glass = make_tinted_glass();
+    glass.absorption = vec3(0);
+    const std::size_t material = test::add_material(scene, glass);
+    scene::add_mesh(scene, scene::box("pane", {-9, -9, -.1}, {9, 9, 0}), material);
+    scene.cameras.push_back({.eye = {0, 0, 4}, .target = {0, 0, 0}, .vertical_fov_degrees = 1});
+    const auto render = [&](float roughness, float ior) {
+        scene.materials[material].roughness = roughness;
+        scene.materials[material].ior = ior;
+        const float root = (ior - 1) / (ior + 1);
+        scene.materials[material].dielectric_f0 = vec3(root * root);
+        scene::find_mirrors(scene);
+        app::Request asked = test::make_test_request(scene, {"secant:refract=screen,face=16"},
+                                                     {kEdge, kEdge});
+        asked.ambient = 0, asked.warmup = 1;
+        return app::run(test::get_test_engine(), asked);
+    };
+    const auto passing = [&](float ior) {
+        const double kept = 1 - std::pow((ior - 1.) / (ior + 1.), 2);
+        return kept * kept * dvec3(glass.albedo) * dvec3(glass.albedo);
+    };
+    // The camera looks along -z, so x grows to the right. Level m has the step between the halves
+    // in its middle, and the hardware interpolates over one texel of 2^m pixels.
+    const auto of_level = [&](int x, double level) {
+        const auto at = [&](int whole) {
+            const double texel = std::exp2(whole), steps = (x + .5 - kEdge / 2.) / texel + .5;
+            const double share = kEdge / texel < 2 ? .5 : std::clamp(steps, 0., 1.);
+            return (1 - share) * dvec3(emissions[0]) + share * dvec3(emissions[1]);
+        };
+        const int below = static_cast<int>(level);
+        return glm::mix(at(below), at(below + 1), level - below);
+    };
+    for (const auto& [roughness, ior, level] : {std::tuple{1.f, 1.5f, 4.},
+                                                {1.f, 1.8f, 4.},
+                                                {.5f, 1.5f, 2.},
+                                                {.6f, 1.5f, 2.4},
+                                                {.5f, 1.25f, 1.},
+                                                {.2f, 1.5f, .8}}) {
+        const app::RunResult rendered = render(roughness, ior);
+        const measure::Picture& found = rendered.parts.front().hdr;
+        for (std::uint32_t y = 0; y < kEdge; ++y)
+            for (std::uint32_t x = 0; x < kEdge; ++x)
+                for (int channel = 0; channel < 3; ++channel)
+                    EXPECT_NEAR(found.at(x, y)[channel],
+                                (passing(ior) * of_level(static_cast<int>(x), level))[channel],
+                                2e-3)
+                        << "roughness " << roughness << ", index " << ior << " at " << x << ", "
+                        << y;
+    }
+}
+
+/// Returns the names of the passes of a frame.
+std::vector<std::string> list_pass_names(const app::RunResult& run) {
+    std::vector<std::string> names;
+    for (const app::PassTime& pass : run.frames.back().passes) names.push_back(pass.name);
+    return names;
+}
+
+TEST(Refraction, ScreenAddsPassesOnlyWhereGlassReadsThem) {
+    const auto render = [](const scene::Scene& scene, const std::string& technique) {
+        app::Request asked = test::make_test_request(scene, {technique}, {32, 24});
+        asked.warmup = 1;
+        return app::run(test::get_test_engine(), asked);
+    };
+    scene::Scene glass = make_body_below_sky(scene::ball("ball", 3), make_tinted_glass(),
+                                             {.6, .5, 4.5});
+    const app::RunResult bodies = render(glass, "secant:face=32"),
+                         screen = render(glass, "secant:face=32,refract=screen");
+    std::vector<std::string> wanted = list_pass_names(bodies);
+    const auto view = std::ranges::find(wanted, "view");
+    ASSERT_NE(view, wanted.end());
+    wanted.insert(view + 1, {"opaque_picture", "view.glass"});
+    EXPECT_EQ(list_pass_names(screen), wanted);
+    EXPECT_EQ(screen.parts.front().scene_passes, bodies.parts.front().scene_passes);
+
+    glass.materials.front().roughness = .2f;
+    scene::find_mirrors(glass);
+    for (const auto& [technique, levels] : {std::pair{"secant:face=32,refract=screen", 1},
+                                            {"secant:face=32,refract=screen,rough=none", 0}})
+        EXPECT_EQ(
+            std::ranges::count(list_pass_names(render(glass, technique)), "opaque_picture/levels"),
+            levels)
+            << technique;
+
+    const scene::Scene room = test::make_lit_room(1, 1);
+    const app::RunResult with = render(room, "secant:refract=screen,face=32"),
+                         without = render(room, "secant:face=32");
+    EXPECT_EQ(list_pass_names(with), list_pass_names(without));
+    EXPECT_TRUE(test::have_equal_pixel_bytes(with.parts.front().hdr, without.parts.front().hdr));
+    EXPECT_EQ(with.parts.front().memory_bytes, without.parts.front().memory_bytes);
+}
+
+/// Mirrors that are no glass may have another technique than glass.
+TEST(Refraction, ScreenWorksInPlans) {
+    const scene::Scene scene = scene::load("glass");
+    const uvec2 size{64, 48};
+    const auto render = [&](const std::string& plan) {
+        return test::render_technique(scene, plan, size, 3).hdr;
+    };
+    const std::string screen = "*=secant:face=64,refract=screen", bodies = "*=secant:face=64";
+    // No glass of the ball's technique reads the picture.
+    EXPECT_TRUE(test::have_equal_pixel_bytes(render(bodies),
+                                             render("5=secant:face=64,refract=screen " + bodies)));
+    // Pixels that rays complete have no numbers of triangles in the picture, although force=unknown
+    // draws such numbers elsewhere.
+    const measure::Picture searched = render(screen),
+                           traced = render("5=hybrid:force=unknown,face=64 " + screen);
+    EXPECT_EQ(test::count_nonfinite_pixels(traced), 0u);
+    const std::vector<std::uint32_t> hits =
+        test::render_technique(scene, "raytrace:depth=2", size).hits;
+    int compared = 0, off = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const MirrorId first = measure::first_mirror_of_hit_word(hits[i]);
+        if (!first || first == MirrorId::mirror_id_from_list_index(4)) continue;
+        ++compared;
+        off += test::max_channel_difference(searched.pixels[i], traced.pixels[i]) > .02f;
+    }
+    EXPECT_GT(compared, 300);
+    EXPECT_LE(off, compared / 50);
 }
 
 /// Returns the FLIP between a row and ray tracing, over the pixels of one mirror of the scene.
@@ -254,7 +535,7 @@ TEST(Refraction, ModelsOfTheCameraViewAreAutoInBounces) {
     scene::add_mesh(scene, scene::ball("other", 4), 0);
     scene.objects.back().world_from_object[3] = dvec4(2.2, 0, -1, 1);
     scene::find_mirrors(scene);
-    for (const char* model : {"backface"})
+    for (const char* model : {"backface", "screen"})
         EXPECT_EQ(test::count_nonfinite_pixels(
                       test::render_technique(
                           scene, std::string("naive:bounces=2,face=32,refract=") + model, {24, 24})
@@ -354,8 +635,8 @@ TEST(Refraction, RequiredWorkDrawsThePictureOfAllWork) {
                    {-.8, -1.2, -1}, {-.8, .8, -1}, {.8, .8, -1}, {.8, -1.2, -1});
     scene::find_mirrors(room);
     for (const scene::Scene& scene : {room, scene::load("glass")})
-        for (const char* technique :
-             {"secant:refract=box,face=64", "hybrid:refract=thin,face=32"}) {
+        for (const char* technique : {"secant:refract=box,face=64", "hybrid:refract=thin,face=32",
+                                      "secant:refract=screen,face=64"}) {
             app::Request asked = test::make_test_request(scene, {technique}, {64, 48});
             asked.warmup = 3;
             asked.model = app::RenderedWork::everything;
