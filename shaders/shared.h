@@ -239,6 +239,12 @@ const uint kAblateMirrorReflections = 16u;
 // ablation: a mirror shows its reflection in itself, which its capture leaves out
 const uint kAblateSelfReflection = 32u;
 const uint kAblateShadows = 64u; // ablation: the shadow map becomes a shadow ray
+// Ablations of rough mirrors: filtered levels of captures become directions that are looked up sharply, the level that
+// follows from the distance becomes a search in each direction, and the lobe seen head-on becomes the surface's lobe.
+const uint kAblateFilter = 128u, kAblateDistanceLaw = 256u, kAblateLobeShape = 512u;
+// With these, a picture draws so many directions in a pixel. The bits of DrawParameters::ablated from kAblateDrawBits on
+// are a number; pictures with different numbers draw different directions.
+const uint kAblatedLobeRays = 4u, kAblateDrawBits = 16u;
 
 // Push constants of one dispatch of the ray tracer.
 struct TraceParameters {

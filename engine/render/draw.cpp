@@ -121,6 +121,9 @@ void draw_mirrors(PassCommands& commands, const GpuScene& scene, const SceneDraw
         state.fragment = look.fragment +
                          (look.ablated && !drawing.peeled ? "#ablate" : look.variant);
         state.constants.insert(state.constants.end(), look.constants.begin(), look.constants.end());
+        // Known only when passes are recorded, unlike the other constants of ablations.
+        if (look.ablated >> shared::kAblateDrawBits && scene.has_sampled_lamps())
+            state.constants.emplace_back("samples_lamps", 1u);
         if (look.captures) bind_capture_images(commands, *look.captures);
         if (look.captures) add_capture_slot_shader_constants(*look.captures, state.constants);
         for (const auto& [name, images] : look.images) commands.bind_resource(name, images);

@@ -24,13 +24,16 @@ ShaderOfEachMirror remove_error_causes_of_shaders(ShaderOfEachMirror looks,
                                                   const ShadingLights& lighting) {
     if (!inputs.ablated) return looks;
     inputs.scene.request_ray_tracing();
+    if (inputs.ablated >> shared::kAblateDrawBits) inputs.scene.request_lamp_points();
     for (MirrorShader& look : looks.looks) {
         if (!look.captures) continue;
         look.ablated = inputs.ablated;
-        for (const auto& [name, value] : {std::pair{"picture_width", inputs.size.x},
-                                          {"picture_height", inputs.size.y},
-                                          {"max_depth", kReferenceBounces},
-                                          {"shadow", lighting.shadow_map ? 1u : 0u}})
+        for (const auto& [name, value] :
+             {std::pair{"picture_width", inputs.size.x},
+              {"picture_height", inputs.size.y},
+              {"max_depth", kReferenceBounces},
+              {"traces_lobes", inputs.ablated >> shared::kAblateDrawBits ? 1u : 0u},
+              {"shadow", lighting.shadow_map ? 1u : 0u}})
             look.constants.emplace_back(name, value);
     }
     return looks;

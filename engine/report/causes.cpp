@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace catoptric::report {
 
@@ -22,6 +23,10 @@ constexpr vec3 rgb_from_bytes(int red, int green, int blue) {
 const CausePictureColour kCauseColours[] = {
     {"storage format", "sky blue", rgb_from_bytes(86, 180, 233)},
     {"last frame", "orange", rgb_from_bytes(230, 159, 0)},
+    {"noise", "violet", rgb_from_bytes(110, 60, 160)},
+    {"filter", "brown", rgb_from_bytes(140, 86, 75)},
+    {"distance law", "dark green", rgb_from_bytes(50, 90, 20)},
+    {"lobe shape", "crimson", rgb_from_bytes(200, 20, 60)},
     {"direction", "blue", rgb_from_bytes(0, 114, 178)},
     {"hidden target", "vermilion", rgb_from_bytes(213, 94, 0)},
     {"texels", "yellow", rgb_from_bytes(240, 228, 66)},
@@ -47,10 +52,18 @@ constexpr ErrorCauseTableRow kCauseTableLines[] = {
     {"bound", [](const ErrorCauseShare& cause, double whole) { return cause.alone / whole; },
      false}};
 
-std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, const Causes& causes) {
+constexpr const char* kRoughMirrorNote =
+    " Rough mirrors: before the five, noise (random directions of the row) goes, then filter (the "
+    "look-up in levels of the capture becomes directions of the level's lobe, looked up sharply), "
+    "then distance law (each direction is searched) and lobe shape (the surface's own lobe) share "
+    "by Shapley. A dash: the row has no such part. Errors are unbiased against both halves of the "
+    "reference.";
+
+std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, const Causes& causes,
+                                            const std::vector<CausePictureColour>& columns) {
     std::vector<std::string> cells{line.name};
     double sum = 0;
-    for (const CausePictureColour& colour : list_cause_colours()) {
+    for (const CausePictureColour& colour : columns) {
         const auto cause = std::ranges::find(causes.list, colour.cause, &ErrorCauseShare::name);
         const bool is_there = cause != causes.list.end();
         const double part = is_there ? line.part(*cause, causes.squared_error) : NAN;
@@ -73,6 +86,19 @@ const RegisteredReportPart kErrorCausesReportPart{
 
 std::span<const CausePictureColour> list_cause_colours() { return kCauseColours; }
 
+std::vector<CausePictureColour> list_colours_of_found_causes(const Comparison& comparison) {
+    std::vector<CausePictureColour> found;
+    std::ranges::copy_if(
+        kCauseColours, std::back_inserter(found), [&](const CausePictureColour& colour) {
+            return std::ranges::any_of(comparison.rows, [&](const Row& row) {
+                return row.causes &&
+                       std::ranges::find(row.causes->list, colour.cause, &ErrorCauseShare::name) !=
+                           row.causes->list.end();
+            });
+        });
+    return found;
+}
+
 measure::Picture make_cause_picture(const Row& row) {
     constexpr float kUncausedErrorBrightness = .35F;
     measure::Picture picture = row.display;
@@ -83,9 +109,12 @@ measure::Picture make_cause_picture(const Row& row) {
           largest.size());
     for (std::size_t i = 0; i < largest.size(); ++i) {
         vec3& pixel = picture.pixels[i];
-        pixel = largest[i] > 0 ? list_cause_colours()[largest[i] - 1U].colour
-                               : vec3(kUncausedErrorBrightness *
-                                      glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
+        pixel = largest[i] > 0
+                    ? std::ranges::find(kCauseColours, row.causes->list.at(largest[i] - 1U).name,
+                                        &CausePictureColour::cause)
+                          ->colour
+                    : vec3(kUncausedErrorBrightness *
+                           glm::dot(pixel, vec3(.2126F, .7152F, .0722F)));
     }
     return picture;
 }
@@ -108,14 +137,19 @@ ReportTable make_cause_table(const Comparison& comparison) {
         "images/causes-ROW.png, of pixels in which the cause has the largest part. At "
         "light edges: share of the squared error in pixels that looked within a texel of a "
         "light's outline."};
-    for (const CausePictureColour& colour : list_cause_colours())
+    const std::vector<CausePictureColour> found = list_colours_of_found_causes(comparison);
+    const auto is_of_rough_mirrors = [](const CausePictureColour& colour) {
+        return colour.cause == "noise";
+    };
+    if (std::ranges::any_of(found, is_of_rough_mirrors)) table.note += kRoughMirrorNote;
+    for (const CausePictureColour& colour : found)
         table.columns.emplace_back(fmt::format("{} ({})", colour.cause, colour.name));
     table.columns.emplace_back("Sum");
     table.columns.emplace_back("At light edges");
     for (const Row& row : comparison.rows) {
         if (!row.causes) continue;
         for (const ErrorCauseTableRow& line : kCauseTableLines) {
-            std::vector<std::string> cells = format_cause_cells(line, *row.causes);
+            std::vector<std::string> cells = format_cause_cells(line, *row.causes, found);
             cells.insert(cells.begin(), &line == kCauseTableLines ? row.label : std::string());
             if (&line == kCauseTableLines)
                 cells.back() = format_fixed(row.light_edges ? 100 * row.light_edges->share : NAN,

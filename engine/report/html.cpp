@@ -214,7 +214,7 @@ std::string make_html_cause_legend(const Comparison& comparison) {
     if (std::ranges::none_of(comparison.rows, [](const Row& row) { return row.causes != nullptr; }))
         return "";
     std::string html = "<ul class=\"legend\">";
-    for (const CausePictureColour& one : list_cause_colours())
+    for (const CausePictureColour& one : list_colours_of_found_causes(comparison))
         html += "<li><span style=\"background:" + format_css_colour(one.colour) + "\"></span>" +
                 std::string(one.cause) + "</li>";
     return html + "</ul>";

@@ -71,9 +71,11 @@ struct CausePictureColour {
     vec3 colour; ///< display space
 };
 
-/// Returns the colours of all causes, in the order of Causes::list. Colour-blind readers can tell
-/// them apart, too (Okabe, Ito).
+/// Returns the colours of all causes, in the order of Causes::list, which may lack some.
+/// Colour-blind readers can tell those of perfect mirrors apart, too (Okabe, Ito).
 std::span<const CausePictureColour> list_cause_colours();
+/// Returns the colours of the causes that some row has.
+std::vector<CausePictureColour> list_colours_of_found_causes(const Comparison& comparison);
 
 /// Returns the row's picture, dark and grey. Each mirror pixel that is off has the colour of the
 /// cause with the largest part of its squared error. The row must have `causes`.

@@ -6,6 +6,7 @@
 #include "measure/display.hpp"
 #include "measure/lines.hpp"
 #include "measure/masks.hpp"
+#include "measure/picture_mean.hpp"
 #include "measure/pixel_error.hpp"
 #include "measure/shapley.hpp"
 #include "report/comparison.hpp"
@@ -19,13 +20,14 @@
 #include "study/study.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace catoptric::app {
@@ -54,6 +56,27 @@ std::uint32_t combine_ablation_flags(std::uint32_t coalition) {
     for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
         if ((coalition >> i & 1U) != 0) ablated |= kAblatableCauses[i].mends;
     return ablated;
+}
+
+/// A picture of a row with some causes removed.
+struct AblatedPicture {
+    std::uint32_t flags = 0; ///< sum of shared::kAblate...
+    /// Whether it is the mean of pictures with different random directions, in two halves.
+    bool is_mean = false;
+    auto operator<=>(const AblatedPicture&) const = default;
+};
+
+constexpr std::uint32_t kAblateLobeLookup = shared::kAblateFilter | shared::kAblateDistanceLaw |
+                                            shared::kAblateLobeShape;
+
+/// How a row looks rough mirrors up.
+enum class LobeLookup { sharply, in_filtered_levels, by_rays };
+
+LobeLookup read_lobe_lookup(const std::string& technique) {
+    const TechniqueChoice choice = parse_technique(technique);
+    const auto rough = std::ranges::find(choice.settings, "rough", &Setting::name);
+    if (rough == choice.settings.end() || rough->text == "none") return LobeLookup::sharply;
+    return rough->text == "rays" ? LobeLookup::by_rays : LobeLookup::in_filtered_levels;
 }
 
 /// The earlier frames whose history a picture uses. The picture leaves this history unchanged.
@@ -135,59 +158,132 @@ ErrorHistorySources choose_history_sources(const Request& base, const std::strin
             choose_history_source(base, full, true)};
 }
 
-/// Returns, for each history, the sets of removed causes for which a picture is rendered.
-std::map<HistorySourceFrames, std::vector<std::uint32_t>>
-list_needed_ablations(const ErrorHistorySources& histories) {
-    std::map<HistorySourceFrames, std::vector<std::uint32_t>> wanted;
-    for (const HistorySourceFrames& history :
-         {histories.row, histories.row_settled, histories.stored})
-        wanted[history] = {0};
-    for (std::size_t i = 0; i < kAblatableCauseCount; ++i) wanted[histories.row].push_back(1U << i);
-    std::vector<std::uint32_t>& all = wanted[histories.settled];
-    all.resize(kAllErrorCausesMask + 1);
-    std::iota(all.begin(), all.end(), 0U);
-    return wanted;
-}
+using PictureWithHistory = std::pair<HistorySourceFrames, AblatedPicture>;
 
-/// Squared errors of the mirrors' pixels.
-struct AblatedPixelErrors {
-    measure::ShapleyValues shapley; ///< Shapley values with the history `settled`
-    /// Errors of those sets of removed causes whose pictures are evaluated one by one.
-    std::map<std::pair<HistorySourceFrames, std::uint32_t>, MirrorPixelValues> kept;
-    measure::Mask off; ///< pixels that are off in the row's own picture
+/// Pictures of a row with causes removed, and the parts of its error that follow from their errors.
+class ErrorCauseLadder {
+public:
+    /// `has_noise`: the reference has noise, because some surface reflects by a lobe.
+    ErrorCauseLadder(const Request& base, const std::string& technique, bool has_noise)
+        : histories_(choose_history_sources(base, technique)), has_noise_(has_noise),
+          lookup_(read_lobe_lookup(technique)) {}
+
+    PictureWithHistory row() const { return {histories_.row, {}}; }
+
+    /// Returns the pictures that are needed with each history.
+    std::map<HistorySourceFrames, std::set<AblatedPicture>> list_pictures() const {
+        std::map<HistorySourceFrames, std::set<AblatedPicture>> wanted;
+        for (const HistorySourceFrames& history :
+             {histories_.row, histories_.row_settled, histories_.stored, histories_.settled})
+            wanted[history].insert(AblatedPicture{});
+        for (std::size_t i = 0; i < kAblatableCauseCount && !has_noise_; ++i)
+            wanted[histories_.row].insert({combine_ablation_flags(1U << i)});
+        for (std::uint32_t coalition = 0; coalition <= kAllErrorCausesMask; ++coalition)
+            wanted[histories_.settled].insert(picture_of_coalition(coalition));
+        for (const std::uint32_t flags : list_lobe_steps())
+            wanted[histories_.settled].insert({flags, true});
+        return wanted;
+    }
+
+    /// Returns the parts of the row's error. `errors`: squared errors of the mirrors' pixels in all
+    /// listed pictures. `disagree`: pixels where rasteriser and rays see different mirrors.
+    std::vector<measure::PixelErrorCause>
+    split_error(const std::map<PictureWithHistory, MirrorPixelValues>& errors,
+                const std::vector<bool>& disagree) const {
+        const auto of = [&](const HistorySourceFrames& history,
+                            const AblatedPicture& picture = {}) -> const MirrorPixelValues& {
+            return errors.at({history, picture});
+        };
+        const auto shapley_values = [&](std::size_t players, const auto& picture_of) {
+            measure::ShapleyValues values(players, disagree.size());
+            for (std::uint32_t coalition = 0; coalition < 1U << players; ++coalition)
+                values.add_coalition_value(coalition,
+                                           of(histories_.settled, picture_of(coalition)));
+            return values;
+        };
+        const auto negate = [&](const MirrorPixelValues& values) {
+            return subtract_pixel_values(MirrorPixelValues(values.size()), values);
+        };
+        const MirrorPixelValues &row = of(histories_.row),
+                                &left = of(histories_.settled,
+                                           picture_of_coalition(kAllErrorCausesMask)),
+                                format = subtract_pixel_values(row, of(histories_.stored));
+        std::vector<measure::PixelErrorCause> parts{
+            {"storage format", format, format},
+            {"last frame", subtract_pixel_values(of(histories_.stored), of(histories_.settled)),
+             subtract_pixel_values(row, of(histories_.row_settled))}};
+        const auto add_step = [&](const char* cause, const AblatedPicture& with,
+                                  std::uint32_t without) {
+            parts.push_back({cause,
+                             subtract_pixel_values(of(histories_.settled, with),
+                                                   of(histories_.settled, {without, true})),
+                             {}});
+        };
+        if (has_noise_) add_step("noise", {}, list_lobe_steps().front());
+        if (has_noise_ && lookup_ == LobeLookup::sharply)
+            add_step("lobe shape", {0, true}, kAblateLobeLookup);
+        if (has_noise_ && lookup_ == LobeLookup::in_filtered_levels) {
+            add_step("filter", {0, true}, shared::kAblateFilter);
+            const measure::ShapleyValues values = shapley_values(2, picture_of_lobe_coalition);
+            parts.push_back({"distance law", negate(values.shapley_values_of_player(0)), {}});
+            parts.push_back({"lobe shape", negate(values.shapley_values_of_player(1)), {}});
+        }
+        const measure::ShapleyValues values = shapley_values(
+            kAblatableCauseCount,
+            [this](std::uint32_t coalition) { return picture_of_coalition(coalition); });
+        for (std::size_t i = 0; i < kAblatableCauseCount; ++i) {
+            parts.push_back(
+                {kAblatableCauses[i].name, negate(values.shapley_values_of_player(i)), {}});
+            if (!has_noise_)
+                parts.back().alone = subtract_pixel_values(
+                    row, of(histories_.row, {combine_ablation_flags(1U << i)}));
+        }
+        parts.push_back({"silhouettes", keep_values_of_chosen_pixels(disagree, true, left),
+                         keep_values_of_chosen_pixels(disagree, true, row)});
+        parts.push_back({"rest", keep_values_of_chosen_pixels(disagree, false, left), {}});
+        return parts;
+    }
+
+private:
+    /// Returns the picture without a coalition of kAblatableCauses.
+    AblatedPicture picture_of_coalition(std::uint32_t coalition) const {
+        return {combine_ablation_flags(coalition) | (has_noise_ ? kAblateLobeLookup : 0),
+                has_noise_};
+    }
+    /// Returns the picture without filter and a coalition of distance law and lobe shape.
+    static AblatedPicture picture_of_lobe_coalition(std::uint32_t coalition) {
+        return {shared::kAblateFilter | ((coalition & 1U) != 0 ? shared::kAblateDistanceLaw : 0) |
+                    ((coalition & 2U) != 0 ? shared::kAblateLobeShape : 0),
+                true};
+    }
+    /// Returns the flags of the mean pictures between the row and picture_of_coalition(0), and of
+    /// the latter. The first has no noise, and the error of the row otherwise.
+    std::vector<std::uint32_t> list_lobe_steps() const {
+        std::vector<std::uint32_t> steps;
+        if (has_noise_ && lookup_ != LobeLookup::by_rays) steps.push_back(0);
+        if (has_noise_ && lookup_ == LobeLookup::in_filtered_levels)
+            for (std::uint32_t coalition = 0; coalition < 3; ++coalition)
+                steps.push_back(picture_of_lobe_coalition(coalition).flags);
+        if (has_noise_) steps.push_back(kAblateLobeLookup);
+        return steps;
+    }
+
+    ErrorHistorySources histories_;
+    bool has_noise_;
+    LobeLookup lookup_;
 };
 
-std::vector<measure::PixelErrorCause> compute_cause_shares(const ErrorHistorySources& histories,
-                                                           const AblatedPixelErrors& errors,
-                                                           const std::vector<bool>& disagree) {
-    const auto of = [&](const HistorySourceFrames& history,
-                        std::uint32_t coalition = 0) -> const MirrorPixelValues& {
-        return errors.kept.at({history, coalition});
-    };
-    const MirrorPixelValues &row = of(histories.row),
-                            &left = of(histories.settled, kAllErrorCausesMask),
-                            format = subtract_pixel_values(row, of(histories.stored));
-    std::vector<measure::PixelErrorCause> parts{
-        {"storage format", format, format},
-        {"last frame", subtract_pixel_values(of(histories.stored), of(histories.settled)),
-         subtract_pixel_values(row, of(histories.row_settled))}};
-    for (std::size_t i = 0; i < kAblatableCauseCount; ++i)
-        parts.push_back({kAblatableCauses[i].name,
-                         subtract_pixel_values(MirrorPixelValues(row.size()),
-                                               errors.shapley.shapley_values_of_player(i)),
-                         subtract_pixel_values(row, of(histories.row, 1U << i))});
-    parts.push_back({"silhouettes", keep_values_of_chosen_pixels(disagree, true, left),
-                     keep_values_of_chosen_pixels(disagree, true, row)});
-    parts.push_back({"rest", keep_values_of_chosen_pixels(disagree, false, left), {}});
-    return parts;
-}
-
-/// Throws `usage` for another reference than the default, because removed causes are replaced by
+/// Throws `usage` for another reference than a default one, because removed causes are replaced by
 /// rays of the default reference.
 void check_reference_is_default(const std::string& reference) {
-    const TechniqueChoice found = parse_technique(reference), wanted = parse_technique(kReference);
-    check(found.technique == wanted.technique && found.settings == wanted.settings, Failure::usage,
-          "--causes: wanted the default reference, ", kReference,
+    const TechniqueChoice found = parse_technique(reference);
+    check(std::ranges::any_of(std::array{kReference, kRoughReference},
+                              [&](const char* text) {
+                                  const TechniqueChoice wanted = parse_technique(text);
+                                  return found.technique == wanted.technique &&
+                                         found.settings == wanted.settings;
+                              }),
+          Failure::usage, "--causes: wanted the default reference, ", kReference,
           ", whose rays tell causes apart, found '", reference, "'");
 }
 
@@ -200,21 +296,31 @@ void check_light_is_ambient(const CompareRequest& request) {
               "'; causes of error in their light are not known");
 }
 
-/// Throws for scenes with rough mirrors, because the code that removes causes supports perfect
-/// mirrors only.
-void check_mirrors_are_sharp(const CompareRequest& request, int, report::Comparison&) {
+/// Throws `usage` for rough mirrors of glass or with a clear coat, because the code that removes
+/// causes draws directions of the lobes of other mirrors only, and for another reference than the
+/// scene's default.
+void check_causes_are_known(const CompareRequest& request, int, report::Comparison&) {
     check_light_is_ambient(request);
     const scene::Scene& scene = request.base.scene;
-    for (const std::size_t i : scene::mirrors(scene))
-        check(!scene::may_reflect_by_lobe(scene, scene.objects[i]), Failure::usage,
-              "--causes: wanted mirrors that reflect sharply, found rough mirror ",
+    for (const std::size_t i : scene::mirrors(scene)) {
+        const scene::Material& material = scene.materials[scene.objects[i].material];
+        check(!scene::may_reflect_by_lobe(scene, scene.objects[i]) ||
+                  !(scene::is_glass(material) || scene::has_clear_coat(material)),
+              Failure::usage,
+              "--causes: wanted rough mirrors without glass or clear coat, found mirror ",
               quote_text_with_escapes(scene.objects[i].name),
-              "; causes of error in rough reflections are not known");
+              "; causes of error in its reflections are not known");
+    }
+    const std::string wanted = choose_reference("", scene);
+    check(parse_technique(request.reference).settings == parse_technique(wanted).settings,
+          Failure::usage, "--causes: wanted the default reference of this scene, ", wanted,
+          ", found '", request.reference, "'");
 }
 
 void measure_error_causes(const StudyInput& input) {
     const CompareRequest& request = input.request;
     std::vector<report::Row>& rows = input.comparison.rows;
+    const ReferencePicture& truth = input.truth.get_reference("1");
     std::optional<ErrorCauseFinder> finder;
     for (std::size_t i = 0; i < request.base.techniques.size(); ++i) {
         const std::string& text = request.base.techniques[i];
@@ -225,8 +331,9 @@ void measure_error_causes(const StudyInput& input) {
         if (!rows[i].lookup || is_plan || is_twin) continue;
         report_row_to_watcher(request.watcher, "causes of " + text, i, rows.size());
         if (!finder)
-            finder.emplace(input.session, request.base, input.truth.get_reference("1").part.hdr,
-                           input.truth.find_mirror_hits(), request.watcher);
+            finder.emplace(input.session, request.base, truth.part.hdr,
+                           input.truth.find_mirror_hits(), request.watcher,
+                           truth.compared_reference().halves);
         rows[i].causes = std::make_shared<report::Causes>(finder->find(text));
         input.tell();
     }
@@ -237,7 +344,7 @@ const RegisteredStudy kErrorCausesStudy{
      .help = "also split each row's error by cause; draws at least 32 more pictures per row",
      .order = 20,
      .check_reference = check_reference_is_default,
-     .prepare = check_mirrors_are_sharp,
+     .prepare = check_causes_are_known,
      .run = measure_error_causes}};
 
 } // namespace
@@ -251,17 +358,22 @@ void render_ablated_pictures(Session& session, const Request& request,
     aside.time = request.instant(request.total());
     aside.timing = PassTimingMode::pipelined;
     aside.keeps_history = true;
+    constexpr std::uint32_t kFlags = (1U << shared::kAblateDrawBits) - 1;
     for (std::size_t entry = 0; entry < ablated.size(); ++entry) {
-        visit(entry, Access::render_frame(session, aside, {.ablated = ablated[entry]}).hdr());
+        // Rays of tracers depend on the seed, and those of searches on the number in `ablated`.
+        aside.seed = request.seed + (ablated[entry] >> shared::kAblateDrawBits);
+        const std::uint32_t hook = (ablated[entry] & kFlags) != 0 ? ablated[entry] : 0;
+        visit(entry, Access::render_frame(session, aside, {.ablated = hook}).hdr());
         throw_if_stopped(watcher);
     }
 }
 
 ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
                                    const measure::Picture& truth,
-                                   const std::vector<std::uint32_t>& hits, const Watcher& watcher)
+                                   const std::vector<std::uint32_t>& hits, const Watcher& watcher,
+                                   const measure::NoisyReferenceHalves* halves)
     : study_session_(session), base_(base), truth_(truth), hits_(hits), watcher_(watcher),
-      pixels_(measure::list_mirror_pixels(hits)) {
+      halves_(halves), pixels_(measure::list_mirror_pixels(hits)) {
     // This technique follows no ray through other mirrors. Its look-ups therefore name the mirror
     // that the rasteriser draws in each pixel.
     Request request = make_history_request(base, {"naive:bounces=1,face=1,shadow=none", false});
@@ -278,33 +390,59 @@ ErrorCauseFinder::ErrorCauseFinder(Session& session, const Request& base,
     }
 }
 
+/// Returns the squared error of a pixel in a picture that has two halves `a` and `b`, or is both of
+/// them. With halves of the reference, the estimate is unbiased: each factor has a half of its own.
+double ErrorCauseFinder::pixel_error(const measure::Picture& a, const measure::Picture& b,
+                                     std::size_t place) const {
+    const auto shown = [&](const measure::Picture& picture) {
+        return measure::apply_exposure(picture.pixels[place], base_.exposure);
+    };
+    if (halves_ == nullptr) return measure::squared_error(shown(a), shown(truth_));
+    const vec3 values[] = {shown(a), shown(b), halves_->a.pixels[place], halves_->b.pixels[place]};
+    if (!std::ranges::all_of(values, measure::is_finite_pixel)) return NAN;
+    dvec3 in_range[4];
+    std::ranges::transform(values, in_range, measure::clamp_pixel_to_unit_range);
+    const auto& [x, y, truth_a, truth_b] = in_range;
+    return (glm::dot(x - truth_a, y - truth_b) + glm::dot(x - truth_b, y - truth_a)) / 6;
+}
+
 report::Causes ErrorCauseFinder::find(const std::string& technique) const {
-    const ErrorHistorySources histories = choose_history_sources(base_, technique);
-    AblatedPixelErrors found{measure::ShapleyValues(kAblatableCauseCount, pixels_.size()),
-                             {},
-                             measure::Mask(hits_.size())};
-    for (const auto& [history, coalitions] : list_needed_ablations(histories)) {
+    const ErrorCauseLadder ladder(base_, technique, halves_ != nullptr);
+    std::map<PictureWithHistory, MirrorPixelValues> errors;
+    measure::Mask off(hits_.size());
+    for (const auto& [history, pictures] : ladder.list_pictures()) {
         std::vector<std::uint32_t> ablated;
-        std::ranges::transform(coalitions, std::back_inserter(ablated), combine_ablation_flags);
-        const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
-            const std::uint32_t coalition = coalitions[entry];
-            MirrorPixelValues errors;
-            for (const std::size_t place : pixels_) {
-                const vec3 shown = measure::apply_exposure(picture.pixels[place], base_.exposure),
-                           truth = measure::apply_exposure(truth_.pixels[place], base_.exposure);
-                errors.push_back(measure::squared_error(shown, truth));
-                if (history == histories.row && coalition == 0)
-                    found.off[place] = measure::differs_visibly(shown, truth);
+        std::vector<AblatedPicture> shown; // of each entry of `ablated`
+        for (const AblatedPicture& picture : pictures) {
+            // The last bit of a picture's number is its half.
+            for (std::uint32_t i = 0; i < (picture.is_mean ? 2 * kDrawnFramesPerHalf : 1); ++i) {
+                const std::uint32_t number = picture.is_mean ? i + 2 : 0;
+                ablated.push_back(picture.flags | number << shared::kAblateDrawBits);
+                shown.push_back(picture);
             }
-            if (history == histories.settled) found.shapley.add_coalition_value(coalition, errors);
-            if (std::popcount(coalition) <= 1 || coalition == kAllErrorCausesMask)
-                found.kept[{history, coalition}] = std::move(errors);
+        }
+        std::array<measure::PictureMean, 2> means;
+        const auto judge = [&](std::size_t entry, const measure::Picture& picture) {
+            means[ablated[entry] >> shared::kAblateDrawBits & 1U].add_picture(picture);
+            if (entry + 1 < shown.size() && shown[entry + 1] == shown[entry]) return;
+            const measure::Picture a = means[0].mean(),
+                                   b = shown[entry].is_mean ? means[1].mean() : a;
+            means = {};
+            const PictureWithHistory key{history, shown[entry]};
+            MirrorPixelValues& values = errors[key];
+            for (const std::size_t place : pixels_) {
+                values.push_back(pixel_error(a, b, place));
+                if (key == ladder.row())
+                    off[place] = measure::differs_visibly(
+                        measure::apply_exposure(a.pixels[place], base_.exposure),
+                        measure::apply_exposure(truth_.pixels[place], base_.exposure));
+            }
         };
         render_ablated_pictures(study_session_, make_history_request(base_, history), ablated,
                                 judge, watcher_);
     }
-    return measure::summarise_error_causes(hits_, found.off, found.kept.at({histories.row, 0}),
-                                           compute_cause_shares(histories, found, disagree_));
+    return measure::summarise_error_causes(hits_, off, errors.at(ladder.row()),
+                                           ladder.split_error(errors, disagree_));
 }
 
 } // namespace catoptric::app

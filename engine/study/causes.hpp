@@ -1,6 +1,7 @@
 #pragma once
 
 #include "measure/causes.hpp"
+#include "measure/halves.hpp"
 #include "report/comparison.hpp"
 #include "session/run.hpp"
 #include "session/watcher.hpp"
@@ -15,7 +16,8 @@ using PictureVisitor = std::function<void(std::size_t entry, const measure::Pict
 /// Renders the last frame of the request's first technique, once for each entry of `ablated`, as
 /// linear pictures. Each picture is a frame that keeps the history unchanged, after the request's
 /// earlier frames. An entry is a sum of causes of error to remove (shared::kAblate...); 0 is the
-/// frame itself. The session shows the request's scene.
+/// frame itself. From bit shared::kAblateDrawBits on it has the number of the picture's random
+/// directions; 0: those of the row. The session shows the request's scene.
 void render_ablated_pictures(Session& session, const Request& request,
                              const std::vector<std::uint32_t>& ablated, const PictureVisitor& visit,
                              const Watcher& watcher = {});
@@ -24,10 +26,11 @@ void render_ablated_pictures(Session& session, const Request& request,
 class ErrorCauseFinder {
 public:
     /// `truth`: the reference's picture. `hits`: what its camera rays met (see measure/masks.hpp).
-    /// The session must show the scene of `base`. All objects passed by reference must outlive the
-    /// finder.
+    /// `halves`: of a reference with noise, else null. The session must show the scene of `base`.
+    /// All objects passed by reference must outlive the finder.
     ErrorCauseFinder(Session& session, const Request& base, const measure::Picture& truth,
-                     const std::vector<std::uint32_t>& hits, const Watcher& watcher = {});
+                     const std::vector<std::uint32_t>& hits, const Watcher& watcher = {},
+                     const measure::NoisyReferenceHalves* halves = nullptr);
 
     /// Finds how much each cause contributes to the error of `technique`. Five causes share their
     /// joint error by Shapley values, per pixel, from pictures of all 32 sets of ablated causes.
@@ -35,15 +38,28 @@ public:
     /// that is a frame late. Pixels where rasteriser and ray see different mirrors are taken out
     /// after them. Renders 48 frames, with a dozen rays per mirror pixel in 31 of them. Renders up
     /// to 85 frames if objects move or distances are not stored as 32-bit floats.
+    ///
+    /// If the reference has noise, a picture with removed causes also has two halves with different
+    /// random directions, so that squared errors are unbiased (measure/halves.hpp). Before the five
+    /// causes, noise is removed, then the filter of captures. Distance law and lobe shape follow
+    /// together and share their error by Shapley values. Renders about 36 times 2
+    /// kDrawnFramesPerHalf frames, with a dozen rays for each direction of a lobe.
     report::Causes find(const std::string& technique) const;
+    /// Frames of each half of a picture of a removed cause, with shared::kAblatedLobeRays
+    /// directions for each pixel of a rough mirror.
+    static constexpr std::uint32_t kDrawnFramesPerHalf = 4;
 
 private:
+    double pixel_error(const measure::Picture& a, const measure::Picture& b,
+                       std::size_t place) const;
+
     Session& study_session_;
     const Request& base_;
     const measure::Picture& truth_;
     const std::vector<std::uint32_t>& hits_;
     Watcher watcher_;
-    std::vector<std::size_t> pixels_; ///< indices of the pixels that show mirrors
+    const measure::NoisyReferenceHalves* halves_; ///< null: the reference has no noise
+    std::vector<std::size_t> pixels_;             ///< indices of the pixels that show mirrors
     /// For each of `pixels_`: whether the rasteriser draws no mirror, or another mirror than the
     /// one that the camera ray meets.
     std::vector<bool> disagree_;

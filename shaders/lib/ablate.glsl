@@ -28,6 +28,9 @@ const float kOccluderTolerance = 1.0 / 16384.0;
 
 bool is_cause_ablated(uint cause) { return (draw.ablated & cause) != 0u; }
 
+uint lobe_draws = 0u; // directions that are drawn from the lobe of the pixel's surface; 0: it reflects one direction
+vec3 lobe_direction, lobe_weight; // the direction that was drawn last, and its share of the reflection
+
 // Returns the exact distance from the centre of capture `mirror` (from 0) to the first surface in a direction of any
 // length. Returns +infinity if the ray meets no surface.
 float trace_exact_distance(uint mirror, vec3 direction) {
@@ -62,6 +65,7 @@ bool ends_on_blended_surface(RayEndPoint end) {
 
 Ray reflect_ray_at_surface_point(Ray ray, SurfacePoint at) {
     vec3 direction = reflect_above_facet(ray.direction, at.normal, at.facet);
+    if (lobe_draws > 0u) direction = lobe_direction;
     return Ray(find_leaving_ray_origin(at, direction), direction, at.leaves);
 }
 
@@ -118,7 +122,7 @@ vec3 find_ablated_radiance(MirrorPath path, Lookup lookup) {
     left_out = 0u;
     shadow_by = is_cause_ablated(kAblateShadows) ? kShadowRay : shadow;
     Ray camera = make_camera_ray(gl_FragCoord.xy, uvec2(picture_width, picture_height));
-    Ray search_ray = camera;
+    Ray search_ray = camera, first_ray;
     RayEndPoint first, target;
     bool from_camera;
     // Traces a ray from the eye, then its reflection in the drawn mirror. If the search followed the path to another
@@ -132,7 +136,7 @@ vec3 find_ablated_radiance(MirrorPath path, Lookup lookup) {
             // The rasteriser and the ray see different mirrors at this pixel, an error that no ablation removes.
             if (target.mirror != drawn_mirror_number()) return path.weight * lookup_colour(path.mirror, lookup);
             first = target;
-            search_ray = reflect_ray_at_surface_point(camera, first.point);
+            search_ray = first_ray = reflect_ray_at_surface_point(camera, first.point);
         } else if (i == 1u) {
             bool is_own = target.mirror == drawn_mirror_number();
             bool is_mirrored = !is_own && (target.mirror != 0u || path.hops > 0u);
@@ -152,9 +156,14 @@ vec3 find_ablated_radiance(MirrorPath path, Lookup lookup) {
     bool is_shown = in_capture && !is_hidden;
     if (from_camera || along_search) {
         bool whole = from_camera || path.hops == 0u;
-        if (!whole) camera = search_ray;
-        uint met;
-        result = (whole ? vec3(0) : result) + (whole ? vec3(1) : path.weight) * trace_radiance(camera, whole ? 0u : 1u + path.hops, met);
+        uint met, before = whole ? 0u : 1u + path.hops;
+        if (!whole) {
+            camera = search_ray;
+        } else if (lobe_draws > 0u) {
+            whole = false;
+            camera = first_ray, path.weight = lobe_weight, before = 1u;
+        }
+        result = (whole ? vec3(0) : result) + (whole ? vec3(1) : path.weight) * trace_radiance(camera, before, met);
     } else {
         if (is_cause_ablated(kAblateDirection) && is_shown) {
             lookup = Lookup(normalize(to_target), kHit, 0.0, 0.0);

@@ -12,9 +12,9 @@
 #include "lib/probe.glsl"
 #include "lib/refraction.glsl"
 #include "lib/surface.glsl"
+#include "lib/rough.glsl"
 #ifndef ABLATE
 #include "lib/lit.glsl"
-#include "lib/rough.glsl"
 #endif
 #include "lib/opaque_picture.glsl"
 
@@ -167,10 +167,6 @@ vec3 apply_shown_picture_mode(vec3 colour, Lookup lookup) {
     return colour;
 }
 
-#ifdef ABLATE
-#include "lib/ablate.glsl"
-#else
-
 // Returns the width alpha of the look-up that shows what the surface of that roughness at the start of the path reflects.
 float rough_lookup_alpha(MirrorPath path, Lookup lookup, float roughness) {
     float ratio = 1.0, foreshortening = 1.0;
@@ -194,6 +190,11 @@ float rough_lookup_alpha(MirrorPath path, Lookup lookup, float roughness) {
     }
     return lookup_alpha_by_distance_law(distance_law, roughness, ratio, foreshortening);
 }
+
+#ifdef ABLATE
+#include "lib/ablate.glsl"
+#include "lib/ablate_lobe.glsl"
+#else
 
 // Returns the radiance that the path brings from its end to a surface of roughness `roughness` at its start.
 vec3 rough_path_radiance(MirrorPath path, Lookup lookup, float roughness) {
@@ -243,11 +244,24 @@ void main() {
     }
     MirrorPath passing = path;
 #ifdef ABLATE
-    Lookup lookup = follow_path_through_mirrors(path, hops);
-    // No cause of error is removed from glass: the exact rays of the ablation follow reflections alone.
-    vec3 colour;
-    if (is_glass) colour = path.weight * lookup_colour(path.mirror, lookup) + surface.emission;
-    else colour = find_ablated_radiance(path, lookup);
+    MirrorPath first = path;
+    Lookup lookup;
+    // With a lobe, the first look-up is that of the perfect mirror, and the others are those of drawn directions.
+    start_drawing_from_lobe(surface.reflectance != vec3(0) && !is_glass);
+    vec3 colour = vec3(0), albedo = specular_lobe_albedo(-dot(n, seen));
+    uint i = 0u;
+    do {
+        bool is_drawn = i > 0u;
+        MirrorPath followed = first;
+        Lookup found = lookup;
+        if (is_drawn) draw_from_lobe(seen, facet, albedo, i - 1u, path, followed, found);
+        if (!is_drawn || is_cause_ablated(kAblateDistanceLaw)) found = follow_path_through_mirrors(followed, lobe_draws > 0u && has_levels ? 0u : hops);
+        if (!is_drawn) lookup = found, path = followed;
+        // No cause of error is removed from glass: the exact rays of the ablation follow reflections alone.
+        if (is_glass) colour = path.weight * lookup_colour(path.mirror, lookup) + surface.emission;
+        else if (is_drawn == lobe_draws > 0u) colour += find_ablated_radiance(followed, found);
+    } while (i++ < lobe_draws);
+    if (lobe_draws > 0u) colour *= i > lobe_draws ? 1.0 / float(lobe_draws) : uintBitsToFloat(0x7fc00000u); // NaN if the driver stopped the loop
 #else
     bool is_rough = rough != kRoughNone && has_rough_lobe() && surface.reflectance != vec3(0), is_stopped = false;
     vec3 coat_weight = vec3(0);

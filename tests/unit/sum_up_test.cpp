@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -100,10 +101,16 @@ TEST(SumUp, CausesWithAWrongNumberOfPixelsAreRefused) {
             Failure::internal, {words});
 }
 
-/// Returns one cause for each of list_cause_colours(). The first cause has the whole error.
-Causes make_causes_with_first_whole() {
+constexpr std::string_view kCausesOfLobes[] = {"noise", "filter", "distance law", "lobe shape"};
+
+/// Returns one cause for each colour, or for each that perfect mirrors have. The first cause has
+/// the whole error.
+Causes make_causes_with_first_whole(bool is_rough = false) {
     Causes causes{.squared_error = .25, .squared_error_per_mirror = {.25}};
     for (const report::CausePictureColour& colour : report::list_cause_colours()) {
+        const bool is_of_lobes = std::ranges::find(kCausesOfLobes, colour.cause) !=
+                                 std::end(kCausesOfLobes);
+        if (is_of_lobes && !is_rough) continue;
         const double share = causes.list.empty() ? 1 : 0;
         causes.list.push_back({.name = std::string(colour.cause),
                                .squared_error = share / 4,
@@ -137,6 +144,31 @@ TEST(CauseTable, CauseTableHasSharesSumsAndBounds) {
                                     "50.0", "50.0", "–", "", ""}));
 }
 
+/// Causes of rough mirrors have columns if some row has them, and a dash in rows without them.
+TEST(CauseTable, CausesOfRoughMirrorsHaveColumnsWhereTheyOccur) {
+    report::Row sharp = report::sample::make_row("reuse", 6, .5, .1),
+                rough = report::sample::make_row("parallax", 6, .5, .1);
+    sharp.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole());
+    rough.causes = std::make_shared<measure::Causes>(make_causes_with_first_whole(true));
+    const report::ReportTable perfect = report::make_cause_table(
+                                  report::sample::make_comparison({sharp})),
+                              both = report::make_cause_table(
+                                  report::sample::make_comparison({sharp, rough}));
+    EXPECT_EQ(perfect.note.find("Rough mirrors"), std::string::npos);
+    EXPECT_NE(both.note.find("Rough mirrors: before the five, noise"), std::string::npos);
+    ASSERT_EQ(both.columns.size(), perfect.columns.size() + std::size(kCausesOfLobes));
+    EXPECT_EQ(both.columns[4].name, "noise (violet)");
+    EXPECT_EQ(both.columns[7].name, "lobe shape (crimson)");
+    EXPECT_EQ(both.columns[8].name, "direction (blue)");
+    ASSERT_EQ(both.rows.size(), 8U);
+    for (const std::size_t column : {4, 5, 6, 7}) {
+        EXPECT_EQ(both.rows[0][column], "–") << column;
+        EXPECT_EQ(both.rows[4][column], "0.0") << column;
+    }
+    EXPECT_EQ(both.rows[0][15], "100.0");
+    EXPECT_EQ(both.rows[4][15], "100.0");
+}
+
 TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     report::Row row = report::sample::make_row("parallax", 6, .5, .1);
     row.display.pixels[0] = vec3(1);
@@ -146,6 +178,8 @@ TEST(CausePicture, CausePictureColoursEachPixelByItsLargestCause) {
     EXPECT_EQ(picture.pixels[1], vec3(86, 180, 233) / 255.0F);
     EXPECT_EQ(picture.pixels[2], vec3(190) / 255.0F);
     EXPECT_EQ(picture.pixels[3], vec3(0, 114, 178) / 255.0F);
+    *row.causes = make_causes_with_first_whole(true);
+    EXPECT_EQ(report::make_cause_picture(row).pixels[3], vec3(110, 60, 160) / 255.0F);
     row.causes->largest.pop_back();
     test::expect_error([&] { report::make_cause_picture(row); }, Failure::internal,
                        {"row 'parallax': wanted a cause for each of 12 pixels, found 11"});
