@@ -22,7 +22,7 @@ enum class ImageCodecStatus {
 
 struct ImageCodecResult {
     ImageCodecStatus answer = ImageCodecStatus::done;
-    std::string why = {}; ///< reason in one line; may be empty
+    std::string why = {}; ///< why the call failed, in one line; may be empty
 };
 
 enum class ImageCodecValueType { uint8, float32 };

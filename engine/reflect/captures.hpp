@@ -231,8 +231,8 @@ inline bool does_search_other_captures(const KnobsSharedByTechniques& knobs) {
 render::MirrorShader make_capture_shader(const MirrorShadingInputs& around, std::string fragment,
                                          const TechniqueKnobSettings& settings);
 
-/// Returns the mirror shading of a technique with Technique::search. The technique's own knobs
-/// become shader constants of the same names.
+/// Returns the shader with which mirrors are drawn by a technique that searches captures, and its
+/// constants. The technique's own knobs become shader constants of the same names.
 render::MirrorShader make_search_shader(const Technique& technique,
                                         const MirrorShadingInputs& around,
                                         const TechniqueKnobSettings& settings);

@@ -55,7 +55,7 @@ void GpuScene::fill_light_table(const scene::Scene& now, bool others) {
             light_places_.push_back(space_.world_to_scene_units(light.position));
         entry.position = vec3(light_places_.back());
         if (!light.directional) {
-            const float gap = nearest_.distance_to_nearest(
+            const float gap = nearest_.distance_to_nearest_triangle(
                 geometry_, light_places_.back(), [](std::size_t, const ObjectDrawRange& range) {
                     return !range.casts_shadow && !range.tints;
                 });

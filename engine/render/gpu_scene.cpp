@@ -233,7 +233,7 @@ bool GpuScene::has_nonspherical_or_lit_mirrors() const {
 InnerOccluderBall GpuScene::make_inner_ball(std::size_t object, const dvec3& centre) {
     InnerOccluderBall ball{vec3(centre), 0, object};
     if (geometry_.ranges[object].shell)
-        ball.radius = nearest_.distance_to_nearest(
+        ball.radius = nearest_.distance_to_nearest_triangle(
             geometry_, centre, [&](std::size_t i, const ObjectDrawRange&) { return i != object; });
     return ball;
 }
@@ -278,7 +278,7 @@ void GpuScene::fill_mirror_probe_table(const scene::Scene& now, const SceneChang
         if (is_lit) probe.radius = 0; // no ray is followed through the mirror
         const Bounds<float>& box = geometry_.ranges[object].bounds;
         probe.lowest = box.lo, probe.highest = box.hi;
-        const float gap = nearest_.distance_to_nearest(
+        const float gap = nearest_.distance_to_nearest_triangle(
             geometry_, probe_places_[mirror],
             [&](std::size_t i, const ObjectDrawRange&) { return i == object; });
         for (shared::View& view : make_cube_views(probe.centre, gap)) {

@@ -9,7 +9,7 @@ namespace catoptric::render {
 /// Fills the list of views: the camera's first, then those of mirrors and lights.
 void GpuScene::fill_view_table(const scene::Camera& camera, uvec2 size) {
     eye_ = space_.world_to_scene_units(camera.eye);
-    const float gap = nearest_.distance_to_nearest(
+    const float gap = nearest_.distance_to_nearest_triangle(
         geometry_, eye_,
         [](std::size_t, const ObjectDrawRange& range) { return !range.seen_by_camera; });
     added_views_ = 0;

@@ -41,7 +41,7 @@ private:
     shared::TextureUse texture_use_of_material(const std::optional<scene::Texture>& texture) const;
     void fill_texture_texels(const scene::Scene& now, std::uint64_t most);
 
-    /// Images in the order of the texel buffer.
+    /// Images of the textures, in the order in which their texels lie in the texel buffer.
     std::vector<std::shared_ptr<const scene::Image>> images_;
     std::vector<std::uint32_t> first_texels_; ///< first texel of each image
     std::vector<std::uint32_t> indices_;      ///< index of each object's parameters

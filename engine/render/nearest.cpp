@@ -150,7 +150,7 @@ void NearestTriangleQuery::visit_triangle_of_same_object(const FrameGeometry& ge
     squared = std::min(squared, static_cast<float>(gap * gap));
 }
 
-float NearestTriangleQuery::distance_to_nearest(
+float NearestTriangleQuery::distance_to_nearest_triangle(
     const FrameGeometry& geometry, const dvec3& at,
     const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip) {
     if (moved_) objects_.refit(list_object_boxes(geometry));

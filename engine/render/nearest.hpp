@@ -59,8 +59,9 @@ public:
     /// that of testing all triangles. Leaves out objects for which `skip(index, range)` holds.
     /// Returns infinity if none is left. For an object with an object space, the distance is a
     /// lower bound.
-    float distance_to_nearest(const FrameGeometry& geometry, const dvec3& point,
-                              const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip);
+    float distance_to_nearest_triangle(
+        const FrameGeometry& geometry, const dvec3& point,
+        const std::function<bool(std::size_t, const ObjectDrawRange&)>& skip);
 
 private:
     struct ObjectTriangleTree {

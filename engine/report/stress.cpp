@@ -44,7 +44,7 @@ std::string format_short_number(double value) { return fmt::format("{:.3g}", val
 
 /// Returns the worst case, the parts that are not covered and those that could not be run. If
 /// nothing was run, returns the reason.
-std::string describe_stress_row(const StressRow& row) {
+std::string describe_stress_test_result(const StressRow& row) {
     const StressCase* worst = row.worst_stress_case();
     std::string words = worst ? worst->what : "";
     const auto add = [&](const std::string& more) {
@@ -68,7 +68,7 @@ ReportTable make_stress_table(const StressResults& stress) {
         table.rows.push_back({row.id, stress_verdict_name(row.verdict),
                               worst ? format_short_number(worst->measured) : "–",
                               worst ? format_short_number(worst->limit) : "–", row.stimulus,
-                              row.property, describe_stress_row(row), row.turned_red_by});
+                              row.property, describe_stress_test_result(row), row.turned_red_by});
     }
     return table;
 }

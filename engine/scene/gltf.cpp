@@ -30,7 +30,8 @@ RigAttachment make_translation_rig(const Keyframes& frames) {
     NodeRig rig{.nodes = {{.translations = frames.keys}}, .repeats = frames.repeats};
     rig.nodes[0].parent_from_space = dmat4(frames.world_from_keys);
     RigAttachment follows{.rig = std::make_shared<const NodeRig>(std::move(rig))};
-    // world_from_keys * place at rest
+    // Transform into the world from the space of the animation's keys, with the place of the node
+    // when nothing moves.
     dmat4 rest = dmat4(frames.world_from_keys);
     rest[3] = dvec4(frames.world_from_keys * frames.rest, 1);
     follows.node_from_object = glm::inverse(rest);

@@ -37,7 +37,7 @@ struct GltfMemberRule {
     GltfObjectKind is =
         GltfObjectKind::nothing; ///< kind of the object, or of each object of the list
     std::string_view of = {};    ///< the list that the index refers to
-    std::size_t count = 0;       ///< how many numbers
+    std::size_t count = 0;       ///< how many numbers the list must have
     bool unread = false;         ///< only checked, not passed to tinygltf
     std::string_view note = {};  ///< the note to add if the member is present
     bool made_up = false;        ///< if absent, set to -1 (index) or 0, since tinygltf needs it

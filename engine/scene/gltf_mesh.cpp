@@ -43,7 +43,8 @@ void append_vertices(Mesh& mesh, const std::vector<std::uint32_t>& used,
     const std::size_t before = mesh.positions.size();
     for (const std::uint32_t vertex : used) {
         auto [position, normal] = primitive.vertex(vertex);
-        if (joints && primitive.joints) primitive.pose(vertex, *joints, position, normal);
+        if (joints && primitive.joints)
+            primitive.pose_vertex_by_joints(vertex, *joints, position, normal);
         mesh.positions.push_back(position), mesh.normals.push_back(vec3(normal));
     }
     for (std::size_t set = 0; set < mesh.uv.size(); ++set) {

@@ -147,8 +147,9 @@ vec4 GltfPrimitive::colour(std::size_t index) const {
     return colour;
 }
 
-void GltfPrimitive::pose(std::size_t index, const std::vector<dmat4>& world_from_bound,
-                         dvec3& position, dvec3& normal) const {
+void GltfPrimitive::pose_vertex_by_joints(std::size_t index,
+                                          const std::vector<dmat4>& world_from_bound,
+                                          dvec3& position, dvec3& normal) const {
     dmat4 world(0);
     double sum = 0;
     for (int i = 0; i < 4; ++i) {

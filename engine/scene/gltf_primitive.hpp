@@ -29,8 +29,8 @@ struct GltfPrimitive {
     vec4 colour(std::size_t index) const;
     /// Moves a vertex into world space by the weighted mean of its joints. Joints beyond the list
     /// are ignored. A vertex whose weights add up to zero stays. Needs `joints` and `weights`.
-    void pose(std::size_t index, const std::vector<dmat4>& world_from_bound, dvec3& position,
-              dvec3& normal) const;
+    void pose_vertex_by_joints(std::size_t index, const std::vector<dmat4>& world_from_bound,
+                               dvec3& position, dvec3& normal) const;
 
     int mode;
     AccessorElements positions;

@@ -14,7 +14,7 @@ struct MaterialFactor {
     std::string_view name; ///< as in MATERIAL_FACTORS of shaders/shared.h
     float Material::*member;
     std::string_view extension; ///< glTF extension, or kCoreMaterialFactors
-    std::string_view key;       ///< member of that extension
+    std::string_view key;       ///< name of the value in the extension's JSON object
     float gltf_default;         ///< value without this key
     float largest = 1;          ///< values range from 0 to this
 };

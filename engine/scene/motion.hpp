@@ -16,7 +16,8 @@ using RotationTrack =
 struct NodeRig {
     struct RigNode {
         std::optional<std::size_t> parent; ///< index of the parent, which comes earlier in `nodes`
-        dmat4 parent_from_space{1}; ///< still transforms between the parent and this node's space
+        dmat4 parent_from_space{1};        ///< product of the transforms between the parent and
+                                           ///< this node that no track moves
         /// Translation at rest, in the space that `parent_from_space` maps to the parent; used if
         /// no track moves the node.
         dvec3 translation{0};

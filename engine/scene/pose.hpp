@@ -14,8 +14,8 @@ bool is_animated(const Scene& scene);
 /// Returns the longest period of all motions, in seconds; 0 if nothing moves.
 double compute_scene_period(const Scene& scene);
 
-/// Sets `still` to what `at` returns for this time, without copying a mesh or a material. `still`
-/// is a copy of the scene or an earlier result of this function. Throws `Failure::usage` for a time
+/// Sets `still` to the scene at this time, without copying a mesh or a material. `still` is a copy
+/// of the scene or an earlier result of this function. Throws `Failure::usage` for a time
 /// that is not finite.
 void move_scene_to_time(Scene& still, const Scene& scene, double seconds);
 

@@ -26,7 +26,7 @@ void replace_value_if_set(std::optional<Value>& value, const std::optional<Value
 
 /// Returns the names by which patterns find an object: its own and its material's. If a node has
 /// several materials, its objects are named "NODE/MATERIAL", and the node's name counts, too.
-std::vector<std::string> list_object_pattern_names(const Scene& scene, const Object& object) {
+std::vector<std::string> list_names_that_patterns_match(const Scene& scene, const Object& object) {
     const std::string& material = scene.materials[object.material].name;
     std::vector<std::string> names{object.name, material};
     if (const std::string end = "/" + material; object.name.ends_with(end))
@@ -40,7 +40,8 @@ std::vector<std::size_t> find_objects_by_pattern(const Scene& scene, const Setti
     std::vector<std::size_t> found;
     std::vector<std::string> known;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        const std::vector<std::string> names = list_object_pattern_names(scene, scene.objects[i]);
+        const std::vector<std::string> names = list_names_that_patterns_match(scene,
+                                                                              scene.objects[i]);
         if (std::ranges::any_of(
                 names, [&](const auto& name) { return name_matches_pattern(pattern, name); }))
             found.push_back(i);

@@ -63,10 +63,10 @@ void ProgressPrinter::row(const std::string& label, std::size_t index, std::size
     count_ = std::max<std::size_t>(count, 1);
     shown_at_ = {};
     if (is_active_ && !rewrites_) fmt::print(stderr, "[{}/{}] {}\n", index + 1, count_, label_);
-    if (in_tenths_) show_progress_each_tenth();
+    if (in_tenths_) show_progress_every_ten_percent();
 }
 
-void ProgressPrinter::show_progress_each_tenth() {
+void ProgressPrinter::show_progress_every_ten_percent() {
     const std::size_t tenths = 10 * index_ / count_;
     if (tenths <= tenths_) return;
     tenths_ = tenths;

@@ -37,7 +37,7 @@ public:
 private:
     void show(const std::string& text);
     /// Writes a line if another tenth of the work is done since the last line.
-    void show_progress_each_tenth();
+    void show_progress_every_ten_percent();
     /// Returns the estimated remaining time from the time so far: "0:35".
     std::string format_estimated_time_left(double done) const;
 

@@ -42,7 +42,7 @@ public:
     }
     /// Adds a measured value with a limit. A value beyond the limit means that the picture looks
     /// worse, but is not wrong.
-    void add_quality_warning_case(std::string what, double measured, double limit) {
+    void add_case_that_only_warns(std::string what, double measured, double limit) {
         row_.cases.push_back({std::move(what), measured, limit, true});
     }
     /// Adds the mean FLIP of two pictures. Keeps both pictures if it is above the limit.

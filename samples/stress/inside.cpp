@@ -54,7 +54,7 @@ void judge_eye_positions(StressTestBench& bench, const scene::Scene& scene,
         // From outside, a look-up without parallax correction is wrong for every camera, and most
         // wrong if the ball fills the picture.
         else
-            bench.add_quality_warning_case(
+            bench.add_case_that_only_warns(
                 fmt::format("{}, reuse", place.what),
                 measure::flip_mean(measure::flip(plain.display, traced.display)), .05);
     }

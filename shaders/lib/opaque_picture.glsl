@@ -10,7 +10,7 @@ layout(set = 0, binding = OPAQUE_LEVELS_BINDING) uniform texture2D opaque_levels
 
 // Returns the colour of the picture at a place in pixels, as the bilinear mean of four pixels.
 vec3 opaque_picture_colour(vec2 place) {
-    // A ray that goes straight on ends in the middle of its pixel, and must mix no others in. Rasterisers move vertices to the
+    // A ray that passes the glass without bending ends in the middle of its own pixel, and its look-up must mix in no other pixel. Rasterisers move vertices to the
     // nearest 1/256 of a pixel, which puts the end up to 1/512 beside the middle. Rounding to 1/64 takes that away.
     const float kWeightSteps = 64.0;
     ivec2 last = textureSize(opaque_picture, 0) - 1;

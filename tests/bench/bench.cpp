@@ -112,7 +112,7 @@ void compare_processor_rules(const app::Request& base) {
                                         // One search each for the camera, four captures and the
                                         // light.
                                         for (int i = 0; i < 6; ++i)
-                                            kept = nearest.distance_to_nearest(
+                                            kept = nearest.distance_to_nearest_triangle(
                                                 geometry, dvec3(0.1 * i),
                                                 [](std::size_t, const render::ObjectDrawRange&) {
                                                     return false;

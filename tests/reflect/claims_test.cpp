@@ -34,18 +34,18 @@ scene::Scene make_two_ball_scene(std::size_t seen, const dvec3& board, double ha
 
 /// Wrong pixels of a search, by what the traced ray meets after one reflection: the board (`board`)
 /// or the other ball (`ball`).
-struct WrongPixelsByTarget {
+struct WrongPixelsByReflectedObject {
     test::PixelComparison board, ball;
 };
 
-WrongPixelsByTarget count_wrong_pixels_by_target(const scene::Scene& scene,
-                                                 const app::TechniqueResult& truth,
-                                                 const std::string& search) {
+WrongPixelsByReflectedObject
+count_wrong_pixels_by_reflected_object(const scene::Scene& scene, const app::TechniqueResult& truth,
+                                       const std::string& search) {
     const measure::Picture picture = test::render_technique(
                                          scene, search + ":face=128,shadow=none,continue=8",
                                          kClaimsPictureSize)
                                          .hdr;
-    const WrongPixelsByTarget found{
+    const WrongPixelsByReflectedObject found{
         test::compare_pixels_of_mirrors(picture, truth,
                                         [](std::uint32_t hit, const vec3& colour) {
                                             return !measure::second_mirror_of_hit_word(hit) &&
@@ -71,8 +71,8 @@ TEST(Claims, BoardBetweenTwoMirrorsIsSeenInBoth) {
             const scene::Scene scene = make_two_ball_scene(seen, {.02, .1, .05}, .6, exact);
             const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
-                const WrongPixelsByTarget found = count_wrong_pixels_by_target(scene, truth,
-                                                                               search);
+                const WrongPixelsByReflectedObject found = count_wrong_pixels_by_reflected_object(
+                    scene, truth, search);
                 EXPECT_GT(found.board.pixels, 100u);
                 EXPECT_LE(found.board.share_of_off_mirror_pixels(), .25) << search << exact << seen;
             }
@@ -87,8 +87,8 @@ TEST(Claims, BoardBesideOrBehindAMirrorHidesNothingOfIt) {
             const scene::Scene scene = make_two_ball_scene(seen, board, .35, exact);
             const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, exact);
             for (const std::string search : {"march", "pyramid", "layered"}) {
-                const WrongPixelsByTarget found = count_wrong_pixels_by_target(scene, truth,
-                                                                               search);
+                const WrongPixelsByReflectedObject found = count_wrong_pixels_by_reflected_object(
+                    scene, truth, search);
                 EXPECT_GT(found.ball.pixels, 80u);
                 EXPECT_LE(found.ball.share_of_off_mirror_pixels(), .2)
                     << search << exact << board.x;
@@ -117,7 +117,7 @@ TEST(Claims, NearerOfTwoMirrorsOnARayIsMet) {
         const app::TechniqueResult truth = ray_trace_scene_for_claims(scene, true);
         for (const std::string search : {"secant", "pyramid"}) {
             const test::PixelComparison found =
-                count_wrong_pixels_by_target(scene, truth, search).ball;
+                count_wrong_pixels_by_reflected_object(scene, truth, search).ball;
             EXPECT_GT(found.pixels, 100u);
             EXPECT_LE(found.share_of_off_mirror_pixels(), .15) << search << near_first;
         }

@@ -208,8 +208,8 @@ TEST(GlassShadow, ShadowMapAgreesWithShadowRays) {
         };
         const measure::Picture raster = render("naive:bounces=0,face=16"),
                                traced = render("raytrace"), lit = render("raytrace:shadow=none");
-        // The outlines of glass in the shadow are edges as well, because light changes there in one
-        // step.
+        // The outlines of the glass's shadow count as shadow edges as well, because light changes
+        // there in one step.
         measure::Mask edges = test::mask_shadow_edges(lit, traced);
         scene.tints_glass_shadows = false;
         const measure::Picture untinted = render("raytrace");

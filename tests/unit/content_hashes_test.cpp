@@ -22,9 +22,9 @@ using namespace catoptric::require;
 constexpr std::uint32_t kShadowMapEdgeTexels = 1024;
 
 /// Computes the work that a scene's picture requires (the model) at given times in seconds.
-class ModelAtInstants {
+class RequirementsAtInstants {
 public:
-    explicit ModelAtInstants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
+    explicit RequirementsAtInstants(const scene::Scene& rest) : rest_(rest), requirements_(rest) {}
     RequiredWorkModel required_work_model_at_time(double seconds) {
         const scene::Scene now = scene::scene_at_time(rest_, seconds);
         return requirements_.make_work_model_for_request(
@@ -48,7 +48,7 @@ int count_unchanged_faces(const RequiredWorkModel& before, const RequiredWorkMod
 
 TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    ModelAtInstants instants(scene);
+    RequirementsAtInstants instants(scene);
     const RequiredWorkModel first = instants.required_work_model_at_time(0),
                             second = instants.required_work_model_at_time(0),
                             elsewhere = instants.required_work_model_at_time(1),
@@ -65,7 +65,7 @@ TEST(RequireStamps, ContentHashesStayWhileNothingMoves) {
 
 TEST(RequireStamps, MovingBallChangesHashesOnlyWhereTheBallOrItsShadowShows) {
     const scene::Scene scene = scene::make_cornell_mirrors();
-    ModelAtInstants instants(scene);
+    RequirementsAtInstants instants(scene);
     RequiredWorkModel before = instants.required_work_model_at_time(0);
     int stays = 0;
     for (int frame = 1; frame <= 20; ++frame) {
@@ -123,7 +123,7 @@ TEST(RequireStamps, ApproachingBlockChangesOnlyTheFaceThatShowsTheBlock) {
     scene.objects.back().world_from_object[3] = {3, 0, 0, 1};
     scene.objects.back().motion = scene::HarmonicMotion{.amplitude = {.5, 0, 0}, .period = 1};
     scene.cameras.push_back({.eye = {0, 0, -5}, .target = {0, 0, 0}});
-    ModelAtInstants instants(scene);
+    RequirementsAtInstants instants(scene);
     const RequiredWorkModel before = instants.required_work_model_at_time(.1),
                             after = instants.required_work_model_at_time(.2);
     // Five faces keep their hash: all but face +X.
@@ -207,7 +207,7 @@ TEST(RequireStamps, FacesWithEqualContentHashesShowRaysNoChange) {
         const std::size_t mover = scene.objects.size() - 2 - numbers.random_integer_below(6);
         scene.objects[mover].motion = scene::HarmonicMotion{
             .amplitude = dvec3(numbers.random_unit_direction()), .period = 2};
-        ModelAtInstants instants(scene);
+        RequirementsAtInstants instants(scene);
         const RequiredWorkModel before = instants.required_work_model_at_time(.2),
                                 after = instants.required_work_model_at_time(.5);
         const scene::Scene then = scene::scene_at_time(scene, .2),

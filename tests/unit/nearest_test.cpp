@@ -38,13 +38,13 @@ void expect_nearest_as_by_search(render::NearestTriangleQuery& nearest,
     for (int k = 0; k < 100; ++k) {
         const vec3 point = numbers.random_point_in_cube();
         const Skip none = [](std::size_t, const render::ObjectDrawRange&) { return false; };
-        ASSERT_EQ(nearest.distance_to_nearest(geometry, dvec3(point), none),
+        ASSERT_EQ(nearest.distance_to_nearest_triangle(geometry, dvec3(point), none),
                   nearest_distance_by_search(geometry, point, none));
     }
     for (std::size_t object = 0; object < geometry.ranges.size(); ++object) {
         const vec3 point = geometry.ranges[object].bounds.centre();
         const Skip own = [&](std::size_t i, const render::ObjectDrawRange&) { return i == object; };
-        ASSERT_EQ(nearest.distance_to_nearest(geometry, dvec3(point), own),
+        ASSERT_EQ(nearest.distance_to_nearest_triangle(geometry, dvec3(point), own),
                   nearest_distance_by_search(geometry, point, own));
     }
 }
@@ -90,14 +90,14 @@ TEST(Nearest, DistanceInObjectSpacesIsThatOfTheNearestObject) {
         float wanted = std::numeric_limits<float>::infinity();
         std::size_t which = 0;
         for (std::size_t i = 0; i < geometry.ranges.size(); ++i) {
-            const float alone = nearest.distance_to_nearest(
+            const float alone = nearest.distance_to_nearest_triangle(
                 geometry, point,
                 [&](std::size_t other, const render::ObjectDrawRange&) { return other != i; });
             if (alone < wanted) wanted = alone, which = i;
         }
         in_object_spaces += geometry.ranges[which].own.has_value();
         ASSERT_EQ(
-            nearest.distance_to_nearest(
+            nearest.distance_to_nearest_triangle(
                 geometry, point, [](std::size_t, const render::ObjectDrawRange&) { return false; }),
             wanted);
     }
@@ -109,7 +109,7 @@ TEST(Nearest, DistanceToAnEmptyGeometryIsInfinity) {
     render::NearestTriangleQuery nearest;
     nearest.set_geometry(geometry);
     EXPECT_EQ(
-        nearest.distance_to_nearest(
+        nearest.distance_to_nearest_triangle(
             geometry, dvec3(0), [](std::size_t, const render::ObjectDrawRange&) { return false; }),
         std::numeric_limits<float>::infinity());
 }

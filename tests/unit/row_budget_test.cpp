@@ -30,30 +30,31 @@ std::string label_of_row_or_none(const measure::Row* found) {
     return found == nullptr ? "" : found->label;
 }
 
-std::string choose_row_label_in_budget(double max_ms, double max_flip) {
+std::string label_of_best_row_within_budget(double max_ms, double max_flip) {
     measure::Comparison made = make_rows_of_rising_quality();
     made.max_ms = max_ms, made.max_flip = max_flip;
     return label_of_row_or_none(measure::find_best_rows_within_budget(made).row);
 }
 
 TEST(RowBudget, TimeBudgetChoosesTheClosestRowInTime) {
-    EXPECT_EQ(choose_row_label_in_budget(4, NAN), "fast");
-    EXPECT_EQ(choose_row_label_in_budget(5, NAN), "middle");
-    EXPECT_EQ(choose_row_label_in_budget(100, NAN), "slow");
-    EXPECT_EQ(choose_row_label_in_budget(2, NAN), "") << "rows with black mirrors do not count";
+    EXPECT_EQ(label_of_best_row_within_budget(4, NAN), "fast");
+    EXPECT_EQ(label_of_best_row_within_budget(5, NAN), "middle");
+    EXPECT_EQ(label_of_best_row_within_budget(100, NAN), "slow");
+    EXPECT_EQ(label_of_best_row_within_budget(2, NAN), "")
+        << "rows with black mirrors do not count";
 }
 
 TEST(RowBudget, ErrorBudgetChoosesTheFastestRowThatIsCloseEnough) {
-    EXPECT_EQ(choose_row_label_in_budget(NAN, .15), "middle");
-    EXPECT_EQ(choose_row_label_in_budget(NAN, .1), "middle");
-    EXPECT_EQ(choose_row_label_in_budget(NAN, .3), "fast");
-    EXPECT_EQ(choose_row_label_in_budget(NAN, .001), "");
+    EXPECT_EQ(label_of_best_row_within_budget(NAN, .15), "middle");
+    EXPECT_EQ(label_of_best_row_within_budget(NAN, .1), "middle");
+    EXPECT_EQ(label_of_best_row_within_budget(NAN, .3), "fast");
+    EXPECT_EQ(label_of_best_row_within_budget(NAN, .001), "");
 }
 
 TEST(RowBudget, BothBudgetsChooseTheFastestRowThatKeepsBoth) {
-    EXPECT_EQ(choose_row_label_in_budget(10, .15), "middle");
-    EXPECT_EQ(choose_row_label_in_budget(4, .15), "");
-    EXPECT_EQ(choose_row_label_in_budget(10, .01), "slow");
+    EXPECT_EQ(label_of_best_row_within_budget(10, .15), "middle");
+    EXPECT_EQ(label_of_best_row_within_budget(4, .15), "");
+    EXPECT_EQ(label_of_best_row_within_budget(10, .01), "slow");
 }
 
 TEST(RowBudget, RowOnTheLimitOfTimeIsUndecided) {

@@ -45,7 +45,7 @@ struct CapturedScene {
             ASSERT_TRUE(render::is_closed_shell(scene.meshes[scene.objects[i].mesh]));
             const vec3 centre = geometry.ranges[i].bounds.centre();
             balls.push_back({centre,
-                             nearest.distance_to_nearest(
+                             nearest.distance_to_nearest_triangle(
                                  geometry, dvec3(centre),
                                  [&](std::size_t object, const render::ObjectDrawRange&) {
                                      return object != i;
