@@ -42,7 +42,7 @@ CATOPTRIC_API Mesh torus(std::string name, double radius, double thickness, int 
 
 /// Returns a unit ball: a tetrahedron subdivided `levels` times, with midpoints normalised at each
 /// level. It has 4^(levels+1) triangles, 2*4^levels + 2 shared vertices and smooth normals. Level 5
-/// is the contract's ball: 4096 triangles, 2050 vertices.
+/// is a ball of `cornell-mirrors`: 4096 triangles, 2050 vertices.
 CATOPTRIC_API Mesh ball(std::string name, int levels);
 
 /// Edit that sets the transform of an object at rest. The object's motion continues from there. The
