@@ -38,12 +38,18 @@ std::string draw_bar_text(double x, double y, const char* anchor, const std::str
                        escape_html(text));
 }
 
-/// Draws the names of the kinds in as many lines as they need. Sets `y` below the last line.
-std::string draw_bar_legend(const std::vector<BarPartKind>& kinds, double left, double& y) {
+/// Draws the names of the kinds that some bar has, in as many lines as they need. Sets `y` below
+/// the last line.
+std::string draw_bar_legend(const StackedBars& chart, double left, double& y) {
     std::string svg;
     double x = left;
     y = kLegendLineHeight;
-    for (const BarPartKind& kind : kinds) {
+    for (std::size_t k = 0; k < chart.kinds.size(); ++k) {
+        const BarPartKind& kind = chart.kinds[k];
+        if (std::ranges::none_of(chart.bars, [k](const StackedBar& bar) {
+                return k < bar.lengths.size() && bar_length(bar.lengths[k]) > 0;
+            }))
+            continue;
         const double width = kLegendBoxSize + 6 +
                              kLetterWidth * static_cast<double>(kind.name.size()) + 14;
         if (x + width > kBarsWidth && x > left) x = left, y += kLegendLineHeight;
@@ -76,7 +82,7 @@ std::string draw_stacked_bars(const StackedBars& chart) {
     const double left = std::min(kMaxLabelWidth, 16 + kLetterWidth * static_cast<double>(letters));
     const double scale = (kBarsWidth - kRightMargin - left) / longest;
     double top = 0;
-    const std::string legend = draw_bar_legend(chart.kinds, left, top);
+    const std::string legend = draw_bar_legend(chart, left, top);
     const double bottom = top + kBarDistance * static_cast<double>(chart.bars.size());
     std::string svg = fmt::format(R"(<svg viewBox="0 0 {} {:.0f}" role="img" aria-label="{}">)",
                                   kBarsWidth, bottom + kAxisHeight, escape_html(chart.says)) +

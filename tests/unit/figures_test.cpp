@@ -34,8 +34,8 @@ std::vector<double> list_bar_widths(const std::string& svg) {
 TEST(StackedBarsDrawing, WidthsAreInProportionToTheLengths) {
     const StackedBars chart{.x_name = "ms",
                             .says = "a <drawing>",
-                            .kinds = {{"view", "#000"}, {"trace", "#111"}},
-                            .bars = {{"long", {30, 10}}, {"short & thin", {NAN, 20}}}};
+                            .kinds = {{"view", "#000"}, {"trace", "#111"}, {"unused", "#222"}},
+                            .bars = {{"long", {30, 10, 0}}, {"short & thin", {NAN, 20}}}};
     const std::string svg = draw_stacked_bars(chart);
     const std::vector<double> widths = list_bar_widths(svg);
     ASSERT_EQ(widths.size(), 3U);
@@ -44,6 +44,8 @@ TEST(StackedBarsDrawing, WidthsAreInProportionToTheLengths) {
     EXPECT_THAT(svg, HasSubstr("short &amp; thin"));
     EXPECT_THAT(svg, HasSubstr("a &lt;drawing&gt;"));
     EXPECT_THAT(svg, HasSubstr(">40</text>")); // the last tick
+    EXPECT_THAT(svg, HasSubstr(">trace</text>"));
+    EXPECT_THAT(svg, Not(HasSubstr(">unused</text>")));
     EXPECT_EQ(draw_stacked_bars({.kinds = {{"view", "#000"}}, .bars = {{"none", {0}}}}), "");
 }
 
