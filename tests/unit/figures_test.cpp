@@ -123,7 +123,7 @@ TEST_F(FiguresOfComparison, CropsHoldThePixelsThatTheCaptionNames) {
     EXPECT_THAT(tex, HasSubstr("from (10, 5) to (41, 20), enlarged 16 times"));
     EXPECT_THAT(tex, HasSubstr("crop-reuse.png"));
     EXPECT_THAT(tex, HasSubstr("{\\tiny naive:bounces=0}"));
-    EXPECT_THAT(tex, HasSubstr("reuse & 7.00 & 7.00--7.00 & .200 & .0900 \\\\"));
+    EXPECT_THAT(tex, HasSubstr("reuse & 7.00 & 7.00--7.00 & 0.2000 & 0.0900 \\\\"));
     EXPECT_THAT(tex, Not(HasSubstr("causes"))); // no row has causes
     EXPECT_FALSE(fs::exists(folder / "causes.svg"));
     for (const char* name : {"plot.svg", "passes.svg"}) {
