@@ -2,7 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "output_checks.hpp"
+#include "output.hpp"
 #include "parse.hpp"
 
 #include <array>
