@@ -15,7 +15,7 @@ std::string find_pass_kind(const std::string& pass) { return pass.substr(0, pass
 std::vector<ReportTable> make_pass_time_tables(const Comparison& comparison) {
     const StackedBars bars = make_pass_time_bars(comparison);
     ReportTable table{"Time by pass, ms",
-                      {make_text_column("row")},
+                      {make_text_column("Row")},
                       "Medians of the device's time. Passes of one kind are summed, such as those "
                       "that draw captures."};
     for (const BarPartKind& kind : bars.kinds) table.columns.emplace_back(kind.name);
