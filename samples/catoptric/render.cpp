@@ -51,8 +51,8 @@ With --animate, --camera-path, --frames, --warmup, --profile or --trace, frames 
 The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its name, one picture per measured
 frame is written, numbered from 1.
 EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.
---origin writes JSON of schema catoptric/picture/1 into the EXR attribute `comments` (in OpenImageIO:
-ImageDescription). Without it, equal pictures are equal files.)";
+The text of --origin is JSON of schema catoptric/picture/1 in the EXR attribute `comments`, which
+OpenImageIO calls ImageDescription. Without --origin, equal pictures are equal files.)";
 
 struct RenderOptions {
     CommonOptions common;
