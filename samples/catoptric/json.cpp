@@ -146,6 +146,23 @@ std::string make_render_json(const app::Request& request, const app::DeviceInfo&
     return serialise_json(document);
 }
 
+std::string make_picture_origin_json(const PictureOrigin& origin) {
+    const Json json{{"schema", "catoptric/picture/1"},
+                    {"version", app::version()},
+                    {"commit", app::commit()},
+                    {"device", origin.device},
+                    {"driver", origin.driver},
+                    {"scene", origin.scene},
+                    {"scene_hash", origin.scene_hash},
+                    {"technique", origin.technique},
+                    {"model", origin.model},
+                    {"camera", report::make_camera_json(origin.camera)},
+                    {"time", origin.time},
+                    {"seed", origin.seed},
+                    {"exposure", origin.exposure}};
+    return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
 std::string make_trace_json(const app::FrameTimes& frame, const std::string& process) {
     Json events = Json::array();
     const auto name_of = [&](const char* what, const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/comparison.hpp"
 #include "measure/picture.hpp"
 #include "session/run.hpp"
 #include "session/scene_info.hpp"
@@ -25,6 +26,21 @@ std::string make_diff_json(const PictureDiffFacts& facts);
 
 std::string make_render_json(const app::Request& request, const app::DeviceInfo& device,
                              const app::RunResult& result, const std::string& output);
+
+/// What a picture was made of: with this and the files of the scene, it can be made again.
+struct PictureOrigin {
+    std::string device, driver;
+    std::string scene, scene_hash;
+    std::string technique;       ///< as written for the row, such as "naive:bounces=1"
+    std::string model;           ///< "everything" or "required"
+    measure::CameraFacts camera; ///< world units
+    double time = 0;             ///< seconds into the scene's motion
+    std::uint64_t seed = 0;      ///< seed of irregular sample patterns
+    double exposure = 0;         ///< stops at which the picture is shown; not part of its values
+};
+/// Returns the text for the header of an OpenEXR file, in one line, without a newline at its end:
+/// schema "catoptric/picture/1". The same origin gives the same text.
+std::string make_picture_origin_json(const PictureOrigin& origin);
 
 /// Returns the passes of one frame in Chrome's trace-event format (chrome://tracing, Perfetto).
 std::string make_trace_json(const app::FrameTimes& frame, const std::string& process);

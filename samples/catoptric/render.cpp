@@ -11,7 +11,6 @@
 #include "options.hpp"
 #include "output_checks.hpp"
 #include "progress.hpp"
-#include "report/picture_origin.hpp"
 #include "scene/hash.hpp"
 #include "session/capture_budget.hpp"
 #include "session/exposure.hpp"
@@ -140,26 +139,24 @@ app::Request make_render_request(const RenderOptions& options) {
 
 /// Returns what pictures of the request are made of, but for the camera and the instant. Empty
 /// without --origin.
-std::optional<report::PictureOrigin> make_picture_origin(const RenderOptions& options,
-                                                         const app::Request& request,
-                                                         const app::DeviceInfo& device) {
+std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
+                                                 const app::Request& request,
+                                                 const app::DeviceInfo& device) {
     if (!options.origin) return std::nullopt;
-    return report::PictureOrigin{.version = app::version(),
-                                 .commit = app::commit(),
-                                 .device = device.name,
-                                 .driver = device.driver,
-                                 .scene = request.scene.name,
-                                 .scene_hash = scene::hash_scene(request.scene),
-                                 .technique = app::parse_technique(options.technique).label,
-                                 .model = rendered_work_name(request.model),
-                                 .exposure = request.exposure};
+    return PictureOrigin{.device = device.name,
+                         .driver = device.driver,
+                         .scene = request.scene.name,
+                         .scene_hash = scene::hash_scene(request.scene),
+                         .technique = app::parse_technique(options.technique).label,
+                         .model = rendered_work_name(request.model),
+                         .seed = request.seed,
+                         .exposure = request.exposure};
 }
 
-void write_picture(const app::TechniqueResult& part,
-                   const std::optional<report::PictureOrigin>& origin, const std::string& file) {
+void write_picture(const app::TechniqueResult& part, const std::optional<PictureOrigin>& origin,
+                   const std::string& file) {
     if (file.ends_with(".exr"))
-        return measure::write_exr(part.hdr, file,
-                                  origin ? report::format_picture_origin(*origin) : "");
+        return measure::write_exr(part.hdr, file, origin ? make_picture_origin_json(*origin) : "");
     measure::write_png(part.display, file);
 }
 
@@ -187,7 +184,7 @@ std::optional<CameraPath> read_camera_path_of_request(const RenderOptions& optio
 /// and the instant of `origin` to those of the last frame.
 void render_all_frames(app::FrameLoop& frames, const app::Request& request,
                        const std::optional<CameraPath>& path, const std::vector<std::string>& files,
-                       std::optional<report::PictureOrigin>& origin, const app::Watcher& watcher) {
+                       std::optional<PictureOrigin>& origin, const app::Watcher& watcher) {
     const int warmup = request.warmup;
     const auto find_camera = [&] {
         const int next = frames.rendered_frame_count() + 1 -
@@ -260,8 +257,7 @@ int run_render(const RenderOptions& options) {
     ProgressPrinter progress(manners);
     const app::Watcher watcher = make_progress_watcher(progress);
     report_row_to_watcher(watcher, choice.label, 0, 1);
-    std::optional<report::PictureOrigin> origin = make_picture_origin(options, request,
-                                                                      engine.device());
+    std::optional<PictureOrigin> origin = make_picture_origin(options, request, engine.device());
     scene::Scene scene = std::exchange(request.scene, {});
     request.scene.name = scene.name;
     app::Session session(engine, std::move(scene));

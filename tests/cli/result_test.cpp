@@ -183,7 +183,8 @@ TEST_F(CommandLineTest, OriginInThePicturesHeaderIsEnoughToMakeThePictureAgain) 
         EXPECT_EQ(ended.exit_code, 0) << ended.err;
     };
     Words words = seeded;
-    words.insert(words.end(), {"--time", ".5", "--technique", "raytrace:depth=3", "--origin"});
+    words.insert(words.end(),
+                 {"--time", ".5", "--technique", "raytrace:depth=3,samples=5", "--origin"});
     render("a_%d.exr", words);
     const auto read_header_text = [&](const std::string& file) {
         const auto bytes = catoptric::open_file_bytes(folder / file);
@@ -203,11 +204,12 @@ TEST_F(CommandLineTest, OriginInThePicturesHeaderIsEnoughToMakeThePictureAgain) 
                            point[2].get<double>());
     };
     const json& camera = origin["camera"];
-    render("b.exr", {"--technique", origin["technique"], "--model", origin["model"], "--time",
-                     fmt::format("{}", origin["time"].get<double>()), "--frames", "1", "--warmup",
-                     "0", "--camera",
-                     fmt::format("{}:{}:{}", join(camera["eye"]), join(camera["target"]),
-                                 camera["vertical_fov_degrees"].get<double>())});
+    render("b.exr",
+           {"--technique", origin["technique"], "--seed", std::to_string(origin["seed"].get<int>()),
+            "--model", origin["model"], "--time", fmt::format("{}", origin["time"].get<double>()),
+            "--frames", "1", "--warmup", "0", "--camera",
+            fmt::format("{}:{}:{}", join(camera["eye"]), join(camera["target"]),
+                        camera["vertical_fov_degrees"].get<double>())});
     EXPECT_EQ(catoptric::measure::read_picture(folder / "a_3.exr").pixels,
               catoptric::measure::read_picture(folder / "b.exr").pixels);
     EXPECT_EQ(read_header_text("b.exr"), "");
