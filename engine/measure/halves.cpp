@@ -12,6 +12,10 @@
 
 namespace catoptric::measure {
 
+double square_root_keeping_sign(double square) {
+    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
+}
+
 namespace {
 
 constexpr int kBootstrapResampleCount = 1000;
@@ -49,10 +53,6 @@ Interval compute_bootstrap_interval(std::vector<BootstrapTileSum> tiles) {
         means.push_back(sum.products / (3 * sum.pixels));
     }
     return {compute_percentile(means, .025), compute_percentile(std::move(means), .975)};
-}
-
-double square_root_keeping_sign(double square) {
-    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
 
 /// Sums of squared errors over the pixels of one mask.

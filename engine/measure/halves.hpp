@@ -39,6 +39,10 @@ Difference compute_difference_from_halves(const Picture& picture,
                                           const NoisyReferenceHalves& halves, const Mask& mask,
                                           std::span<const float> flip_map);
 
+/// Returns sqrt(square), or -sqrt(-square) if an unbiased squared error is negative, as
+/// Difference::rmse has it.
+double square_root_keeping_sign(double square);
+
 /// Edge of the tiles that the bootstrap draws, pixels.
 inline constexpr int kBootstrapTileEdge = 16;
 /// Fewest tiles with pixels of the mask for which there is an interval.

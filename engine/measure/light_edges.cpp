@@ -1,5 +1,6 @@
 #include "measure/light_edges.hpp"
 
+#include "measure/halves.hpp"
 #include "measure/metric.hpp"
 
 #include <algorithm>
@@ -59,11 +60,6 @@ SquaredErrorSum make_squared_error_sum(const Difference& error) {
     return {judged, judged > 0 ? error.rmse * std::abs(error.rmse) * judged : 0};
 }
 
-/// Returns the root with the sign of the square, as Difference::rmse has it.
-double signed_square_root(double square) {
-    return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
-}
-
 } // namespace
 
 LightEdgeErrors split_error_by_light_edges(const Difference& there, const Difference& elsewhere) {
@@ -72,7 +68,8 @@ LightEdgeErrors split_error_by_light_edges(const Difference& there, const Differ
     const double pixels = edges.pixels + rest.pixels, squares = edges.squares + rest.squares;
     if (!(pixels > 0)) return {};
     return {edges.pixels / pixels, squares > 0 ? std::clamp(edges.squares / squares, 0.0, 1.0) : 0,
-            signed_square_root(edges.squares / pixels), signed_square_root(rest.squares / pixels)};
+            square_root_keeping_sign(edges.squares / pixels),
+            square_root_keeping_sign(rest.squares / pixels)};
 }
 
 } // namespace catoptric::measure
