@@ -53,11 +53,12 @@ constexpr ErrorCauseTableRow kCauseTableLines[] = {
      false}};
 
 constexpr const char* kRoughMirrorNote =
-    " Rough mirrors: before the five, noise (random directions of the row) goes, then filter (the "
-    "look-up in levels of the capture becomes directions of the level's lobe, looked up sharply), "
-    "then distance law (each direction is searched) and lobe shape (the surface's own lobe) share "
-    "by Shapley. A dash: the row has no such part. Errors are unbiased against both halves of the "
-    "reference.";
+    " On rough mirrors, further causes are removed before these five. Noise: the mean of many "
+    "drawings replaces the row's random directions. Filter: sharp look-ups in many directions of "
+    "the level's lobe replace the filtered level. Distance law, and lobe shape: each direction is "
+    "searched for itself, and directions follow the surface's own lobe; these two share their "
+    "error by Shapley values. A dash means that the row has no such part. Squared errors are "
+    "unbiased estimates from both halves of the reference.";
 
 std::vector<std::string> format_cause_cells(const ErrorCauseTableRow& line, const Causes& causes,
                                             const std::vector<CausePictureColour>& columns) {
