@@ -154,8 +154,8 @@ TEST(CauseTable, CausesOfRoughMirrorsHaveColumnsWhereTheyOccur) {
                                   report::sample::make_comparison({sharp})),
                               both = report::make_cause_table(
                                   report::sample::make_comparison({sharp, rough}));
-    EXPECT_EQ(perfect.note.find("Rough mirrors"), std::string::npos);
-    EXPECT_NE(both.note.find("Rough mirrors: before the five, noise"), std::string::npos);
+    EXPECT_EQ(perfect.note.find("On rough mirrors"), std::string::npos);
+    EXPECT_NE(both.note.find("On rough mirrors, further causes"), std::string::npos);
     ASSERT_EQ(both.columns.size(), perfect.columns.size() + std::size(kCausesOfLobes));
     EXPECT_EQ(both.columns[4].name, "noise (violet)");
     EXPECT_EQ(both.columns[7].name, "lobe shape (crimson)");
