@@ -15,7 +15,7 @@ namespace {
 
 using namespace catoptric;
 
-constexpr int kIntegralPictureEdge = 16;
+constexpr int kIntegralPictureEdge = 10;
 constexpr double kGlowingWallZ = -4,
                  kGlowingWallHeight = 5; ///< the wall covers |x| <= kGlowingWallHeight and 0 <= y
                                          ///< <= kGlowingWallHeight
