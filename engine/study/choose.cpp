@@ -22,11 +22,14 @@ namespace catoptric::app {
 
 namespace {
 
-/// A request to choose a plan, together with the contents of the files that the request names.
+/// A request to choose a plan, together with the contents of the files that the request names, and
+/// where its comparisons come from.
 struct ResolvedChooseRequest : ChooseRequest {
-    explicit ResolvedChooseRequest(const ChooseRequest& request) : ChooseRequest(request) {
+    ResolvedChooseRequest(const ChooseRequest& request, PlanComparer comparer)
+        : ChooseRequest(request), compare_plans(std::move(comparer)) {
         if (!costs.empty()) device_costs = report::read_costs_file(costs);
     }
+    PlanComparer compare_plans;
     std::optional<measure::DeviceCosts> device_costs; ///< read from `costs`
 };
 
@@ -79,23 +82,25 @@ void report_choose_step(const ResolvedChooseRequest& request, const std::string&
     if (request.tell) request.tell(sentence);
 }
 
-/// Compares plans with the reference, in the comparison's own view and in `views` drawn views.
-measure::Comparison compare_plans(Engine& engine, const ResolvedChooseRequest& request,
-                                  const std::vector<std::string>& plans, int views,
-                                  std::uint64_t seed, int cameras_per_instant = 1) {
-    CompareRequest compared;
-    compared.base = request.base;
-    compared.base.techniques = plans;
-    compared.base.seed = seed;
-    compared.reference = request.reference;
-    compared.reference_seconds = request.reference_seconds;
-    compared.watcher = request.watcher;
-    compared.cameras_per_instant = cameras_per_instant;
-    if (views > 0) compared.studies.push_back({"views", views});
-    if (request.device_costs) compared.studies.push_back({"work"});
-    measure::Comparison comparison = compare(engine, compared);
-    if (comparison.stopped) throw Error(*comparison.stopped);
-    return comparison;
+/// Returns a function that compares plans by rendering them. The engine and the request must stay
+/// valid as long as the function is used.
+PlanComparer make_rendering_comparer(Engine& engine, const ChooseRequest& request) {
+    return [&engine, &request](const std::vector<std::string>& plans, int views, std::uint64_t seed,
+                               int cameras_per_instant) {
+        CompareRequest compared;
+        compared.base = request.base;
+        compared.base.techniques = plans;
+        compared.base.seed = seed;
+        compared.reference = request.reference;
+        compared.reference_seconds = request.reference_seconds;
+        compared.watcher = request.watcher;
+        compared.cameras_per_instant = cameras_per_instant;
+        if (views > 0) compared.studies.push_back({"views", views});
+        if (!request.costs.empty()) compared.studies.push_back({"work"});
+        measure::Comparison comparison = compare(engine, compared);
+        if (comparison.stopped) throw Error(*comparison.stopped);
+        return comparison;
+    };
 }
 
 std::vector<JudgedPlan> list_judged_plans(const ResolvedChooseRequest& request,
@@ -211,10 +216,10 @@ std::string find_fastest_mixed_plan(const ResolvedChooseRequest& request,
 }
 
 /// Returns whether the second of two plans is faster when both are measured side by side.
-bool is_second_plan_faster(Engine& engine, const ResolvedChooseRequest& request,
-                           const std::string& first, const std::string& second) {
+bool is_second_plan_faster(const ResolvedChooseRequest& request, const std::string& first,
+                           const std::string& second) {
     const std::vector<std::string> texts{first, second};
-    const measure::Comparison both = compare_plans(engine, request, texts, 0, request.base.seed);
+    const measure::Comparison both = request.compare_plans(texts, 0, request.base.seed, 1);
     if (!request.device_costs) return measure::is_confidently_faster(both.rows[1], both.rows[0]);
     const std::vector<JudgedPlan> plans = list_judged_plans(request, both, texts);
     return plans[1].ms < plans[0].ms;
@@ -251,7 +256,7 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
 }
 
 /// Returns the plans to prove, in order from the smallest error to the shortest time.
-std::vector<std::string> list_plans_to_prove(Engine& engine, const ResolvedChooseRequest& request,
+std::vector<std::string> list_plans_to_prove(const ResolvedChooseRequest& request,
                                              const measure::Comparison& training,
                                              const std::vector<JudgedPlan>& plans) {
     // Most plans that are proved, without the mix of techniques.
@@ -268,11 +273,11 @@ std::vector<std::string> list_plans_to_prove(Engine& engine, const ResolvedChoos
                       cheapest = chain.back();
     if (mixed.empty()) return chain;
     report_choose_step(request, "measuring the mix " + mixed + " beside " + cheapest);
-    if (is_second_plan_faster(engine, request, cheapest, mixed)) chain.push_back(mixed);
+    if (is_second_plan_faster(request, cheapest, mixed)) chain.push_back(mixed);
     return chain;
 }
 
-std::vector<PlanProof> prove_plans(Engine& engine, const ResolvedChooseRequest& request,
+std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
                                    const std::vector<std::string>& texts) {
     const int views = request.proof_views > 0 ? request.proof_views : count_proof_views(request);
     report_choose_step(
@@ -280,14 +285,14 @@ std::vector<PlanProof> prove_plans(Engine& engine, const ResolvedChooseRequest& 
         fmt::format("proving {} on {} fresh views",
                     texts.size() == 1 ? texts.front() : fmt::format("{} plans", texts.size()),
                     views));
-    const measure::Comparison comparison = compare_plans(engine, request, texts, views,
-                                                         request.proof_seed);
+    const measure::Comparison comparison = request.compare_plans(texts, views, request.proof_seed,
+                                                                 1);
     std::vector<PlanProof> proofs;
     for (JudgedPlan& plan : list_judged_plans(request, comparison, texts)) {
         PlanProof proof{.plan = std::move(plan),
                         .device = request.device_costs
                                       ? request.device_costs->device + " (predicted)"
-                                      : engine.device().name,
+                                      : comparison.device.name,
                         .scene_hash = comparison.scene.hash,
                         .exposure = comparison.exposure};
         const std::vector<double>& errors = proof.plan.errors;
@@ -360,36 +365,38 @@ double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& m
 }
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::string& plan) {
-    const ResolvedChooseRequest request(asked);
+    const ResolvedChooseRequest request(asked, make_rendering_comparer(engine, asked));
     check_choose_request(request);
-    return prove_plans(engine, request, {plan}).front();
+    return prove_plans(request, {plan}).front();
 }
 
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& asked) {
-    const ResolvedChooseRequest request(asked);
+    return choose_plan(asked, make_rendering_comparer(engine, asked));
+}
+
+PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_plans) {
+    const ResolvedChooseRequest request(asked, compare_plans);
     check_choose_request(request);
     PlanChoice choice;
     std::vector<std::string> texts = request.base.techniques;
     if (texts.empty()) texts = list_default_techniques(request.base);
     report_choose_step(request, fmt::format("measuring {} candidates in one view", texts.size()));
     texts = keep_plans_not_clearly_beaten(
-        request, compare_plans(engine, request, texts, 0, request.base.seed), texts,
-        choice.dropped);
+        request, request.compare_plans(texts, 0, request.base.seed, 1), texts, choice.dropped);
     check(!texts.empty(), Failure::usage,
           "candidates: wanted one that shows reflections, found none");
     report_choose_step(request, fmt::format("judging {} candidates in {} training views",
                                             texts.size(), request.training_views));
-    const measure::Comparison training = compare_plans(engine, request, texts,
-                                                       request.training_views, request.base.seed,
-                                                       request.cameras_per_instant);
+    const measure::Comparison training = request.compare_plans(
+        texts, request.training_views, request.base.seed, request.cameras_per_instant);
     choice.candidates = list_judged_plans(request, training, texts);
-    const std::vector<std::string> chain = list_plans_to_prove(engine, request, training,
+    const std::vector<std::string> chain = list_plans_to_prove(request, training,
                                                                choice.candidates);
     if (chain.empty()) {
         choice.failure = describe_nearest_plan(request, choice.candidates);
         return choice;
     }
-    choice.proofs = prove_plans(engine, request, chain);
+    choice.proofs = prove_plans(request, chain);
     for (std::size_t i = 0; i < choice.proofs.size(); ++i)
         if (choice.proofs[i].holds()) choice.chosen = i;
     if (!choice.chosen) choice.failure = describe_failed_proof(request, choice.proofs);

@@ -4,6 +4,8 @@
 #include "measure/comparison.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,6 +69,17 @@ struct PlanChoice {
 /// least error and the cheapest plans are tested on fresh views. Throws `usage` for limits out of
 /// range, and what `compare` throws. Each step with drawn views takes one comparison.
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& request);
+
+/// Returns a comparison of plans with the reference, in the comparison's own view and in `views`
+/// views drawn from `seed`, of which `cameras_per_instant` neighbours share an instant. `views` 0:
+/// only the own view.
+using PlanComparer = std::function<measure::Comparison(
+    const std::vector<std::string>& plans, int views, std::uint64_t seed, int cameras_per_instant)>;
+
+/// Chooses a plan in the same way from the comparisons that a function returns, for example of
+/// recorded views, which makes many choices affordable. `request.base.techniques` must not be
+/// empty.
+PlanChoice choose_plan(const ChooseRequest& request, const PlanComparer& compare_plans);
 
 /// Proves one plan on fresh views: the last step of choose_plan.
 PlanProof prove_plan(Engine& engine, const ChooseRequest& request, const std::string& plan);
