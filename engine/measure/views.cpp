@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace catoptric::measure {
 
@@ -85,6 +86,41 @@ MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& ma
     over.ci95 = median_confidence_interval(known);
     over.median = compute_median(std::move(known));
     return over;
+}
+
+std::optional<SharedInstants> estimate_effect_of_shared_instants(const std::vector<View>& views,
+                                                                 std::span<const double> values) {
+    std::vector<std::vector<double>> instants;
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < std::min(views.size(), values.size()); ++i) {
+        if (i == 0 || views[i].time != views[i - 1].time) instants.emplace_back();
+        if (std::isfinite(values[i])) instants.back().push_back(values[i]);
+        largest = std::max(largest, instants.back().size());
+    }
+    std::erase_if(instants, &std::vector<double>::empty);
+    if (largest < 2 || instants.size() < 2) return {};
+    const auto mean_of = [](const std::vector<double>& of) {
+        return std::accumulate(of.begin(), of.end(), 0.) / static_cast<double>(of.size());
+    };
+    double count = 0, squared_sizes = 0, sum = 0;
+    for (const std::vector<double>& instant : instants) {
+        const auto size = static_cast<double>(instant.size());
+        count += size, squared_sizes += size * size, sum += size * mean_of(instant);
+    }
+    const auto square = [](double value) { return value * value; };
+    double between = 0, within = 0; // sums of squares
+    for (const std::vector<double>& instant : instants) {
+        const double mean = mean_of(instant);
+        between += static_cast<double>(instant.size()) * square(mean - sum / count);
+        for (const double value : instant) within += square(value - mean);
+    }
+    const auto groups = static_cast<double>(instants.size());
+    between /= groups - 1, within /= count - groups;
+    const double size = (count - squared_sizes / count) / (groups - 1);
+    const double total = between + (size - 1) * within;
+    const double rho = total > 0 ? std::max((between - within) / total, 0.) : 0;
+    const double effect = 1 + (squared_sizes / count - 1) * rho;
+    return SharedInstants{instants.size(), effect, count / effect};
 }
 
 Interval metric_difference_interval_over_views(const Row& a, const Row& b,

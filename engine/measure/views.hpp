@@ -3,6 +3,8 @@
 #include "measure/metric.hpp"
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -27,6 +29,22 @@ struct MetricOverViews {
 /// number.
 MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,
                                           const Metric& figure);
+/// How much a metric tells over views of which several share an instant. Such views resemble each
+/// other, so their mean is less certain than that of as many views with an instant each.
+struct SharedInstants {
+    std::size_t instants = 0;
+    /// Variance of the mean over that of as many independent views, 1 + (m - 1) rho, at least 1.
+    /// `rho` is the correlation of views of one instant and m the mean number of views that a view
+    /// shares its instant with, itself included (Kish, Survey Sampling, 1965).
+    double design_effect = 1;
+    double effective_views = 0; ///< number of views divided by the design effect
+};
+/// Returns the effect of shared instants on a metric with one value a view; NaN: not defined there.
+/// Returns nothing if no neighbouring views share an instant, or if all do, as in a still scene,
+/// and if fewer than two instants have values. `rho` is estimated by the analysis of variance.
+std::optional<SharedInstants> estimate_effect_of_shared_instants(const std::vector<View>& views,
+                                                                 std::span<const double> values);
+
 /// Returns whether the value of a metric is one number. Only such metrics have a median over views.
 bool is_scalar_metric(const Metric& figure);
 

@@ -9,6 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 namespace catoptric::report {
 
 namespace {
@@ -35,6 +38,14 @@ std::string format_view_cell(const Row& row, const DrawnViewMetric& figure) {
     if (!over.ci95.is_known()) return median;
     return fmt::format("{} [{}–{}]", median, format_metric_number(over.ci95.low, column),
                        format_metric_number(over.ci95.high, column));
+}
+
+/// Returns the effect of shared instants on the row's FLIP over the mirrors.
+std::optional<measure::SharedInstants> find_effect_of_shared_instants(const Comparison& comparison,
+                                                                      const Row& row) {
+    std::vector<double> values;
+    for (const measure::Errors& view : row.views) values.push_back(view.error.flip);
+    return measure::estimate_effect_of_shared_instants(comparison.views, values);
 }
 
 /// Returns the title of the metric's column without the unit.
@@ -115,6 +126,11 @@ Json make_views_json(const Comparison& comparison, const Row& row) {
     Json json = Json::object();
     for (const measure::RowPixelMask& mask : measure::list_row_masks())
         json[std::string(mask.field)] = make_view_metrics_json(row, mask);
+    json["shared_instants"] = nullptr;
+    if (const auto shared = find_effect_of_shared_instants(comparison, row))
+        json["shared_instants"] = {{"instants", shared->instants},
+                                   {"flip_design_effect", make_number_json(shared->design_effect)},
+                                   {"effective_views", make_number_json(shared->effective_views)}};
     json["worst"] = nullptr;
     if (row.worst)
         json["worst"] = {
@@ -133,15 +149,30 @@ ReportTable make_views_table(const Comparison& comparison) {
         "a mirror: median over the views, and its 95 % interval by order statistics. Worst: "
         "the largest FLIP, and the options that render it again."};
     if (comparison.views.empty()) return table;
+    const bool shares_instants = std::ranges::any_of(comparison.rows, [&](const Row& row) {
+        return find_effect_of_shared_instants(comparison, row).has_value();
+    });
+    if (shares_instants)
+        table.note += " Neighbouring views share instants and resemble each other. Effective "
+                      "views: the number of views with an instant each whose mean FLIP would be as "
+                      "certain (Kish's design effect). Where it is much smaller than the number of "
+                      "views, intervals and ties are too narrow, because they take all views for "
+                      "independent.";
     const std::vector<DrawnViewMetric> columns = list_view_metrics();
     for (const DrawnViewMetric& figure : columns)
         table.columns.emplace_back(std::string(figure.column->title));
+    if (shares_instants) table.columns.emplace_back("Effective views");
     table.columns.emplace_back("Worst FLIP");
     table.columns.push_back(make_text_column("Worst view"));
     for (const Row& row : comparison.rows) {
         std::vector<std::string> cells{row.label};
         for (const DrawnViewMetric& figure : columns)
             cells.push_back(format_view_cell(row, figure));
+        if (shares_instants) {
+            const auto shared = find_effect_of_shared_instants(comparison, row);
+            cells.push_back(shared ? fmt::format("{:.0f}", shared->effective_views)
+                                   : std::string(kEmptyCellText));
+        }
         cells.push_back(row.worst ? format_flip(row.views[row.worst->view].error)
                                   : std::string(kEmptyCellText));
         cells.push_back(row.worst ? describe_worst_view(comparison, *row.worst)

@@ -59,6 +59,7 @@ struct CompareOptions {
     std::vector<KnobAxis> axes;
     bool together = false;
     double reference_seconds = app::CompareRequest().reference_seconds;
+    std::optional<int> cameras_per_instant; ///< of drawn views
     app::ReferencePixelKind truth = app::ReferencePixelKind::centre;
     double max_ms = NAN, max_flip = NAN; ///< budgets; NaN: none
     BaselineOptions baseline;
@@ -100,6 +101,11 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
     request.reference = app::choose_reference(options.common.reference, request.base.scene,
                                               options.truth);
     request.reference_seconds = options.reference_seconds;
+    const bool draws_views = std::ranges::any_of(
+        options.studies, [](const app::StudyChoice& study) { return study.name == "views"; });
+    check(!options.cameras_per_instant || draws_views, Failure::usage,
+          "--cameras-per-instant: wanted --views N as well, found no drawn views");
+    request.cameras_per_instant = options.cameras_per_instant.value_or(1);
     request.reference_file = options.common.reference_file;
     request.together = options.together;
     request.rounds = options.rounds.value_or(request.rounds);
@@ -389,6 +395,13 @@ void add_compare_options(CommandVerb& verb, const std::shared_ptr<CompareOptions
                   });
     verb.heading(kMeasuringOptions);
     add_study_options(verb, *options, StudyOptionKind::number);
+    verb.option("--cameras-per-instant", "M",
+                "neighbouring views of --views that share an instant, which costs less time; the "
+                "report then states the effective number of views (1)",
+                [options](const std::string& text) {
+                    options->cameras_per_instant = static_cast<int>(
+                        parse_integer("--cameras-per-instant", text, 1, 10'000));
+                });
     verb.flag("--together", "draw all rows in one command buffer, on one timeline",
               options->together);
     verb.option("--rounds", "N",

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -338,6 +339,91 @@ TEST(DrawnViews, NumberOfDrawnViewsIsOneOrAtLeastSix) {
             HasSubstr("views: wanted 1 or at least 6, since fewer bound no median with 95 "
                       "% confidence, found " +
                       std::to_string(count)));
+}
+
+std::vector<measure::View> make_views_at_times(const std::vector<double>& times) {
+    std::vector<measure::View> views;
+    for (const double time : times) views.push_back({{}, time, 1});
+    return views;
+}
+
+/// The expected values were computed by hand: mean squares 9 between and 1/2 within two instants.
+TEST(SharedInstants, DesignEffectFollowsFromTheAnalysisOfVariance) {
+    const std::vector<double> values{1, 2, 4, 5};
+    const auto found = measure::estimate_effect_of_shared_instants(
+        make_views_at_times({0, 0, 1, 1}), values);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->instants, 2u);
+    EXPECT_NEAR(found->design_effect, 1 + 8.5 / 9.5, 1e-12);
+    EXPECT_NEAR(found->effective_views, 4 / (1 + 8.5 / 9.5), 1e-12);
+}
+
+TEST(SharedInstants, EqualViewsOfAnInstantCountAsOne) {
+    const std::vector<double> values{.1, .1, .1, .5, .5, .5, .2, .2, .2};
+    const auto found = measure::estimate_effect_of_shared_instants(
+        make_views_at_times({0, 0, 0, 1, 1, 1, 2, 2, 2}), values);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->design_effect, 3, 1e-12);
+    EXPECT_NEAR(found->effective_views, 3, 1e-12);
+}
+
+/// Over many draws of the views, the variance of the mean must be that of the effective number of
+/// independent views.
+TEST(SharedInstants, VarianceOfTheMeanIsThatOfTheEffectiveViews) {
+    constexpr int kDraws = 400, kInstants = 30, kCameras = 4;
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    std::vector<double> times;
+    for (int i = 0; i < kInstants * kCameras; ++i) times.push_back(i / kCameras);
+    const std::vector<measure::View> views = make_views_at_times(times);
+    double squares = 0, effective = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+        std::vector<double> values;
+        double sum = 0;
+        for (int i = 0; i < kInstants; ++i) {
+            const double of_instant = .7 * normal(random);
+            for (int k = 0; k < kCameras; ++k) values.push_back(of_instant + normal(random));
+        }
+        for (const double value : values) sum += value / static_cast<double>(values.size());
+        squares += sum * sum / kDraws;
+        effective += measure::estimate_effect_of_shared_instants(views, values)->effective_views /
+                     kDraws;
+    }
+    const double variance_of_view = 1 + .7 * .7;
+    EXPECT_NEAR(variance_of_view / squares / effective, 1, .15);
+}
+
+TEST(SharedInstants, IndependentViewsHaveNoDesignEffect) {
+    const std::vector<double> values{.1, .2, .3, .4};
+    EXPECT_FALSE(
+        measure::estimate_effect_of_shared_instants(make_views_at_times({0, 1, 2, 3}), values))
+        << "an instant each";
+    EXPECT_FALSE(
+        measure::estimate_effect_of_shared_instants(make_views_at_times({2, 2, 2, 2}), values))
+        << "a still scene";
+    const std::vector<double> holed{.1, NAN, NAN, .4};
+    EXPECT_FALSE(
+        measure::estimate_effect_of_shared_instants(make_views_at_times({0, 0, 1, 1}), holed))
+        << "one view of each instant shows a mirror";
+}
+
+TEST(SharedInstants, TableAndJsonStateTheEffectiveNumberOfViews) {
+    Comparison comparison = make_comparison_with_views(
+        {make_row_with_view_flips("a", {.1, .1, .3, .3, .2, .2, .4, .4})});
+    EXPECT_THAT(report::make_views_table(comparison).note, Not(HasSubstr("Effective views")));
+    EXPECT_TRUE(json::parse(to_json(comparison))["rows"][0]["views"]["shared_instants"].is_null());
+    for (std::size_t i = 0; i < comparison.views.size(); ++i)
+        comparison.views[i].time = static_cast<double>(i / 2);
+    const report::ReportTable table = report::make_views_table(comparison);
+    EXPECT_THAT(table.note, HasSubstr("Effective views"));
+    const auto column = std::ranges::find(table.columns, "Effective views",
+                                          &report::TableColumn::name);
+    ASSERT_NE(column, table.columns.end());
+    EXPECT_EQ(table.rows[0][static_cast<std::size_t>(column - table.columns.begin())], "4");
+    const json shared = json::parse(to_json(comparison))["rows"][0]["views"]["shared_instants"];
+    EXPECT_EQ(shared["instants"], 4);
+    EXPECT_EQ(shared["flip_design_effect"], 2);
+    EXPECT_EQ(shared["effective_views"], 4);
 }
 
 } // namespace
