@@ -3,10 +3,13 @@
 #include "measure/masks.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
+#include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
+
+#include <cmath>
 
 namespace catoptric::report {
 
@@ -22,16 +25,35 @@ std::string make_words_script(const std::vector<std::uint16_t>& words, const std
     return make_bytes_script(bytes, file);
 }
 
+/// Returns where the comparer finds a map of a row: the file of its bytes, and the id of the
+/// picture in the page.
+Json make_map_json(const Comparison& comparison, const std::string& name, const std::string& id) {
+    return {{"file", id.empty() ? "" : report_image_path(comparison, name + ".js")}, {"id", id}};
+}
+
+/// `anchor`: id of the row's article; empty for the reference.
 Json make_picture_json(const Comparison& comparison, const std::string& label,
                        const std::string& image, const std::string& picture_id,
-                       const std::string& error_id, bool is_first) {
-    return {
-        {"label", label},
-        {"file", report_image_path(comparison, image + ".js")},
-        {"picture_id", picture_id},
-        {"error_id", error_id},
-        {"error_file", error_id.empty() ? "" : report_image_path(comparison, image + "-error.js")},
-        {"first", is_first}};
+                       const std::string& anchor, bool is_first) {
+    const auto id = [&](const char* ending) { return anchor.empty() ? "" : anchor + ending; };
+    return {{"label", label},
+            {"file", report_image_path(comparison, image + ".js")},
+            {"picture_id", picture_id},
+            {"error", make_map_json(comparison, image + "-error", id("-error"))},
+            {"causes", make_map_json(comparison, "causes-" + image, id("-causes"))},
+            {"first", is_first}};
+}
+
+/// Returns the causes of error that some row has, with their colours in pictures, 0..255.
+Json make_cause_colours_json(const Comparison& comparison) {
+    Json list = Json::array();
+    for (const CausePictureColour& colour : list_colours_of_found_causes(comparison)) {
+        Json bytes = Json::array();
+        for (int k = 0; k < 3; ++k)
+            bytes.push_back(static_cast<int>(std::lround(255 * colour.colour[k])));
+        list.push_back({{"name", colour.cause}, {"colour", bytes}});
+    }
+    return list;
 }
 
 /// Returns the row with the smallest FLIP above 0 over the mirrors, or null if there is none. The
@@ -61,7 +83,7 @@ std::string make_html_comparer(const Comparison& comparison) {
         const Row& row = comparison.rows[i];
         const std::string anchor = make_html_anchor_of_row(comparison, i);
         pictures.push_back(make_picture_json(comparison, row.label, row.image, anchor + "-picture",
-                                             anchor + "-error", &row == first));
+                                             anchor, &row == first));
     }
     Json mirrors = Json::array();
     for (std::size_t i = 0; i < comparison.scene.mirrors; ++i)
@@ -70,6 +92,7 @@ std::string make_html_comparer(const Comparison& comparison) {
                     {"height", comparison.reference_display.height},
                     {"exposure", comparison.exposure},
                     {"mirrors", mirrors},
+                    {"causes", make_cause_colours_json(comparison)},
                     {"mirrors_file", report_image_path(comparison, "mirrors.js")},
                     {"pictures", pictures}};
     // The character "<" is escaped, because a label with "</script>" would end the script element.

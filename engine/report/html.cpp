@@ -190,7 +190,8 @@ std::string make_html_row_article(const Comparison& comparison, const EncodedPic
             make_html_figure(
                 row.display.width, row.display.height, encoded.rows[index].causes,
                 "Pixels of " + row.label + " that are off, painted by their largest cause",
-                "Largest cause where it is off", "",
+                "Largest cause where it is off",
+                make_html_anchor_of_row(comparison, index) + "-causes",
                 find_picture_file(comparison, encoded, "causes-" + row.image + ".png"));
     return html + "</div>" + make_html_row_numbers(row) + make_html_row_details(row) +
            "</article>\n";

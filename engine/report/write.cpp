@@ -114,8 +114,14 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
             encoded.pictured = row.pictured;
             encoded.noise_frames = noise_frames;
         }
-        if (row.causes && encoded.causes.empty())
-            encode(encoded.causes, make_cause_picture(row), "causes-" + row.image + ".png");
+        if (row.causes && encoded.causes.empty()) {
+            const std::string name = "causes-" + row.image;
+            encode(encoded.causes, make_cause_picture(row), name + ".png");
+            if (!images.empty())
+                write_file(
+                    images / (name + ".js"),
+                    make_bytes_script(encoded.causes, report_image_path(comparison, name + ".js")));
+        }
         if (row.worst && encoded.worst_view != row.worst->view) {
             encode(encoded.worst, row.worst->display, make_worst_view_image_name(row.image));
             encoded.worst_view = row.worst->view;
@@ -139,8 +145,8 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
     for (const std::string& image : images) {
         for (const char* ending : {".exr", ".js", ".png", "-error.png", "-error.js"})
             files.push_back(there / (image + ending));
-        for (const std::string& more :
-             {"causes-" + image + ".png", make_worst_view_image_name(image)})
+        for (const std::string& more : {"causes-" + image + ".png", "causes-" + image + ".js",
+                                        make_worst_view_image_name(image)})
             files.push_back(there / more);
     }
     return files;

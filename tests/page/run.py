@@ -225,6 +225,51 @@ def test_print(browser):
     expect(1 <= pages <= 6, f"the page prints to {pages} pages")
 
 
+def test_causes(program, folder):
+    """The key C paints each pixel by its largest cause, as the file of the report does, and the line names the cause."""
+    subprocess.run([program, "compare", "cornell-mirrors", "--size", f"{SIZE[0]}x{SIZE[1]}", "--frames", "1", "--warmup", "1",
+                    "-q", "--causes", "-o", str(folder), "--techniques", "reuse:face=32"], check=True, stdout=subprocess.DEVNULL)
+    browser = open_page(folder / "report.html")
+    canvas = browser.find_element(By.CSS_SELECTOR, ".comparer canvas")
+    ready = "return document.querySelector('.comparer').dataset.ready"
+    before = browser.execute_script(ready)
+    canvas.send_keys("c")
+    wait(browser, ready + f" !== '{before}'", True)
+    colours = {tuple(cause["colour"]): cause["name"] for cause in browser.execute_script(
+        "return JSON.parse(arguments[0])", re.search(r'<script type="application/json">(.*?)</script>',
+                                                     (folder / "report.html").read_text()).group(1))["causes"]}
+    data = re.search(r', "(.*)"\);', (folder / "images" / "causes-reuse-face32.js").read_text()).group(1)
+    expect(base64.b64decode(data) == (folder / "images" / "causes-reuse-face32.png").read_bytes(),
+           "the script holds other bytes than the picture of causes")
+    pixels = browser.execute_async_script(
+        """const done = arguments[1], image = new Image();
+           image.onload = () => {
+               const pen = new OffscreenCanvas(image.width, image.height).getContext('2d');
+               pen.drawImage(image, 0, 0);
+               done([...pen.getImageData(0, 0, image.width, image.height).data]);
+           };
+           image.src = 'data:image/png;base64,' + arguments[0];""", data)
+    places = {}  # a pixel of each cause, and one without
+    for y in range(SIZE[1]):
+        for x in range(SIZE[0]):
+            at = 4 * (y * SIZE[0] + x)
+            places.setdefault(colours.get(tuple(pixels[at:at + 3]), ""), (x, y))
+    expect(len(places) > 2, f"the picture shows the causes {list(places)} alone")
+    pixel = (SIZE[0] // 2, SIZE[1] // 2)
+    for cause, (x, y) in places.items():
+        across, down = x - pixel[0], y - pixel[1]
+        canvas.send_keys((Keys.ARROW_RIGHT if across > 0 else Keys.ARROW_LEFT) * abs(across) +
+                         (Keys.ARROW_DOWN if down > 0 else Keys.ARROW_UP) * abs(down))
+        pixel = (x, y)
+        text = wait(browser, "const text = document.querySelector('.values').textContent;"
+                             f"return text.startsWith('Pixel {x}, {y}') && text")
+        found = re.search(r"reuse:face=32: [^;]*?(?: \(([^)]*)\))?\.$", text)
+        expect(found and (found.group(1) or "") == cause, f"pixel {x}, {y}: wanted the cause '{cause}', told '{text}'")
+    problems = [entry["message"] for entry in browser.get_log("browser")]
+    expect(not problems, f"the console says {problems}")
+    browser.quit()
+
+
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
@@ -264,6 +309,7 @@ def main():
     for told, real in zip(values["reference raytrace:depth=16"], read_pixel(folder, "reference", x, y)):
         expect(abs(told - min(real, 1)) <= 0.005 + 0.01 * real, f"pixel {x}, {y} of the 8-bit picture: {told}, {real}")
     browser.quit()
+    test_causes(program, folder / "causes")
     print("page: passed")
 
 

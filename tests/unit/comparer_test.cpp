@@ -1,13 +1,16 @@
 // Tests of the data of the comparer in report.html: the linear values that the page reads, and the
 // list of pictures. tests/page/run.py tests the page in a browser.
+#include "measure/causes.hpp"
 #include "measure/picture.hpp"
 #include "report/html.hpp"
+#include "report/writer.hpp"
 #include "report_sample.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <memory>
 
 namespace {
 
@@ -116,6 +119,28 @@ TEST(Comparer, ListsTheReferenceAndEveryRowAndBeginsWithTheClosestRowThatDiffers
     const std::string page = catoptric::report::to_html(made);
     for (const json& picture : data["pictures"])
         EXPECT_THAT(page, HasSubstr("id=\"" + picture["picture_id"].get<std::string>() + "\""));
+}
+
+TEST(Comparer, NamesTheMapsOfEachRowAndTheColoursOfTheirCauses) {
+    Comparison made = catoptric::report::sample::make_usual_comparison();
+    EXPECT_EQ(read_comparer_data(made)["causes"], json::array());
+    auto causes = std::make_shared<catoptric::measure::Causes>();
+    causes->list = {{.name = "texels"}, {.name = "rest"}};
+    Row& row = made.rows[0];
+    causes->largest.assign(row.display.pixels.size(), 1);
+    row.causes = causes;
+    const json data = read_comparer_data(made);
+    EXPECT_EQ(data["causes"], json::parse(R"([{"name": "texels", "colour": [240, 228, 66]},
+                                              {"name": "rest", "colour": [190, 190, 190]}])"));
+    EXPECT_EQ(data["pictures"][0]["causes"]["id"], "") << "of the reference";
+    const json& picture = data["pictures"][1];
+    EXPECT_EQ(picture["error"]["file"], "images/" + row.image + "-error.js");
+    EXPECT_EQ(picture["causes"]["file"], "images/causes-" + row.image + ".js");
+    catoptric::report::EncodedPictures encoded;
+    catoptric::report::encode_new_pictures(encoded, made, {});
+    const std::string page = catoptric::report::to_html(made, encoded);
+    for (const char* map : {"error", "causes"})
+        EXPECT_THAT(page, HasSubstr("id=\"" + picture[map]["id"].get<std::string>() + "\"")) << map;
 }
 
 TEST(Comparer, LabelsCannotEndTheScript) {

@@ -111,7 +111,8 @@ class Comparer {
         const [layout, layout_select] = make_choice("Layout", [["split", "split"], ["flip", "flip"],
             ["beside", "side by side"]], this.layout, choose("layout"));
         const [show, show_select] = make_choice("Show", [["picture", "picture"],
-            ["difference", "difference from the reference"], ["error", "FLIP error"]], this.show, choose("show"));
+            ["difference", "difference from the reference"], ["error", "FLIP error"],
+            ...this.data.causes.length > 0 ? [["causes", "largest cause of the error"]] : []], this.show, choose("show"));
         const [gain] = make_choice("Difference", [1, 2, 4, 8, 16, 32, 64].map(x => [String(x), "×" + x]), "1",
             value => { this.gain = Number(value), this.refresh(); });
         const mirrors = this.data.mirrors.map((name, i) => [String(i + 1), name]);
@@ -130,8 +131,8 @@ class Comparer {
             return element;
         };
         this.canvas = make("canvas", {tabIndex: 0, role: "img", "aria-label": "Comparer of two pictures. Arrow keys move " +
-            "the pixel, with Shift the split; plus and minus zoom; 0 shows all; F, S and B choose the layout; P, D and E " +
-            "what is shown; brackets change the exposure."});
+            "the pixel, with Shift the split; plus and minus zoom; 0 shows all; F, S and B choose the layout; P, D, E " +
+            "and C what is shown; brackets change the exposure."});
         this.values = make("p", {className: "values", "aria-live": "polite"});
         this.note = make("p", {className: "note"});
         this.place.replaceChildren(
@@ -170,16 +171,19 @@ class Comparer {
         });
     }
 
-    /** Loads the heat map of a row once: from the file beside the page, or from the page. */
-    load_error(index) {
-        const picture = this.pictures[index];
-        return picture.error ??= load_values(picture.error_file)
+    /**
+     * Loads a map of a row once, its heat map of FLIP ("error") or its largest causes ("causes"): from the file beside
+     * the page, or from the page. Returns null if the row has no such map.
+     */
+    async load_map(index, kind) {
+        const {file, id} = this.pictures[index][kind], image = id && document.getElementById(id);
+        if (!image) return null;
+        return (this.maps ??= new Map()).get(file) ?? this.maps.set(file, load_values(file)
             .then(bytes => createImageBitmap(new Blob([bytes], {type: "image/png"})))
             .catch(async () => {
-                const image = document.getElementById(picture.error_id);
                 await image.decode();
                 return image;
-            });
+            })).get(file);
     }
 
     load_mirrors() {
@@ -195,8 +199,8 @@ class Comparer {
         if (known) return known;
         const [floats, reference, mirrors] = await Promise.all([this.load(index), this.load("0"), this.load_mirrors()]);
         const canvas = new OffscreenCanvas(this.width, this.height), pen = canvas.getContext("2d", {willReadFrequently: true});
-        if (show === "error" && document.getElementById(this.pictures[index].error_id))
-            pen.drawImage(await this.load_error(index), 0, 0, this.width, this.height);
+        const map = ["error", "causes"].includes(show) ? await this.load_map(index, show) : null;
+        if (map) pen.drawImage(map, 0, 0, this.width, this.height);
         const image = pen.getImageData(0, 0, this.width, this.height), scale = 2 ** exposure;
         const shows_mirror = mirror => mask === "mirrors" ? mirror > 0 : mirror === Number(mask);
         for (let i = 0; i < this.width * this.height; ++i) {
@@ -283,7 +287,17 @@ class Comparer {
         this.pictures.forEach((picture, i) => { if (i > 0 && !indices.includes(String(i))) delete picture.values; });
     }
 
-    /** Says the linear values of the chosen pixel. */
+    /** Returns the name of the largest cause of a row's error in a pixel; "" if causes are not shown or there is none. */
+    async find_cause(index, x, y) {
+        const map = this.show === "causes" ? await this.load_map(index, "causes") : null;
+        if (!map) return "";
+        const pen = new OffscreenCanvas(1, 1).getContext("2d");
+        pen.drawImage(map, -x, -y);
+        const found = Array.from(pen.getImageData(0, 0, 1, 1).data.slice(0, 3)).join();
+        return this.data.causes.find(cause => cause.colour.join() === found)?.name ?? "";
+    }
+
+    /** Says the linear values of the chosen pixel, and the largest cause of its error if causes are shown. */
     async tell_values() {
         const turn = this.telling = (this.telling ?? 0) + 1;
         const [x, y] = this.pixel, at = 3 * (y * this.width + x);
@@ -291,7 +305,9 @@ class Comparer {
         const parts = [];
         for (const index of new Set(["0", this.left, this.right])) {
             const floats = await this.load(index);
-            parts.push(`${this.pictures[index].label}: ${Array.from(floats.slice(at, at + 3), format_value).join(" ")}`);
+            const cause = await this.find_cause(index, x, y);
+            parts.push(`${this.pictures[index].label}: ${Array.from(floats.slice(at, at + 3), format_value).join(" ")}` +
+                (cause && ` (${cause})`));
         }
         if (turn !== this.telling) return; // a later call tells
         const where = mirror > 0 ? `, ${this.data.mirrors[mirror - 1]}` : "";
@@ -345,6 +361,7 @@ class Comparer {
             "+": () => this.zoom_by(2), "=": () => this.zoom_by(2), "-": () => this.zoom_by(1 / 2), "0": () => this.zoom_by(0),
             f: () => this.set_layout("flip"), s: () => this.set_layout("split"), b: () => this.set_layout("beside"),
             p: () => this.set_show("picture"), d: () => this.set_show("difference"), e: () => this.set_show("error"),
+            ...this.data.causes.length > 0 && {c: () => this.set_show("causes")},
             "[": () => move_exposure(-0.5), "]": () => move_exposure(0.5),
         };
         const act = keys[event.key] ?? keys[event.key.toLowerCase()];
