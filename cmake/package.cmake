@@ -1,6 +1,6 @@
 # The Debian package: `./dev deb` builds it, and `apt install ./catoptric_*.deb` installs it. It holds what
-# `cmake --install` installs, completions of shells and pages of the manual. Pages and completions are what the program
-# itself prints, so they follow its tables. Target `package_files` makes them.
+# `cmake --install` installs, completions of shells, pages of the manual and the documentation as static pages. Pages and
+# completions are what the program itself prints, so they follow its tables. Target `package_files` makes them.
 set(generated_folder ${PROJECT_BINARY_DIR}/package)
 
 # print_to_file(FILE COMMAND...): makes the file of what the command prints.
@@ -30,6 +30,18 @@ if(HELP2MAN)
         install(FILES ${generated_folder}/catoptric-${verb}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
     endforeach()
 endif()
+
+# The documentation as static pages, if MkDocs is there. `./dev docs` builds the same pages without the package.
+find_program(MKDOCS mkdocs)
+find_program(PYTHON3 python3)
+if(MKDOCS AND PYTHON3)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS docs/*)
+    add_custom_command(OUTPUT ${generated_folder}/html/index.html
+        COMMAND ${PYTHON3} -B ${PROJECT_SOURCE_DIR}/docs/site/build.py $<TARGET_FILE:catoptric_cli> ${generated_folder}/html
+        DEPENDS catoptric_cli ${sources} mkdocs.yml README.md CONTRIBUTING.md CHANGELOG.md VERBATIM)
+    list(APPEND package_files ${generated_folder}/html/index.html)
+endif()
+install(DIRECTORY ${generated_folder}/html DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
 add_custom_target(package_files DEPENDS ${package_files})
 
 file(GLOB pages CONFIGURE_DEPENDS docs/*.md)

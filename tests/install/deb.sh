@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# deb.sh BUILD WORK PICTURE [HELP2MAN]: builds the Debian package of the build, unpacks it into an empty root, and tries its
-# programs, completions and, if the build makes them, pages of the manual there.
+# deb.sh BUILD WORK PICTURE [HELP2MAN [MKDOCS]]: builds the Debian package of the build, unpacks it into an empty root, and
+# tries its programs, completions and, if the build makes them, pages of the manual and static pages there.
 set -euo pipefail
 build=$1 work=$2
 die() { echo "deb: $*" >&2; exit 1; }
@@ -28,6 +28,12 @@ if [[ -n ${4:-} && $4 != *-NOTFOUND ]]; then
     for page in catoptric catoptric-compare; do
         [[ -s $root/share/man/man1/$page.1 || -s $root/share/man/man1/$page.1.gz ]] || die "wanted the page $page(1)"
     done
+fi
+if [[ -n ${5:-} && $5 != *-NOTFOUND ]]; then
+    for page in index tutorial command-line notes/ADR-005-captures; do
+        grep -q '</html>' "$root/share/doc/catoptric/html/$page.html" || die "wanted the page html/$page.html"
+    done
+    [[ -s $root/share/doc/catoptric/html/images/first.png ]] || die "wanted the pictures of the pages in html/images"
 fi
 complete() { # complete WORD...: prints what bash offers for the last word
     bash -c 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _catoptric; echo "${COMPREPLY[*]}"' \
