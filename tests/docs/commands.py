@@ -1,0 +1,218 @@
+#!/usr/bin/env python3
+"""Runs the commands of the documentation. `commands.py CATOPTRIC FOLDER [PAGE...]` runs the commands of these pages, or
+of all pages, in FOLDER. `commands.py` alone checks that a test covers each command.
+
+A command is a line of a block of code that names no language. Pictures are small, and frames and views are few."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+# Commands that another test covers: pattern of the command, file of the test, and words that the file holds.
+ELSEWHERE = [
+    (r"\./dev (demo|setup)\b", "tests/clone/run.sh", "./dev demo"), # which begins with setup
+    (r"\./dev test\b", "dev", "run_tests"), # each run of the tests
+    (r"\./dev wheel\b", "tests/python/run.sh", "wheel.sh"),
+    (r"\./dev pack\b", "tests/machine/run.sh", "pack.sh"),
+    (r"\./dev bench growth\b", "tests/CMakeLists.txt", "bench/growth/fit_test.py"),
+    (r"\./dev bench peers\b", "tests/drivers/whitted_test.cpp", "peers/"),
+    (r"samples/renderers/report\.sh\b", "tests/renderers/run.py", "docs/renderers.md"),
+    (r"apt install\b", "dev", "install blender python3-numpy xvfb xauth"),
+    (r"snakemake .*--cluster-sync\b", "tests/sweep/slurm.sh", "--cluster-sync"),
+    (r"snakemake\b", "tests/sweep/run.sh", "snakemake -s"),
+    (r"openjd run\b", "tests/sweep/run.sh", "openjd run"),
+    (r"catoptric-view\b", "tests/view/audit_test.cpp", "--screenshot"),
+    (r"catoptric stress\b", "tests/CMakeLists.txt", "catoptric_cli stress"),
+    (r"catoptric compare -o out --lag\b", "tests/cli/result_test.cpp", '"--lag"'), # takes 2300 frames
+    (r"catoptric bench --tune\b", "tests/cli/bench_test.cpp", "--tune"),
+    (r"catoptric bench --costs\b", "tests/cli/costs_test.cpp", "--costs"),
+    (r"tar -xf catoptric-kit\.tar\.gz", "tests/machine/run.sh", "tar -x"),
+    (r"python3 -m venv env$|env/bin/pip install catoptric", "tests/python/run.sh", "pip\" install"),
+    (r"VK_DRIVER_FILES=\S+ LD_LIBRARY_PATH=", "tests/drivers/second_driver.hpp", "mesa25"),
+]
+# What the commands of this test begin with.
+STARTS = r"(catoptric|cat|for|mkdir|export|xdg-open|oiiotool) "
+# Lines that programs print, in blocks that show a command's output.
+PRINTED = r"(worse|unknown|baseline): |captures: at most \d|mirror that it is seen by"
+
+
+def fail(*words):
+    sys.exit("docs: " + " ".join(str(word) for word in words))
+
+
+def list_pages():
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return {str(page.relative_to(ROOT)): page.read_text() for page in pages}
+
+
+def read_blocks(text):
+    """Returns the blocks of commands: fenced without a language or as `sh`, or indented. Data in JSON is none."""
+    found, rest = [], text
+    for match in re.finditer(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S):
+        if match.group(1) in ("", "sh") and not match.group(2).startswith("{"):
+            found.append((match.start(), match.group(2)))
+        rest = rest[:match.start()] + re.sub(r"[^\n]", "#", match.group(0)) + rest[match.end():]
+    for match in re.finditer(r"^ {4}\S.*\n(?:^ {4,}\S.*\n)*", rest, re.M):
+        lines_before = rest[:match.start()].rstrip().split("\n")
+        in_list = re.match(r"\s*([-*]|\d+\.) |\s+\S", lines_before[-1]) is not None
+        if not in_list and not match.group(0).lstrip().startswith("{"):
+            found.append((match.start(), re.sub(r"^ {4}", "", match.group(0), flags=re.M)))
+    return [block for _, block in sorted(found)]
+
+
+def split_commands(block):
+    """Returns the commands of a block. A command ends with its line, its here-document or its loop."""
+    commands, end = [], None
+    for line in block.rstrip("\n").split("\n"):
+        if end is None and commands and commands[-1].endswith("\\"):
+            commands[-1] = commands[-1][:-1].rstrip() + " " + line.strip()
+        elif end is None:
+            commands.append(line)
+        else:
+            commands[-1] += "\n" + line
+            if line == end:
+                end = None
+            continue
+        here = re.search(r"<<\s*'?(\w+)'?", line)
+        if here:
+            end = here.group(1)
+        elif line.startswith("for ") and not re.search(r";\s*done\s*$", line):
+            end = "done"
+    return [command for command in commands if command.strip() and not re.match(f"#|{PRINTED}", command)]
+
+
+def find_test(command):
+    """Returns the entry of ELSEWHERE that covers the command, or None."""
+    for entry in ELSEWHERE:
+        if re.match(entry[0], command):
+            return entry
+    return None
+
+
+def check_cover(pages):
+    """Returns the commands to run by page. Fails if no test covers a command, or an entry of ELSEWHERE covers none."""
+    used, here = set(), {}
+    for name, text in pages.items():
+        here[name] = []
+        for block in read_blocks(text):
+            commands = []
+            for command in split_commands(block):
+                entry = find_test(command)
+                if entry:
+                    used.add(entry)
+                elif re.match(STARTS, command):
+                    commands.append(command)
+                else:
+                    fail(f"{name}: wanted a test of the command '{command}', found none. Name its test in ELSEWHERE of "
+                         "tests/docs/commands.py, or name the language of the block if it holds no commands")
+            here[name].append(commands)
+    for pattern, file, words in ELSEWHERE:
+        if (pattern, file, words) not in used:
+            fail(f"tests/docs/commands.py: ELSEWHERE: wanted a command that fits '{pattern}', found none in the pages")
+        if words not in (ROOT / file).read_text():
+            fail(f"tests/docs/commands.py: ELSEWHERE: '{pattern}' wanted '{words}' in {file}, found it not there")
+    return here
+
+
+def expect_refusal(words, text):
+    """Expects that a page with this text is refused with these words."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = pathlib.Path(folder) / "tests/docs"
+        shutil.copytree(ROOT / "docs", pathlib.Path(folder) / "docs", ignore=shutil.ignore_patterns("*.png", "*.svg"))
+        shutil.copytree(ROOT / "tests", pathlib.Path(folder) / "tests")
+        for file in ("README.md", "CONTRIBUTING.md", "dev"):
+            shutil.copy(ROOT / file, folder)
+        (pathlib.Path(folder) / "docs/new.md").write_text(text)
+        done = subprocess.run([sys.executable, "-B", copy / "commands.py"], capture_output=True, text=True, check=False)
+    if done.returncode != 1 or words not in done.stderr:
+        fail(f"a page '{text}': wanted a refusal with '{words}', found exit code {done.returncode}: {done.stderr}")
+
+
+def write_inputs(folder, text, program, environment):
+    """Writes the files that the commands of a page name: a scene, pictures, results, and what the page itself shows."""
+    (folder / "docs/images").mkdir(parents=True)
+    (folder / "out/demo").mkdir(parents=True)
+    (folder / "out/demo/report.html").write_text("written by ./dev demo")
+    shutil.copytree(ROOT / "docs/costs", folder / "docs/costs")
+    shutil.copytree(ROOT / "samples", folder / "samples")
+    sweep = json.loads((folder / "samples/sweep/roughness.json").read_text())
+    sweep["scenes"] = sweep["scenes"][:1]
+    sweep["techniques"] = [sweep["techniques"][0], sweep["techniques"][-1]]
+    sweep["axes"]["mirror"] = sweep["axes"]["mirror"][:2]
+    sweep["knobs"]["face"] = [16]
+    sweep["options"] = {"size": "16x16", "frames": 6, "warmup": 1, "reference": "raytrace:depth=4,rays=4"}
+    sweep["views"]["count"] = 6
+    for file in (folder / "samples/sweep/roughness.json", folder / "sweep.json"):
+        file.write_text(json.dumps(sweep))
+    for name in ("scene", "room", "a", "b"):
+        shutil.copy(ROOT / "samples/scenes/cornell-mirrors.glb", folder / f"{name}.glb")
+    for name in ("card", "my-card"):
+        shutil.copy(ROOT / "docs/costs/gtx-770.json", folder / f"{name}.json")
+    keys = re.search(r'^\{"keys":.*?^```', text, re.M | re.S)
+    if keys:
+        (folder / "path.json").write_text(keys.group(0).removesuffix("```"))
+    subprocess.run(["catoptric", "render", "scene.glb", "--technique", "raytrace", "-o", "mine.exr", "-q"], cwd=folder,
+                   env=environment, check=True, stdout=subprocess.DEVNULL)
+    for name in ("a", "b"):
+        shutil.copy(folder / "mine.exr", folder / f"{name}.exr")
+    before = folder.parent / "before/build/release/catoptric"
+    before.parent.mkdir(parents=True, exist_ok=True)
+    before.unlink(missing_ok=True)
+    before.symlink_to(program)
+    if "before.json" in text:
+        subprocess.run(["catoptric", "bench", "scene.glb", "--techniques", "reuse", "-o", "before.json", "-q"], cwd=folder,
+                       env=environment, check=True, stdout=subprocess.DEVNULL)
+
+
+def run_page(name, blocks, folder, environment):
+    """Runs the commands of a page in order, each block in a shell of its own, except that a tutorial is one shell."""
+    scripts = ["\n".join(commands) for commands in blocks if commands]
+    if name == "docs/tutorial.md":
+        scripts = ["\n".join(scripts)]
+    for script in scripts:
+        begun = time.monotonic()
+        done = subprocess.run(["bash", "-exuc", script], cwd=folder, env=environment, check=False, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        if done.returncode:
+            fail(f"{name}: wanted exit code 0, found {done.returncode} from the last command of:\n{done.stdout[-3000:]}")
+        print(f"{name}: {time.monotonic() - begun:5.1f} s: {script.splitlines()[0]}", flush=True)
+
+
+def main():
+    pages = list_pages()
+    here = check_cover(pages)
+    if len(sys.argv) == 1:
+        expect_refusal("docs/new.md: wanted a test of the command 'unknown --option'", "Text:\n\n    unknown --option\n")
+        expect_refusal("docs/new.md: wanted a test of the command './dev format'", "```\n./dev demo\n./dev format\n```\n")
+        expect_refusal("docs/new.md: wanted a test of the command 'catoptrics list'", "```sh\ncatoptrics list\n```\n")
+        print(f"docs: a test covers each command; {sum(len(block) for page in here.values() for block in page)} run here")
+        return
+    program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    bin_folder = folder / "bin"
+    bin_folder.mkdir(parents=True)
+    for tool, text in (("catoptric", (HERE / "small.py").read_text()),
+                       ("xdg-open", '#!/bin/sh\ntest -s "$1" || { echo "xdg-open: no file $1"; exit 4; }\n')):
+        (bin_folder / tool).write_text(text)
+        (bin_folder / tool).chmod(0o755)
+    environment = os.environ | {"PATH": f"{bin_folder}:{os.environ['PATH']}", "CATOPTRIC_PROGRAM": str(program),
+                                "XDG_CONFIG_HOME": str(folder / "config")}
+    for name in sys.argv[3:] or here:
+        if name not in here:
+            fail(f"wanted one of the pages {', '.join(here)}, found '{name}'")
+        work = folder / name.replace("/", "-").removesuffix(".md")
+        if any(here[name]):
+            write_inputs(work, pages[name], program, environment)
+        run_page(name, here[name], work, environment)
+
+
+if __name__ == "__main__":
+    main()
