@@ -14,7 +14,7 @@ import sys
 NAMES = {"SCENE": "scene.glb", "A": "0.1", "NAME": "ball1", "table top=0.9,roughness=0.3": "ball1=0.9,roughness=0.3"}
 SIZES = {"--size": "32x32", "--frames": "6", "--warmup": "2", "--views": "6", "--count": "6", "--reference-seconds": "1"}
 # Options that the command need not give, by verb.
-ADDED = {"compare": ["--size", "--frames", "--warmup"], "render": ["--size"], "graph": ["--size"],
+ADDED = {"compare": ["--size", "--frames", "--warmup", "--reference-seconds"], "render": ["--size"], "graph": ["--size"],
          "bench": ["--size", "--frames", "--warmup"], "choose": ["--size", "--frames", "--warmup"], "views": ["--size"]}
 # An exit code of 1 is an answer with these options: a limit is exceeded, or something is slower.
 LIMITS = {"--max-ms", "--max-flip", "--max-error", "--baseline", "--compare", "--against", "--certify"}
@@ -22,7 +22,7 @@ LIMITS = {"--max-ms", "--max-flip", "--max-error", "--baseline", "--compare", "-
 
 def shrink_captures(word):
     """Returns the name of a technique with small captures, and other words as they are."""
-    word = re.sub(r"\bface=\d+", "face=32", word)
+    word = re.sub(r"\bface=(\d+)", lambda match: f"face={max(1, int(match.group(1)) // 8)}", word)
     has_captures = re.fullmatch(r"(naive|reuse|parallax|proxy|secant|march|pyramid|layered|hybrid)(:.*)?", word)
     if has_captures and "face=" not in word:
         word += (",face=32" if ":" in word else ":face=32")
