@@ -21,12 +21,12 @@ LIMITS = {"--max-ms", "--max-flip", "--max-error", "--baseline", "--compare", "-
 
 
 def shrink_captures(word):
-    """Returns the name of a technique with small captures, and other words as they are."""
+    """Returns the name of a technique with small captures and few light probes, and other words as they are."""
     word = re.sub(r"\bface=(\d+)", lambda match: f"face={max(1, int(match.group(1)) // 8)}", word)
     has_captures = re.fullmatch(r"(naive|reuse|parallax|proxy|secant|march|pyramid|layered|hybrid)(:.*)?", word)
     if has_captures and "face=" not in word:
         word += (",face=32" if ":" in word else ":face=32")
-    return word
+    return word if "probes=" in word else word.replace("indirect=captures", "indirect=captures,probes=27")
 
 
 def main():
