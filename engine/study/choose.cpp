@@ -255,20 +255,35 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
     return unbeaten;
 }
 
+/// Removes plans until `count` are left, but never the first and the last. The times of the plans
+/// fall along the list. If a plan's proof fails, the one before it is chosen, so neighbours with
+/// very different times make a choice dear: each step removes the plan whose neighbours' times are
+/// nearest to each other, as a ratio.
+void thin_out_plans_by_time(std::vector<const JudgedPlan*>& plans, std::size_t count) {
+    while (plans.size() > count) {
+        const auto ratio_without = [&](std::size_t i) {
+            return plans[i - 1]->ms / std::max(plans[i + 1]->ms, 1e-9);
+        };
+        std::size_t least = 1;
+        for (std::size_t i = 2; i + 1 < plans.size(); ++i)
+            if (ratio_without(i) < ratio_without(least)) least = i;
+        plans.erase(plans.begin() + static_cast<std::ptrdiff_t>(least));
+    }
+}
+
 /// Returns the plans to prove, in order from the smallest error to the shortest time.
 std::vector<std::string> list_plans_to_prove(const ResolvedChooseRequest& request,
                                              const measure::Comparison& training,
                                              const std::vector<JudgedPlan>& plans) {
     // Most plans that are proved, without the mix of techniques.
     constexpr std::size_t kMaxProvedPlans = 4;
+    std::vector<const JudgedPlan*> unbeaten = list_unbeaten_plans(request, plans);
+    if (unbeaten.empty()) return {};
+    if (!request.max_error) // with a limit of time alone, the plan with the least error is wanted
+        return {unbeaten.front()->text};
+    thin_out_plans_by_time(unbeaten, kMaxProvedPlans);
     std::vector<std::string> chain;
-    for (const JudgedPlan* plan : list_unbeaten_plans(request, plans)) chain.push_back(plan->text);
-    if (chain.empty()) return chain;
-    if (!request.max_error)
-        return {chain.front()};         // with a limit of time alone, the plan with the
-                                        // least error is wanted
-    if (chain.size() > kMaxProvedPlans) // the first and the last plan stay
-        chain.erase(chain.begin() + 1, chain.end() - (kMaxProvedPlans - 1));
+    for (const JudgedPlan* plan : unbeaten) chain.push_back(plan->text);
     const std::string mixed = find_fastest_mixed_plan(request, training, plans),
                       cheapest = chain.back();
     if (mixed.empty()) return chain;
