@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <unistd.h>
 
@@ -74,31 +75,6 @@ void remove_stale_temporaries(const fs::path& target) {
     }
 }
 
-/// Writes `content` to a temporary and renames it to `target`. `old`: status of the file at
-/// `target`, if any.
-void replace_file(const fs::path& target, fs::file_status old, std::string_view content,
-                  const fs::path& path) {
-    fs::path temporary = target;
-    temporary += kTemporaryFileSuffix + std::to_string(::getpid());
-    std::error_code error;
-    remove_stale_temporaries(target);
-    fs::remove(temporary, error); // left by a dead process with our process id
-    FileHandle file = open_new_file(temporary, path);
-    try {
-        if (fs::exists(old)) {
-            fs::permissions(temporary, old.permissions(), error);
-            check(!error, Failure::io, path.string(),
-                  ": cannot be given the mode of the file in its place: ", error.message());
-        }
-        write_and_close_file(std::move(file), content, path);
-        fs::rename(temporary, target, error);
-        check(!error, Failure::io, path.string(), ": cannot be replaced: ", error.message());
-    } catch (...) {
-        fs::remove(temporary, error);
-        throw;
-    }
-}
-
 } // namespace
 
 fs::path resolve_real_path(const fs::path& path) {
@@ -109,14 +85,52 @@ fs::path resolve_real_path(const fs::path& path) {
     return error ? target.lexically_normal() : real;
 }
 
+PartialFile::PartialFile(fs::path path)
+    : named_(std::move(path)), target_(resolve_all_links(named_)), temporary_(target_) {
+    std::error_code error;
+    const fs::file_status status = fs::status(target_, error);
+    check(target_.has_filename() && (!fs::exists(status) || fs::is_regular_file(status)),
+          Failure::cannot_create, named_.string(), ": wanted a file name, found ",
+          fs::is_directory(status) || !target_.has_filename() ? "a folder" : "a device or pipe");
+    temporary_ += kTemporaryFileSuffix + std::to_string(::getpid());
+    remove_stale_temporaries(target_);
+    fs::remove(temporary_, error); // left by a dead process with our process id
+}
+
+PartialFile::~PartialFile() {
+    std::error_code error;
+    if (!temporary_.empty()) fs::remove(temporary_, error);
+}
+
+void PartialFile::copy_mode_of_target() const {
+    std::error_code error;
+    const fs::file_status old = fs::status(target_, error);
+    if (!fs::exists(old)) return;
+    fs::permissions(temporary_, old.permissions(), error);
+    check(!error, Failure::io, named_.string(),
+          ": cannot be given the mode of the file in its place: ", error.message());
+}
+
+void PartialFile::replace_target() {
+    std::error_code error;
+    fs::rename(temporary_, target_, error);
+    check(!error, Failure::io, named_.string(), ": cannot be replaced: ", error.message());
+    temporary_.clear();
+}
+
 void write_file(const fs::path& path, std::string_view content) {
     std::error_code error;
     const fs::path target = resolve_all_links(path);
     const fs::file_status status = fs::status(target, error);
     check(!fs::is_directory(status) && target.has_filename(), Failure::cannot_create, path.string(),
           ": wanted a file name, found a folder");
-    if (!fs::exists(status) || fs::is_regular_file(status))
-        return replace_file(target, status, content, path);
+    if (!fs::exists(status) || fs::is_regular_file(status)) {
+        PartialFile partial(path);
+        FileHandle file = open_new_file(partial.temporary_path(), path);
+        partial.copy_mode_of_target();
+        write_and_close_file(std::move(file), content, path);
+        return partial.replace_target();
+    }
 
     FileHandle file(std::fopen(target.c_str(), "wb")); // the target is a device or a pipe
     const int open_error = errno;

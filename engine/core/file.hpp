@@ -20,6 +20,29 @@ std::filesystem::path resolve_real_path(const std::filesystem::path& path);
 void write_file(const std::filesystem::path& path, std::string_view content);
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
+/// A file that another program writes whole or not at all: the program writes to `temporary_path`,
+/// and `replace_target` puts the finished file in place. Without that call the temporary is
+/// removed.
+class PartialFile {
+public:
+    /// Removes temporaries of `path` that dead processes have left. Throws `cannot_create` if
+    /// `path` names a folder, a device or a pipe.
+    explicit PartialFile(std::filesystem::path path);
+    ~PartialFile();
+    PartialFile(const PartialFile&) = delete;
+    PartialFile& operator=(const PartialFile&) = delete;
+
+    /// Returns a path in the folder of the target at which no file exists at first.
+    const std::filesystem::path& temporary_path() const { return temporary_; }
+    /// Gives the temporary the mode of the old file, if there is one. Throws `io`.
+    void copy_mode_of_target() const;
+    /// Renames the temporary. Throws `io`.
+    void replace_target();
+
+private:
+    std::filesystem::path named_, target_, temporary_;
+};
+
 /// Returns the bytes of a file. Throws `missing_input` if it does not exist or cannot be opened,
 /// and `io` if reading fails.
 std::string read_file(const std::filesystem::path& path);

@@ -43,6 +43,36 @@ TEST_F(File, WrittenFileIsReadBackByteForByte) {
     EXPECT_EQ(count_folder_entries(), 1);
 }
 
+/// Another program writes the partial file.
+TEST_F(File, PartialFileTakesThePlaceOfTheOldFileOrIsRemoved) {
+    catoptric::write_file(folder / "x", "old");
+    fs::permissions(folder / "x", fs::perms::owner_read | fs::perms::owner_write);
+    {
+        const catoptric::PartialFile partial(folder / "x");
+        std::ofstream(partial.temporary_path()) << "half";
+        EXPECT_EQ(partial.temporary_path().parent_path(), folder);
+    }
+    EXPECT_EQ(catoptric::read_file(folder / "x"), "old");
+    EXPECT_EQ(count_folder_entries(), 1);
+    {
+        catoptric::PartialFile partial(folder / "x");
+        std::ofstream(partial.temporary_path()) << "new";
+        partial.copy_mode_of_target();
+        partial.replace_target();
+    }
+    EXPECT_EQ(catoptric::read_file(folder / "x"), "new");
+    EXPECT_EQ(fs::status(folder / "x").permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(count_folder_entries(), 1);
+    catoptric::PartialFile unwritten(folder / "y");
+    EXPECT_THAT(catch_error_of([&] { unwritten.replace_target(); }).what(),
+                HasSubstr("y: cannot be replaced"));
+    for (const auto& [path, found] : {std::pair<fs::path, const char*>{folder, "found a folder"},
+                                      {"/dev/null", "found a device or pipe"}})
+        EXPECT_THAT(catch_error_of([&] { const catoptric::PartialFile refused(path); }).what(),
+                    HasSubstr(found));
+}
+
 /// write_file removes the partial file of a process that ended while writing. Partial files of
 /// running processes stay.
 TEST_F(File, PartialFilesOfEndedProcessesAreRemoved) {
