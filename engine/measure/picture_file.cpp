@@ -183,12 +183,29 @@ Mask read_mask(const std::filesystem::path& path, int width, int height) {
 }
 
 std::string encode_exr(const Picture& picture, const std::string& text) {
-    std::vector<float> values;
-    values.reserve(3 * picture.pixels.size());
-    for (const vec3& pixel : picture.pixels)
-        values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
+    return encode_exr_with_channels(picture, {}, text);
+}
+
+std::string encode_exr_with_channels(const Picture& picture,
+                                     std::span<const ExtraPictureChannel> channels,
+                                     const std::string& text) {
     ImageSizeAndChannels shape = rgb_float_image_shape(picture);
     shape.description = text;
+    shape.channel_count += channels.size();
+    if (!channels.empty()) shape.channels = {"R", "G", "B"};
+    for (const ExtraPictureChannel& channel : channels) {
+        check(channel.values.size() == picture.pixels.size(), Failure::internal, "channel ",
+              channel.name, ": wanted ", picture.pixels.size(), " values, found ",
+              channel.values.size());
+        shape.channels.push_back(channel.name);
+    }
+    std::vector<float> values;
+    values.reserve(shape.channel_count * picture.pixels.size());
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const vec3& pixel = picture.pixels[i];
+        values.insert(values.end(), {pixel.x, pixel.y, pixel.z});
+        for (const ExtraPictureChannel& channel : channels) values.push_back(channel.values[i]);
+    }
     return encode_openexr(shape, values);
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 // Picture files that are read piece by piece or refused by their size.
 namespace catoptric::measure {
@@ -45,6 +46,16 @@ private:
 /// Reads a whole picture. `judge` may refuse it by its size.
 Picture read_picture(const std::filesystem::path& path,
                      const PictureReader::PictureSizeCheck& judge);
+
+/// A channel of an OpenEXR file beside R, G and B, such as "depth.Z": a value for each pixel.
+struct ExtraPictureChannel {
+    std::string name;
+    std::vector<float> values;
+};
+/// Returns an OpenEXR file as `encode_exr` does, with more channels. Each value is bit-exact.
+std::string encode_exr_with_channels(const Picture& picture,
+                                     std::span<const ExtraPictureChannel> channels,
+                                     const std::string& text = {});
 
 /// Returns whether a file begins with the signature of a PNG.
 bool is_png(const std::filesystem::path& path);
