@@ -276,9 +276,12 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
     const bool completes = is_view_drawn_by_tracer_after_raster(choices);
     const render::ShadingLights lighting = maps.find_or_add_shadow_map(
         choose_shadow_map_edge_for_view(choices, is_mixed || completes));
-    if (!is_mixed && !completes && choices.front().technique->picture)
-        return choices.front().technique->picture(graph, inputs, choices.front().settings,
-                                                  lighting);
+    if (!is_mixed && !completes && choices.front().technique->picture) {
+        TechniqueOutputs traced = choices.front().technique->picture(
+            graph, inputs, choices.front().settings, lighting);
+        traced.traces_all_mirrors = true;
+        return traced;
+    }
     TechniqueOutputs outputs;
     const MutualMirrorCaptures feedback = add_capture_passes_with_feedback(
         graph, inputs, assignment, keeping, maps, lighting, probes);
@@ -355,6 +358,8 @@ TechniqueOutputs add_frame_passes(graph::Graph& graph, const render::FrameInputs
         std::move(glass));
     outputs.hdr = view.hdr;
     if (inputs.with_lookup) outputs.lookup = view.lookup;
+    if (inputs.with_lookup && !tracers.empty() && !completes) outputs.tracer_marks = view.tracers;
+    outputs.traces_all_mirrors = completes;
     for (std::uint32_t i = 0; i < tracers.size(); ++i)
         outputs.counters.push_back(
             add_tracing_of_pixel_list(graph, inputs, tracers[i], i + 1, view));

@@ -26,6 +26,11 @@ struct TechniqueOutputs {
     /// Image with the direction in which each mirror pixel looked into a capture
     /// (shaders/lib/mirror.glsl), rgba32f; only if the inputs ask for this image.
     std::optional<graph::ImageHandle> lookup;
+    /// Image of the numbers of tracers that complete the pixels (render::CameraPassOutputs); only
+    /// with `lookup`, if tracers of listed pixels do.
+    std::optional<graph::ImageHandle> tracer_marks;
+    /// Whether rays draw all mirrors of the picture, so that `lookup` says nothing.
+    bool traces_all_mirrors = false;
     std::shared_ptr<const render::MirrorCaptures>
         captures;                   ///< captures that the view reads; may be null
     std::vector<std::string> notes; ///< differences from the request, one sentence each

@@ -62,6 +62,25 @@ bool does_ray_tracer_read_shadow_map(const TracerSettings& tracer) {
     return tracer.shadow != TracerSettings::TracedShadow::none && tracer.lighting.shadow_map;
 }
 
+/// Returns the numbers of work groups of 8x8 pixels along x and y, which are at least as many as
+/// the picture has.
+uvec2 count_picture_work_groups(uvec2 size) {
+    const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
+                        rows = (groups + kMaxWorkGroupsPerRow - 1) / kMaxWorkGroupsPerRow;
+    return {(groups + rows - 1) / rows, rows};
+}
+
+/// Declares the pass that sets a tracer's counters to 0.
+graph::BufferHandle add_counters_with_reset(graph::Graph& graph, const std::string& prefix,
+                                            const std::string& pass) {
+    const graph::BufferHandle counters = graph.add_buffer(
+        {prefix + "counters", sizeof(shared::Counters)});
+    graph.add_pass(prefix + pass + "/reset")
+        .writes(counters, ResourceUse::copy_to)
+        .record([=](graph::PassCommands& commands) { commands.fill_buffer(counters, 0); });
+    return counters;
+}
+
 gpu::ComputePipelineState make_tracer_state(const TracerSettings& tracer,
                                             const render::GpuScene& scene, bool listed) {
     std::string build;
@@ -188,10 +207,7 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
     const uvec2 size = inputs.size;
     const TracedPicture traced{
         graph.add_image({inputs.prefix + "hdr", TexelFormat::rgba32f, size.x, size.y}),
-        graph.add_buffer({inputs.prefix + "counters", sizeof(shared::Counters)})};
-    graph.add_pass(inputs.prefix + "raytrace/reset")
-        .writes(traced.counters, ResourceUse::copy_to)
-        .record([=](graph::PassCommands& commands) { commands.fill_buffer(traced.counters, 0); });
+        add_counters_with_reset(graph, inputs.prefix, "raytrace")};
     request_ray_tracing_data(inputs.scene, tracer);
     graph::PassBuilder pass = graph.add_pass(inputs.prefix + "raytrace");
     declare_lighting_reads(pass, tracer);
@@ -202,12 +218,42 @@ TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs
             commands.bind_resource("picture", traced.hdr);
             commands.bind_resource("counters", traced.counters);
             commands.bind_pipeline(make_tracer_state(tracer, scene, false));
-            const std::uint32_t groups = (size.x + 7) / 8 * ((size.y + 7) / 8),
-                                rows = (groups + kMaxWorkGroupsPerRow - 1) / kMaxWorkGroupsPerRow;
+            const uvec2 groups = count_picture_work_groups(size);
             dispatch_sample_passes(commands, tracer, size, seed,
-                                   [&] { commands.dispatch((groups + rows - 1) / rows, rows); });
+                                   [&] { commands.dispatch(groups.x, groups.y); });
         });
     return traced;
+}
+
+FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
+                                             const render::FrameInputs& inputs) {
+    const uvec2 size = inputs.size;
+    const auto add_image = [&](const char* name) {
+        return graph.add_image({inputs.prefix + name, TexelFormat::rgba32f, size.x, size.y});
+    };
+    const FirstSurfaceImages images{add_image("normals_and_distances"),
+                                    add_image("objects_and_roughness"),
+                                    add_counters_with_reset(graph, inputs.prefix, "first_surface")};
+    const TracerSettings tracer;
+    request_ray_tracing_data(inputs.scene, tracer);
+    graph.add_pass(inputs.prefix + "first_surface")
+        .writes(images.normals_and_distances, ResourceUse::storage_write)
+        .writes(images.objects_and_roughness, ResourceUse::storage_write)
+        .writes(images.counters, ResourceUse::storage)
+        .record([=, &scene = inputs.scene](graph::PassCommands& commands) {
+            bind_tracer_resources(commands, scene, tracer);
+            commands.bind_resource("normals_and_distances", images.normals_and_distances);
+            commands.bind_resource("objects_and_roughness", images.objects_and_roughness);
+            commands.bind_resource("counters", images.counters);
+            commands.bind_pipeline(gpu::ComputePipelineState{
+                "first_surface.comp",
+                {},
+                scene.ray_tracing_feature_constants(sphere_mode_of_tracer(tracer))});
+            commands.push_constants(size);
+            const uvec2 groups = count_picture_work_groups(size);
+            commands.dispatch(groups.x, groups.y);
+        });
+    return images;
 }
 
 graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,

@@ -42,6 +42,19 @@ struct TracedPicture {
 TracedPicture add_picture_tracing(graph::Graph& graph, const render::FrameInputs& inputs,
                                   const TracerSettings& tracer);
 
+/// Images of what the camera ray through each pixel's centre meets first
+/// (shaders/first_surface.comp).
+struct FirstSurfaceImages {
+    graph::ImageHandle normals_and_distances; ///< rgba32f; scene units along the ray
+    /// Word with the object's number from 1 (bvh::integer_from_float_bits), 0: none; factor that a
+    /// texture gives the roughness. rgba32f.
+    graph::ImageHandle objects_and_roughness;
+    graph::BufferHandle counters; ///< shared::Counters
+};
+/// Declares the pass that traces these rays. All spheres are triangles, as in the rasteriser.
+FirstSurfaceImages add_first_surface_tracing(graph::Graph& graph,
+                                             const render::FrameInputs& inputs);
+
 /// Lists the pixels of the view that are marked for tracer `number`, from 1, and traces them into
 /// `view.hdr`. Returns the shared::Counters of the tracing.
 graph::BufferHandle add_tracing_of_pixel_list(graph::Graph& graph,

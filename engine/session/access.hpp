@@ -3,6 +3,7 @@
 #include "core/work.hpp"
 #include "require/model.hpp"
 #include "session/engine.hpp"
+#include "session/first_surface.hpp"
 #include "session/session.hpp"
 
 #include <cstddef>
@@ -132,6 +133,14 @@ struct Access {
     /// If two successive frames of a still scene have equal states, the picture changes no more.
     /// Empty if nothing is remembered.
     static std::vector<std::byte> read_next_frame_state(const Frame& frame);
+
+    /// Traces what the pixels of a frame with this specification show first, in a frame of its own.
+    /// Later frames continue as without this frame, but earlier ones can no longer be read. Throws
+    /// `exhausted`.
+    static FirstSurfaces trace_first_surfaces(Session& session, const FrameSpec& spec);
+    /// Returns how the frame made its reflections. Throws `internal` for a frame that was submitted
+    /// without `with_lookup`, or before another one.
+    static ReflectionTiers read_reflection_tiers(const Frame& frame, std::size_t part = 0);
 
     /// Submits a frame as Session::frame does. `finish` adds passes that belong to no
     /// technique before the frame is submitted.

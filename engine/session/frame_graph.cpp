@@ -161,6 +161,7 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
         for (const graph::BufferHandle counters : outputs.counters)
             frame.graph.mark_as_graph_output(counters);
         if (outputs.lookup) frame.graph.mark_as_graph_output(*outputs.lookup);
+        if (outputs.tracer_marks) frame.graph.mark_as_graph_output(*outputs.tracer_marks);
         if (outputs.captures && (spec.with_lookup || hooks.with_captures)) {
             for (const render::CubeCaptureArray& cubes : outputs.captures->arrays) {
                 frame.graph.mark_as_graph_output(cubes.colour);

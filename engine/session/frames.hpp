@@ -34,7 +34,11 @@ public:
     bool render_next() { return render_next(request_.camera); }
     /// As above, with this camera in place of the request's. A run that ends when the picture
     /// settles needs the same camera in each frame.
-    bool render_next(const scene::Camera& camera);
+    bool render_next(const scene::Camera& camera) {
+        return render_next(camera, request_.instant(number_ + 1));
+    }
+    /// As above, at this instant of the scene's motion, in seconds.
+    bool render_next(const scene::Camera& camera, double time);
     /// Frees the session for other frames until the next call of `render_next`. That call continues
     /// the sequence as if no other frames had been rendered. Results of the last frame that were
     /// not read by then are lost.

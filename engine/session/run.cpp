@@ -21,7 +21,7 @@ FrameLoop::FrameLoop(Session& session, const Request& request, const FrameHooks&
     if (history == FrameHistoryState::none) session.forget();
 }
 
-bool FrameLoop::render_next(const scene::Camera& camera) {
+bool FrameLoop::render_next(const scene::Camera& camera, double time) {
     if (settled_ || number_ >= max_frame_count()) return false;
     check(!request_.until_settled || camera == request_.camera, Failure::usage,
           "a run until the picture settles: wanted one camera, found two");
@@ -30,7 +30,7 @@ bool FrameLoop::render_next(const scene::Camera& camera) {
     ++number_;
     FrameSpec spec = request_;
     spec.camera = camera;
-    spec.time = request_.instant(number_);
+    spec.time = time;
     const double used_before = read_process_seconds();
     frame_ = Access::render_frame(loop_session_, spec, hooks_);
     // The first measured frame must not wait for the frames before it.

@@ -105,8 +105,10 @@ std::vector<MirrorInfo> list_mirror_info(const scene::Scene& now, const std::vec
 
 void fill_scene_sizes(SceneInfo& info, const scene::Scene& scene) {
     std::set<std::size_t> shown;
-    for (const scene::Object& object : scene.objects)
+    for (const scene::Object& object : scene.objects) {
         info.instances += !shown.insert(object.mesh).second;
+        info.object_names.push_back(object.name);
+    }
     info.objects = scene.objects.size(), info.meshes = shown.size();
     for (const std::size_t i : shown) {
         const scene::Mesh& mesh = scene.meshes[i];

@@ -50,6 +50,8 @@ struct SceneInfo {
     std::uint64_t geometry_bytes = 0, image_bytes = 0, file_bytes = 0;
     std::vector<MaterialInfo> materials;
     std::vector<MirrorInfo> mirrors;
+    /// Names of the objects; entry n-1 is object n of pictures with --aov object.
+    std::vector<std::string> object_names;
     /// Suggested `--mirror` options (candidates.hpp), only for a scene without a mirror.
     std::vector<std::string> mirror_options;
     std::vector<measure::CameraFacts> cameras;
