@@ -6,7 +6,10 @@
 #include "scene/camera_named.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <sstream>
 
 namespace catoptric::cli {
 
@@ -15,6 +18,77 @@ namespace {
 using PathJson = report::Json;
 
 constexpr std::uintmax_t kMaxPathFileBytes = 16U << 20U;
+constexpr const char* kViewsSchema = "catoptric/views/1";
+
+/// Throws `bad_data` if the camera stands at its target or looks along its up vector.
+void check_camera_has_direction(const scene::Camera& camera, const std::string& place) {
+    const dvec3 along = camera.target - camera.eye;
+    const double sine = glm::length(glm::cross(along, camera.up)) /
+                        (glm::length(along) * glm::length(camera.up));
+    check(sine > 1e-6, Failure::bad_data, place,
+          ", wanted a camera that looks to a target beside its up axis, found ",
+          scene::format_camera(camera));
+}
+
+dvec3 read_json_point(const PathJson& point, const std::string& place) {
+    const bool is_point = point.is_array() && point.size() == 3 &&
+                          std::ranges::all_of(point, &PathJson::is_number);
+    check(is_point, Failure::bad_data, place, ": wanted a list of three numbers, found ",
+          report::describe_json_value(point));
+    return {point[0].get<double>(), point[1].get<double>(), point[2].get<double>()};
+}
+
+/// Returns a number from above 0 to `high`.
+double read_positive_number(const PathJson& number, double high, const std::string& place) {
+    check(number.is_number() && number > 0 && number <= high, Failure::bad_data, place,
+          ": wanted a number above 0 and at most ", high, ", found ",
+          report::describe_json_value(number));
+    return number.get<double>();
+}
+
+/// Returns a camera as report::make_camera_json writes it.
+scene::Camera read_view_camera(const PathJson& json, const std::string& place) {
+    check(json.is_object(), Failure::bad_data, place, ": wanted an object, found ",
+          report::describe_json_value(json));
+    const auto member = [&](const char* name) { return json.value(name, PathJson()); };
+    scene::Camera camera;
+    camera.eye = read_json_point(member("eye"), place + ".eye");
+    camera.target = read_json_point(member("target"), place + ".target");
+    camera.up = read_json_point(member("up"), place + ".up");
+    if (const PathJson height = member("orthographic_height"); !height.is_null())
+        camera.orthographic_height = read_positive_number(height, 1e30,
+                                                          place + ".orthographic_height");
+    else
+        camera.vertical_fov_degrees = read_positive_number(member("vertical_fov_degrees"), 179,
+                                                           place + ".vertical_fov_degrees");
+    check_camera_has_direction(camera, place);
+    return camera;
+}
+
+/// Reads the views of a document that `catoptric views` wrote.
+std::vector<CameraKey> read_views(const PathJson& document, const std::string& file) {
+    const PathJson schema = document.value("schema", PathJson());
+    check(schema == kViewsSchema, Failure::bad_data, file, ": wanted the schema ", kViewsSchema,
+          " of a file with 'views', found ", report::describe_json_value(schema));
+    const PathJson& list = document["views"];
+    check(list.is_array() && !list.empty(), Failure::bad_data, file,
+          ": wanted at least one view in 'views', found ",
+          list.is_array() ? "none" : report::describe_json_value(list));
+    std::vector<CameraKey> views;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string place = file + ": views[" + std::to_string(i) + "]";
+        check(list[i].is_object(), Failure::bad_data, place, ": wanted an object, found ",
+              report::describe_json_value(list[i]));
+        const PathJson time = list[i].value("time", PathJson());
+        check(time.is_number(), Failure::bad_data, place, ".time: wanted seconds, found ",
+              report::describe_json_value(time));
+        views.push_back({time.get<double>(),
+                         read_view_camera(list[i].value("camera", PathJson()), place + ".camera")});
+        if (const PathJson name = list[i].value("name", PathJson()); name.is_string())
+            views.back().camera.name = name.get<std::string>();
+    }
+    return views;
+}
 
 CameraKey read_camera_key(const PathJson& key, const std::string& place,
                           const scene::Scene& scene) {
@@ -91,19 +165,43 @@ scene::Camera CameraPath::camera_after(double seconds) const {
 
 void CameraPath::check_frames(int frames, const std::string& file) const {
     for (int frame = 0; frame < frames; ++frame) {
-        const scene::Camera camera = camera_after(frame / kFramesPerSecond);
-        const dvec3 along = camera.target - camera.eye;
-        const double sine = glm::length(glm::cross(along, camera.up)) /
-                            (glm::length(along) * glm::length(camera.up));
-        check(sine > 1e-6, Failure::bad_data, file, ": after ", frame / kFramesPerSecond,
-              " s, wanted a camera that looks to a target beside its up axis, found ",
-              scene::format_camera(camera));
+        const double seconds = frame / kFramesPerSecond;
+        std::ostringstream place;
+        place << file << ": after " << seconds << " s";
+        check_camera_has_direction(camera_after(seconds), place.str());
     }
 }
 
-CameraPath read_camera_path(const std::string& file, const scene::Scene& scene) {
-    const auto document = parse_json<PathJson>(
-        file, read_json_text(file, "a camera path", kMaxPathFileBytes));
+double FrameCameras::frame_count() const {
+    if (!path_) return static_cast<double>(views_.size());
+    // The last frame shows the last key. A tiny amount is subtracted, because the decimal number of
+    // seconds may be rounded up.
+    return std::ceil(path_->duration() * kFramesPerSecond - 1e-6) + 1;
+}
+
+const CameraKey& FrameCameras::view_of_frame(int number) const {
+    const auto index = static_cast<std::size_t>(std::max(number, 1) - 1);
+    return views_[std::min(index, views_.size() - 1)];
+}
+
+scene::Camera FrameCameras::camera_of_frame(int number) const {
+    return path_ ? path_->camera_after((number - 1) / kFramesPerSecond)
+                 : view_of_frame(number).camera;
+}
+
+void FrameCameras::check_frames(int last, const std::string& file) const {
+    if (path_) {
+        const double whole = std::min(frame_count(), double(std::numeric_limits<int>::max()));
+        return path_->check_frames(std::min(last, static_cast<int>(whole)), file);
+    }
+    check(static_cast<std::size_t>(last) <= views_.size(), Failure::bad_data, file, ": wanted ",
+          last, " views, one for each frame of --frames, found ", views_.size());
+}
+
+namespace {
+
+CameraPath read_key_path(const PathJson& document, const std::string& file,
+                         const scene::Scene& scene) {
     const PathJson list = document.is_object() ? document.value("keys", PathJson()) : PathJson();
     check(list.is_array() && list.size() >= 2, Failure::bad_data, file,
           ": wanted an object with at least two 'keys', found ",
@@ -126,6 +224,16 @@ CameraPath read_camera_path(const std::string& file, const scene::Scene& scene) 
         keys.push_back(std::move(key));
     }
     return CameraPath(std::move(keys));
+}
+
+} // namespace
+
+FrameCameras read_frame_cameras(const std::string& file, const scene::Scene& scene) {
+    const auto document = parse_json<PathJson>(
+        file, read_json_text(file, "a camera path", kMaxPathFileBytes));
+    if (document.is_object() && document.contains("views"))
+        return FrameCameras(read_views(document, file));
+    return FrameCameras(read_key_path(document, file, scene));
 }
 
 } // namespace catoptric::cli

@@ -73,6 +73,7 @@ std::string make_scene_json(const SceneInfoFacts& words) {
     document["triangles"] = facts.triangles;
     document["stored_triangles"] = info.stored_triangles;
     document["objects"] = info.objects;
+    document["object_names"] = info.object_names;
     document["meshes"] = info.meshes;
     document["instances"] = info.instances;
     document["bytes"] = {{"geometry", info.geometry_bytes},

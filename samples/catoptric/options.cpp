@@ -23,13 +23,30 @@ namespace {
 
 constexpr std::int64_t kMaxFrameCount = 1'000'000;
 
+/// Reads N, or A..B if the verb takes a range.
+void parse_frames_option(const std::string& text, CommonOptions& common) {
+    const auto parse_number = [](const std::string& number, int low) {
+        return static_cast<int>(parse_integer("--frames", number, low, kMaxFrameCount));
+    };
+    const std::size_t dots = text.find("..");
+    common.first_frame = 1;
+    if (!common.takes_frame_range || dots == std::string::npos) {
+        common.frames = parse_number(text, 1);
+        return;
+    }
+    common.first_frame = parse_number(text.substr(0, dots), 1);
+    const int last = parse_number(text.substr(dots + 2), common.first_frame);
+    common.frames = last - common.first_frame + 1;
+}
+
 void add_number_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kMeasuringOptions);
-    verb.option("--frames", "N", "number of measured frames, at least 1 (20)",
-                [&](const std::string& text) {
-                    common.frames = static_cast<int>(
-                        parse_integer("--frames", text, 1, kMaxFrameCount));
-                });
+    verb.option(
+        "--frames", common.takes_frame_range ? "N|A..B" : "N",
+        common.takes_frame_range
+            ? "number of measured frames, at least 1 (20), or the first and the last of them"
+            : "number of measured frames, at least 1 (20)",
+        [&](const std::string& text) { parse_frames_option(text, common); });
     verb.option("--warmup", "N",
                 "frames before the measured ones (8; 28 with compare --model required or both)",
                 [&](const std::string& text) {

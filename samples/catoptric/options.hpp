@@ -32,8 +32,10 @@ struct CommonOptions {
     scene::SceneLoadBudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
     uvec2 size{512, 512};
-    std::optional<int> frames; ///< default: 20
-    std::optional<int> warmup; ///< default: 8
+    std::optional<int> frames;      ///< default: 20
+    bool takes_frame_range = false; ///< whether --frames also takes A..B
+    int first_frame = 1;            ///< A of --frames A..B; `frames` is then the number of them
+    std::optional<int> warmup;      ///< default: 8
     double time = 0;
     bool animate = false;
     std::uint64_t seed = 1;

@@ -1,9 +1,11 @@
 // catoptric render: renders one picture, or a sequence.
+#include "aov.hpp"
 #include "camera_path.hpp"
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_module.hpp"
 #include "file_sequence.hpp"
+#include "film.hpp"
 #include "json.hpp"
 #include "measure/picture.hpp"
 #include "measure/picture_file.hpp"
@@ -12,6 +14,7 @@
 #include "output_checks.hpp"
 #include "progress.hpp"
 #include "scene/hash.hpp"
+#include "session/access.hpp"
 #include "session/capture_budget.hpp"
 #include "session/exposure.hpp"
 #include "session/frames.hpp"
@@ -39,17 +42,25 @@ constexpr const char* kRenderExamples = R"(Examples:
   catoptric render --technique reuse --frames 60 --trace frame.json -o last.png
   catoptric render --technique reuse --animate --frames 60 -o 'frame-{n:3}.png'
   catoptric render --technique secant --camera-path path.json -o 'p-{n:4}.png'
+  catoptric render --technique secant --camera-path path.json -o film.mp4
+  catoptric render --technique secant --aov distance,normal -o layers.exr
   catoptric render --technique naive:bounces=2 -o - | display
   catoptric render --plan "1=hybrid 2,3=secant:face=64 *=reuse" -o mixed.png
 
 A still picture takes one frame, or with last frame's captures as many frames as change a pixel, at most 28.
 With --budget-ms it takes at most 28 rounds of all mirrors; the picture does not depend on the budget.
 The camera of --camera-path moves from the first measured frame on, 1/60 s a frame, to the end of the path or
-for --frames. The file is {"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"time": 2, "camera": "..."}]}.
+for --frames. The file is {"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"time": 2, "camera": "..."}]},
+or the views.json of 'catoptric views': then frame n shows view n, at the view's time.
 With --animate, --camera-path, --frames, --warmup, --profile or --trace, frames are counted and timed as in compare.
 The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its name, one picture per measured
-frame is written, numbered from 1.
-EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.
+frame is written, numbered from 1. A name that ends in .mp4 is a film of 60 measured frames a second, as
+displayed. ffmpeg encodes it. --frames A..B are the frames A to B of a longer sequence, with the same numbers. The
+frames before A are left out, but for the --warmup frames, which fill the captures.
+--aov adds layers to OUT.exr, with 32-bit floats of what the ray through the pixel's centre meets first:
+)";
+constexpr const char* kPictureFileNotes =
+    R"(EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.
 The text of --origin is JSON of schema catoptric/picture/1 in the EXR attribute `comments`, which
 OpenImageIO calls ImageDescription. Without --origin, equal pictures are equal files.)";
 
@@ -60,12 +71,17 @@ struct RenderOptions {
     std::string output;
     std::string trace;
     std::string profile;
-    std::string camera_path; ///< file; empty: the camera stands still
-    bool origin = false;     ///< whether the picture's header says how it was made
+    std::string camera_path;      ///< file; empty: the camera stands still
+    bool origin = false;          ///< whether the picture's header says how it was made
+    std::vector<PictureAov> aovs; ///< layers beside the colours
 };
 
 bool writes_to_stdout(const RenderOptions& options) { return options.output == "-"; }
 bool writes_exr(const RenderOptions& options) { return options.output.ends_with(".exr"); }
+bool writes_film(const RenderOptions& options) { return is_film_name(options.output); }
+bool writes_aov(const RenderOptions& options, PictureAov aov) {
+    return std::ranges::find(options.aovs, aov) != options.aovs.end();
+}
 
 constexpr int kMaxSequencePictures = 100'000; ///< limit of a sequence
 
@@ -80,6 +96,11 @@ bool wants_only_picture(const RenderOptions& options) {
 /// picture goes to stdout.
 std::vector<std::string> list_output_files(const RenderOptions& options, int frames) {
     if (writes_to_stdout(options)) return {};
+    if (writes_film(options)) {
+        check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
+              ": wanted --frames, --animate or --camera-path with a film, found none");
+        return {options.output};
+    }
     const std::optional<PictureFileSequence> sequence = PictureFileSequence::parse_file_sequence(
         options.output);
     if (!sequence) return {options.output};
@@ -88,7 +109,8 @@ std::vector<std::string> list_output_files(const RenderOptions& options, int fra
     check(frames <= kMaxSequencePictures, Failure::usage, "-o ", options.output,
           ": wanted at most ", kMaxSequencePictures, " pictures, found ", frames, " frames");
     std::vector<std::string> files;
-    for (int number = 1; number <= frames; ++number) files.push_back(sequence->file(number));
+    for (int number = 0; number < frames; ++number)
+        files.push_back(sequence->file(options.common.first_frame + number));
     return files;
 }
 
@@ -99,16 +121,21 @@ void check_output_options(const RenderOptions& options) {
     check(options.camera_path.empty() || !options.common.overrides.camera, Failure::usage,
           "--camera-path: wanted it without --camera, found both");
     throw_unless_option_given(!options.output.empty(), "render", "-o OUT",
-                              "a name ending in .exr or .png, or - for stdout");
+                              "a name ending in .exr, .png or .mp4, or - for stdout");
     check(!writes_to_stdout(options) || !options.common.manners.json, Failure::usage,
           "-o - and --json: stdout has room for one of them");
     if (!writes_to_stdout(options)) {
         check_file_can_be_made(list_output_files(options, 1).front());
-        check(writes_exr(options) || options.output.ends_with(".png"), Failure::usage,
-              "-o: wanted a name ending in .exr or .png, or -, found '", options.output, "'");
+        check(writes_exr(options) || writes_film(options) || options.output.ends_with(".png"),
+              Failure::usage, "-o: wanted a name ending in .exr, .png or .mp4, or -, found '",
+              options.output, "'");
     }
+    check(options.aovs.empty() || writes_exr(options), Failure::usage,
+          "--aov: wanted -o with a name ending in .exr, which holds layers, found '",
+          options.output, "'");
     check(!options.origin || writes_exr(options), Failure::usage,
           "--origin: wanted -o with a name ending in .exr, found '", options.output, "'");
+    if (writes_film(options)) check_film_can_be_made(options.output, options.common.size);
     for (const std::string& file : {options.trace, options.profile})
         if (!file.empty()) check_file_can_be_made(file);
 }
@@ -130,6 +157,7 @@ app::Request make_render_request(const RenderOptions& options) {
     app::Request request = make_render_request_of_options(options.common);
     request.techniques = {options.technique};
     request.model = options.common.model.value_or(app::RenderedWork::required);
+    request.with_lookup = writes_aov(options, PictureAov::tier);
     if (!wants_only_picture(options)) return request;
     request.frames += request.warmup; // the same number as `compare` renders
     request.warmup = 0;
@@ -153,56 +181,112 @@ std::optional<PictureOrigin> make_picture_origin(const RenderOptions& options,
                          .exposure = request.exposure};
 }
 
-void write_picture(const app::TechniqueResult& part, const std::optional<PictureOrigin>& origin,
-                   const std::string& file) {
-    if (file.ends_with(".exr"))
-        return measure::write_exr(part.hdr, file, origin ? make_picture_origin_json(*origin) : "");
-    measure::write_png(part.display, file);
-}
-
-/// Reads the camera path. Unless --frames is given, sets the number of frames so that they cover
-/// the whole path.
-std::optional<CameraPath> read_camera_path_of_request(const RenderOptions& options,
-                                                      app::Request& request) {
+/// Reads the cameras of the frames. Unless --frames is given, sets the number of frames so that
+/// they cover the whole file.
+std::optional<FrameCameras> read_cameras_of_request(const RenderOptions& options,
+                                                    app::Request& request) {
     if (options.camera_path.empty()) return std::nullopt;
-    CameraPath path = read_camera_path(options.camera_path, request.scene);
-    // The last frame shows the last key. A tiny amount is subtracted, because the decimal number of
-    // seconds may be rounded up.
-    const double whole = std::ceil(path.duration() * kFramesPerSecond - 1e-6) + 1;
+    FrameCameras cameras = read_frame_cameras(options.camera_path, request.scene);
+    check(!cameras.has_instants() || !options.common.animate, Failure::usage,
+          "--animate: wanted it without views in --camera-path, which have an instant each, found "
+          "both");
+    const double whole = cameras.frame_count();
     check(options.common.frames || whole <= kMaxSequencePictures, Failure::usage, "--camera-path ",
           options.camera_path, ": wanted --frames or a path of at most ", kMaxSequencePictures,
           " frames, found ", whole);
     if (!options.common.frames) request.frames = static_cast<int>(whole);
-    path.check_frames(std::min(request.frames, static_cast<int>(std::min(whole, 1e9))),
-                      options.camera_path);
-    request.camera = path.camera_after(0);
+    cameras.check_frames(options.common.first_frame - 1 + request.frames, options.camera_path);
+    request.camera = cameras.camera_of_frame(1);
     request.camera.name = options.camera_path;
-    return path;
+    if (cameras.has_instants()) request.time = cameras.instant_of_frame(1);
+    return cameras;
 }
 
-/// Renders all frames. In a sequence, each measured frame is written to its file. Sets the camera
-/// and the instant of `origin` to those of the last frame.
-void render_all_frames(app::FrameLoop& frames, const app::Request& request,
-                       const std::optional<CameraPath>& path, const std::vector<std::string>& files,
-                       std::optional<PictureOrigin>& origin, const app::Watcher& watcher) {
-    const int warmup = request.warmup;
-    const auto find_camera = [&] {
-        const int next = frames.rendered_frame_count() + 1 -
-                         warmup; // number from 1; below 1: warm-up
-        return path ? path->camera_after((next - 1) / kFramesPerSecond) : request.camera;
+/// Writes the pictures of a run: one, one for each measured frame, or a film.
+class RunOutput {
+public:
+    /// `files`: as list_output_files returns them. `origin`: what the pictures are made of, but for
+    /// the camera and the instant. All arguments but the last must outlive this object.
+    RunOutput(const RenderOptions& options, const std::vector<std::string>& files,
+              app::Session& session, const app::Watcher& watcher,
+              std::optional<PictureOrigin> origin)
+        : options_(options), files_(files), session_(session), origin_(std::move(origin)) {
+        if (writes_film(options))
+            film_.emplace(options.output, options.common.size, kFramesPerSecond, watcher);
+    }
+
+    /// Returns whether each measured frame is written.
+    bool writes_each_frame() const { return film_ || files_.size() > 1; }
+    /// Writes a measured frame, with its number from 0. `spec`: of the frame. `part`: its result.
+    /// The frame cannot be read afterwards.
+    void write_frame(std::size_t number, const app::Frame& frame, const app::FrameSpec& spec,
+                     const app::TechniqueResult& part) {
+        if (files_.empty()) return print_picture_bytes(measure::encode_picture_png(part.display));
+        if (film_) return film_->add_frame(part.display);
+        const std::string& file = files_.at(std::min(number, files_.size() - 1));
+        if (!writes_exr(options_)) return measure::write_png(part.display, file);
+        write_file(file, encode_exr_of_frame(frame, spec, part));
+    }
+    /// Puts the film in place, if there is one.
+    void finish() {
+        if (film_) film_->finish();
+    }
+
+private:
+    std::string encode_exr_of_frame(const app::Frame& frame, const app::FrameSpec& spec,
+                                    const app::TechniqueResult& part) {
+        std::string text;
+        if (origin_) {
+            origin_->camera = app::make_camera_facts(spec.camera);
+            origin_->time = spec.time;
+            text = make_picture_origin_json(*origin_);
+        }
+        if (options_.aovs.empty()) return measure::encode_exr(part.hdr, text);
+        std::optional<app::ReflectionTiers> tiers;
+        if (writes_aov(options_, PictureAov::tier))
+            tiers = app::Access::read_reflection_tiers(frame);
+        const app::FirstSurfaces surfaces = app::Access::trace_first_surfaces(session_, spec);
+        return measure::encode_exr_with_channels(
+            part.hdr, make_aov_channels(options_.aovs, surfaces, tiers), text);
+    }
+
+    const RenderOptions& options_;
+    const std::vector<std::string>& files_;
+    app::Session& session_;
+    std::optional<PictureOrigin> origin_;
+    std::optional<FilmWriter> film_;
+};
+
+/// Renders all frames and writes them. Returns the results.
+app::RunResult render_and_write_frames(app::Session& session, const app::Request& request,
+                                       int first_frame, const std::optional<FrameCameras>& cameras,
+                                       RunOutput& output, const app::Watcher& watcher) {
+    app::FrameLoop frames(session, request);
+    app::FrameSpec shown = request;
+    int number = first_frame - request.warmup; // below first_frame: warm-up
+    const auto find_instant = [&] {
+        return cameras && cameras->has_instants() ? cameras->instant_of_frame(number)
+                                                  : request.instant(request.warmup + number);
     };
     throw_if_stopped(watcher);
-    for (scene::Camera camera = find_camera(); frames.render_next(camera); camera = find_camera()) {
-        const int measured = frames.rendered_frame_count() - warmup;
-        if (origin) {
-            origin->camera = app::make_camera_facts(camera);
-            origin->time = request.instant(frames.rendered_frame_count());
-        }
-        if (files.size() > 1 && measured > 0)
-            write_picture(frames.current_frame().read(), origin,
-                          files[static_cast<std::size_t>(measured - 1)]);
+    for (;; ++number) {
+        app::FrameSpec next = shown;
+        next.camera = cameras ? cameras->camera_of_frame(number) : request.camera;
+        next.time = find_instant();
+        if (!frames.render_next(next.camera, next.time)) break;
+        shown = std::move(next);
+        const int measured = frames.rendered_frame_count() - request.warmup;
+        // The last frame is written after its result was read.
+        if (output.writes_each_frame() && measured > 0 && measured < request.frames)
+            output.write_frame(static_cast<std::size_t>(measured - 1), frames.current_frame(),
+                               shown, frames.current_frame().read());
         report_frame_to_watcher(watcher, frames.rendered_frame_count(), frames.max_frame_count());
     }
+    app::RunResult result = frames.result();
+    output.write_frame(static_cast<std::size_t>(request.frames - 1), frames.current_frame(), shown,
+                       result.parts.front());
+    output.finish();
+    return result;
 }
 
 std::vector<double> list_gpu_times(const app::RunResult& result) {
@@ -247,7 +331,7 @@ int run_render(const RenderOptions& options) {
     const app::TechniqueChoice choice = app::parse_technique(options.technique);
     check_output_options(options);
     app::Request request = make_render_request(options);
-    const std::optional<CameraPath> path = read_camera_path_of_request(options, request);
+    const std::optional<FrameCameras> cameras = read_cameras_of_request(options, request);
     const std::vector<std::string> files = list_output_files(options, request.frames);
     check_picture_places(options, request.scene, files);
     if (writes_exr(options)) get_image_codecs(); // fail before rendering if the codecs are missing
@@ -263,15 +347,12 @@ int run_render(const RenderOptions& options) {
     app::Session session(engine, std::move(scene));
     app::resolve_auto_exposure(session, request);
     if (origin) origin->exposure = request.exposure;
-    app::FrameLoop frames(session, request);
-    render_all_frames(frames, request, path, files, origin, watcher);
-    const app::RunResult result = frames.result();
+    RunOutput output(options, files, session, watcher, std::move(origin));
+    const app::RunResult result = render_and_write_frames(
+        session, request, options.common.first_frame, cameras, output, watcher);
     progress.clear();
 
     warn_of_nonfinite(result.parts.front().hdr);
-    if (files.empty())
-        print_picture_bytes(measure::encode_picture_png(result.parts.front().display));
-    if (files.size() == 1) write_picture(result.parts.front(), origin, files.front());
     if (!options.trace.empty())
         write_file(options.trace, make_trace_json(result.frames.back(),
                                                   choice.label + " on " + engine.device().name));
@@ -289,16 +370,20 @@ void add_render_verb(CommandLine& program) {
     const auto options = std::make_shared<RenderOptions>();
     CommandVerb& verb = program.add_command_verb("render",
                                                  "render one picture by one technique or plan");
-    verb.examples(kRenderExamples);
+    verb.examples(kRenderExamples + describe_aovs() + kPictureFileNotes);
     add_technique_options(verb, options->drawn);
     verb.option(
         "-o,--output", "OUT",
-        "picture file OUT.exr or OUT.png, frame-{n:4}.png for one per frame, or - for a PNG on "
-        "stdout; required",
+        "picture file OUT.exr or OUT.png, frame-{n:4}.png for one per frame, a film OUT.mp4, or - "
+        "for a PNG on stdout; required",
         options->output);
     verb.option("--camera-path", "FILE",
                 "file with a motion of the camera, in place of --camera; see the notes below",
                 options->camera_path);
+    verb.option("--aov", "LIST",
+                "layers to add to OUT.exr, separated by commas: distance, normal, object, mirror, "
+                "tier, roughness, or all; see the notes below",
+                [options](const std::string& text) { options->aovs = parse_aov_list(text); });
     verb.flag("--origin", "write into the header of OUT.exr how it was made, see the notes below",
               options->origin);
     verb.heading(kMeasuringOptions);
@@ -308,6 +393,7 @@ void add_render_verb(CommandLine& program) {
     verb.option("--profile", "P.json",
                 "file for the times of frames, passes and host, as printed by --json",
                 options->profile);
+    options->common.takes_frame_range = true;
     add_budget_option(verb, options->common);
     add_common_options(verb, options->common);
     verb.set_verb_action([options] {
