@@ -60,5 +60,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS mesa-vulkan-drivers)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, vulkan-validationlayers") # headers of the library; --validate
+# ffmpeg: films. libglm-dev: headers of the library. vulkan-validationlayers: --validate.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, libglm-dev, vulkan-validationlayers")
 include(CPack)

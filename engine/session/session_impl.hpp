@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-// Implementation of Session and Frame, only for session.cpp, session_cache.cpp, frame.cpp and
-// screen.cpp.
+// Implementation of Session and Frame, only for session.cpp, session_cache.cpp, frame.cpp,
+// first_surface.cpp and screen.cpp.
 namespace catoptric::app {
 
 /// The data from which the device's copy of a scene is made. Equal keys mean an equal copy.

@@ -23,18 +23,14 @@ struct AovRow {
 /// after the layer's name, because Blender reads no others.
 const std::vector<AovRow>& list_aov_rows() {
     static const std::vector<AovRow> kRows{
-        {"distance",
-         {"distance.Z"},
-         "way along the ray from the camera, in units of the scene (glTF: metres); inf: no surface"},
+        {"distance", {"distance.Z"}, "way along the ray, in the file's units; inf: no surface"},
         {"normal",
          {"normal.X", "normal.Y", "normal.Z"},
          "unit shading normal in world space; 0,0,0: no surface"},
         {"object", {"object.V"}, "number of the object from 1, see 'info --json'; 0: no surface"},
         {"mirror", {"mirror.V"}, "number of the mirror from 1, as in 'info'; 0: no mirror"},
-        {"tier", {"tier.V"}, "how the mirror's reflection was made:"},
-        {"roughness",
-         {"roughness.V"},
-         "roughness of the material, 0 to 1; 0: no surface, or a mirror without a lobe"}};
+        {"tier", {"tier.V"}, "how the mirror's reflection was made, see the numbers below"},
+        {"roughness", {"roughness.V"}, "roughness of the material, 0 to 1; 0: no surface"}};
     return kRows;
 }
 
@@ -89,15 +85,11 @@ std::vector<PictureAov> parse_aov_list(const std::string& text) {
 
 std::string describe_aovs() {
     std::string text;
-    for (const AovRow& row : list_aov_rows()) {
-        text += fmt::format("  {:<10} {}", row.name, row.help);
-        if (row.channels.front() == std::string("tier.V")) {
-            const auto& tiers = app::list_reflection_tiers();
-            for (std::size_t i = 0; i < tiers.size(); ++i)
-                text += fmt::format("{} {} {}", i > 0 ? "," : "", i, tiers[i].name);
-        }
-        text += "\n";
-    }
+    for (const AovRow& row : list_aov_rows())
+        text += fmt::format("  {:<13} {}\n", row.name, row.help);
+    const std::vector<app::ReflectionTierInfo>& tiers = app::list_reflection_tiers();
+    for (std::size_t i = 0; i < tiers.size(); ++i)
+        text += fmt::format("  {} {:<11} {}\n", i, tiers[i].name, tiers[i].help);
     return text;
 }
 

@@ -57,10 +57,12 @@ The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its n
 frame is written, numbered from 1. A name that ends in .mp4 is a film of 60 measured frames a second, as
 displayed. ffmpeg encodes it. --frames A..B are the frames A to B of a longer sequence, with the same numbers. The
 frames before A are left out, but for the --warmup frames, which fill the captures.
---aov adds layers to OUT.exr, with 32-bit floats of what the ray through the pixel's centre meets first:
+
+Layers of --aov, of what the ray through a pixel's centre meets first:
 )";
 constexpr const char* kPictureFileNotes =
-    R"(EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.
+    R"(
+EXR files are linear float; PNG files have exposure, clamping and the sRGB curve. '-' writes a PNG to stdout.
 The text of --origin is JSON of schema catoptric/picture/1 in the EXR attribute `comments`, which
 OpenImageIO calls ImageDescription. Without --origin, equal pictures are equal files.)";
 
