@@ -63,12 +63,6 @@ struct ViewBank {
     bool has_plan(const std::string& plan) const {
         return std::ranges::find(plans, plan) != plans.end();
     }
-    double predicted_ms(const std::string& plan, const std::string& costs) const {
-        return measure::find_predicted_pareto_front(report::read_costs_file(costs),
-                                                    {row_of_plan(plan)})
-            .times.front()
-            .ms;
-    }
     /// Returns the share of the bank's views in which a plan keeps a limit of error.
     double true_share(const std::string& plan, double limit) const {
         const std::vector<measure::Errors>& views = row_of_plan(plan).views;
@@ -194,15 +188,32 @@ double quantile_of(std::vector<double> values, double share) {
                           : values[static_cast<std::size_t>(share * double(values.size() - 1))];
 }
 
+/// Predicted times of the bank's plans on a device, milliseconds, and the file of its costs.
+struct DeviceTimes {
+    std::string name, costs;
+    std::map<std::string, double> ms; ///< by plan
+};
+
+DeviceTimes predict_times_of_bank(const ViewBank& bank, const std::string& name,
+                                  const std::string& costs) {
+    DeviceTimes device{name, costs, {}};
+    const std::vector<measure::PredictedTime> times = measure::find_predicted_pareto_front(
+                                                          report::read_costs_file(costs),
+                                                          bank.comparison.rows)
+                                                          .times;
+    for (std::size_t i = 0; i < bank.plans.size(); ++i) device.ms[bank.plans[i]] = times[i].ms;
+    return device;
+}
+
 /// Prints the true shares of views, and the predicted times, of all plans of a bank.
 void print_bank(const char* scene, const ViewBank& bank, const std::vector<double>& limits,
-                const std::map<std::string, std::string>& tables) {
+                const std::vector<DeviceTimes>& devices) {
     for (const std::string& plan : bank.plans) {
         std::cout << "[ MEASURED ] " << scene << ": " << plan << ": true shares";
         for (const double limit : limits)
             std::cout << ' ' << bank.true_share(plan, limit) << " of " << limit;
-        for (const auto& [table, file] : tables)
-            std::cout << ", " << table << ' ' << bank.predicted_ms(plan, file) << " ms";
+        for (const DeviceTimes& device : devices)
+            std::cout << ", " << device.name << ' ' << device.ms.at(plan) << " ms";
         std::cout << '\n';
     }
 }
@@ -215,14 +226,14 @@ struct ChoiceCounts {
 };
 
 ChoiceCounts choose_many_times(const ViewBank& bank, const std::vector<double>& limits,
-                               const std::map<std::string, std::string>& tables, int proof_views) {
+                               const std::vector<DeviceTimes>& devices, int proof_views) {
     ChoiceCounts counts;
     for (int number = 0; number < kChoicesPerScene; ++number) {
         const auto each = static_cast<int>(limits.size());
         const double limit = limits[static_cast<std::size_t>(number % each)];
-        const std::string& file =
-            std::next(tables.begin(), number / each % static_cast<int>(tables.size()))->second;
-        const std::string plan = choose_from_bank(bank, file, proof_views, limit, number);
+        const DeviceTimes& device =
+            devices[static_cast<std::size_t>(number / each) % devices.size()];
+        const std::string plan = choose_from_bank(bank, device.costs, proof_views, limit, number);
         if (plan.empty()) {
             ++counts.none;
             continue;
@@ -235,8 +246,8 @@ ChoiceCounts choose_many_times(const ViewBank& bank, const std::vector<double>& 
         double least = std::numeric_limits<double>::infinity();
         for (const std::string& other : bank.plans)
             if (bank.true_share(other, limit) >= kShare)
-                least = std::min(least, bank.predicted_ms(other, file));
-        counts.regrets.push_back(bank.predicted_ms(plan, file) / least);
+                least = std::min(least, device.ms.at(other));
+        counts.regrets.push_back(device.ms.at(plan) / least);
     }
     return counts;
 }
@@ -250,15 +261,16 @@ TEST_P(LongChoose, CertificatesHoldAndCostsAreNearTheLeast) {
     const ViewBank bank = record_view_bank(GetParam());
     const std::filesystem::path costs = test::source_folder() / "docs/costs";
     write_costs_with_dear_rays(costs / "llvmpipe-22.3.json", folder / "dear.json");
-    const std::map<std::string, std::string> tables{{"llvmpipe", costs / "llvmpipe-22.3.json"},
-                                                    {"H200", costs / "h200.json"},
-                                                    {"rays at 30x", folder / "dear.json"}};
+    const std::vector<DeviceTimes> devices{
+        predict_times_of_bank(bank, "llvmpipe", costs / "llvmpipe-22.3.json"),
+        predict_times_of_bank(bank, "H200", costs / "h200.json"),
+        predict_times_of_bank(bank, "rays at 30x", folder / "dear.json")};
     for (const bool is_hard : {true, false}) {
         const std::vector<double> limits = is_hard ? list_limits(bank, kShare, 1.05)
                                                    : list_limits(bank, .99, 1.001);
-        print_bank(GetParam(), bank, limits, tables);
+        print_bank(GetParam(), bank, limits, devices);
         for (const int proof_views : {59, 181}) { // 0 and 4 failures prove 95 %
-            const ChoiceCounts counts = choose_many_times(bank, limits, tables, proof_views);
+            const ChoiceCounts counts = choose_many_times(bank, limits, devices, proof_views);
             std::cout << "[ MEASURED ] " << GetParam() << (is_hard ? ", hard" : ", clear")
                       << " limits, " << proof_views << " proof views: held " << counts.held
                       << ", broken " << counts.broken << ", no plan " << counts.none
