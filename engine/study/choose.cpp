@@ -256,9 +256,9 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
 }
 
 /// Removes plans until `count` are left, but never the first and the last. The times of the plans
-/// fall along the list. If a plan's proof fails, the one before it is chosen, so neighbours with
-/// very different times make a choice dear: each step removes the plan whose neighbours' times are
-/// nearest to each other, as a ratio.
+/// fall along the list. If a plan's proof fails, the plan before it is chosen, which should not
+/// take much longer. So each step removes the plan whose neighbours have the smallest ratio of
+/// times.
 void thin_out_plans_by_time(std::vector<const JudgedPlan*>& plans, std::size_t count) {
     while (plans.size() > count) {
         const auto ratio_without = [&](std::size_t i) {
@@ -386,7 +386,10 @@ PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::stri
 }
 
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& asked) {
-    return choose_plan(asked, make_rendering_comparer(engine, asked));
+    ChooseRequest request = asked;
+    if (request.base.techniques.empty())
+        request.base.techniques = list_default_techniques(request.base);
+    return choose_plan(request, make_rendering_comparer(engine, request));
 }
 
 PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_plans) {
@@ -394,7 +397,7 @@ PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_p
     check_choose_request(request);
     PlanChoice choice;
     std::vector<std::string> texts = request.base.techniques;
-    if (texts.empty()) texts = list_default_techniques(request.base);
+    check(!texts.empty(), Failure::usage, "candidates: wanted at least one, found none");
     report_choose_step(request, fmt::format("measuring {} candidates in one view", texts.size()));
     texts = keep_plans_not_clearly_beaten(
         request, request.compare_plans(texts, 0, request.base.seed, 1), texts, choice.dropped);

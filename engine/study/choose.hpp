@@ -77,8 +77,8 @@ using PlanComparer = std::function<measure::Comparison(
     const std::vector<std::string>& plans, int views, std::uint64_t seed, int cameras_per_instant)>;
 
 /// Chooses a plan in the same way from the comparisons that a function returns, for example of
-/// recorded views, which makes many choices affordable. `request.base.techniques` must not be
-/// empty.
+/// recorded views, which makes many choices affordable. Throws `usage` if
+/// `request.base.techniques` is empty, and as above.
 PlanChoice choose_plan(const ChooseRequest& request, const PlanComparer& compare_plans);
 
 /// Proves one plan on fresh views: the last step of choose_plan.

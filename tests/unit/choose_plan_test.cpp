@@ -62,7 +62,8 @@ std::vector<std::string> list_proved_texts(const app::PlanChoice& choice) {
     return texts;
 }
 
-/// Without `raytrace:depth=4`, a failure of `hybrid` would make the choice 24 times as dear.
+/// Without `raytrace:depth=4`, a failed proof of `hybrid` would choose a plan that takes 4.5 times
+/// as long.
 TEST(ChoosePlan, ProvedPlansLeaveNoLargeStepOfTimeThatAPlanCouldFill) {
     const app::PlanChoice choice = choose_made_up_plan();
     EXPECT_THAT(list_proved_texts(choice),
