@@ -29,19 +29,21 @@ struct MetricOverViews {
 /// number.
 MetricOverViews compute_metric_over_views(const Row& row, const RowPixelMask& mask,
                                           const Metric& figure);
+
 /// How much a metric tells over views of which several share an instant. Such views resemble each
 /// other, so their mean is less certain than that of as many views with an instant each.
 struct SharedInstants {
     std::size_t instants = 0;
-    /// Variance of the mean over that of as many independent views, 1 + (m - 1) rho, at least 1.
-    /// `rho` is the correlation of views of one instant and m the mean number of views that a view
-    /// shares its instant with, itself included (Kish, Survey Sampling, 1965).
+    /// Ratio of the variance of the mean to that of equally many independent views: 1 + (m - 1)
+    /// rho, at least 1. `rho` is the correlation between views of one instant. `m` is the mean over
+    /// all views of the number of views at that view's instant (Kish, Survey Sampling, 1965).
     double design_effect = 1;
     double effective_views = 0; ///< number of views divided by the design effect
 };
 /// Returns the effect of shared instants on a metric with one value a view; NaN: not defined there.
-/// Returns nothing if no neighbouring views share an instant, or if all do, as in a still scene,
-/// and if fewer than two instants have values. `rho` is estimated by the analysis of variance.
+/// Returns nothing if no two neighbouring views share an instant, or if fewer than two instants
+/// have values, as in a still scene. `rho` is estimated by the analysis of variance. With fewer
+/// than about six instants the estimate of the effective views is far too large.
 std::optional<SharedInstants> estimate_effect_of_shared_instants(const std::vector<View>& views,
                                                                  std::span<const double> values);
 

@@ -153,11 +153,12 @@ ReportTable make_views_table(const Comparison& comparison) {
         return find_effect_of_shared_instants(comparison, row).has_value();
     });
     if (shares_instants)
-        table.note += " Neighbouring views share instants and resemble each other. Effective "
-                      "views: the number of views with an instant each whose mean FLIP would be as "
-                      "certain (Kish's design effect). Where it is much smaller than the number of "
-                      "views, intervals and ties are too narrow, because they take all views for "
-                      "independent.";
+        table.note +=
+            " Neighbouring views share instants and resemble each other. Effective "
+            "views: the number of views with an instant each whose mean FLIP would be as "
+            "certain (Kish's design effect). Where it is much smaller than the number of "
+            "views, the intervals are too narrow and too few rows tie, because both treat "
+            "all views as independent.";
     const std::vector<DrawnViewMetric> columns = list_view_metrics();
     for (const DrawnViewMetric& figure : columns)
         table.columns.emplace_back(std::string(figure.column->title));

@@ -105,6 +105,13 @@ app::CompareRequest make_compare_request(const CompareOptions& options, const st
         options.studies, [](const app::StudyChoice& study) { return study.name == "views"; });
     check(!options.cameras_per_instant || draws_views, Failure::usage,
           "--cameras-per-instant: wanted --views N as well, found no drawn views");
+    constexpr int kMinInstants = 6; // fewer would make the effective number of views uncertain
+    for (const app::StudyChoice& study : options.studies)
+        check(study.name != "views" || !options.cameras_per_instant ||
+                  *options.cameras_per_instant * kMinInstants <= study.count,
+              Failure::usage, "--cameras-per-instant: wanted at most a sixth of the ", study.count,
+              " views, so that they have at least ", kMinInstants, " instants, found ",
+              options.cameras_per_instant.value_or(1));
     request.cameras_per_instant = options.cameras_per_instant.value_or(1);
     request.reference_file = options.common.reference_file;
     request.together = options.together;

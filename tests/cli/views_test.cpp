@@ -134,18 +134,21 @@ TEST_F(DrawnViews, TooFewViewsForAMedianAreRefused) {
 /// Neighbouring views share an instant, and the report says how many views they count for.
 TEST_F(DrawnViews, CamerasOfOneInstantAreStatedInTheReport) {
     Words words = add_small_frame_options(
-        {"compare", "-o", "out", "--views", "6", "--cameras-per-instant", "2", "--json"});
+        {"compare", "-o", "out", "--views", "12", "--cameras-per-instant", "2", "--json"});
     words.insert(words.end(), {"--techniques", "reuse:face=32"});
     const test::ProcessResult ended = run_cli(words);
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const json document = json::parse(ended.out);
-    for (const int i : {0, 2, 4})
+    for (const int i : {0, 2, 10})
         EXPECT_EQ(document["views"][i]["time"], document["views"][i + 1]["time"]);
     const json& shared = document["rows"][0]["views"]["shared_instants"];
-    EXPECT_EQ(shared["instants"], 3);
+    EXPECT_EQ(shared["instants"], 6);
     EXPECT_NEAR(shared["flip_design_effect"].get<double>() *
                     shared["effective_views"].get<double>(),
-                6, 1e-9);
+                12, 1e-9);
+    expect_usage_refused({"compare", "-o", "x", "--views", "30", "--cameras-per-instant", "6"}, 2,
+                         {"--cameras-per-instant: wanted at most a sixth of the 30 views, so that "
+                          "they have at least 6 instants, found 6"});
     expect_usage_refused({"compare", "-o", "x", "--cameras-per-instant", "2"}, 2,
                          {"--cameras-per-instant: wanted --views N as well, found no drawn views"});
 }
