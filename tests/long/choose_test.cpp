@@ -170,8 +170,8 @@ const std::set<std::string> kRayWork{"camera_rays", "mirror_rays", "shadow_rays"
                                      "triangles"};
 
 /// Writes costs in which every kind of ray work costs 30 times as much as in the file `from`.
-void write_costs_with_dear_rays(const std::filesystem::path& from,
-                                const std::filesystem::path& to) {
+void write_costs_with_expensive_rays(const std::filesystem::path& from,
+                                     const std::filesystem::path& to) {
     nlohmann::json document = nlohmann::json::parse(std::ifstream(from));
     for (nlohmann::json& cost : document["costs"])
         if (kRayWork.contains(cost["work"].get<std::string>())) {
@@ -254,35 +254,45 @@ ChoiceCounts choose_many_times(const ViewBank& bank, const std::vector<double>& 
 
 class LongChoose : public test::InFolder, public testing::WithParamInterface<const char*> {};
 
-/// 200 choices per scene. The share that a certificate states must truly be kept in the bank, but
-/// for 5 % of the choices. Hard limits are a little above the error that the stated share of views
-/// keeps, so that a plan just keeps them. Clear limits are kept in 99 % of the views.
+/// A kind of limits: list_limits(bank, share, factor).
+struct LimitKind {
+    const char* name;
+    double share, factor;
+};
+/// Limits that a plan just misses, just keeps, and keeps in nearly all views.
+constexpr LimitKind kLimitKinds[] = {
+    {"just missed", kShare - .01, .999}, {"just kept", kShare, 1.001}, {"kept", .99, 1.001}};
+
+/// 200 choices for each scene, kind of limits and number of proof views. The share that a
+/// certificate states must truly be kept in the bank, but for 5 % of the choices. 8 % are allowed,
+/// which is 5 % and two standard deviations of the number of failures among 200 draws.
 TEST_P(LongChoose, CertificatesHoldAndCostsAreNearTheLeast) {
     const ViewBank bank = record_view_bank(GetParam());
     const std::filesystem::path costs = test::source_folder() / "docs/costs";
-    write_costs_with_dear_rays(costs / "llvmpipe-22.3.json", folder / "dear.json");
+    write_costs_with_expensive_rays(costs / "llvmpipe-22.3.json", folder / "rays.json");
     const std::vector<DeviceTimes> devices{
         predict_times_of_bank(bank, "llvmpipe", costs / "llvmpipe-22.3.json"),
         predict_times_of_bank(bank, "H200", costs / "h200.json"),
-        predict_times_of_bank(bank, "rays at 30x", folder / "dear.json")};
-    for (const bool is_hard : {true, false}) {
-        const std::vector<double> limits = is_hard ? list_limits(bank, kShare, 1.05)
-                                                   : list_limits(bank, .99, 1.001);
+        predict_times_of_bank(bank, "rays at 30x", folder / "rays.json")};
+    for (const LimitKind& kind : kLimitKinds) {
+        const std::vector<double> limits = list_limits(bank, kind.share, kind.factor);
         print_bank(GetParam(), bank, limits, devices);
         for (const int proof_views : {59, 181}) { // 0 and 4 failures prove 95 %
             const ChoiceCounts counts = choose_many_times(bank, limits, devices, proof_views);
-            std::cout << "[ MEASURED ] " << GetParam() << (is_hard ? ", hard" : ", clear")
-                      << " limits, " << proof_views << " proof views: held " << counts.held
-                      << ", broken " << counts.broken << ", no plan " << counts.none
-                      << ", all traced " << counts.traced << "; time / least: median "
+            std::cout << "[ MEASURED ] " << GetParam() << ", limits " << kind.name << ", "
+                      << proof_views << " proof views: held " << counts.held << ", broken "
+                      << counts.broken << ", no plan " << counts.none << ", all traced "
+                      << counts.traced << "; time / least: median "
                       << quantile_of(counts.regrets, .5) << ", 95 % "
                       << quantile_of(counts.regrets, .95) << ", worst "
                       << quantile_of(counts.regrets, 1) << "; chosen";
             for (const auto& [plan, count] : counts.chosen)
                 std::cout << "; " << plan << ": " << count;
             std::cout << '\n';
-            EXPECT_LE(counts.broken, kChoicesPerScene * 8 / 100) << proof_views;
-            EXPECT_LE(quantile_of(counts.regrets, .5), 1.15) << proof_views;
+            const int certified = counts.held + counts.broken;
+            EXPECT_LE(counts.broken, certified * 8 / 100) << kind.name << ", " << proof_views;
+            EXPECT_GE(certified, kChoicesPerScene * 3 / 4) << "a traced plan keeps each limit";
+            EXPECT_LE(quantile_of(counts.regrets, .5), 1.15) << kind.name << ", " << proof_views;
         }
     }
 }
