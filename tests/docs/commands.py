@@ -38,6 +38,8 @@ ELSEWHERE = [
     (r"python3 -m venv env$|env/bin/pip install catoptric", "tests/python/run.sh", "pip\" install"),
     (r"VK_DRIVER_FILES=\S+ LD_LIBRARY_PATH=", "tests/drivers/second_driver.hpp", "mesa25"),
 ]
+# A motion of the camera, for pages that show none.
+CAMERA_KEYS = '{"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"time": 0.05, "camera": "1,1,4:0,1,0:45"}]}'
 # What the commands of this test begin with.
 STARTS = r"(catoptric|cat|for|mkdir|export|xdg-open|oiiotool) "
 # Lines that programs print, in blocks that show a command's output.
@@ -157,8 +159,7 @@ def write_inputs(folder, text, program, environment):
     for name in ("card", "my-card"):
         shutil.copy(ROOT / "docs/costs/gtx-770.json", folder / f"{name}.json")
     keys = re.search(r'^\{"keys":.*?^```', text, re.M | re.S)
-    if keys:
-        (folder / "path.json").write_text(keys.group(0).removesuffix("```"))
+    (folder / "path.json").write_text(keys.group(0).removesuffix("```") if keys else CAMERA_KEYS)
     subprocess.run(["catoptric", "render", "scene.glb", "--technique", "raytrace", "-o", "mine.exr", "-q"], cwd=folder,
                    env=environment, check=True, stdout=subprocess.DEVNULL)
     for name in ("a", "b"):
