@@ -209,7 +209,7 @@ std::string encode_exr_with_channels(const Picture& picture,
     return encode_openexr(shape, values);
 }
 
-std::string encode_picture_png(const Picture& display) {
+std::vector<std::uint8_t> convert_display_to_bytes(const Picture& display) {
     const auto byte = [](float value) {
         if (!(value > 0)) return std::uint8_t{0}; // NaN falls here
         return static_cast<std::uint8_t>(std::lround(std::min(value, 1.0F) * 255));
@@ -218,7 +218,11 @@ std::string encode_picture_png(const Picture& display) {
     values.reserve(3 * display.pixels.size());
     for (const vec3& pixel : display.pixels)
         values.insert(values.end(), {byte(pixel.x), byte(pixel.y), byte(pixel.z)});
-    return catoptric::encode_png(rgb_float_image_shape(display), values);
+    return values;
+}
+
+std::string encode_picture_png(const Picture& display) {
+    return catoptric::encode_png(rgb_float_image_shape(display), convert_display_to_bytes(display));
 }
 
 void write_exr(const Picture& picture, const std::filesystem::path& path, const std::string& text) {

@@ -60,4 +60,8 @@ std::string encode_exr_with_channels(const Picture& picture,
 /// Returns whether a file begins with the signature of a PNG.
 bool is_png(const std::filesystem::path& path);
 
+/// Returns red, green and blue of each pixel, row by row, as a PNG file holds them: 0 to 255,
+/// clamped. NaN becomes 0.
+std::vector<std::uint8_t> convert_display_to_bytes(const Picture& display);
+
 } // namespace catoptric::measure

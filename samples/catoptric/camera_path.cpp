@@ -5,6 +5,8 @@
 #include "report/json.hpp"
 #include "scene/camera_named.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -26,8 +28,9 @@ void check_camera_has_direction(const scene::Camera& camera, const std::string& 
     const double sine = glm::length(glm::cross(along, camera.up)) /
                         (glm::length(along) * glm::length(camera.up));
     check(sine > 1e-6, Failure::bad_data, place,
-          ", wanted a camera that looks to a target beside its up axis, found ",
-          scene::format_camera(camera));
+          ": wanted a camera that looks to a target beside its up axis, found ",
+          scene::format_camera(camera),
+          fmt::format(" with the up axis {},{},{}", camera.up.x, camera.up.y, camera.up.z));
 }
 
 dvec3 read_json_point(const PathJson& point, const std::string& place) {
@@ -80,8 +83,8 @@ std::vector<CameraKey> read_views(const PathJson& document, const std::string& f
         check(list[i].is_object(), Failure::bad_data, place, ": wanted an object, found ",
               report::describe_json_value(list[i]));
         const PathJson time = list[i].value("time", PathJson());
-        check(time.is_number(), Failure::bad_data, place, ".time: wanted seconds, found ",
-              report::describe_json_value(time));
+        check(time.is_number() && time >= -1e6 && time <= 1e6, Failure::bad_data, place,
+              ".time: wanted seconds from -1e6 to 1e6, found ", report::describe_json_value(time));
         views.push_back({time.get<double>(),
                          read_view_camera(list[i].value("camera", PathJson()), place + ".camera")});
         if (const PathJson name = list[i].value("name", PathJson()); name.is_string())

@@ -45,8 +45,8 @@ public:
     /// The cameras along a path: frame n shows the camera (n - 1) / 60 s after the first key.
     /// Frames below 1 show the first key.
     explicit FrameCameras(CameraPath path) : path_(std::move(path)) {}
-    /// A camera and an instant for each frame: frame n shows view n. Frames below 1 show the first
-    /// view, and frames after the last view show the last. `views`: at least one.
+    /// A camera and an instant for each frame: frame n shows the n-th view. Frames below 1 show the
+    /// first view, and frames after the last view show the last. `views`: at least one.
     explicit FrameCameras(std::vector<CameraKey> views) : views_(std::move(views)) {}
 
     /// Returns how many frames show the whole file. May exceed all integers.

@@ -1,6 +1,7 @@
 #include "film.hpp"
 
 #include "core/error.hpp"
+#include "measure/picture_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,16 +40,6 @@ std::string find_program_in_path(const std::string& name) {
         rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     return {};
-}
-
-std::vector<std::uint8_t> picture_to_rgb_bytes(const measure::Picture& display) {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(3 * display.pixels.size());
-    for (const vec3& pixel : display.pixels)
-        for (int channel = 0; channel < 3; ++channel)
-            bytes.push_back(static_cast<std::uint8_t>(
-                std::lround(std::clamp(pixel[channel], 0.0F, 1.0F) * 255)));
-    return bytes;
 }
 
 } // namespace
@@ -95,13 +86,14 @@ FilmWriter::~FilmWriter() {
     if (input_ >= 0) ::close(input_);
     if (process_ == 0) return;
     ::kill(process_, SIGKILL); // after SIGTERM, ffmpeg would write the rest of its file
-    wait_for_ffmpeg();
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
 }
 
 void FilmWriter::start_ffmpeg(const std::vector<std::string>& words) {
     std::array<int, 2> ends{};
-    check(::pipe2(ends.data(), O_CLOEXEC) == 0, Failure::io,
-          "a pipe: ", describe_film_errno(errno));
+    check(::pipe2(ends.data(), O_CLOEXEC) == 0, Failure::io, name_,
+          ": wanted a pipe to ffmpeg, found: ", describe_film_errno(errno));
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -125,15 +117,25 @@ void FilmWriter::start_ffmpeg(const std::vector<std::string>& words) {
 }
 
 int FilmWriter::wait_for_ffmpeg() {
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    for (int status = 0;;) {
+        const pid_t ended = ::waitpid(process_, &status, WNOHANG);
+        if (ended < 0 && errno == EINTR) continue;
+        if (ended == 0) {
+            app::throw_if_stopped(watcher_);
+            ::poll(nullptr, 0, kFilmStopCheckMilliseconds / 10);
+            continue;
+        }
+        process_ = 0;
+        check(ended > 0, Failure::io, name_,
+              ": wanted the exit code of ffmpeg, found: ", describe_film_errno(errno));
+        return status;
     }
-    process_ = 0;
-    return status;
 }
 
 void FilmWriter::fail_after_end_of_ffmpeg(int status) const {
     app::throw_if_stopped(watcher_); // a signal from the terminal ends ffmpeg, too
+    check(!WIFEXITED(status) || WEXITSTATUS(status) != 0, Failure::io, name_,
+          ": wanted ffmpeg to read all frames, found that it ended before");
     fail(Failure::io, name_, ": cannot be written: ffmpeg, wanted exit code 0, found ",
          WIFSIGNALED(status) ? "signal " : "",
          WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
@@ -153,24 +155,14 @@ void FilmWriter::write_all_bytes(const std::vector<std::uint8_t>& bytes) {
 }
 
 void FilmWriter::add_frame(const measure::Picture& display) {
-    write_all_bytes(picture_to_rgb_bytes(display));
+    write_all_bytes(measure::convert_display_to_bytes(display));
 }
 
 void FilmWriter::finish() {
     ::close(input_);
     input_ = -1;
-    for (int status = 0;;) { // ffmpeg encodes the last frames after its input has ended
-        const pid_t ended = ::waitpid(process_, &status, WNOHANG);
-        if (ended < 0 && errno == EINTR) continue;
-        if (ended == 0) {
-            app::throw_if_stopped(watcher_);
-            ::poll(nullptr, 0, kFilmStopCheckMilliseconds / 10);
-            continue;
-        }
-        process_ = 0;
-        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_after_end_of_ffmpeg(status);
-        break;
-    }
+    const int status = wait_for_ffmpeg(); // it encodes the last frames after its input has ended
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail_after_end_of_ffmpeg(status);
     partial_.copy_mode_of_target();
     partial_.replace_target();
 }

@@ -103,8 +103,9 @@ std::string make_diff_json(const PictureDiffFacts& facts) {
     return serialise_json(document);
 }
 
-std::string make_render_json(const app::Request& request, const app::DeviceInfo& device,
-                             const app::RunResult& result, const std::string& output) {
+std::string make_render_json(const app::Request& request, int first_frame,
+                             const app::DeviceInfo& device, const app::RunResult& result,
+                             const std::string& output) {
     const app::TechniqueResult& part = result.parts.front();
     const app::TechniqueChoice choice = app::parse_technique(request.techniques.front());
     using measure::ValueRange;
@@ -116,6 +117,7 @@ std::string make_render_json(const app::Request& request, const app::DeviceInfo&
     document["camera"] = request.camera.name;
     document["size"] = {request.size.x, request.size.y};
     document["frames"] = result.frames.size();
+    document["first_frame"] = first_frame;
     document["warmup"] = request.warmup;
     document["settled"] = request.until_settled ? Json(result.settled) : Json();
     document["time"] = request.time;

@@ -24,8 +24,10 @@ struct PictureDiffFacts {
 };
 std::string make_diff_json(const PictureDiffFacts& facts);
 
-std::string make_render_json(const app::Request& request, const app::DeviceInfo& device,
-                             const app::RunResult& result, const std::string& output);
+/// `first_frame`: number of the first measured frame in its sequence, from 1.
+std::string make_render_json(const app::Request& request, int first_frame,
+                             const app::DeviceInfo& device, const app::RunResult& result,
+                             const std::string& output);
 
 /// What a picture was made of: with this and the files of the scene, it can be made again.
 struct PictureOrigin {

@@ -99,7 +99,8 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
 
 scene::Camera choose_camera(const CommonOptions& common, app::ResolvedScene& wanted) {
     if (wanted.is_camera_seeded) {
-        scene::Camera camera = app::make_seeded_camera(wanted.scene, common.time, common.seed);
+        scene::Camera camera = app::make_seeded_camera(wanted.scene, common.time.value_or(0),
+                                                       common.seed);
         print_note_unless_quiet(common.manners, "camera drawn from seed " +
                                                     std::to_string(common.seed) + ": " +
                                                     camera.name);
@@ -244,7 +245,7 @@ ResolvedRequest make_resolved_request(const CommonOptions& common,
     request.size = common.size;
     request.frames = common.frames.value_or(request.frames);
     request.warmup = common.warmup.value_or(request.warmup);
-    request.time = common.time;
+    request.time = common.time.value_or(0);
     request.animate = common.animate;
     request.ambient = app::choose_ambient_light(asked.wanted);
     const std::optional<double> exposure = app::find_exposure(asked.wanted);

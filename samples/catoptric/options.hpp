@@ -36,7 +36,7 @@ struct CommonOptions {
     bool takes_frame_range = false; ///< whether --frames also takes A..B
     int first_frame = 1;            ///< A of --frames A..B; `frames` is then the number of them
     std::optional<int> warmup;      ///< default: 8
-    double time = 0;
+    std::optional<double> time;     ///< instant of the motion, seconds; none: 0
     bool animate = false;
     std::uint64_t seed = 1;
     scene::SceneOverrides

@@ -67,6 +67,7 @@ void check_parent_folder(const fs::path& path) {
 void prepare_standard_streams() {
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGCHLD, SIG_DFL); // a parent may have ignored it, and exit codes would be lost
     for (int stream = 0; stream <= 2; ++stream) {
         if (::fcntl(stream, F_GETFD) != -1) continue;
         // `open` returns the lowest free number, which is the number of the closed stream. Stdout

@@ -51,12 +51,12 @@ A still picture takes one frame, or with last frame's captures as many frames as
 With --budget-ms it takes at most 28 rounds of all mirrors; the picture does not depend on the budget.
 The camera of --camera-path moves from the first measured frame on, 1/60 s a frame, to the end of the path or
 for --frames. The file is {"keys": [{"time": 0, "camera": "0,1,4:0,1,0:45"}, {"time": 2, "camera": "..."}]},
-or the views.json of 'catoptric views': then frame n shows view n, at the view's time.
+or the views.json of 'catoptric views': then frame n shows the n-th view of the file, at its time.
 With --animate, --camera-path, --frames, --warmup, --profile or --trace, frames are counted and timed as in compare.
 The picture is then that of the last frame. With {n}, {n:3}, %d or %03d in its name, one picture per measured
 frame is written, numbered from 1. A name that ends in .mp4 is a film of 60 measured frames a second, as
 displayed. ffmpeg encodes it. --frames A..B are the frames A to B of a longer sequence, with the same numbers. The
-frames before A are left out, but for the --warmup frames, which fill the captures.
+frames before A are left out, except the --warmup frames, which fill the captures.
 
 Layers of --aov, of what the ray through a pixel's centre meets first:
 )";
@@ -98,13 +98,15 @@ bool wants_only_picture(const RenderOptions& options) {
 /// picture goes to stdout.
 std::vector<std::string> list_output_files(const RenderOptions& options, int frames) {
     if (writes_to_stdout(options)) return {};
+    const std::optional<PictureFileSequence> sequence = PictureFileSequence::parse_file_sequence(
+        options.output);
     if (writes_film(options)) {
+        check(!sequence, Failure::usage, "-o ", options.output,
+              ": wanted a film's name without a place for the frame's number, found one");
         check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
               ": wanted --frames, --animate or --camera-path with a film, found none");
         return {options.output};
     }
-    const std::optional<PictureFileSequence> sequence = PictureFileSequence::parse_file_sequence(
-        options.output);
     if (!sequence) return {options.output};
     check(!wants_only_picture(options), Failure::usage, "-o ", options.output,
           ": wanted --frames, --animate or --camera-path with a sequence of pictures, found none");
@@ -189,9 +191,10 @@ std::optional<FrameCameras> read_cameras_of_request(const RenderOptions& options
                                                     app::Request& request) {
     if (options.camera_path.empty()) return std::nullopt;
     FrameCameras cameras = read_frame_cameras(options.camera_path, request.scene);
-    check(!cameras.has_instants() || !options.common.animate, Failure::usage,
-          "--animate: wanted it without views in --camera-path, which have an instant each, found "
-          "both");
+    for (const auto& [given, option] : {std::pair(options.common.animate, "--animate"),
+                                        std::pair(options.common.time.has_value(), "--time")})
+        check(!cameras.has_instants() || !given, Failure::usage, option,
+              ": wanted it without views in --camera-path, which have an instant each, found both");
     const double whole = cameras.frame_count();
     check(options.common.frames || whole <= kMaxSequencePictures, Failure::usage, "--camera-path ",
           options.camera_path, ": wanted --frames or a path of at most ", kMaxSequencePictures,
@@ -358,7 +361,8 @@ int run_render(const RenderOptions& options) {
     if (!options.trace.empty())
         write_file(options.trace, make_trace_json(result.frames.back(),
                                                   choice.label + " on " + engine.device().name));
-    const std::string document = make_render_json(request, engine.device(), result, options.output);
+    const std::string document = make_render_json(request, options.common.first_frame,
+                                                  engine.device(), result, options.output);
     if (!options.profile.empty()) write_file(options.profile, document);
     if (manners.json) print_result(document);
     print_render_summary(options, request, result);

@@ -195,6 +195,8 @@ TEST_F(FilmTest, FailedFfmpegLeavesTheOldFilmInPlace) {
               Words{"film.mp4: cannot be written: ffmpeg, wanted exit code 0, found 3", "no disk"}},
           {"cat > \"${last#file:}\"; exit 1", {"wanted exit code 0, found 1"}},
           {"cat > /dev/null", {"film.mp4: cannot be"}},
+          {"head -c 100 > \"${last#file:}\"; exit 0",
+           {"film.mp4: wanted ffmpeg to read all frames, found that it ended before"}},
           {"kill -9 $$", {"wanted exit code 0, found signal 9"}}}) {
         const std::string path = write_stand_in_for_ffmpeg(script);
         const test::ProcessResult ended = render(
@@ -204,6 +206,20 @@ TEST_F(FilmTest, FailedFfmpegLeavesTheOldFilmInPlace) {
         EXPECT_EQ(read_output_file("film.mp4"), "old");
         EXPECT_EQ(list_files(), (std::set<std::string>{"film.mp4", "words.txt"})) << script;
     }
+}
+
+/// A parent process that ignores the end of its children hands this on to the program.
+TEST_F(FilmTest, FailureIsSeenIfTheParentIgnoresItsChildren) {
+    write_input_file("film.mp4", "old");
+    test::ProcessStartOptions start = make_process_start(add_film_options(
+        {"render", "--technique", "raytrace:depth=0", "--frames", "2", "-o", "film.mp4"}));
+    start.environment["PATH"] = write_stand_in_for_ffmpeg("cat > \"${last#file:}\"; exit 1");
+    start.command.insert(start.command.begin(),
+                         {"/bin/sh", "-c", "trap '' CHLD; exec \"$0\" \"$@\""});
+    const test::ProcessResult ended = test::run_process(start);
+    EXPECT_EQ(ended.exit_code, 74) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("wanted exit code 0, found 1"));
+    EXPECT_EQ(read_output_file("film.mp4"), "old");
 }
 
 TEST_F(FilmTest, SignalEndsTheFilmWithoutAFile) {
@@ -244,6 +260,12 @@ TEST_F(FilmTest, MissingFfmpegAndUnfitFilmsAreRefusedBeforeRendering) {
     expect_exit_code(test::run_process(odd), 2,
                      {"-o film.mp4: wanted a film of an even width and height (--size), found "
                       "33x24"});
+    test::ProcessStartOptions numbered = make_process_start(
+        {"render", "--technique", "raytrace", "--frames", "2", "-o", "film-{n:3}.mp4"});
+    numbered.environment["PATH"] = path;
+    expect_exit_code(test::run_process(numbered), 2,
+                     {"-o film-{n:3}.mp4: wanted a film's name without a place for the frame's "
+                      "number, found one"});
     EXPECT_EQ(list_files(), std::set<std::string>());
 }
 
@@ -273,9 +295,10 @@ TEST_F(FilmTest, FilesOfViewsAreChecked) {
     other = views, other["views"][1]["camera"]["vertical_fov_degrees"] = 180;
     refuse(other, 65, {}, {"views[1].camera.vertical_fov_degrees: wanted a number above 0", "180"});
     other = views, other["views"][0]["time"] = "now";
-    refuse(other, 65, {}, {"views[0].time: wanted seconds, found"});
+    refuse(other, 65, {}, {"views[0].time: wanted seconds from -1e6 to 1e6, found"});
     other = views, other["views"][0]["camera"]["target"] = other["views"][0]["camera"]["eye"];
-    refuse(other, 65, {}, {"views[0].camera, wanted a camera that looks to a target"});
+    refuse(other, 65, {},
+           {"views[0].camera: wanted a camera that looks to a target", "up axis 0,"});
     other = views, other["views"][0] = 7;
     refuse(other, 65, {}, {"views[0]: wanted an object, found '7'"});
     EXPECT_FALSE(fs::exists(folder / "f1.png"));

@@ -286,7 +286,7 @@ TEST_F(CommandLineTest, MissingRequiredArgumentIsRefused) {
 
 TEST_F(CommandLineTest, PictureNameWithoutAKnownEndingIsRefused) {
     expect_usage_refused({"render", "--technique", "reuse", "-o", "x.jpg"}, 2,
-                         {"'x.jpg'", ".exr or .png"});
+                         {"'x.jpg'", ".exr, .png or .mp4"});
 }
 
 TEST_F(CommandLineTest, TwoResultsForStdoutAreRefused) {
