@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import sys
 
-# Names in commands that a reader replaces by names of an own scene.
+# Names in commands that a reader replaces by names of their own scene.
 NAMES = {"SCENE": "scene.glb", "A": "0.1", "NAME": "ball1", "table top=0.9,roughness=0.3": "ball1=0.9,roughness=0.3"}
 SIZES = {"--size": "32x32", "--frames": "6", "--warmup": "2", "--views": "6", "--count": "6", "--reference-seconds": "1"}
 # Options that the command need not give, by verb.

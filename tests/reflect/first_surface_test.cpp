@@ -72,7 +72,7 @@ ExpectedHit expect_hit_in_room(const scene::Scene& scene, const dvec3& eye, cons
 }
 
 /// Balls are meshes with corners on the sphere, so their surface lies below the sphere by up to the
-/// height of a facet, a little here because the meshes are fine. Walls are exact.
+/// height of a facet, which is small because the meshes are fine. Walls are exact.
 TEST(FirstSurface, DrawnPixelsOfARoomHaveTheDistanceNormalAndNumbersOfAFormula) {
     scene::Scene scene = test::make_lit_room(3, 0);
     for (const scene::Object& object : scene.objects)
