@@ -12,7 +12,8 @@ import sys
 
 # Names in commands that a reader replaces by names of their own scene.
 NAMES = {"SCENE": "scene.glb", "A": "0.1", "NAME": "ball1", "table top=0.9,roughness=0.3": "ball1=0.9,roughness=0.3"}
-SIZES = {"--size": "32x32", "--frames": "6", "--warmup": "2", "--views": "6", "--count": "6", "--reference-seconds": "1"}
+SIZES = {"--size": "32x32", "--frames": "6", "--warmup": "2", "--views": "6", "--count": "6", "--reference-seconds": "1",
+         "--cameras-per-instant": "1"}
 # Options that the command need not give, by verb.
 ADDED = {"compare": ["--size", "--frames", "--warmup", "--reference-seconds"], "render": ["--size"], "graph": ["--size"],
          "bench": ["--size", "--frames", "--warmup"], "choose": ["--size", "--frames", "--warmup"], "views": ["--size"]}
