@@ -208,6 +208,11 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
     check(row_count == comparison.rows.size(), Failure::internal, "views of ", row_count,
           " techniques and pictures: wanted as many rows, found ", comparison.rows.size());
     const std::size_t count = comparison.views.size(), pictures = texts.size() + 1;
+    const bool has_row_sessions = !request.row_sessions.empty();
+    check(has_row_sessions ? request.row_sessions.size() == texts.size()
+                           : !request.continues_instant,
+          Failure::internal, "views: wanted a session for each of ", texts.size(),
+          " techniques, found ", request.row_sessions.size());
     const std::size_t mirrors = scene::mirrors(request.base.scene).size();
     int warned = 0;
     std::size_t finished = 0; // number of finished pictures
@@ -239,9 +244,10 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                 // Both models draw the same picture. The model `required` keeps captures that do
                 // not depend on the camera.
                 one.model = RenderedWork::required;
+                const bool continues = i > first || (first == 0 && request.continues_instant);
                 const RunResult result = run_with_history(
-                    session, one, request.watcher,
-                    i == first ? FrameHistoryState::none : FrameHistoryState::of_last_frame);
+                    has_row_sessions ? *request.row_sessions[k] : session, one, request.watcher,
+                    continues ? FrameHistoryState::of_last_frame : FrameHistoryState::none);
                 add_view_errors(
                     comparison.rows[k], result.parts.front(),
                     truth.cache.get_reference(find_sample_count(parse_technique(texts[k]))),

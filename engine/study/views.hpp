@@ -35,6 +35,12 @@ struct ViewsRequest {
     /// Most neighbouring views of one instant that share captures, at least 1. All of them finish
     /// at once.
     int cameras_per_instant = 1;
+    /// A session for each technique, which shows the scene of `base`. Empty: all techniques use the
+    /// session of the reference.
+    std::vector<Session*> row_sessions = {};
+    /// Whether the sessions of techniques have drawn the first view's instant before, so that their
+    /// captures need not settle again. Needs `row_sessions`.
+    bool continues_instant = false;
     /// Called when every row has its errors in the views of one instant. The function may be empty.
     std::function<void()> on_finished_view;
     /// Called with warnings about the pictures of rows of files. The function may be empty.

@@ -7,8 +7,10 @@
 #include "measure/picture.hpp"
 #include "report/json.hpp"
 #include "report/text.hpp"
+#include "sweep_groups.hpp"
 #include "sweep_locks.hpp"
 #include "sweep_run.hpp"
+#include "sweep_times.hpp"
 
 #include <fmt/format.h>
 
@@ -27,15 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr int kPictureGapColumns = 4; // between the row and the reference beside it in a common
                                       // picture
-
-/// The results of all pieces of a sweep that have the same scene and options, in the order of the
-/// plan.
-struct SweepGroup {
-    SweepJson scene, options;
-    std::vector<std::string> labels;
-    std::vector<const SweepPiece*> picture_pieces, timing_pieces;
-    std::vector<SweepJson> pictures, timings; ///< results of these pieces
-};
 
 /// Adds the identity (program, driver and processor) to the list if it is new.
 void add_identity_if_new(std::vector<SweepJson>& identities, const SweepJson& identity) {
@@ -125,23 +118,6 @@ void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
           "; 'catoptric sweep run' on each of these machines draws them with its next piece");
 }
 
-std::vector<SweepGroup> group_results(const fs::path& folder, const SweepPlan& plan) {
-    std::vector<SweepGroup> groups;
-    for (const SweepPiece& piece : plan.pieces) {
-        const SweepJson &scene = piece.content["scene"], &options = piece.content["options"];
-        const auto known = std::ranges::find_if(groups, [&](const SweepGroup& group) {
-            return group.scene == scene && group.options == options;
-        });
-        SweepGroup& group = known != groups.end() ? *known : groups.emplace_back();
-        group.scene = scene, group.options = options;
-        group.labels = piece.content["techniques"].get<std::vector<std::string>>();
-        (piece.is_timing() ? group.timing_pieces : group.picture_pieces).push_back(&piece);
-        (piece.is_timing() ? group.timings : group.pictures)
-            .push_back(read_sweep_result(folder, piece).value());
-    }
-    return groups;
-}
-
 /// Returns a metric of a row over its mirrors, one value for each view. Views without a value have
 /// NaN.
 std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
@@ -154,33 +130,8 @@ std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
     return values;
 }
 
-/// Mean, median and largest value over views, and the interval of the median.
-struct SweepSummary {
-    std::size_t views = 0;
-    double mean = NAN, median = NAN, largest = NAN;
-    measure::Interval ci95;
-};
-
-double median_of_sorted(const std::vector<double>& sorted) {
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-}
-
-SweepSummary summarise(std::vector<double> values) {
-    std::erase_if(values, [](double value) { return std::isnan(value); });
-    SweepSummary summary{.views = values.size()};
-    if (values.empty()) return summary;
-    std::ranges::sort(values);
-    summary.mean = std::accumulate(values.begin(), values.end(), 0.0) /
-                   static_cast<double>(values.size());
-    summary.median = median_of_sorted(values);
-    summary.largest = values.back();
-    summary.ci95 = measure::median_confidence_interval(values);
-    return summary;
-}
-
 OrderedJson make_summary_json(const SweepSummary& summary) {
-    return {{"views", summary.views},
+    return {{"views", summary.count},
             {"mean", report::make_number_json(summary.mean)},
             {"median", report::make_number_json(summary.median)},
             {"ci95", report::make_interval_json(summary.ci95)},
@@ -248,50 +199,6 @@ OrderedJson make_sweep_group_json(const SweepGroup& group,
     return json;
 }
 
-/// A table as a CSV file by RFC 4180.
-class CsvTable {
-public:
-    void add_line(const std::vector<std::string>& fields) {
-        std::vector<std::string> escaped;
-        for (const std::string& field : fields) escaped.push_back(report::escape_csv_field(field));
-        text_ += fmt::format("{}\r\n", fmt::join(escaped, ","));
-    }
-    const std::string& text() const { return text_; }
-
-private:
-    std::string text_;
-};
-
-/// Returns the options of the sweep that differ between groups of results.
-std::vector<std::string> list_axis_names(const std::vector<SweepGroup>& groups) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : groups.front().options.items())
-        if (std::ranges::any_of(groups, [&](const SweepGroup& group) {
-                return group.options.value(name, SweepJson()) != value;
-            }))
-            names.push_back(name);
-    return names;
-}
-
-/// Returns the table cells that tell groups apart: the scene, then a value for each axis.
-std::vector<std::string> make_scene_and_axis_fields(const SweepGroup& group,
-                                                    const std::vector<std::string>& axes) {
-    std::vector<std::string> fields{group.scene.get<std::string>()};
-    for (const std::string& axis : axes) {
-        const SweepJson& value = group.options[axis];
-        fields.push_back(value.is_string() ? value.get<std::string>() : value.dump());
-    }
-    return fields;
-}
-
-std::vector<std::string> make_header(const std::vector<std::string>& axes,
-                                     std::initializer_list<const char*> names) {
-    std::vector<std::string> fields{"scene"};
-    for (const std::string& axis : axes) fields.push_back("option_" + axis);
-    fields.insert(fields.end(), names.begin(), names.end());
-    return fields;
-}
-
 std::string make_errors_csv(const std::vector<SweepGroup>& groups,
                             const std::vector<std::string>& metrics) {
     const std::vector<std::string> axes = list_axis_names(groups);
@@ -334,7 +241,7 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
             std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
             fields.push_back(group.labels[row]);
             const std::vector<double> flip = list_metric_values(group, row, "flip");
-            fields.push_back(std::to_string(summarise(flip).views));
+            fields.push_back(std::to_string(summarise(flip).count));
             for (const std::string& metric : metrics) {
                 const SweepSummary summary = summarise_metric(
                     group, list_metric_values(group, row, metric));
@@ -342,93 +249,6 @@ std::string make_summary_csv(const std::vector<SweepGroup>& groups,
                                            summary.ci95.high, summary.largest})
                     fields.push_back(report::format_csv_number(value));
             }
-            table.add_line(fields);
-        }
-    return table.text();
-}
-
-/// The times of one row on one machine, from the rounds of all timing pieces.
-struct SweepTime {
-    SweepJson machine, identity;
-    std::string label;
-    std::vector<double> rounds; ///< times of the rounds of all pieces
-    std::vector<double> pieces; ///< median time of each piece
-    bool noisy = false;
-
-    /// Returns the median time with its interval. The interval counts pieces if there are enough,
-    /// and otherwise rounds.
-    SweepSummary summary() const {
-        const bool has_pieces = pieces.size() >= measure::kMinIntervalSamples;
-        return summarise(has_pieces ? pieces : rounds);
-    }
-};
-
-/// Returns a member of an identity as text; empty if the member is no text.
-std::string identity_member_as_text(const SweepJson& identity, const char* member) {
-    const SweepJson value = identity.value(member, SweepJson());
-    return value.is_string() ? value.get<std::string>() : "";
-}
-
-std::vector<SweepTime> list_times(const SweepGroup& group) {
-    std::vector<SweepTime> times;
-    for (const SweepJson& result : group.timings)
-        for (const SweepJson& row : result["rows"]) {
-            const auto label = row.at("label").get<std::string>();
-            const auto known = std::ranges::find_if(times, [&](const SweepTime& time) {
-                return time.label == label && time.machine == result["machine"] &&
-                       time.identity == result["identity"];
-            });
-            SweepTime& time = known != times.end() ? *known : times.emplace_back();
-            time.label = label, time.machine = result["machine"];
-            time.identity = result["identity"];
-            time.noisy = time.noisy || row.at("noisy").get<bool>();
-            std::vector<double> rounds = row.at("rounds");
-            time.rounds.insert(time.rounds.end(), rounds.begin(), rounds.end());
-            time.pieces.push_back(summarise(std::move(rounds)).median);
-        }
-    return times;
-}
-
-OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
-    OrderedJson list = OrderedJson::array();
-    for (const SweepGroup& group : groups)
-        for (const SweepTime& time : list_times(group)) {
-            const SweepSummary summary = time.summary();
-            list.push_back(
-                {{"scene", group.scene},
-                 {"options", group.options},
-                 {"label", time.label},
-                 {"machine", time.machine},
-                 {"identity", time.identity},
-                 {"ms", report::make_number_json(summary.median)},
-                 {"ci95", report::make_interval_json(summary.ci95)},
-                 {"rounds", time.rounds},
-                 {"pieces", time.pieces},
-                 {"interval_over",
-                  time.pieces.size() >= measure::kMinIntervalSamples ? "pieces" : "rounds"},
-                 {"noisy", time.noisy}});
-        }
-    return {{"schema", "catoptric/sweep-times/1"}, {"times", list}};
-}
-
-std::string make_times_csv(const std::vector<SweepGroup>& groups) {
-    const std::vector<std::string> axes = list_axis_names(groups);
-    CsvTable table;
-    table.add_line(make_header(axes, {"label", "machine", "device", "driver", "commit", "ms",
-                                      "ms_low", "ms_high", "pieces", "rounds", "noisy"}));
-    for (const SweepGroup& group : groups)
-        for (const SweepTime& time : list_times(group)) {
-            const SweepSummary summary = time.summary();
-            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
-            fields.insert(fields.end(), {time.label, time.machine.get<std::string>(),
-                                         identity_member_as_text(time.identity, "device"),
-                                         identity_member_as_text(time.identity, "driver"),
-                                         identity_member_as_text(time.identity, "commit")});
-            for (const double value : {summary.median, summary.ci95.low, summary.ci95.high})
-                fields.push_back(report::format_csv_number(value));
-            fields.insert(fields.end(),
-                          {std::to_string(time.pieces.size()), std::to_string(time.rounds.size()),
-                           time.noisy ? "true" : "false"});
             table.add_line(fields);
         }
     return table.text();
@@ -503,12 +323,8 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
         groups, [&](const SweepGroup& group) { return make_sweep_group_json(group, metrics); });
     merged.files = {{"errors.csv", make_errors_csv(groups, metrics)},
                     {"summary.csv", make_summary_csv(groups, metrics)}};
-    const bool has_times = std::ranges::any_of(
-        groups, [](const SweepGroup& group) { return !group.timings.empty(); });
-    if (has_times) {
-        merged.files.emplace_back("times.json", report::serialise_json(make_times_json(groups)));
-        merged.files.emplace_back("times.csv", make_times_csv(groups));
-    }
+    for (auto& [name, content] : make_time_tables(groups))
+        merged.files.emplace_back(std::move(name), std::move(content));
     merged.files.emplace_back("merged.json", report::serialise_json(document));
     return merged;
 }

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <unistd.h>
 
@@ -68,12 +69,15 @@ std::string describe_piece(const SweepPiece& piece) {
                                                    content["view"]["index"].get<int>());
 }
 
-/// The scene and session of the last picture piece. Successive pieces with the same scene and
-/// options use them again.
+/// The scene and sessions of the last picture piece. Successive pieces with the same scene and
+/// options use them again. Each row has a session, so that its captures settle once for all
+/// successive pieces of an instant. This changes no byte of a picture.
 struct SweepScene {
     SweepJson key; ///< the part of a piece's content that does not depend on its view
     app::CompareRequest request;
-    std::unique_ptr<app::Session> session;
+    std::unique_ptr<app::Session> session; ///< of the reference
+    std::vector<std::unique_ptr<app::Session>> row_sessions;
+    std::optional<double> instant; ///< for which the captures of all rows have settled
 };
 
 class SweepRunner {
@@ -239,6 +243,9 @@ private:
         SweepScene scene{key, std::move(words.request), nullptr};
         scene.session = std::make_unique<app::Session>(engine, scene.request.base.scene);
         app::resolve_auto_exposure(*scene.session, scene.request.base);
+        for (std::size_t i = 0; i < scene.request.base.techniques.size(); ++i)
+            scene.row_sessions.push_back(
+                std::make_unique<app::Session>(engine, scene.request.base.scene));
         scene_ = std::move(scene);
         return scene_;
     }
@@ -260,11 +267,18 @@ private:
         comparison.views = {make_view(piece.content["view"], scene.request.base)};
         for (const std::string& text : scene.request.base.techniques)
             comparison.rows.emplace_back().label = text;
+        std::vector<app::Session*> row_sessions;
+        for (const auto& session : scene.row_sessions) row_sessions.push_back(session.get());
+        const double instant = comparison.views.front().time;
+        const bool continues = std::exchange(scene.instant, std::nullopt) == instant;
         app::measure_views(*scene.session,
                            {.base = scene.request.base,
                             .reference = scene.request.reference,
-                            .watcher = {.stop = watcher_.stop}},
+                            .watcher = {.stop = watcher_.stop},
+                            .row_sessions = std::move(row_sessions),
+                            .continues_instant = continues},
                            comparison);
+        scene.instant = instant; // not after an exception, which leaves rows unfinished
         if (is_common(piece)) write_common_pictures(piece, comparison);
         return comparison;
     }

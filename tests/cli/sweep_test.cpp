@@ -127,6 +127,26 @@ TEST_F(Sweep, ErrorsOfRowsWithNoiseEqualThoseOfCompare) {
               compared["rows"][0]["views"]["error"]["mae"]["median"]);
 }
 
+// A process keeps settled captures for the next piece of the same instant. This must not change the
+// errors of any row, whatever pieces the process ran before.
+TEST_F(Sweep, ErrorsDoNotDependOnThePiecesBefore) {
+    json sweep = make_small_sweep();
+    sweep["techniques"] = {"reuse:face=16", "parallax:face=16,rough=rays,rays=2", "secant:face=16",
+                           "raytrace:rays=2,first=raster"};
+    sweep["options"]["mirror"] = "ball*=.9,roughness=.2";
+    sweep["options"]["reference"] = "raytrace:depth=4,rays=2";
+    sweep["views"]["cameras-per-instant"] = 3;
+    plan_run_and_merge(sweep, "together", "merged-together");
+    ASSERT_EQ(plan_sweep(sweep, "alone").exit_code, 0);
+    std::vector<std::string> ids = list_piece_ids("alone");
+    ASSERT_EQ(ids.size(), 6u);
+    for (const std::string& id : ids)
+        expect_success({"sweep", "run", "alone", "--quiet", "--piece", id});
+    expect_success({"sweep", "merge", "alone", "-o", "merged-alone", "--quiet"});
+    EXPECT_EQ(read_output_file("merged-together/errors.csv"),
+              read_output_file("merged-alone/errors.csv"));
+}
+
 // The id of a piece can be computed by any program, from its content alone.
 TEST_F(Sweep, PieceIdsAreTheSha256OfTheirContent) {
     ASSERT_EQ(plan_sweep(make_small_sweep(), "sweep").exit_code, 0);
@@ -399,6 +419,66 @@ TEST_F(Sweep, TimesAreMergedByMachineAndLeaveOtherFilesAsTheyAre) {
     }
     EXPECT_THAT(read_output_file("merged-both/times.csv"),
                 testing::HasSubstr("scene,label,machine,device,driver,commit,ms,"));
+    EXPECT_EQ(read_output_json("merged-both/times.json")["over_machines"], json::array())
+        << "one machine";
+}
+
+// Results of eight pieces on seven machines are written by hand. Machine 0 ran two pieces, and
+// counts once, with the median of its pieces.
+TEST_F(Sweep, TimesOverMachinesCountEachMachineOnce) {
+    json sweep = make_small_sweep();
+    sweep.erase("views");
+    sweep["timing"]["repeats"] = 8, sweep["options"]["frames"] = 6;
+    ASSERT_EQ(plan_sweep(sweep, "sweep").exit_code, 0);
+    expect_success({"sweep", "run", "sweep", "--quiet", "--kind", "pictures"});
+    const json pieces = read_output_json("sweep/plan.json")["pieces"];
+    std::vector<std::string> timing_ids;
+    for (const json& piece : pieces)
+        if (piece["piece"]["kind"] == "timing") timing_ids.push_back(piece["id"]);
+    ASSERT_EQ(timing_ids.size(), 8u);
+    expect_success({"sweep", "run", "sweep", "--quiet", "--piece", timing_ids[0]});
+    const auto result_file = [](const std::string& id) { return "sweep/results/" + id + ".json"; };
+    const json first = read_output_json(result_file(timing_ids[0]));
+    for (std::size_t i = 0; i < 8; ++i) {
+        json result = first;
+        for (const json& piece : pieces)
+            if (piece["id"] == timing_ids[i]) result["piece"] = piece["piece"];
+        result["machine"] = "machine" + std::to_string(i < 2 ? 0 : i - 1);
+        // Machine 0: 10 and 30 ms, so 20. Machines 1 to 6: 1 to 6 ms. The second row takes i + 1
+        // times as long as the first.
+        const double ms = i < 2 ? 10 + 20.0 * double(i) : double(i) - 1;
+        for (std::size_t row = 0; row < 2; ++row)
+            result["rows"][row]["rounds"] = std::vector<double>(6, row ? ms * double(i + 1) : ms);
+        write_input_file(result_file(timing_ids[i]), result.dump(1));
+    }
+    expect_success({"sweep", "merge", "sweep", "-o", "merged", "--quiet"});
+    const json list = read_output_json("merged/times.json")["over_machines"];
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0]["label"], "naive:bounces=0");
+    EXPECT_EQ(list[0]["ms"]["machines"], json({20.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+    EXPECT_EQ(list[0]["ms"]["median"], 4.0);
+    EXPECT_EQ(list[0]["ms"]["ci95"], json({1.0, 20.0})) << "of seven values";
+    EXPECT_EQ(list[0]["ratio"]["machines"], json(std::vector<double>(7, 1.0)));
+    EXPECT_EQ(list[1]["ratio"]["machines"], json({1.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0}));
+    EXPECT_EQ(list[1]["ratio"]["median"], 5.0);
+    EXPECT_EQ(list[1]["ratio"]["least"], 1.5);
+    EXPECT_EQ(list[1]["ratio"]["largest"], 8.0);
+    EXPECT_THAT(read_output_file("merged/machines.csv"),
+                testing::AllOf(testing::HasSubstr("scene,label,device,driver,commit,machines,ms,"),
+                               testing::HasSubstr(",7,4,1,20,1,20,1,1,1,1,1,")));
+    // Five machines bound no median with 95 % confidence. Times of another identity are apart.
+    for (const std::size_t i : {6UL, 7UL}) {
+        json result = read_output_json(result_file(timing_ids[i]));
+        result["identity"]["driver"] = "another";
+        write_input_file(result_file(timing_ids[i]), result.dump(1));
+    }
+    expect_success({"sweep", "merge", "sweep", "-o", "apart", "--quiet"});
+    const json apart = read_output_json("apart/times.json")["over_machines"];
+    ASSERT_EQ(apart.size(), 4u);
+    for (const json& row : apart) {
+        EXPECT_EQ(row["ms"]["ci95"], json());
+        EXPECT_EQ(row["ms"]["machines"].size(), row["identity"]["driver"] == "another" ? 2u : 5u);
+    }
 }
 
 TEST_F(Sweep, ChangedSceneAndChangedPlanAreRefused) {

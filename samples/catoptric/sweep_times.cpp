@@ -1,0 +1,193 @@
+#include "sweep_times.hpp"
+
+#include "report/json.hpp"
+#include "report/text.hpp"
+
+#include <algorithm>
+
+namespace catoptric::cli {
+
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// The times of one row on one machine, from the rounds of all timing pieces.
+struct SweepTime {
+    SweepJson machine, identity;
+    std::string label;
+    std::vector<double> rounds; ///< times of the rounds of all pieces
+    std::vector<double> pieces; ///< median time of each piece
+    std::vector<double> ratios; ///< in each piece, this median over that of the first row
+    bool noisy = false;
+
+    /// Returns the median time with its interval. The interval counts pieces if there are enough,
+    /// and otherwise rounds.
+    SweepSummary summary() const {
+        const bool has_pieces = pieces.size() >= measure::kMinIntervalSamples;
+        return summarise(has_pieces ? pieces : rounds);
+    }
+};
+
+/// Returns a member of an identity as text; empty if the member is no text.
+std::string identity_member_as_text(const SweepJson& identity, const char* member) {
+    const SweepJson value = identity.value(member, SweepJson());
+    return value.is_string() ? value.get<std::string>() : "";
+}
+
+/// Adds the table cells of an identity: device, driver and commit.
+void add_identity_fields(std::vector<std::string>& fields, const SweepJson& identity) {
+    for (const char* member : {"device", "driver", "commit"})
+        fields.push_back(identity_member_as_text(identity, member));
+}
+
+std::vector<SweepTime> list_times(const SweepGroup& group) {
+    std::vector<SweepTime> times;
+    for (const SweepJson& result : group.timings) {
+        double first_row_ms = NAN;
+        for (const SweepJson& row : result["rows"]) {
+            const auto label = row.at("label").get<std::string>();
+            const auto known = std::ranges::find_if(times, [&](const SweepTime& time) {
+                return time.label == label && time.machine == result["machine"] &&
+                       time.identity == result["identity"];
+            });
+            SweepTime& time = known != times.end() ? *known : times.emplace_back();
+            time.label = label, time.machine = result["machine"];
+            time.identity = result["identity"];
+            time.noisy = time.noisy || row.at("noisy").get<bool>();
+            std::vector<double> rounds = row.at("rounds");
+            time.rounds.insert(time.rounds.end(), rounds.begin(), rounds.end());
+            time.pieces.push_back(summarise(std::move(rounds)).median);
+            if (&row == &result["rows"].front()) first_row_ms = time.pieces.back();
+            time.ratios.push_back(time.pieces.back() / first_row_ms);
+        }
+    }
+    return times;
+}
+
+/// The times of one row on several machines of one identity. Each machine counts once, however many
+/// pieces it ran.
+struct SweepMachinesTime {
+    SweepJson identity;
+    std::string label;
+    std::vector<double> ms;     ///< each machine's median time
+    std::vector<double> ratios; ///< each machine's median ratio to the first row
+    bool noisy = false;
+};
+
+/// Returns the times of each row over machines, for identities with at least two machines.
+std::vector<SweepMachinesTime> list_times_over_machines(const SweepGroup& group) {
+    std::vector<SweepMachinesTime> list;
+    for (const SweepTime& time : list_times(group)) {
+        const auto known = std::ranges::find_if(list, [&](const SweepMachinesTime& machines) {
+            return machines.label == time.label && machines.identity == time.identity;
+        });
+        SweepMachinesTime& machines = known != list.end() ? *known : list.emplace_back();
+        machines.label = time.label, machines.identity = time.identity;
+        machines.ms.push_back(time.summary().median);
+        machines.ratios.push_back(summarise(time.ratios).median);
+        machines.noisy = machines.noisy || time.noisy;
+    }
+    std::erase_if(list, [](const SweepMachinesTime& machines) { return machines.ms.size() < 2; });
+    return list;
+}
+
+OrderedJson make_machines_summary_json(const std::vector<double>& values) {
+    const SweepSummary summary = summarise(values);
+    return {{"median", report::make_number_json(summary.median)},
+            {"ci95", report::make_interval_json(summary.ci95)},
+            {"least", report::make_number_json(summary.least)},
+            {"largest", report::make_number_json(summary.largest)},
+            {"machines", report::make_number_list_json(values)}};
+}
+
+OrderedJson make_times_json(const std::vector<SweepGroup>& groups) {
+    OrderedJson list = OrderedJson::array();
+    for (const SweepGroup& group : groups)
+        for (const SweepTime& time : list_times(group)) {
+            const SweepSummary summary = time.summary();
+            list.push_back(
+                {{"scene", group.scene},
+                 {"options", group.options},
+                 {"label", time.label},
+                 {"machine", time.machine},
+                 {"identity", time.identity},
+                 {"ms", report::make_number_json(summary.median)},
+                 {"ci95", report::make_interval_json(summary.ci95)},
+                 {"rounds", time.rounds},
+                 {"pieces", time.pieces},
+                 {"interval_over",
+                  time.pieces.size() >= measure::kMinIntervalSamples ? "pieces" : "rounds"},
+                 {"noisy", time.noisy}});
+        }
+    OrderedJson over_machines = OrderedJson::array();
+    for (const SweepGroup& group : groups)
+        for (const SweepMachinesTime& machines : list_times_over_machines(group))
+            over_machines.push_back({{"scene", group.scene},
+                                     {"options", group.options},
+                                     {"label", machines.label},
+                                     {"identity", machines.identity},
+                                     {"ms", make_machines_summary_json(machines.ms)},
+                                     {"ratio", make_machines_summary_json(machines.ratios)},
+                                     {"noisy", machines.noisy}});
+    return {
+        {"schema", "catoptric/sweep-times/1"}, {"times", list}, {"over_machines", over_machines}};
+}
+
+std::string make_times_csv(const std::vector<SweepGroup>& groups) {
+    const std::vector<std::string> axes = list_axis_names(groups);
+    CsvTable table;
+    table.add_line(make_header(axes, {"label", "machine", "device", "driver", "commit", "ms",
+                                      "ms_low", "ms_high", "pieces", "rounds", "noisy"}));
+    for (const SweepGroup& group : groups)
+        for (const SweepTime& time : list_times(group)) {
+            const SweepSummary summary = time.summary();
+            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
+            fields.insert(fields.end(), {time.label, time.machine.get<std::string>()});
+            add_identity_fields(fields, time.identity);
+            for (const double value : {summary.median, summary.ci95.low, summary.ci95.high})
+                fields.push_back(report::format_csv_number(value));
+            fields.insert(fields.end(),
+                          {std::to_string(time.pieces.size()), std::to_string(time.rounds.size()),
+                           time.noisy ? "true" : "false"});
+            table.add_line(fields);
+        }
+    return table.text();
+}
+
+std::string make_machines_csv(const std::vector<SweepGroup>& groups) {
+    const std::vector<std::string> axes = list_axis_names(groups);
+    CsvTable table;
+    table.add_line(
+        make_header(axes, {"label", "device", "driver", "commit", "machines", "ms", "ms_low",
+                           "ms_high", "ms_least", "ms_largest", "ratio", "ratio_low", "ratio_high",
+                           "ratio_least", "ratio_largest", "noisy"}));
+    for (const SweepGroup& group : groups)
+        for (const SweepMachinesTime& machines : list_times_over_machines(group)) {
+            std::vector<std::string> fields = make_scene_and_axis_fields(group, axes);
+            fields.push_back(machines.label);
+            add_identity_fields(fields, machines.identity);
+            fields.push_back(std::to_string(machines.ms.size()));
+            for (const std::vector<double>& values : {machines.ms, machines.ratios}) {
+                const SweepSummary summary = summarise(values);
+                for (const double value : {summary.median, summary.ci95.low, summary.ci95.high,
+                                           summary.least, summary.largest})
+                    fields.push_back(report::format_csv_number(value));
+            }
+            fields.emplace_back(machines.noisy ? "true" : "false");
+            table.add_line(fields);
+        }
+    return table.text();
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>>
+make_time_tables(const std::vector<SweepGroup>& groups) {
+    if (std::ranges::all_of(groups, [](const SweepGroup& group) { return group.timings.empty(); }))
+        return {};
+    return {{"times.json", report::serialise_json(make_times_json(groups))},
+            {"times.csv", make_times_csv(groups)},
+            {"machines.csv", make_machines_csv(groups)}};
+}
+
+} // namespace catoptric::cli
