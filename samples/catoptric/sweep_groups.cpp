@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace catoptric::cli {
 
@@ -15,6 +17,27 @@ namespace {
 double median_of_sorted(const std::vector<double>& sorted) {
     const std::size_t half = sorted.size() / 2;
     return sorted.size() % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+/// Returns the instant of a piece's view, seconds; 0 for a piece without a view.
+double find_instant(const SweepPiece& piece) {
+    const SweepJson& view = piece.content["view"];
+    return view.is_null() ? 0.0 : view["time"].get<double>();
+}
+
+/// Returns the mean of the values over the views of each instant. Views of one instant resemble
+/// each other, so they count as one sample.
+std::vector<double> average_values_per_instant(const SweepGroup& group,
+                                               const std::vector<double>& values) {
+    std::map<double, std::vector<double>> instants;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isnan(values[i]))
+            instants[find_instant(*group.picture_pieces[i])].push_back(values[i]);
+    std::vector<double> means;
+    for (const auto& [instant, list] : instants)
+        means.push_back(std::accumulate(list.begin(), list.end(), 0.0) /
+                        static_cast<double>(list.size()));
+    return means;
 }
 
 } // namespace
@@ -47,6 +70,35 @@ SweepSummary summarise(std::vector<double> values) {
     summary.least = values.front();
     summary.largest = values.back();
     summary.ci95 = measure::median_confidence_interval(values);
+    return summary;
+}
+
+std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
+                                       const std::string& metric) {
+    std::vector<double> values;
+    for (const SweepJson& result : group.pictures) {
+        const SweepJson value = result["rows"].at(row).at("error").value(metric, SweepJson());
+        values.push_back(value.is_number() ? value.get<double>() : NAN);
+    }
+    return values;
+}
+
+std::size_t count_instants(const SweepGroup& group) {
+    std::set<double> instants;
+    for (const SweepPiece* piece : group.picture_pieces) instants.insert(find_instant(*piece));
+    return instants.size();
+}
+
+bool has_dependent_views(const SweepGroup& group) {
+    const std::size_t instants = count_instants(group);
+    return instants > 1 && instants < group.pictures.size();
+}
+
+SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values) {
+    SweepSummary summary = summarise(values);
+    if (has_dependent_views(group))
+        summary.ci95 = measure::median_confidence_interval(
+            average_values_per_instant(group, values));
     return summary;
 }
 

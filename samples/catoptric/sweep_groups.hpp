@@ -34,6 +34,22 @@ struct SweepSummary {
 /// Returns the summary of all values that are not NaN.
 SweepSummary summarise(std::vector<double> values);
 
+/// Returns a metric of a row over its mirrors, one value for each view. Views without a value have
+/// NaN.
+std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
+                                       const std::string& metric);
+
+/// Returns the number of different instants of the group's views; 1 for a single view.
+std::size_t count_instants(const SweepGroup& group);
+
+/// Returns whether several views share an instant because the sweep asked for it. In a scene
+/// without motion all views have the same instant, but they count as independent.
+bool has_dependent_views(const SweepGroup& group);
+
+/// Returns the summary of a metric of a row over the views of its group. The interval counts views,
+/// or instants if views share them.
+SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values);
+
 /// A table as a CSV file by RFC 4180.
 class CsvTable {
 public:

@@ -118,67 +118,12 @@ void add_difference_of_identities(const fs::path& folder, const SweepPlan& plan,
           "; 'catoptric sweep run' on each of these machines draws them with its next piece");
 }
 
-/// Returns a metric of a row over its mirrors, one value for each view. Views without a value have
-/// NaN.
-std::vector<double> list_metric_values(const SweepGroup& group, std::size_t row,
-                                       const std::string& metric) {
-    std::vector<double> values;
-    for (const SweepJson& result : group.pictures) {
-        const SweepJson value = result["rows"].at(row).at("error").value(metric, SweepJson());
-        values.push_back(value.is_number() ? value.get<double>() : NAN);
-    }
-    return values;
-}
-
 OrderedJson make_summary_json(const SweepSummary& summary) {
     return {{"views", summary.count},
             {"mean", report::make_number_json(summary.mean)},
             {"median", report::make_number_json(summary.median)},
             {"ci95", report::make_interval_json(summary.ci95)},
             {"largest", report::make_number_json(summary.largest)}};
-}
-
-double find_instant(const SweepPiece& piece) {
-    const SweepJson& view = piece.content["view"];
-    return view.is_null() ? 0.0 : view["time"].get<double>();
-}
-
-std::size_t count_instants(const SweepGroup& group) {
-    std::set<double> instants;
-    for (const SweepPiece* piece : group.picture_pieces) instants.insert(find_instant(*piece));
-    return instants.size();
-}
-
-/// Returns whether several views share an instant because the sweep asked for it. In a scene
-/// without motion all views have the same instant, but they count as independent.
-bool has_dependent_views(const SweepGroup& group) {
-    const std::size_t instants = count_instants(group);
-    return instants > 1 && instants < group.pictures.size();
-}
-
-/// Returns the mean of the values over the views of each instant. Views of one instant resemble
-/// each other, so they count as one sample.
-std::vector<double> average_values_per_instant(const SweepGroup& group,
-                                               const std::vector<double>& values) {
-    std::map<double, std::vector<double>> instants;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::isnan(values[i]))
-            instants[find_instant(*group.picture_pieces[i])].push_back(values[i]);
-    std::vector<double> means;
-    for (const auto& [instant, list] : instants)
-        means.push_back(std::accumulate(list.begin(), list.end(), 0.0) /
-                        static_cast<double>(list.size()));
-    return means;
-}
-
-/// Returns the summary of a metric of a row over the views of its group. The interval counts views,
-/// or instants if views share them.
-SweepSummary summarise_metric(const SweepGroup& group, const std::vector<double>& values) {
-    SweepSummary summary = summarise(values);
-    if (has_dependent_views(group))
-        summary.ci95 = measure::median_confidence_interval(
-            average_values_per_instant(group, values));
-    return summary;
 }
 
 OrderedJson make_sweep_group_json(const SweepGroup& group,

@@ -70,13 +70,13 @@ std::string describe_piece(const SweepPiece& piece) {
 }
 
 /// The scene and sessions of the last picture piece. Successive pieces with the same scene and
-/// options use them again. Each row has a session, so that its captures settle once for all
-/// successive pieces of an instant. This changes no byte of a picture.
+/// options use them again. If pieces share instants, each row has a session, so that its captures
+/// settle once for all successive pieces of an instant. This changes no byte of a picture.
 struct SweepScene {
     SweepJson key; ///< the part of a piece's content that does not depend on its view
     app::CompareRequest request;
-    std::unique_ptr<app::Session> session; ///< of the reference
-    std::vector<std::unique_ptr<app::Session>> row_sessions;
+    std::unique_ptr<app::Session> session;                   ///< of the reference
+    std::vector<std::unique_ptr<app::Session>> row_sessions; ///< may be empty
     std::optional<double> instant; ///< for which the captures of all rows have settled
 };
 
@@ -232,6 +232,21 @@ private:
               ", found ", found);
     }
 
+    /// Returns whether another piece differs from this piece in its camera alone.
+    bool shares_instant_with_other_piece(const SweepPiece& piece) const {
+        if (piece.content["view"].is_null()) return false;
+        SweepJson key = piece.content;
+        key.erase("view");
+        return std::ranges::any_of(plan_.pieces, [&](const SweepPiece& other) {
+            if (other.id == piece.id || other.is_timing() || !other.content["view"].is_object() ||
+                other.content["view"]["time"] != piece.content["view"]["time"])
+                return false;
+            SweepJson other_key = other.content;
+            other_key.erase("view");
+            return other_key == key;
+        });
+    }
+
     SweepScene& open_scene(const SweepPiece& piece) {
         SweepJson key = piece.content;
         key.erase("view");
@@ -243,9 +258,10 @@ private:
         SweepScene scene{key, std::move(words.request), nullptr};
         scene.session = std::make_unique<app::Session>(engine, scene.request.base.scene);
         app::resolve_auto_exposure(*scene.session, scene.request.base);
-        for (std::size_t i = 0; i < scene.request.base.techniques.size(); ++i)
-            scene.row_sessions.push_back(
-                std::make_unique<app::Session>(engine, scene.request.base.scene));
+        if (shares_instant_with_other_piece(piece))
+            for (std::size_t i = 0; i < scene.request.base.techniques.size(); ++i)
+                scene.row_sessions.push_back(
+                    std::make_unique<app::Session>(engine, scene.request.base.scene));
         scene_ = std::move(scene);
         return scene_;
     }
@@ -270,7 +286,8 @@ private:
         std::vector<app::Session*> row_sessions;
         for (const auto& session : scene.row_sessions) row_sessions.push_back(session.get());
         const double instant = comparison.views.front().time;
-        const bool continues = std::exchange(scene.instant, std::nullopt) == instant;
+        const bool continues = !row_sessions.empty() &&
+                               std::exchange(scene.instant, std::nullopt) == instant;
         app::measure_views(*scene.session,
                            {.base = scene.request.base,
                             .reference = scene.request.reference,
@@ -341,6 +358,7 @@ private:
         }
         return {{"rows", sort_members(rows)},
                 {"machine", read_host_name()},
+                {"date", comparison.date},
                 {"load", sort_members(report::make_number_list_json(
                              {comparison.load_start, comparison.load_end}))}};
     }

@@ -3,6 +3,8 @@
 #include "report/json.hpp"
 #include "report/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace catoptric::cli {
@@ -15,6 +17,7 @@ using OrderedJson = nlohmann::ordered_json;
 struct SweepTime {
     SweepJson machine, identity;
     std::string label;
+    std::string date;           ///< when the last piece was measured, such as 2026-11-24T03:05:10Z
     std::vector<double> rounds; ///< times of the rounds of all pieces
     std::vector<double> pieces; ///< median time of each piece
     std::vector<double> ratios; ///< in each piece, this median over that of the first row
@@ -53,6 +56,7 @@ std::vector<SweepTime> list_times(const SweepGroup& group) {
             SweepTime& time = known != times.end() ? *known : times.emplace_back();
             time.label = label, time.machine = result["machine"];
             time.identity = result["identity"];
+            time.date = std::max(time.date, result["date"].get<std::string>());
             time.noisy = time.noisy || row.at("noisy").get<bool>();
             std::vector<double> rounds = row.at("rounds");
             time.rounds.insert(time.rounds.end(), rounds.begin(), rounds.end());
@@ -179,6 +183,103 @@ std::string make_machines_csv(const std::vector<SweepGroup>& groups) {
     return table.text();
 }
 
+/// Returns the options that all groups share, and the number of views, as text.
+std::string describe_sweep_setting(const SweepGroup& group, const std::vector<std::string>& axes) {
+    std::string text;
+    for (const auto& [name, value] : group.options.items())
+        if (std::ranges::find(axes, name) == axes.end())
+            text += fmt::format("{} {}, ", name,
+                                value.is_string() ? value.get<std::string>() : value.dump());
+    const std::size_t views = group.pictures.size();
+    text += fmt::format("median of {} {}", views, views == 1 ? "view" : "views");
+    if (has_dependent_views(group)) text += fmt::format(" of {} instants", count_instants(group));
+    return text;
+}
+
+/// Returns the values of the sweep's axes as text.
+std::string describe_axis_values(const SweepGroup& group, const std::vector<std::string>& axes) {
+    std::string text;
+    for (const std::string& axis : axes) {
+        const SweepJson value = group.options.value(axis, SweepJson());
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", axis,
+                            value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    return text;
+}
+
+/// A row of a sweep on a site of results: its time on a machine, and its errors over the views.
+struct SweepSiteRow {
+    std::string label;
+    SweepSummary ms, flip, rmse;
+};
+
+/// Returns the rows of a group that were timed on the machine and with the identity of `machine`.
+std::vector<SweepSiteRow> list_site_rows(const SweepGroup& group,
+                                         const std::vector<SweepTime>& times,
+                                         const SweepTime& machine) {
+    std::vector<SweepSiteRow> rows;
+    for (std::size_t row = 0; row < group.labels.size(); ++row)
+        for (const SweepTime& time : times)
+            if (time.label == group.labels[row] && time.machine == machine.machine &&
+                time.identity == machine.identity)
+                rows.push_back({time.label, time.summary(),
+                                summarise_metric(group, list_metric_values(group, row, "flip")),
+                                summarise_metric(group, list_metric_values(group, row, "rmse"))});
+    return rows;
+}
+
+/// Returns the indices of the rows that no other row beats in both median time and median FLIP.
+std::vector<std::size_t> find_front_of_medians(const std::vector<SweepSiteRow>& rows) {
+    std::vector<std::size_t> front;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double ms = rows[i].ms.median, flip = rows[i].flip.median;
+        const bool beaten = std::ranges::any_of(rows, [&](const SweepSiteRow& other) {
+            return other.ms.median <= ms && other.flip.median <= flip &&
+                   (other.ms.median < ms || other.flip.median < flip);
+        });
+        if (!std::isnan(flip) && !beaten) front.push_back(i);
+    }
+    return front;
+}
+
+OrderedJson make_site_row_json(const SweepSiteRow& row) {
+    return {{"label", row.label},
+            {"gpu_ms",
+             {{"median", report::make_number_json(row.ms.median)},
+              {"ci95", report::make_interval_json(row.ms.ci95)}}},
+            {"error",
+             {{"flip", report::make_number_json(row.flip.median)},
+              {"rmse", report::make_number_json(row.rmse.median)}}},
+            {"flip_ci95", report::make_interval_json(row.flip.ci95)}};
+}
+
+OrderedJson make_results_json(const std::vector<SweepGroup>& groups) {
+    const std::vector<std::string> axes = list_axis_names(groups);
+    OrderedJson comparisons = OrderedJson::array();
+    for (const SweepGroup& group : groups) {
+        const std::vector<SweepTime> times = list_times(group);
+        for (const SweepTime& machine : times) {
+            if (machine.label != group.labels.front()) continue; // each machine once
+            const std::vector<SweepSiteRow> rows = list_site_rows(group, times, machine);
+            const SweepJson& content = group.timing_pieces.front()->content;
+            OrderedJson json;
+            json["scene"] = {{"name", group.scene}, {"hash", content["scene_hash"]}};
+            json["device"] = {{"name", identity_member_as_text(machine.identity, "device")},
+                              {"driver", identity_member_as_text(machine.identity, "driver")}};
+            json["machine"] = machine.machine;
+            for (const char* name : {"commit", "version"})
+                json[name] = identity_member_as_text(machine.identity, name);
+            json["date"] = machine.date;
+            json["setting"] = describe_sweep_setting(group, axes);
+            json["section"] = describe_axis_values(group, axes);
+            json["rows"] = report::make_list_json(rows, make_site_row_json);
+            json["pareto"] = find_front_of_medians(rows);
+            comparisons.push_back(json);
+        }
+    }
+    return {{"schema", "catoptric/sweep-results/1"}, {"comparisons", comparisons}};
+}
+
 } // namespace
 
 std::vector<std::pair<std::string, std::string>>
@@ -187,7 +288,8 @@ make_time_tables(const std::vector<SweepGroup>& groups) {
         return {};
     return {{"times.json", report::serialise_json(make_times_json(groups))},
             {"times.csv", make_times_csv(groups)},
-            {"machines.csv", make_machines_csv(groups)}};
+            {"machines.csv", make_machines_csv(groups)},
+            {"results.json", report::serialise_json(make_results_json(groups))}};
 }
 
 } // namespace catoptric::cli

@@ -305,6 +305,8 @@ TEST_F(Sweep, ResultsWithWrongMembersAreBroken) {
     refuse(
         1, [](json& r) { r["machine"] = 5; }, "a machine");
     refuse(
+        1, [](json& r) { r.erase("date"); }, "a date");
+    refuse(
         1, [](json& r) { r["rows"][0]["rounds"] = nullptr; }, "rows[0]: times");
     refuse(
         1, [](json& r) { r["rows"][0]["noisy"] = 1; }, "rows[0]: times");
@@ -466,6 +468,16 @@ TEST_F(Sweep, TimesOverMachinesCountEachMachineOnce) {
     EXPECT_THAT(read_output_file("merged/machines.csv"),
                 testing::AllOf(testing::HasSubstr("scene,label,device,driver,commit,machines,ms,"),
                                testing::HasSubstr(",7,4,1,20,1,20,1,1,1,1,1,")));
+    // A site of results gets each machine's times beside the errors of the views.
+    const json results = read_output_json("merged/results.json")["comparisons"];
+    ASSERT_EQ(results.size(), 7u);
+    EXPECT_EQ(results[3]["machine"], "machine3");
+    EXPECT_EQ(results[3]["date"], first["date"]);
+    EXPECT_EQ(results[3]["rows"][1]["gpu_ms"]["median"], 15.0);
+    const json errors = read_output_json("merged/merged.json")["groups"][0]["rows"][1]["error"];
+    EXPECT_EQ(results[3]["rows"][1]["error"]["flip"], errors["flip"]["median"]);
+    EXPECT_EQ(results[3]["rows"][1]["error"]["rmse"], errors["rmse"]["median"]);
+    EXPECT_EQ(results[3]["pareto"], json({0, 1})) << "the black mirrors take less time";
     // Five machines bound no median with 95 % confidence. Times of another identity are apart.
     for (const std::size_t i : {6UL, 7UL}) {
         json result = read_output_json(result_file(timing_ids[i]));
