@@ -16,9 +16,10 @@ namespace {
 
 constexpr const char* kResultsExamples = R"(Examples:
   catoptric results add out/report.json site
+  catoptric results add merged/results.json site
   catoptric results build site
 
-'add' checks a report of compare and puts it into SITE/reports. 'build' writes index.html and a page for each scene:
+'add' checks a report of compare, or the results.json of 'sweep merge', and puts it into SITE/reports. 'build' writes index.html and a page for each scene:
 the front of each device, from its latest report, and the history of each row by commit.)";
 
 struct ResultsOptions {
@@ -35,11 +36,11 @@ int run_results(const ResultsOptions& options) {
     if (adds) {
         check_folder_can_be_made(words[2]);
         const AddedReport added = add_report_to_site(words[1], words[2]);
-        print_note_unless_quiet(options.manners,
-                                added.is_known
-                                    ? "the site has this report: " + added.name
-                                    : fmt::format("added: {}, {} {}", added.name, added.scenes,
-                                                  added.scenes == 1 ? "scene" : "scenes"));
+        print_note_unless_quiet(
+            options.manners,
+            added.is_known ? "the site has this report: " + added.name
+                           : fmt::format("added: {}, {} {}", added.name, added.comparisons,
+                                         added.comparisons == 1 ? "comparison" : "comparisons"));
         return 0;
     }
     const BuiltSite built = build_site(words[1]);

@@ -8,6 +8,7 @@
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/text.hpp"
+#include "site_reports.hpp"
 #include "sweep_plan.hpp"
 
 #include <fmt/format.h>
@@ -25,204 +26,17 @@ namespace {
 
 namespace fs = std::filesystem;
 using report::escape_html;
-using SiteJson = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMaxReportBytes = 256U << 20U;
-constexpr double kMaxReportedMs = 1e9;
 constexpr std::size_t kMaxHistoryColumns = 12; // only the latest reports get a column
 constexpr std::size_t kIdCharacters = 12;
 constexpr std::string_view kPagePrefix = "scene-";
 
-/// A row of a report.
-struct SiteRow {
-    std::string label;
-    double ms = NAN, ms_low = NAN, ms_high = NAN; ///< device time of a frame, and its 95 % interval
-    double flip = NAN, rmse = NAN;                ///< over the mirrors
-    bool is_reference = false, on_front = false;
-};
-
-/// A comparison of one scene on one device.
-struct SiteComparison {
-    std::string scene, hash, device, driver, commit, date, version;
-    std::string setting; ///< camera, instant, size and reference, as text
-    std::vector<SiteRow> rows;
-};
-
-/// A place in a report, for messages.
-class ReportPlace {
-public:
-    ReportPlace(std::string file, std::string member = {})
-        : file_(std::move(file)), member_(std::move(member)) {}
-
-    ReportPlace at(const std::string& member) const {
-        return {file_, member_.empty() ? member : member_ + "." + member};
-    }
-    template <typename... Parts>
-    void check(bool ok, const Parts&... parts) const {
-        catoptric::check(ok, Failure::bad_data, file_, ": ", member_, member_.empty() ? "" : ": ",
-                         parts...);
-    }
-
-private:
-    std::string file_, member_;
-};
-
-SiteJson find_member(const SiteJson& object, const std::string& name, const ReportPlace& place) {
-    place.check(object.is_object(), "wanted an object, found ",
-                report::describe_json_value(object));
-    return object.value(name, SiteJson());
-}
-
-std::string read_text_member_of_report(const SiteJson& object, const std::string& name,
-                                       const ReportPlace& place) {
-    const SiteJson value = find_member(object, name, place);
-    place.at(name).check(value.is_string(), "wanted text, found ",
-                         report::describe_json_value(value));
-    return value.get<std::string>();
-}
-
-/// Returns a number from `low` to `high`; NaN for null.
-double read_number_member_within(const SiteJson& object, const std::string& name,
-                                 const ReportPlace& place, double low, double high) {
-    const SiteJson value = find_member(object, name, place);
-    const bool fits = value.is_number() && value.get<double>() >= low &&
-                      value.get<double>() <= high;
-    place.at(name).check(fits || value.is_null(), "wanted a number from ", low, " to ", high,
-                         ", found ", report::describe_json_value(value));
-    return fits ? value.get<double>() : NAN;
-}
-
-SiteRow read_site_row(const SiteJson& json, const ReportPlace& place) {
-    SiteRow row;
-    row.label = read_text_member_of_report(json, "label", place);
-    // The label of a row names the model only in reports that compare both models. On a page with
-    // reports of both kinds, labels without a model must not be mixed up.
-    constexpr std::string_view kModel = ", model=required";
-    if (find_member(json, "model", place) == "required" && !row.label.ends_with(kModel))
-        row.label += kModel;
-    const SiteJson times = find_member(json, "gpu_ms", place);
-    if (!times.is_null()) { // null for a row whose pictures come from a file
-        row.ms = read_number_member_within(times, "median", place.at("gpu_ms"), 0, kMaxReportedMs);
-        const SiteJson interval = find_member(times, "ci95", place.at("gpu_ms"));
-        const bool has_interval = interval.is_array() && interval.size() == 2 &&
-                                  interval[0].is_number() && interval[1].is_number();
-        if (has_interval) row.ms_low = interval[0], row.ms_high = interval[1];
-    }
-    const SiteJson error = find_member(json, "error", place);
-    row.flip = read_number_member_within(error, "flip", place.at("error"), 0, 1);
-    // The rmse against a noisy reference is negative if its estimate is below the noise.
-    row.rmse = read_number_member_within(error, "rmse", place.at("error"), -1, 1);
-    row.is_reference = find_member(json, "is_reference", place) == true;
-    return row;
-}
-
-/// Returns the setting of a comparison as text: camera, instant, size and reference. Only
-/// comparisons with equal settings stand on one page.
-std::string describe_setting(const SiteJson& json, const ReportPlace& place) {
-    const SiteJson size = find_member(json, "size", place);
-    place.at("size").check(size.is_array() && size.size() == 2 && size[0].is_number_unsigned() &&
-                               size[1].is_number_unsigned(),
-                           "wanted two numbers of pixels, found ",
-                           report::describe_json_value(size));
-    const SiteJson scene = find_member(json, "scene", place);
-    const SiteJson camera = find_member(scene, "camera", place.at("scene"));
-    const auto point = [&](const char* name) {
-        const SiteJson value = find_member(camera, name, place.at("scene.camera"));
-        place.at(std::string("scene.camera.") + name)
-            .check(value.is_array() && value.size() == 3 && value[0].is_number() &&
-                       value[1].is_number() && value[2].is_number(),
-                   "wanted three numbers, found ", report::describe_json_value(value));
-        return fmt::format("{} {} {}", value[0].get<double>(), value[1].get<double>(),
-                           value[2].get<double>());
-    };
-    const auto number = [](const SiteJson& object, const char* name) {
-        const SiteJson value = object.is_object() ? object.value(name, SiteJson()) : SiteJson();
-        return value.is_number() ? fmt::format("{}", value.get<double>()) : std::string("0");
-    };
-    const std::string height = number(camera, "orthographic_height");
-    std::string text = fmt::format(
-        "{}x{}, {} s, camera from {} to {}, up {}, {}, exposure {}, ambient {}, reference {}",
-        size[0].get<unsigned>(), size[1].get<unsigned>(), number(json, "time"), point("eye"),
-        point("target"), point("up"),
-        height == "0" ? number(camera, "vertical_fov_degrees") + " degrees" : height + " high",
-        number(json, "exposure"), number(json, "ambient"),
-        read_text_member_of_report(find_member(json, "reference", place), "label",
-                                   place.at("reference")));
-    if (const SiteJson timing = find_member(json, "timing", place); timing == "pipelined")
-        text += ", pipelined";
-    if (find_member(json, "together", place) == true) text += ", all rows in one frame";
-    return text;
-}
-
-/// Returns whether the text is a date such as "2026-11-24T03:05:10Z", whose order is that of time.
-bool is_report_date(const std::string& text) {
-    constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:ddZ";
-    return text.size() == kForm.size() &&
-           std::ranges::equal(text, kForm, [](char found, char wanted) {
-               return wanted == 'd' ? found >= '0' && found <= '9' : found == wanted;
-           });
-}
-
-SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& place) {
-    place.check(find_member(json, "schema", place) == "catoptric/compare/1",
-                "wanted the schema catoptric/compare/1, found ",
-                report::describe_json_value(find_member(json, "schema", place)));
-    place.check(find_member(json, "complete", place) == true,
-                "wanted a complete report; this run was stopped");
-    SiteComparison found;
-    const SiteJson scene = find_member(json, "scene", place),
-                   device = find_member(json, "device", place);
-    found.scene = read_text_member_of_report(scene, "name", place.at("scene"));
-    found.hash = read_text_member_of_report(scene, "hash", place.at("scene"));
-    found.device = read_text_member_of_report(device, "name", place.at("device"));
-    found.driver = read_text_member_of_report(device, "driver", place.at("device"));
-    found.commit = read_text_member_of_report(json, "commit", place);
-    found.version = read_text_member_of_report(json, "version", place);
-    found.date = read_text_member_of_report(json, "date", place);
-    place.at("date").check(is_report_date(found.date),
-                           "wanted a date such as "
-                           "2026-11-24T03:05:10Z, found ",
-                           quote_text_with_escapes(found.date));
-    found.setting = describe_setting(json, place);
-    const SiteJson rows = find_member(json, "rows", place);
-    place.at("rows").check(rows.is_array() && !rows.empty(), "wanted a list of rows, found ",
-                           report::describe_json_value(rows));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        found.rows.push_back(read_site_row(rows[i], place.at(fmt::format("rows[{}]", i))));
-    const SiteJson front = find_member(json, "pareto", place);
-    place.at("pareto").check(front.is_array(), "wanted a list, found ",
-                             report::describe_json_value(front));
-    for (const SiteJson& index : front) {
-        place.at("pareto").check(
-            index.is_number_unsigned() && index.get<std::size_t>() < found.rows.size(),
-            "wanted numbers of rows, found ", report::describe_json_value(index));
-        found.rows[index.get<std::size_t>()].on_front = true;
-    }
-    return found;
-}
-
-/// Returns the comparisons of a report on one scene or several.
-std::vector<SiteComparison> read_report(const fs::path& file, const std::string& text) {
-    const auto json = parse_json<SiteJson>(file.string(), text);
-    const ReportPlace place(file.string());
-    std::vector<SiteComparison> list;
-    if (find_member(json, "schema", place) != "catoptric/compare-scenes/1") {
-        list.push_back(read_site_comparison(json, place));
-        return list;
-    }
-    place.check(find_member(json, "complete", place) == true,
-                "wanted a complete report; this run was stopped");
-    const SiteJson scenes = find_member(json, "scenes", place);
-    place.at("scenes").check(scenes.is_array() && !scenes.empty(), "wanted a list, found ",
-                             report::describe_json_value(scenes));
-    for (std::size_t i = 0; i < scenes.size(); ++i)
-        list.push_back(read_site_comparison(scenes[i], place.at(fmt::format("scenes[{}]", i))));
-    return list;
-}
-
 /// Comparisons of one scene with one setting, by device, from the oldest to the newest.
 struct SitePage {
     std::string scene, setting, file;
+    std::vector<std::string>
+        sections; ///< values of a sweep's axes, in its order; else one empty text
     std::map<std::string, std::vector<SiteComparison>> devices;
 };
 
@@ -232,10 +46,15 @@ std::vector<SitePage> group_comparisons_by_page(const std::vector<SiteComparison
         const std::string key = one.scene + "\n" + one.hash + "\n" + one.setting;
         SitePage& page = pages[key];
         page.scene = one.scene;
-        page.setting = "hash " + one.hash.substr(0, 8) + ", " + one.setting;
+        page.setting = (one.hash.empty() ? "sweep, " : "hash " + one.hash.substr(0, 8) + ", ") +
+                       one.setting;
         page.file = std::string(kPagePrefix) + compute_sha256(key).substr(0, kIdCharacters) +
                     ".html";
-        page.devices[one.device + ", " + one.driver].push_back(one);
+        if (std::ranges::find(page.sections, one.section) == page.sections.end())
+            page.sections.push_back(one.section);
+        page.devices[one.device + ", " + one.driver +
+                     (one.machine.empty() ? "" : ", machine " + one.machine)]
+            .push_back(one);
     }
     std::vector<SitePage> list;
     for (auto& [key, page] : pages) {
@@ -341,6 +160,12 @@ std::string describe_place_on_front(const SiteRow& row, const std::vector<const 
     return row.is_reference ? "reference" : "";
 }
 
+std::string describe_flip_interval(const SiteRow& row) {
+    return std::isfinite(row.flip_low) ? report::format_picture_error(row.flip_low) + " to " +
+                                             report::format_picture_error(row.flip_high)
+                                       : std::string(report::kEmptyCellText);
+}
+
 std::string make_latest_table(const SiteComparison& run) {
     std::vector<const SiteRow*> rows;
     for (const SiteRow& row : run.rows) rows.push_back(&row);
@@ -348,22 +173,26 @@ std::string make_latest_table(const SiteComparison& run) {
         return (std::isfinite(a->ms) ? a->ms : INFINITY) <
                (std::isfinite(b->ms) ? b->ms : INFINITY);
     });
-    static const std::vector<std::string> kTitles{"Row",  "ms",   "95 % interval",
-                                                  "FLIP", "RMSE", "Front"};
+    const bool has_flip_intervals = std::ranges::any_of(
+        run.rows, [](const SiteRow& row) { return std::isfinite(row.flip_low); });
+    std::vector<std::string> titles{"Row", "ms", "95 % interval", "FLIP"};
+    if (has_flip_intervals) titles.emplace_back("95 % interval of FLIP");
+    titles.insert(titles.end(), {"RMSE", "Front"});
     const std::vector<const SiteRow*> front = list_front_rows(run);
-    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(kTitles) +
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
                        "<tbody>";
     for (const SiteRow* row : rows)
         html += fmt::format(
             "<tr{}><th scope=\"row\" class=\"text\">{}</th><td>{}</td><td>{}</td><td>{}</td>"
-            "<td>{}</td><td>{}</td></tr>",
+            "{}<td>{}</td><td>{}</td></tr>",
             row->on_front ? " class=\"front\"" : "", escape_html(row->label),
             format_cell(row->ms, 3),
             std::isfinite(row->ms_low)
                 ? format_cell(row->ms_low, 3) + " to " + format_cell(row->ms_high, 3)
                 : std::string(report::kEmptyCellText),
-            report::format_picture_error(row->flip), report::format_picture_error(row->rmse),
-            describe_place_on_front(*row, front));
+            report::format_picture_error(row->flip),
+            has_flip_intervals ? "<td>" + describe_flip_interval(*row) + "</td>" : std::string(),
+            report::format_picture_error(row->rmse), describe_place_on_front(*row, front));
     return html + "</tbody></table></div>";
 }
 
@@ -397,19 +226,69 @@ std::string make_history_table(const std::vector<SiteComparison>& runs) {
     return html + "</tbody></table></div>";
 }
 
+/// Returns the comparisons of one section, from the oldest to the newest.
+std::vector<SiteComparison> list_runs_of_section(const std::vector<SiteComparison>& runs,
+                                                 const std::string& section) {
+    std::vector<SiteComparison> list;
+    std::ranges::copy_if(runs, std::back_inserter(list),
+                         [&](const SiteComparison& run) { return run.section == section; });
+    return list;
+}
+
+/// Returns a table of the FLIP of each row in each section of a sweep. Values on the front of their
+/// section are bold.
+std::string make_overview_table(const std::vector<std::string>& sections,
+                                const std::vector<SiteComparison>& runs) {
+    std::vector<std::string> titles{"FLIP over the mirrors; bold: on the front"}, labels;
+    std::vector<SiteComparison> latest;
+    for (const std::string& section : sections) {
+        const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
+        if (list.empty()) continue; // another device measured this section
+        titles.push_back(section);
+        latest.push_back(list.back());
+        for (const SiteRow& row : latest.back().rows)
+            if (std::ranges::find(labels, row.label) == labels.end()) labels.push_back(row.label);
+    }
+    std::string html = "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
+                       "<tbody>";
+    for (const std::string& label : labels) {
+        html += "<tr><th scope=\"row\" class=\"text\">" + escape_html(label) + "</th>";
+        for (const SiteComparison& run : latest) {
+            const auto row = std::ranges::find(run.rows, label, &SiteRow::label);
+            const std::string flip = row == run.rows.end()
+                                         ? std::string(report::kEmptyCellText)
+                                         : report::format_picture_error(row->flip);
+            const bool is_on_front = row != run.rows.end() && row->on_front;
+            html += is_on_front ? "<td><b>" + flip + "</b></td>" : "<td>" + flip + "</td>";
+        }
+        html += "</tr>";
+    }
+    return html + "</tbody></table></div>";
+}
+
+/// Returns the front, the table and the history of comparisons of equal sections on one device.
+std::string make_comparison_parts(const std::vector<SiteComparison>& runs) {
+    const SiteComparison& latest = runs.back();
+    return "<p>" +
+           escape_html(fmt::format("Latest report: {}, commit {}, version {}.", latest.date,
+                                   latest.commit, latest.version)) +
+           "</p>" + make_front_plot(latest) + make_latest_table(latest) + make_history_table(runs);
+}
+
 std::string make_scene_page(const SitePage& page) {
     std::string html = "<header><p class=\"kicker\"><a href=\"index.html\">All scenes</a></p><h1>" +
                        escape_html(page.scene) + "</h1><p class=\"lede\">" +
                        escape_html(page.setting) + "</p></header><main>";
     for (const auto& [device, runs] : page.devices) {
-        const SiteComparison& latest = runs.back();
-        html += report::make_html_titled_section(
-            escape_html(device),
-            "<p>" +
-                escape_html(fmt::format("Latest report: {}, commit {}, version {}.", latest.date,
-                                        latest.commit, latest.version)) +
-                "</p>" + make_front_plot(latest) + make_latest_table(latest) +
-                make_history_table(runs));
+        std::string parts;
+        if (page.sections.size() > 1) parts += make_overview_table(page.sections, runs);
+        for (const std::string& section : page.sections) {
+            const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
+            if (list.empty()) continue;
+            if (!section.empty()) parts += "<h3>" + escape_html(section) + "</h3>";
+            parts += make_comparison_parts(list);
+        }
+        html += report::make_html_titled_section(escape_html(device), parts);
     }
     return report::make_html_page(page.scene, html + "</main>");
 }
@@ -423,15 +302,35 @@ document.getElementById('search').addEventListener('input', event => {
 });
 </script>)";
 
-std::string join_labels_of_front_rows(const SiteComparison& run) {
-    std::vector<const SiteRow*> front;
-    for (const SiteRow& row : run.rows)
-        if (row.on_front) front.push_back(&row);
-    std::ranges::sort(front, {}, [](const SiteRow* row) {
-        return std::isfinite(row->ms) ? row->ms : kMaxReportedMs;
-    });
+/// Returns the labels of the rows on the front, from the fastest row on. In a sweep, a label on the
+/// front of several sections is listed once, with the number of these sections.
+std::string join_labels_of_front_rows(const SitePage& page,
+                                      const std::vector<SiteComparison>& runs) {
+    std::vector<std::pair<std::string, std::size_t>> labels; // with the number of sections
+    for (const std::string& section : page.sections) {
+        const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
+        if (list.empty()) continue;
+        std::vector<const SiteRow*> front;
+        for (const SiteRow& row : list.back().rows)
+            if (row.on_front) front.push_back(&row);
+        std::ranges::sort(front, {}, [](const SiteRow* row) {
+            return std::isfinite(row->ms) ? row->ms : INFINITY;
+        });
+        for (const SiteRow* row : front) {
+            const auto known = std::ranges::find(labels, row->label,
+                                                 &std::pair<std::string, std::size_t>::first);
+            if (known != labels.end())
+                ++known->second;
+            else
+                labels.emplace_back(row->label, 1);
+        }
+    }
     std::string text;
-    for (const SiteRow* row : front) text += (text.empty() ? "" : ", ") + row->label;
+    for (const auto& [label, count] : labels) {
+        text += (text.empty() ? "" : ", ") + label;
+        if (page.sections.size() > 1)
+            text += fmt::format(" ({} of {})", count, page.sections.size());
+    }
     return text.empty() ? std::string(report::kEmptyCellText) : text;
 }
 
@@ -451,7 +350,8 @@ std::string make_index_page(const std::vector<SitePage>& pages, std::size_t repo
                 "class=\"text\">{}</td><td class=\"text\">{}</td><td "
                 "class=\"text\">{}</td><td>{}</td></tr>",
                 page.file, escape_html(page.scene), escape_html(page.setting), escape_html(device),
-                escape_html(join_labels_of_front_rows(runs.back())), runs.size());
+                escape_html(join_labels_of_front_rows(page, runs)),
+                list_runs_of_section(runs, runs.back().section).size());
     return report::make_html_page("all scenes",
                                   html + "</tbody></table></div></main>" + kSearchScript);
 }
@@ -474,9 +374,9 @@ void remove_other_pages(const fs::path& site, const std::vector<SitePage>& pages
 
 AddedReport add_report_to_site(const fs::path& file, const fs::path& site) {
     const std::string text = read_json_text(file, "a report", kMaxReportBytes);
-    const std::size_t scenes = read_report(file, text).size();
+    const std::size_t comparisons = read_site_report(file, text).size();
     report::create_folder(site / "reports");
-    AddedReport added{compute_sha256(text) + ".json", scenes, false};
+    AddedReport added{compute_sha256(text) + ".json", comparisons, false};
     const fs::path place = site / "reports" / added.name;
     std::error_code ignored;
     added.is_known = fs::exists(place, ignored);
@@ -494,7 +394,7 @@ BuiltSite build_site(const fs::path& site) {
     std::vector<SiteComparison> comparisons;
     for (const fs::path& file : files)
         for (SiteComparison& one :
-             read_report(file, read_json_text(file, "a report", kMaxReportBytes)))
+             read_site_report(file, read_json_text(file, "a report", kMaxReportBytes)))
             comparisons.push_back(std::move(one));
     const std::vector<SitePage> pages = group_comparisons_by_page(comparisons);
     remove_other_pages(site, pages);

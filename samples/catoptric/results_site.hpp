@@ -9,14 +9,14 @@
 namespace catoptric::cli {
 
 struct AddedReport {
-    std::string name;       ///< file name in SITE/reports
-    std::size_t scenes = 0; ///< comparisons in the report
-    bool is_known = false;  ///< whether the site had the report before
+    std::string name;            ///< file name in SITE/reports
+    std::size_t comparisons = 0; ///< of scenes, or of a sweep's combinations and machines
+    bool is_known = false;       ///< whether the site had the report before
 };
 
-/// Adds a report.json, of one scene or several, to the site's folder, which is made if it is
-/// missing. The file's name is the SHA-256 of its bytes, so a report is added once. Throws
-/// `bad_data`, with the member, for a document that is no complete report.
+/// Adds a report.json, of one scene or several, or a sweep's results.json, to the site's folder,
+/// which is made if it is missing. The file's name is the SHA-256 of its bytes, so a report is
+/// added once. Throws `bad_data`, with the member, for a document that is no complete report.
 AddedReport add_report_to_site(const std::filesystem::path& report,
                                const std::filesystem::path& site);
 

@@ -59,7 +59,7 @@ protected:
 
 TEST_F(ResultsSite, EachSceneHasAPageWithTheFiguresOfItsReport) {
     EXPECT_THAT(add_report_to_results_site(report_of_two_scenes(), "site"),
-                testing::HasSubstr("2 scenes"));
+                testing::HasSubstr("2 comparisons"));
     EXPECT_THAT(add_report_to_results_site(report_of_two_scenes(), "site"),
                 testing::HasSubstr("has this report"));
     build("site");
@@ -142,6 +142,70 @@ TEST_F(ResultsSite, PagesDependOnTheReportsAloneAndShowTheLatest) {
             std::filesystem::remove(entry.path());
     build("a");
     EXPECT_EQ(read_pages("a"), read_pages("b")) << "pages of removed reports are removed";
+}
+
+/// Returns the results.json of a sweep with two sections, as `sweep merge` writes it.
+json make_sweep_results() {
+    const auto row = [](const char* label, double ms, double flip) {
+        return json{{"label", label},
+                    {"gpu_ms", {{"median", ms}, {"ci95", {ms - 1, ms + 1}}}},
+                    {"error", {{"flip", flip}, {"rmse", flip / 2}}},
+                    {"flip_ci95", {flip - .01, flip + .01}}};
+    };
+    const auto comparison = [&](const char* section, const json& rows, const json& front) {
+        return json{{"scene", {{"name", "hall.glb"}, {"hash", section}}},
+                    {"device", {{"name", "card"}, {"driver", "d1"}}},
+                    {"machine", "m1"},
+                    {"commit", "c0ffee"},
+                    {"version", "0.1.0"},
+                    {"date", "2026-01-02T00:00:00Z"},
+                    {"setting", "size 8x8, median of 30 views"},
+                    {"section", section},
+                    {"rows", rows},
+                    {"pareto", front}};
+    };
+    return {{"schema", "catoptric/sweep-results/1"},
+            {"comparisons",
+             {comparison("roughness .3", {row("reuse", 4, .25), row("secant", 8, .125)}, {0, 1}),
+              comparison("roughness .1", {row("reuse", 6, .5), row("secant", 5, .0625)}, {1})}}};
+}
+
+TEST_F(ResultsSite, ASweepHasAPagePerSceneWithASectionPerCombination) {
+    EXPECT_THAT(add_report_to_results_site(make_sweep_results(), "site"),
+                testing::HasSubstr("2 comparisons"));
+    build("site");
+    EXPECT_EQ(read_pages("site").size(), 2u) << "overrides change a scene's hash, not its page";
+    const std::string page = find_page("site", "hall.glb");
+    EXPECT_THAT(page, testing::HasSubstr("sweep, size 8x8, median of 30 views"));
+    EXPECT_THAT(page, testing::HasSubstr("card, d1, machine m1"));
+    EXPECT_THAT(page,
+                testing::HasSubstr("reuse</th><td><b>0.2500</b></td><td>0.5000</td></tr><tr><th "
+                                   "scope=\"row\" class=\"text\">secant</th><td><b>0.1250</b>"
+                                   "</td><td><b>0.0625</b></td>"))
+        << "the overview, with the sections in the order of the sweep";
+    EXPECT_LT(page.find("<h3>roughness .3"), page.find("<h3>roughness .1"));
+    EXPECT_THAT(page, testing::HasSubstr("<td>5.000</td><td>4.000 to 6.000</td><td>0.0625</td><td>"
+                                         "0.0525 to 0.0725</td><td>0.0312</td>"));
+    EXPECT_THAT(read_pages("site")["index.html"],
+                testing::HasSubstr("reuse (1 of 2), secant (2 of 2)"));
+    // Times of another machine stand apart, and an earlier sweep becomes history.
+    json other = make_sweep_results();
+    other["comparisons"][0]["machine"] = "m2";
+    other["comparisons"][1]["date"] = "2025-01-02T00:00:00Z";
+    add_report_to_results_site(other, "site");
+    build("site");
+    const std::string both = find_page("site", "hall.glb");
+    EXPECT_THAT(both, testing::HasSubstr("machine m2"));
+    EXPECT_THAT(both, testing::HasSubstr("the latest 2 of 2 reports"));
+    json broken = make_sweep_results();
+    broken["comparisons"][1].erase("section");
+    write_input_file("report.json", broken.dump());
+    expect_usage_refused({"results", "add", "report.json", "refused"}, 65,
+                         {"report.json: comparisons[1].section: wanted text, found nothing"});
+    broken["comparisons"] = json::array();
+    write_input_file("report.json", broken.dump());
+    expect_usage_refused({"results", "add", "report.json", "refused"}, 65,
+                         {"comparisons: wanted a list with an element, found a list"});
 }
 
 TEST_F(ResultsSite, TextOfReportsCannotBecomeMarkup) {
