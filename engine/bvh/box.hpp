@@ -9,10 +9,15 @@ using BoundingBox = Bounds<float>;
 
 inline constexpr double kBvhNodeVisitCost = 2; // cost of visiting a node, in triangle tests
 
-/// Returns the surface area of a box. Computes in double, where the extents of finite floats cannot
-/// overflow.
+/// Returns the surface area of a box; 0 for an empty box.
+inline double bounding_box_surface_area(const Bounds<double>& box) {
+    if (box.empty()) return 0;
+    const dvec3 e = box.extent();
+    return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
+}
+/// Returns the same. Computes in double, where the extents of finite floats cannot overflow.
 inline double bounding_box_surface_area(const BoundingBox& box) {
-    return Bounds<double>{dvec3(box.lo), dvec3(box.hi)}.area();
+    return bounding_box_surface_area(Bounds<double>{dvec3(box.lo), dvec3(box.hi)});
 }
 
 /// Returns by how much the box of a triangle outside the core must grow on each side. The ray

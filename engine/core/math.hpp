@@ -9,18 +9,8 @@
 
 namespace catoptric {
 
-using glm::dmat3;
-using glm::dmat4;
-using glm::dvec2;
-using glm::dvec3;
-using glm::dvec4;
-using glm::ivec2;
-using glm::mat4;
-using glm::uvec2;
-using glm::uvec3;
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
+using glm::dmat3, glm::dmat4, glm::dvec2, glm::dvec3, glm::dvec4, glm::ivec2, glm::mat4;
+using glm::uvec2, glm::uvec3, glm::vec2, glm::vec3, glm::vec4;
 
 /// An axis-aligned box. A new box is empty (`lo > hi`), and `add` enlarges the box.
 template <typename Real>
@@ -35,12 +25,6 @@ struct Bounds {
     bool empty() const { return !(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z); }
     Vec centre() const { return (lo + hi) * Real(0.5); }
     Vec extent() const { return hi - lo; }
-    /// Returns the surface area; 0 for an empty box.
-    Real area() const {
-        if (empty()) return 0;
-        const Vec e = extent();
-        return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
-    }
 };
 
 } // namespace catoptric

@@ -24,6 +24,7 @@ struct LagResults;
 struct LightEdgeErrors;
 struct LookupErrorSummary;
 struct ReferenceNoise;
+struct SceneContents;
 struct SetupFacts;
 struct Studied;
 struct WorstView;
@@ -65,32 +66,6 @@ struct CameraFacts {
     double orthographic_height = 0; ///< height of the picture, world units; 0: perspective
 };
 
-/// Unsupported feature of the scene file: something left out, approximated or added.
-struct UnsupportedFeatureFacts {
-    std::string id;
-    std::uint64_t count = 0;
-    std::string first;                 ///< place of the first occurrence
-    std::optional<double> pixel_share; ///< of the picture, 0..1; empty if pixels cannot tell it
-};
-
-/// Light as the shading formula sees it, in world units.
-struct LightFacts {
-    std::string kind; ///< "mesh", or the name of a scene::LightKind, such as "spot"
-    std::string name; ///< name of a light without a surface
-    dvec3 position{0};
-    /// Direction in which a light shines, or in which a mesh faces. 0: all directions.
-    dvec3 direction{0};
-    /// Radiance of a mesh; candela of a point or spot light; lux of a directional light.
-    dvec3 emission{0};
-    double area = 0;          ///< area of a mesh
-    bool is_parallel = false; ///< whether the light is infinitely far away
-};
-
-struct EnvironmentFacts {
-    std::string name;
-    double scale = 1, rotation_degrees = 0;
-};
-
 struct SceneFacts {
     std::string name;
     std::size_t triangles = 0;
@@ -98,9 +73,7 @@ struct SceneFacts {
     std::string hash;
     bool is_seed = false; ///< whether measured times can be compared with the seed report's
     CameraFacts camera;
-    std::vector<LightFacts> lights = {};
-    std::optional<EnvironmentFacts> environment = {};
-    std::vector<UnsupportedFeatureFacts> unsupported = {};
+    std::shared_ptr<const SceneContents> contents = {}; ///< lights, environment, gaps
 };
 
 struct PassFacts {

@@ -3,6 +3,7 @@
 #include "measure/causes.hpp"
 #include "measure/comparison.hpp"
 #include "measure/lag.hpp"
+#include "measure/scene_contents.hpp"
 #include "measure/setup.hpp"
 
 // Short names, in the namespace report, for the data of measure/ that reports contain.

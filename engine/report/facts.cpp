@@ -29,10 +29,11 @@ std::string describe_run_settings(const Comparison& comparison) {
 
 /// Returns "3 lights, environment studio", for example, with the ids of unsupported features.
 std::string describe_lights(const SceneFacts& scene) {
-    std::string text = fmt::format("{} light{}", scene.lights.size(),
-                                   scene.lights.size() == 1 ? "" : "s");
-    if (!scene.environment) return text + ", no environment";
-    const EnvironmentFacts& environment = *scene.environment;
+    const measure::SceneContents& contents = measure::read_scene_contents(scene);
+    std::string text = fmt::format("{} light{}", contents.lights.size(),
+                                   contents.lights.size() == 1 ? "" : "s");
+    if (!contents.environment) return text + ", no environment";
+    const EnvironmentFacts& environment = *contents.environment;
     text += ", environment " + environment.name;
     if (environment.scale != 1) text += fmt::format(" times {}", environment.scale);
     if (environment.rotation_degrees != 0)

@@ -44,14 +44,15 @@ Json make_unsupported_features_json(const std::vector<UnsupportedFeatureFacts>& 
 }
 
 Json make_scene_json(const SceneFacts& scene) {
+    const measure::SceneContents& contents = measure::read_scene_contents(scene);
     return {{"name", scene.name},
             {"triangles", scene.triangles},
             {"mirrors", scene.mirrors},
             {"hash", scene.hash},
             {"camera", make_camera_json(scene.camera)},
-            {"lights", make_lights_json(scene.lights)},
-            {"environment", make_environment_json(scene.environment)},
-            {"gaps", make_unsupported_features_json(scene.unsupported)}};
+            {"lights", make_lights_json(contents.lights)},
+            {"environment", make_environment_json(contents.environment)},
+            {"gaps", make_unsupported_features_json(contents.unsupported)}};
 }
 
 } // namespace catoptric::report

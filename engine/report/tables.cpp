@@ -385,7 +385,7 @@ ReportTable make_unsupported_table(const SceneFacts& scene) {
         "What the scene says that is not shown so, and what was added to it, the largest "
         "share of the picture first. Pixels: share of the picture that shows such a "
         "material first; none where pixels cannot tell."};
-    for (const UnsupportedFeatureFacts& gap : scene.unsupported)
+    for (const UnsupportedFeatureFacts& gap : measure::read_scene_contents(scene).unsupported)
         table.rows.push_back(
             {gap.id, std::to_string(gap.count),
              gap.pixel_share ? format_fixed(100 * *gap.pixel_share, 1) : make_empty_cell(),

@@ -10,14 +10,11 @@ namespace catoptric::scene {
 
 /// Appends a material to Scene::materials. Returns its index.
 CATOPTRIC_API std::size_t add_material(Scene& scene, Material material);
-
 /// Appends the mesh and an object that shows it, named after the mesh.
 CATOPTRIC_API void add_mesh(Scene& scene, Mesh mesh, std::size_t material);
-
 /// Adds an object of two triangles, (a b c) and (a c d).
 CATOPTRIC_API void add_quad(Scene& scene, const std::string& name, std::size_t material, dvec3 a,
                             dvec3 b, dvec3 c, dvec3 d);
-
 /// Adds an exact sphere: an object with a mesh of 4^(levels+1) triangles, and with the sphere that
 /// the mesh approximates.
 CATOPTRIC_API void add_ball(Scene& scene, const std::string& name, std::size_t material,
@@ -25,21 +22,17 @@ CATOPTRIC_API void add_ball(Scene& scene, const std::string& name, std::size_t m
 
 /// Returns two triangles, (a b c) and (a c d), with the flat normal normalize(cross(b-a, c-a)).
 CATOPTRIC_API Mesh quad(std::string name, dvec3 a, dvec3 b, dvec3 c, dvec3 d);
-
 /// Returns the box [lo, hi] seen from outside, with flat normals. Each side shows texture space
 /// [0,1]^2.
 CATOPTRIC_API Mesh box(std::string name, dvec3 lo, dvec3 hi);
-
 /// Returns the surface of a profile of (radius, height) that turns around the y axis, with `around`
 /// vertices to a turn. The outside lies to the right of a profile that goes upwards. Normals are
 /// those of the curve through the points. A point that is given twice makes a sharp corner. u goes
 /// once around, v along the profile's length.
 CATOPTRIC_API Mesh lathe(std::string name, const std::vector<dvec2>& profile, int around);
-
 /// Returns a ring around the y axis with smooth normals, `around` vertices along it, half as many
 /// across.
 CATOPTRIC_API Mesh torus(std::string name, double radius, double thickness, int around);
-
 /// Returns a unit ball: a tetrahedron subdivided `levels` times, with midpoints normalised at each
 /// level. It has 4^(levels+1) triangles, 2*4^levels + 2 shared vertices and smooth normals. Level 5
 /// is a ball of `cornell-mirrors`: 4096 triangles, 2050 vertices.

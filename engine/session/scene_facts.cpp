@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 
 namespace catoptric::app {
 
@@ -123,9 +124,9 @@ measure::SceneFacts make_scene_facts(const Request& request, const std::vector<i
                               scene::hash_scene(scene) ==
                                   scene::hash_scene(scene::make_cornell_mirrors()),
                               make_camera_facts(request.camera)};
-    facts.lights = list_light_facts(scene);
-    facts.environment = make_environment_facts(scene);
-    facts.unsupported = list_unsupported_features(scene, seen);
+    facts.contents = std::make_shared<measure::SceneContents>(
+        measure::SceneContents{list_light_facts(scene), make_environment_facts(scene),
+                               list_unsupported_features(scene, seen)});
     return facts;
 }
 

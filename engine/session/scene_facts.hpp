@@ -1,6 +1,6 @@
 #pragma once
 
-#include "measure/comparison.hpp"
+#include "measure/scene_contents.hpp"
 #include "session/run.hpp"
 
 #include <vector>

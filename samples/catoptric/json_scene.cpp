@@ -65,6 +65,7 @@ Json make_list_json(const List& list, ToJson&& to_json) {
 std::string make_scene_json(const SceneInfoFacts& words) {
     const app::SceneInfo& info = words.info;
     const report::SceneFacts& facts = info.facts;
+    const measure::SceneContents& contents = measure::read_scene_contents(facts);
     Json document{
         {"schema", "catoptric/scene/1"}, {"version", app::version()}, {"commit", app::commit()}};
     document["scene"] = facts.name;
@@ -82,14 +83,14 @@ std::string make_scene_json(const SceneInfoFacts& words) {
     document["materials"] = make_list_json(info.materials, make_material_json);
     document["mirrors"] = make_list_json(info.mirrors, make_mirror_json);
     document["mirror_options"] = info.mirror_options;
-    document["lights"] = report::make_lights_json(facts.lights);
-    document["environment"] = report::make_environment_json(facts.environment);
+    document["lights"] = report::make_lights_json(contents.lights);
+    document["environment"] = report::make_environment_json(contents.environment);
     document["cameras"] = make_list_json(info.cameras, report::make_camera_json);
     document["camera"] = report::make_camera_json(facts.camera);
     document["ambient"] = report::make_number_json(words.ambient);
     document["exposure"] = words.exposure ? report::make_number_json(*words.exposure) : Json();
     document["auto_exposure"] = words.auto_exposure;
-    document["gaps"] = report::make_unsupported_features_json(facts.unsupported);
+    document["gaps"] = report::make_unsupported_features_json(contents.unsupported);
     document["warnings"] = words.warnings;
     return document.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
 }

@@ -97,7 +97,7 @@ SceneTableCells list_mirror_cells(const app::SceneInfo& info) {
 
 SceneTableCells list_light_cells(const report::SceneFacts& facts) {
     SceneTableCells cells{{"light", "name", "at", "towards", "emits", "area"}};
-    for (const report::LightFacts& light : facts.lights)
+    for (const report::LightFacts& light : measure::read_scene_contents(facts).lights)
         cells.push_back({light.kind,
                          light.name.empty() ? "-" : escape_control_characters(light.name),
                          light.is_parallel ? "-" : format_point(light.position),
@@ -120,8 +120,9 @@ std::string describe_camera(const measure::CameraFacts& camera) {
 }
 
 std::string describe_environment(const report::SceneFacts& facts) {
-    if (!facts.environment) return "none";
-    const report::EnvironmentFacts& environment = *facts.environment;
+    const measure::SceneContents& contents = measure::read_scene_contents(facts);
+    if (!contents.environment) return "none";
+    const report::EnvironmentFacts& environment = *contents.environment;
     std::string text = escape_control_characters(environment.name);
     if (environment.scale != 1) text += fmt::format(", times {:.4g}", environment.scale);
     if (environment.rotation_degrees != 0)
@@ -145,7 +146,8 @@ SceneTableCells list_unsupported_cells(const report::SceneFacts& facts) {
     for (const std::vector<std::string>& row : table.rows) {
         cells.push_back(row);
         cells.back()[3] = escape_control_characters(cells.back()[3]);
-        if (facts.unsupported[cells.size() - 2].pixel_share) cells.back()[2] += " %";
+        if (measure::read_scene_contents(facts).unsupported[cells.size() - 2].pixel_share)
+            cells.back()[2] += " %";
     }
     return cells;
 }

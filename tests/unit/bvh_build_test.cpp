@@ -30,7 +30,7 @@ double node_cost_of_references(std::span<const TriangleReference> references) {
     Bounds<double> box;
     for (const TriangleReference& r : references)
         box.add(Bounds<double>{dvec3(simd_to_vec3(r.lo)), dvec3(simd_to_vec3(r.hi))});
-    return box.area() / 2 * static_cast<double>(references.size());
+    return bounding_box_surface_area(box) / 2 * static_cast<double>(references.size());
 }
 
 double node_cost_of_references(std::span<const TriangleReference> references, std::size_t middle) {
