@@ -5,12 +5,14 @@
 #include "session/run.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-/// Compares the cost and the error of techniques, and chooses one by a limit.
+/// Compares the cost and the error of techniques, chooses one by a limit, and audits it.
 namespace catoptric::app {
 
 inline constexpr const char* kReference = "raytrace:depth=16";
@@ -88,5 +90,56 @@ CATOPTRIC_API ChosenPlan choose(Engine& engine, const ChooseRequest& request);
 /// Proves one plan on fresh views: the last step of `choose`.
 CATOPTRIC_API ChosenPlan certify(Engine& engine, const ChooseRequest& request,
                                  const std::string& plan);
+
+/// How frames are chosen for an audit (docs/choose.md).
+struct AuditOptions {
+    int every = 60;         ///< least number of frames in a block, of which one is audited
+    double most_time = .05; ///< limit of the audits' time, as a share of the frames' time
+    std::uint64_t seed = 1; ///< seed of the random choice of audited frames
+    /// Called before a frame is audited, while results of earlier frames can still be read.
+    std::function<void()> before_audit = {};
+};
+
+/// State of an audit after a frame. Frames are counted from the start of the present plan.
+struct AuditState {
+    std::size_t plan = 0; ///< index of the plan to render, from 0 for the plan with the least error
+    std::size_t frames = 0, failures = 0; ///< audited frames: all, and those above the limit
+    double assured_share = 0;    ///< share of frames that keep the limit, with the confidence
+    double time_share = 0;       ///< time of all audits over the time of all frames
+    std::optional<double> error; ///< of this frame, if it was audited and shows a mirror
+    bool is_alarm = false;       ///< at this frame it is first certain that too many frames fail
+    bool has_new_plan = false;   ///< PlanAudit::plan has changed to a plan with less error
+    std::string message;         ///< about the alarm or the change, for the user; empty: neither
+};
+
+/// Compares randomly drawn frames of a running program with ray tracing, and so tests whether the
+/// plan keeps the limit of its certificate. After an alarm, the plan with less error is proposed.
+class PlanAudit {
+public:
+    /// Reads plans and certificate from a file that `choose` wrote. Throws `missing_input`, `io`,
+    /// `bad_data`, and `usage` for options out of range.
+    CATOPTRIC_API explicit PlanAudit(const std::filesystem::path& file, AuditOptions options = {});
+    CATOPTRIC_API ~PlanAudit();
+    /// Returns whether the plans were proved for this scene. True if the file does not say it.
+    CATOPTRIC_API bool is_for_scene(const scene::Scene& scene) const;
+    /// Returns the plan to render, for FrameSpec::techniques.
+    CATOPTRIC_API const std::string& plan() const;
+    /// Renders two references, so that shaders are compiled and the time of an audit is known. The
+    /// first frame of the plan does so otherwise. Throws `usage` if a surface is rough.
+    CATOPTRIC_API void prepare(Session& session, const FrameSpec& spec);
+    /// Counts a frame of the session, and audits it if it was drawn. Call it after each frame and
+    /// before the next. `seconds`: a time that never falls. Frames of other plans, with the picture
+    /// of the frame before, with a rough surface, or too early in a plan are not counted.
+    CATOPTRIC_API AuditState watch_frame(Session& session, const Frame& frame,
+                                         const FrameSpec& spec, double seconds);
+    /// Counts no frame until captures can be complete, after a cut or in a new session.
+    CATOPTRIC_API void wait_until_settled();
+    /// Returns a line such as "audit: 37 of 37 frames keep flip <= 0.05; assured share 0.885; ...".
+    CATOPTRIC_API std::string describe() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 } // namespace catoptric::app

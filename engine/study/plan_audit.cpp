@@ -8,6 +8,7 @@
 #include "measure/masks.hpp"
 #include "scene/rough_reflectors.hpp"
 #include "session/access.hpp"
+#include "session/plan_file.hpp"
 #include "study/reference_seeds.hpp"
 
 #include <fmt/format.h>
@@ -166,12 +167,12 @@ measure::Picture sample_picture(const measure::Picture& picture, const SampledVi
     return samples;
 }
 
-PlanAudit::PlanAudit(PlanAuditRequest request)
+RunningPlanAudit::RunningPlanAudit(PlanAuditRequest request)
     : request_(std::move(request)), audit_(check_plan_audit_request(request_).tested),
       schedule_(request_.pace), ladder_(request_.plans.size()) {}
 
 /// Ray traces the samples of a frame and returns the difference over the mirrors.
-measure::Difference PlanAudit::compare_with_traced_frame(Session& session,
+measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session,
                                                          const measure::Picture& running,
                                                          const FrameSpec& spec) const {
     const SampledView view = choose_sampled_view(spec.camera, spec.size, kMostSamples);
@@ -193,7 +194,7 @@ measure::Difference PlanAudit::compare_with_traced_frame(Session& session,
                                measure::mask_mirror_pixels(truth.hits), map);
 }
 
-void PlanAudit::prepare(Session& session, const FrameSpec& spec) {
+void RunningPlanAudit::prepare(Session& session, const FrameSpec& spec) {
     check(!scene::has_rough_reflector(session.scene()), Failure::usage,
           "audit: wanted a scene without rough surfaces, because their reference has noise, found "
           "a rough surface in '",
@@ -207,45 +208,57 @@ void PlanAudit::prepare(Session& session, const FrameSpec& spec) {
     ended_ = Clock::now();
 }
 
+/// Returns whether the frame begins with the audited plan, however the plan's text is spelt.
+bool RunningPlanAudit::shows_audited_plan(const FrameSpec& spec) {
+    if (spec.techniques.empty()) return false;
+    const std::string& shown = spec.techniques.front();
+    if (shown == plan()) return true;
+    if (shown != compared_plans_.shown || plan() != compared_plans_.audited)
+        compared_plans_ = {shown, plan(),
+                           read_technique_plan(shown).is_same_plan_as(read_technique_plan(plan()))};
+    return compared_plans_.are_same;
+}
+
 /// Returns whether the frame shows another camera, instant or scene than the last frame.
-bool PlanAudit::shows_new_picture(const Session& session, const FrameSpec& spec) {
+bool RunningPlanAudit::shows_new_picture(const Session& session, const FrameSpec& spec) {
     const bool is_new = !watched_ || !do_frames_show_same_view(*watched_, spec) ||
                         Access::session_counters(session).updates != updates_;
     if (is_new) watched_ = spec;
     return is_new;
 }
 
-void PlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
-                            PlanAuditOutcome& outcome) {
+void RunningPlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
+                            AuditState& state) {
     const measure::Difference difference = compare_with_traced_frame(session, frame.hdr(), spec);
     if (difference.pixels == 0) return; // frames that show no mirror do not count
-    outcome.error = mirror_error_of_view(request_.quantity, difference);
-    audit_.count_frame(*outcome.error <= request_.max_error);
-    outcome.is_alarm = audit_.is_alarmed() && !was_alarmed_;
+    state.error = mirror_error_of_view(request_.quantity, difference);
+    audit_.count_frame(*state.error <= request_.max_error);
+    state.is_alarm = audit_.is_alarmed() && !was_alarmed_;
     was_alarmed_ = audit_.is_alarmed();
+    assured_share_ = audit_.assured_share();
 }
 
 /// Changes to the next plan with less error. The audit of this plan begins without evidence.
-void PlanAudit::step_to_plan_with_less_error(double seconds, PlanAuditOutcome& outcome) {
-    outcome.has_new_plan = ladder_.step_to_plan_with_less_error(seconds);
-    if (outcome.is_alarm)
-        outcome.message = fmt::format("audit: {} of {} frames break {} <= {:g}",
+void RunningPlanAudit::step_to_plan_with_less_error(double seconds, AuditState& state) {
+    state.has_new_plan = ladder_.step_to_plan_with_less_error(seconds);
+    if (state.is_alarm)
+        state.message = fmt::format("audit: {} of {} frames break {} <= {:g}",
                                       audit_.failure_count(), audit_.frame_count(),
                                       error_quantity_name(request_.quantity), request_.max_error);
-    if (outcome.has_new_plan) {
-        outcome.message += (outcome.is_alarm ? "; " : "audit: ") +
+    if (state.has_new_plan) {
+        state.message += (state.is_alarm ? "; " : "audit: ") +
                            fmt::format("the plan is now {}", plan());
         audit_ = measure::Audit(request_.tested);
-        was_alarmed_ = false, frames_of_plan_ = 0;
-    } else if (outcome.is_alarm && ladder_.place() == 0) {
-        outcome.message += "; no surer plan is proved";
+        was_alarmed_ = false, frames_of_plan_ = 0, assured_share_ = 0;
+    } else if (state.is_alarm && ladder_.place() == 0) {
+        state.message += "; no surer plan is proved";
     }
 }
 
-PlanAuditOutcome PlanAudit::watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
-                                        double seconds) {
-    PlanAuditOutcome outcome;
-    const bool is_of_plan = !spec.techniques.empty() && spec.techniques.front() == plan();
+AuditState RunningPlanAudit::watch_frame(Session& session, const Frame& frame,
+                                         const FrameSpec& spec, double seconds) {
+    AuditState state;
+    const bool is_of_plan = shows_audited_plan(spec);
     if (is_of_plan && !is_prepared_) prepare(session, spec);
     const Clock::time_point begin = Clock::now();
     if (Access::session_counters(session).updates != updates_) // an edit may change a surface
@@ -254,24 +267,30 @@ PlanAuditOutcome PlanAudit::watch_frame(Session& session, const Frame& frame, co
                             ++frames_of_plan_ > kUncountedFramesOfPlan;
     if (is_counted && schedule_.count_frame(milliseconds_between(ended_, begin))) {
         if (request_.before_audit) request_.before_audit();
-        audit_frame(session, frame, spec, outcome);
+        audit_frame(session, frame, spec, state);
         schedule_.add_audit_time(milliseconds_between(begin, Clock::now()));
     }
-    if (is_of_plan && audit_.is_alarmed()) step_to_plan_with_less_error(seconds, outcome);
+    if (is_of_plan && audit_.is_alarmed()) step_to_plan_with_less_error(seconds, state);
     updates_ = Access::session_counters(session).updates;
     ended_ = Clock::now();
-    return outcome;
+    state.plan = ladder_.place();
+    state.frames = audit_.frame_count(), state.failures = audit_.failure_count();
+    state.assured_share = assured_share_;
+    state.time_share = share_of_audit_time();
+    return state;
 }
 
-std::string PlanAudit::describe() const {
+double RunningPlanAudit::share_of_audit_time() const {
+    return schedule_.frames_ms() > 0 ? schedule_.audits_ms() / schedule_.frames_ms() : 0;
+}
+
+std::string RunningPlanAudit::describe() const {
     const std::size_t frames = audit_.frame_count();
-    const double share = schedule_.frames_ms() > 0 ? schedule_.audits_ms() / schedule_.frames_ms()
-                                                   : 0;
     return fmt::format("audit: {} of {} frames keep {} <= {:g}; assured share {:.3f}; {:.1f} % of "
                        "the frames' time{}{}",
                        frames - audit_.failure_count(), frames,
                        error_quantity_name(request_.quantity), request_.max_error,
-                       audit_.assured_share(), 100 * share,
+                       assured_share_, 100 * share_of_audit_time(),
                        audit_.is_alarmed() ? "; alarm: too many frames fail" : "",
                        is_rough_ ? "; paused, because a surface is rough" : "");
 }

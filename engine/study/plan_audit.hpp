@@ -52,26 +52,18 @@ SampledView choose_sampled_view(const scene::Camera& camera, uvec2 size, std::si
 /// Returns the pixels of the samples. Throws `internal` if a sample lies outside of the picture.
 measure::Picture sample_picture(const measure::Picture& picture, const SampledView& view);
 
-/// The result of one call of PlanAudit::watch_frame.
-struct PlanAuditOutcome {
-    std::optional<double> error; ///< error of the frame, if it was audited and shows a mirror
-    bool is_alarm = false;       ///< the alarm sounds at this frame for the first time for its plan
-    bool has_new_plan = false;   ///< PlanAudit::plan has changed to a surer plan
-    /// Message about the alarm or the change, for the user; empty: neither.
-    std::string message;
-};
-
 /// Audits the frames of one session. The samples of a shown frame are compared with a ray-traced
 /// picture of the same camera, instant and scene. The ray-traced picture is rendered outside the
-/// session's frame sequence.
-class PlanAudit {
+/// session's frame sequence. PlanAudit of compare.hpp is this class for the users of the library.
+class RunningPlanAudit {
 public:
     /// Samples of a frame; a larger picture is sampled in steps of 3, 5, ... pixels.
     static constexpr std::size_t kMostSamples = 40'000;
 
     /// Throws `usage` for an empty list of plans, numbers out of range, and a reference with noise.
-    explicit PlanAudit(PlanAuditRequest request);
+    explicit RunningPlanAudit(PlanAuditRequest request);
 
+    const PlanAuditRequest& request() const { return request_; }
     /// Returns the plan to render, for FrameSpec::techniques.
     const std::string& plan() const { return request_.plans[ladder_.place()]; }
     /// Renders two references, so that shaders are compiled and the time of an audit is known.
@@ -79,12 +71,12 @@ public:
     void prepare(Session& session, const FrameSpec& spec);
     /// Counts a frame, and audits it if it is the randomly drawn frame of its block. Call it after
     /// each frame and before the next. `spec` is the frame's specification, and `seconds` a time
-    /// that never falls. Frames are not counted if `spec` does not begin with `plan`, if they show
+    /// that never falls. Frames are not counted if `spec` does not begin with the plan, if they show
     /// the same camera, instant and scene as the frame before, if a surface is rough, or within 8
     /// frames after a change of plan. Results of the session's earlier frames cannot be read after
     /// a frame was audited. Throws as prepare and Session::frame do.
-    PlanAuditOutcome watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
-                                 double seconds);
+    AuditState watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
+                           double seconds);
 
     /// After a cut and for a new session, counts no frame until captures can be complete again.
     void wait_until_settled() { frames_of_plan_ = 0; }
@@ -99,12 +91,14 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    bool shows_audited_plan(const FrameSpec& spec);
     bool shows_new_picture(const Session& session, const FrameSpec& spec);
     measure::Difference compare_with_traced_frame(Session& session, const measure::Picture& running,
                                                   const FrameSpec& spec) const;
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
-                     PlanAuditOutcome& outcome);
-    void step_to_plan_with_less_error(double seconds, PlanAuditOutcome& outcome);
+                     AuditState& state);
+    void step_to_plan_with_less_error(double seconds, AuditState& state);
+    double share_of_audit_time() const;
 
     PlanAuditRequest request_;
     measure::Audit audit_;
@@ -113,7 +107,14 @@ private:
     bool is_prepared_ = false, was_alarmed_ = false;
     bool is_rough_ = false;  ///< whether the scene has a rough surface, whose reference has noise
     int frames_of_plan_ = 0; ///< frames counted since the plan began
+    double assured_share_ = 0; ///< measure::Audit::assured_share after the last audited frame
     std::optional<FrameSpec> watched_; ///< specification of the last frame
+    /// Plan of a frame, the audited plan, and whether they are the same plan in two spellings.
+    struct ComparedPlans {
+        std::string shown, audited;
+        bool are_same = false;
+    };
+    ComparedPlans compared_plans_;
     std::uint64_t updates_ = 0;        ///< updates of the session's scene data after the last frame
     Clock::time_point ended_;          ///< end of the last call
 };

@@ -1,9 +1,7 @@
 // A loop as a game or a viewer has it: two frames under way, a ball that is moved, a camera that
-// walks around, what is seen read back at the end. Only what the picture requires is rendered.
-#include <catoptric/error.hpp>
-#include <catoptric/picture.hpp>
+// walks around. With `--audit PLAN.json`, the plan of `catoptric choose` is audited in the loop.
+#include <catoptric/compare.hpp>
 #include <catoptric/scene.hpp>
-#include <catoptric/session.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -21,41 +19,53 @@ scene::Camera turn_camera_along_path(scene::Camera camera, double turn) {
     return camera;
 }
 
-void run_live_loop(app::Engine& engine, int frames) {
+void run_live_loop(app::Engine& engine, const char* plan_file) {
     app::Session session(engine, scene::load("cornell-mirrors"), 2);
     const scene::Camera camera = session.scene().cameras.front();
     const std::size_t ball = scene::mirrors(session.scene()).front();
     const dmat4 rest = session.scene().objects[ball].world_from_object;
-
     std::deque<app::Frame> under_way;
     double host_ms = 0, gpu_ms = 0;
-    const auto finish_oldest = [&] { // waits for the device
-        const app::FrameTimes& times = under_way.front().times();
-        host_ms += times.host.sum(), gpu_ms += times.gpu_ms;
-        under_way.pop_front();
+    const auto finish_frames = [&](std::size_t most) { // waits for the device
+        for (; under_way.size() > most; under_way.pop_front()) {
+            const app::FrameTimes& times = under_way.front().times();
+            host_ms += times.host.sum(), gpu_ms += times.gpu_ms;
+        }
     };
+    app::FrameSpec spec{.techniques = {"parallax:face=64"},
+                        .size = {160, 160},
+                        .model = app::RenderedWork::required};
+    std::optional<app::PlanAudit> audit;
+    if (plan_file != nullptr)
+        audit.emplace(plan_file, app::AuditOptions{.every = 4, // often, because the loop is short
+                                                   .most_time = 100,
+                                                   .before_audit = [&] { finish_frames(0); }});
+    const int frames = audit ? 90 : 30;
     for (int k = 0; k < frames; ++k) {
         dmat4 place = rest;
         place[3].y += 10 * std::sin(.2 * k); // as high as the scene's units have it
         session.change(scene::move(ball, place));
-        under_way.push_back(session.frame({.techniques = {"parallax:face=64"},
-                                           .camera = turn_camera_along_path(camera, .005 * k),
-                                           .size = {160, 160},
-                                           .model = app::RenderedWork::required}));
-        if (under_way.size() == 2) finish_oldest();
+        spec.camera = turn_camera_along_path(camera, .005 * k);
+        if (audit) spec.techniques = {audit->plan()};
+        const app::Frame frame = under_way.emplace_back(session.frame(spec));
+        finish_frames(1);
+        if (audit && k + 1 < frames) audit->watch_frame(session, frame, spec, k / 60.0);
     }
     measure::write_png(measure::to_display(under_way.back().hdr()), "live.png");
-    while (!under_way.empty()) finish_oldest();
+    finish_frames(0);
     std::printf("%d frames: host %.2f ms, device %.2f ms each\n", frames, host_ms / frames,
                 gpu_ms / frames);
+    if (audit) std::printf("%s\n", audit->describe().c_str());
 }
 
 } // namespace
 
-int main() try {
+int main(int argc, char** argv) try {
+    if (argc != 1 && (argc != 3 || argv[1] != std::string("--audit")))
+        throw UsageError("wanted no option, or --audit PLAN.json");
     for (int attempt = 0;; ++attempt) try {
             app::Engine engine({});
-            run_live_loop(engine, 30);
+            run_live_loop(engine, argc == 3 ? argv[2] : nullptr);
             std::fflush(stdout);
             if (app::has_abandoned_device()) std::_Exit(0); // a lost device's driver may be at work
             return 0;

@@ -4,7 +4,6 @@
 #include "catoptric/signals.hpp"
 #include "core/error.hpp"
 #include "loop_impl.hpp"
-#include "scene/hash.hpp"
 #include "scene/pose.hpp"
 #include "session/exposure.hpp"
 
@@ -40,20 +39,18 @@ ViewLoop::ViewLoop(const ViewOptions& options, const SimulatedUser& driver)
     start_audit();
 }
 
-/// Starts the audit for which the options name a file of plans. The audit gets each plan as the
-/// text that the controls would write.
+/// Starts the audit for which the options name a file of plans.
 void ViewLoop::start_audit() {
     audit_.reset();
     if (view_options_.audit.empty()) return;
-    app::PlanAuditRequest request = app::read_plan_audit(view_options_.audit);
-    if (!request.scene_hash.empty() && request.scene_hash != scene::hash_scene(request_.scene))
+    app::AuditOptions options;
+    options.every = view_options_.audit_every;
+    options.most_time = view_options_.audit_percent / 100;
+    options.before_audit = [this] { viewer_->collect_finished_frames(0); };
+    audit_.emplace(view_options_.audit, std::move(options));
+    if (!audit_->is_for_scene(request_.scene))
         cli::print_warning("--audit " + view_options_.audit +
                            ": its plans were proved for another scene");
-    for (std::string& plan : request.plans) plan = technique_text_of_plan(parse_plan_text(plan));
-    request.pace.every = view_options_.audit_every;
-    request.pace.most_time = view_options_.audit_percent / 100;
-    request.before_audit = [this] { viewer_->collect_finished_frames(0); };
-    audit_.emplace(std::move(request));
     audit_->prepare(viewer_->viewer_session(), request_);
 }
 
@@ -64,9 +61,9 @@ void ViewLoop::audit_last_frame(const UserInput& inputs) {
     if (!audit_) return;
     if (viewer_->cut_count() != audited_cuts_) audit_->wait_until_settled();
     audited_cuts_ = viewer_->cut_count();
-    const app::PlanAuditOutcome outcome = viewer_->audit_last_frame(*audit_, seconds_);
-    if (outcome.has_new_plan) state_.plan = parse_plan_text(audit_->plan());
-    if (!outcome.message.empty()) show_message(outcome.message);
+    const app::AuditState audited = viewer_->audit_last_frame(*audit_, seconds_);
+    if (audited.has_new_plan) state_.plan = parse_plan_text(audit_->plan());
+    if (!audited.message.empty()) show_message(audited.message);
 }
 
 /// Returns the first window size, with room for the picture and for controls beside it, in desktop

@@ -4,7 +4,6 @@
 #include "catoptric/parse.hpp"
 #include "core/error.hpp"
 #include "session/engine.hpp"
-#include "study/plan_audit.hpp"
 
 #include <memory>
 
@@ -40,7 +39,7 @@ std::string choose_first_technique(const ViewOptions& options) {
     if (!options.audit.empty()) {
         check(!is_given, Failure::usage,
               "--audit: its file has the plan: wanted no --technique and no --plan beside it");
-        return app::read_plan_audit(options.audit).plans.back();
+        return app::PlanAudit(options.audit).plan();
     }
     if (!is_given) drawn.technique = "secant";
     return check_technique_choice(drawn, "catoptric-view");

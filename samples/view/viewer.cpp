@@ -197,7 +197,7 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
     ++frames_;
 }
 
-app::PlanAuditOutcome SceneViewer::audit_last_frame(app::PlanAudit& audit, double seconds) {
+app::AuditState SceneViewer::audit_last_frame(app::PlanAudit& audit, double seconds) {
     if (!last_) return {};
     return audit.watch_frame(*session_, *last_, spec_, seconds);
 }

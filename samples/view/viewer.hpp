@@ -1,10 +1,10 @@
 #pragma once
 
+#include "compare.hpp"
 #include "inputs.hpp"
 #include "reference.hpp"
 #include "session/run.hpp"
 #include "session/screen.hpp"
-#include "study/plan_audit.hpp"
 #include "times.hpp"
 #include "window.hpp"
 
@@ -42,7 +42,7 @@ public:
     std::uint32_t mirror_number_at_pixel(uvec2 pixel);
     void discard_frame_history();
     /// Audits the last frame if the audit selects this frame (app::PlanAudit::watch_frame).
-    app::PlanAuditOutcome audit_last_frame(app::PlanAudit& audit, double seconds);
+    app::AuditState audit_last_frame(app::PlanAudit& audit, double seconds);
     /// Writes the picture of the last frame. A PNG is the picture as shown, without overlay. An EXR
     /// holds the plan's linear picture.
     void write_picture(const std::filesystem::path& file) const;

@@ -30,6 +30,7 @@ ELSEWHERE = [
     (r"snakemake\b", "tests/sweep/run.sh", "snakemake -s"),
     (r"openjd run\b", "tests/sweep/run.sh", "openjd run"),
     (r"catoptric-view\b", "tests/view/audit_test.cpp", "--screenshot"),
+    (r"live_loop\b", "tests/install/run.cmake", "--audit"),
     (r"catoptric stress\b", "tests/CMakeLists.txt", "catoptric_cli stress"),
     (r"catoptric compare -o out --lag\b", "tests/cli/result_test.cpp", '"--lag"'), # takes 2300 frames
     (r"catoptric bench --tune\b", "tests/cli/bench_test.cpp", "--tune"),

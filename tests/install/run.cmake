@@ -94,6 +94,36 @@ foreach(file hello.png waves.png waves.glb live.png embedded.png blend-report/re
         message(FATAL_ERROR "the samples wrote no ${file}")
     endif()
 endforeach()
+# The sample live_loop audits the plan of a file as `catoptric choose` writes it. A function writes such a file, and runs
+# the sample with it.
+function(audit_plan limit)
+    file(WRITE ${WORK}/build/plan.json "{\"certificate\": {\"quantity\": \"flip\", \"max_error\": ${limit}, "
+        "\"share\": 0.95, \"confidence\": 0.95, \"reference\": \"raytrace:depth=4\"}, \"proofs\": ["
+        "{\"technique\": \"parallax:face=32\", \"keeps_error\": true, \"keeps_time\": true}, "
+        "{\"technique\": \"reuse:face=16\", \"keeps_error\": true, \"keeps_time\": true}]}")
+    step(${CMAKE_COMMAND} -E env ${environment} ${CMAKE_COMMAND} -E chdir ${WORK}/build ${WORK}/build/live_loop
+        --audit plan.json)
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+set(frames_time "[0-9.]+ % of the frames' time")
+audit_plan(1)
+if(NOT output MATCHES "audit: ([0-9]+) of ([0-9]+) frames keep flip <= 1; assured share 0\\.[0-9]+; ${frames_time}\n"
+    OR NOT CMAKE_MATCH_1 EQUAL CMAKE_MATCH_2 OR CMAKE_MATCH_1 LESS 10)
+    message(FATAL_ERROR "live_loop --audit: wanted at least 10 audited frames that keep flip <= 1")
+endif()
+audit_plan(0) # each plan raises an alarm
+if(NOT output MATCHES "audit: 0 of [0-9]+ frames keep flip <= 0; assured share 0\\.000; ${frames_time}; alarm: too many")
+    message(FATAL_ERROR "live_loop --audit: wanted an alarm for flip <= 0")
+endif()
+file(WRITE ${WORK}/build/bad.json "{}")
+foreach(case "bad.json=certificate: wanted the one that 'catoptric choose' writes, found nothing" "none.json=none.json")
+    string(REGEX MATCH "^([^=]*)=(.*)$" case ${case})
+    execute_process(COMMAND ${WORK}/build/live_loop --audit ${CMAKE_MATCH_1} WORKING_DIRECTORY ${WORK}/build
+        RESULT_VARIABLE code ERROR_VARIABLE said)
+    if(NOT code EQUAL 1 OR NOT said MATCHES "^live_loop: .*${CMAKE_MATCH_2}")
+        message(FATAL_ERROR "live_loop --audit ${CMAKE_MATCH_1}: wanted '${CMAKE_MATCH_2}', found (${code}) ${said}")
+    endif()
+endforeach()
 # With amount=1 and lookup=bilinear, the sample's technique `blend` must draw the picture of `parallax`.
 set(images ${WORK}/build/blend-report/images)
 step(${CMAKE_COMMAND} -E compare_files ${images}/blend-amount1-face64-lookupbilinear.exr

@@ -33,7 +33,7 @@ void run_audited_loop(uvec2 size) {
     app::PlanAuditRequest request;
     request.plans = {"parallax:face=64,shadow_map=64"};
     request.max_error = .08;
-    app::PlanAudit audit(request);
+    app::RunningPlanAudit audit(request);
     audit.prepare(audited, make_spec_of_loop_frame(scene, 0, size));
     double with = 0, without = 0, cpu_with = 0, cpu_without = 0; // seconds
     for (int begin = 0; begin < kFramesOfLoop; begin += kFramesOfTurn)

@@ -4,13 +4,17 @@
 #include "study/plan_audit.hpp"
 
 #include "compare.hpp"
+#include "core/file.hpp"
 #include "measure/audit_schedule.hpp"
+#include "scene/hash.hpp"
+#include "support/folder.hpp"
 #include "support/refusal.hpp"
 #include "support/rendering.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace {
@@ -121,7 +125,7 @@ TEST(PlanAudit, ErrorIsThatOfAComparison) {
     for (const app::ErrorQuantity quantity : {app::ErrorQuantity::flip, app::ErrorQuantity::rmse}) {
         app::PlanAuditRequest request = make_request_of_every_frame();
         request.quantity = quantity;
-        app::PlanAudit audit(request);
+        app::RunningPlanAudit audit(request);
         app::FrameSpec spec = make_audited_spec(scene);
         std::optional<double> error;
         for (int k = 0; k < 18; ++k) {
@@ -146,7 +150,7 @@ TEST(PlanAudit, RoughSurfaceAndUnsettledCapturesAreNotAudited) {
     rough.mirror = false, rough.metallic = 1, rough.roughness = .3f;
     rough.albedo = vec3(.9f);
     app::Session session(test::get_test_engine(), scene);
-    app::PlanAudit audit(make_request_of_every_frame());
+    app::RunningPlanAudit audit(make_request_of_every_frame());
     app::FrameSpec spec = make_audited_spec(scene);
     int k = 0;
     const auto count_audited_frames = [&](int frames) {
@@ -180,7 +184,7 @@ TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
         app::PlanAuditRequest request = make_audit_request({plan});
         request.pace.every = 2;
         spec.techniques = request.plans;
-        app::PlanAudit audit(request);
+        app::RunningPlanAudit audit(request);
         app::Session audited(test::get_test_engine(), scene), plain(test::get_test_engine(), scene);
         for (int k = 0; k < 22; ++k) {
             spec.camera = camera_of_frame(scene.cameras.front(), 2 * k);
@@ -197,7 +201,7 @@ TEST(PlanAudit, RunningPicturesKeepTheirBytes) {
 TEST(PlanAudit, UnchangedPicturesAndOtherPlansAreNotAudited) {
     const scene::Scene scene = make_audited_room();
     app::Session session(test::get_test_engine(), scene);
-    app::PlanAudit audit(make_request_of_every_frame());
+    app::RunningPlanAudit audit(make_request_of_every_frame());
     app::FrameSpec spec = make_audited_spec(scene);
     const auto run = [&](int frames) {
         for (int k = 0; k < frames; ++k) audit.watch_frame(session, session.frame(spec), spec, k);
@@ -233,14 +237,14 @@ CaughtFault run_until_alarm(app::Session& session, int faulty, std::uint64_t see
     constexpr int kMostFrames = 200;
     app::PlanAuditRequest request = make_audit_request();
     request.pace.seed = seed;
-    app::PlanAudit audit(request);
+    app::RunningPlanAudit audit(request);
     app::FrameSpec spec = make_audited_spec(session.scene());
     std::size_t before = 0;
     session.forget();
     for (int k = 0; k < kMostFrames; ++k) {
         spec.camera = camera_of_frame(session.scene().cameras.front(), k);
         const app::Frame frame = k < faulty ? session.frame(spec) : fault(spec);
-        const app::PlanAuditOutcome outcome = audit.watch_frame(session, frame, spec, k / 60.);
+        const app::AuditState outcome = audit.watch_frame(session, frame, spec, k / 60.);
         if (k < faulty) before = audit.audit().frame_count();
         if (outcome.is_alarm)
             return {k < faulty, k - faulty + 1, audit.audit().frame_count() - before};
@@ -292,7 +296,7 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
     app::PlanAuditRequest request = make_audit_request(
         {kRunningPlan, "reuse:face=64", "reuse:face=16"});
     request.pace.every = 1;
-    app::PlanAudit audit(request);
+    app::RunningPlanAudit audit(request);
     EXPECT_EQ(audit.plan(), "reuse:face=16");
     app::FrameSpec spec = make_audited_spec(scene);
     std::vector<int> steps;
@@ -301,7 +305,7 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
     for (int k = 0; k < 120; ++k) {
         spec.camera = camera_of_frame(scene.cameras.front(), k);
         spec.techniques = {audit.plan()};
-        const app::PlanAuditOutcome outcome = audit.watch_frame(session, session.frame(spec), spec,
+        const app::AuditState outcome = audit.watch_frame(session, session.frame(spec), spec,
                                                                 k / 60.);
         alarms += outcome.is_alarm;
         if (!outcome.message.empty()) messages.push_back(outcome.message);
@@ -324,22 +328,115 @@ TEST(PlanAudit, AlarmStepsToTheSurerPlanAndStopsThere) {
                                       "share 0.[0-9]+; [0-9.]+ % of the frames' time"));
 }
 
+class LibraryAudit : public test::InFolder {
+protected:
+    /// Writes a file of two plans as `choose` writes it. The second plan is the chosen one.
+    std::filesystem::path write_file_of_two_plans(double limit,
+                                                  const std::string& scene_hash = "") const {
+        const auto proof = [](const std::string& plan) {
+            return R"({"technique": ")" + plan + R"(", "keeps_error": true, "keeps_time": true})";
+        };
+        const std::filesystem::path file = folder / "plan.json";
+        write_file(file, R"({"certificate": {"quantity": "flip", "share": 0.95,)"
+                         R"( "confidence": 0.95, "max_error": )" +
+                             std::to_string(limit) + R"(, "scene_hash": ")" + scene_hash +
+                             R"("}, "proofs": [)" + proof(kRunningPlan) + ", " +
+                             proof("reuse:face=16") + "]}");
+        return file;
+    }
+};
+
+/// The class of the library counts frames of a plan in any spelling, and says in its state which
+/// plan to change to.
+TEST_F(LibraryAudit, ReadsAFileAndReturnsItsState) {
+    const scene::Scene scene = make_audited_room();
+    int calls = 0;
+    app::PlanAudit audit(write_file_of_two_plans(.001, scene::hash_scene(scene)),
+                         {.every = 1,
+                                .most_time = std::numeric_limits<double>::infinity(),
+                                .before_audit = [&] { ++calls; }});
+    EXPECT_TRUE(audit.is_for_scene(scene));
+    EXPECT_FALSE(audit.is_for_scene(scene::load("flat")));
+    EXPECT_EQ(audit.plan(), "reuse:face=16");
+    app::Session session(test::get_test_engine(), scene);
+    app::FrameSpec spec = make_audited_spec(scene);
+    spec.techniques = {"*=reuse:face=16"}; // another spelling of a plan for all mirrors
+    audit.prepare(session, spec);
+    app::AuditState state;
+    int audited = 0;
+    for (int k = 0; k < 60 && !state.has_new_plan; ++k) {
+        spec.camera = camera_of_frame(scene.cameras.front(), k);
+        state = audit.watch_frame(session, session.frame(spec), spec, k / 60.);
+        audited += state.error.has_value();
+        if (!state.error || state.has_new_plan) continue;
+        EXPECT_EQ(state.frames, 1u); // two failures raise the alarm
+        EXPECT_EQ(state.failures, 1u);
+        EXPECT_GT(*state.error, .001);
+        EXPECT_GT(state.time_share, 0);
+        EXPECT_EQ(state.plan, 1u);
+    }
+    EXPECT_TRUE(state.is_alarm);
+    EXPECT_EQ(state.plan, 0u);
+    EXPECT_EQ(state.frames, 0u); // the audit of the new plan begins without evidence
+    EXPECT_EQ(audited, 2);
+    EXPECT_EQ(calls, 2);
+    EXPECT_EQ(audit.plan(), kRunningPlan);
+    EXPECT_EQ(state.message, std::string("audit: 2 of 2 frames break flip <= 0.001; the plan is "
+                                         "now ") +
+                                 kRunningPlan);
+    EXPECT_THAT(audit.describe(), testing::StartsWith("audit: 0 of 0 frames keep flip <= 0.001"));
+}
+
+TEST_F(LibraryAudit, AssuresTheShareOfItsState) {
+    const scene::Scene scene = make_audited_room();
+    app::PlanAudit audit(write_file_of_two_plans(1),
+                         {.every = 1, .most_time = std::numeric_limits<double>::infinity()});
+    EXPECT_TRUE(audit.is_for_scene(scene)); // the file does not name its scene
+    app::Session session(test::get_test_engine(), scene);
+    app::FrameSpec spec = make_audited_spec(scene);
+    spec.size = {16, 16};
+    spec.techniques = {audit.plan()};
+    app::AuditState state;
+    double before = 0;
+    for (int k = 0; k < 90; ++k) {
+        spec.camera = camera_of_frame(scene.cameras.front(), k);
+        state = audit.watch_frame(session, session.frame(spec), spec, k / 60.);
+        EXPECT_GE(state.assured_share, before);
+        before = state.assured_share;
+    }
+    EXPECT_GE(state.frames, 60u);
+    EXPECT_EQ(state.failures, 0u);
+    measure::Audit known;
+    for (std::size_t i = 0; i < state.frames; ++i) known.count_frame(true);
+    EXPECT_EQ(state.assured_share, known.assured_share());
+    EXPECT_FALSE(state.is_alarm || state.has_new_plan);
+}
+
+TEST_F(LibraryAudit, RefusesOptionsOutOfRange) {
+    const std::filesystem::path file = write_file_of_two_plans(1);
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::PlanAudit(file, {.every = 0}); }),
+              "audit: every: wanted at least 1 frame, found 0");
+    EXPECT_EQ(
+        test::catch_error_text(Failure::usage, [&] { app::PlanAudit(file, {.most_time = 0}); }),
+        "audit: share of time: wanted a number above 0, found 0");
+}
+
 TEST(PlanAudit, ImpossibleAuditsAreRefused) {
     EXPECT_EQ(
-        test::catch_error_text(Failure::usage, [] { app::PlanAudit(make_audit_request({})); }),
+        test::catch_error_text(Failure::usage, [] { app::RunningPlanAudit(make_audit_request({})); }),
         "audit: plans: wanted at least 1, found none");
     app::PlanAuditRequest request = make_audit_request();
     request.reference = "raytrace:rays=4";
-    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::PlanAudit{request}; }),
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::RunningPlanAudit{request}; }),
               "audit: reference: wanted a technique without noise, found raytrace:rays=4");
     request = make_audit_request();
     request.max_error = 2;
-    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::PlanAudit{request}; }),
+    EXPECT_EQ(test::catch_error_text(Failure::usage, [&] { app::RunningPlanAudit{request}; }),
               "audit: limit of error: wanted a number from 0 to 1, found 2");
     scene::Scene rough = make_audited_room();
     test::make_mirrors_rough(rough, .2f);
     app::Session session(test::get_test_engine(), rough);
-    app::PlanAudit audit(make_audit_request());
+    app::RunningPlanAudit audit(make_audit_request());
     test::expect_error([&] { audit.prepare(session, make_audited_spec(rough)); }, Failure::usage,
                        {"wanted a scene without rough surfaces", "'room'"});
 }
