@@ -12,6 +12,32 @@
 
 namespace catoptric::measure {
 
+namespace {
+
+/// Returns the root of the squared error plus `margin`; 0 if that is negative, and NaN for NaN.
+double root_of_square_with_margin(const Difference& error, double margin) {
+    if (margin == 0 && !(error.rmse < 0)) return error.rmse; // no noise
+    const double square = std::copysign(error.rmse * error.rmse, error.rmse) + margin;
+    return square < 0 ? 0 : std::sqrt(square);
+}
+
+} // namespace
+
+double find_rmse_bound(const Difference& error) {
+    return root_of_square_with_margin(error, error.square_margin);
+}
+
+double find_lower_rmse_bound(const Difference& error) {
+    return root_of_square_with_margin(error, -error.square_margin);
+}
+
+double find_flip_bound(const Difference& error) { return error.flip + error.flip_floor; }
+
+double find_lower_flip_bound(const Difference& error) {
+    const double bound = error.flip - error.flip_floor;
+    return bound < 0 ? 0 : bound;
+}
+
 double square_root_keeping_sign(double square) {
     return square < 0 ? -std::sqrt(-square) : std::sqrt(square);
 }
@@ -37,6 +63,41 @@ bool has_channel_clamped_in_one_only(const vec3& a, const vec3& b) {
     return false;
 }
 
+/// Returns by how much clamping may lower the product of the differences, in expectation. `a` and
+/// `b` are clamped, and the raw values are not.
+/// If one half exceeds 1 and the other does not, the true value lies between the smaller half and
+/// 1, and at one of these ends the squared difference is largest.
+/// If both halves are below 1, a true value of 1 or more looks too dark. For symmetric noise, this
+/// is at most as likely as both halves above 1. Those pixels therefore count twice, unless they are
+/// so bright that the noise cannot bring them below 1.
+double excess_of_clamped_channels(const dvec3& x, const dvec3& a, const dvec3& b, const vec3& raw_a,
+                                  const vec3& raw_b) {
+    constexpr float kFarAboveNoise = 10; // in differences of the halves
+    double excess = 0;
+    for (int channel = 0; channel < 3; ++channel) {
+        const float low = std::min(raw_a[channel], raw_b[channel]),
+                    high = std::max(raw_a[channel], raw_b[channel]);
+        if (high <= 1) continue;
+        const double from_a = x[channel] - a[channel], from_b = x[channel] - b[channel];
+        if (low <= 1)
+            excess += std::max(from_a * from_a, from_b * from_b) - from_a * from_b;
+        else if (low - 1 < kFarAboveNoise * (high - low))
+            excess += from_a * from_b;
+    }
+    return excess;
+}
+
+/// Returns the standard deviations of the noise that the margin of an error covers. 4 deviations of
+/// a normal distribution are exceeded with a probability of .00003, which leaves room for noise
+/// that is not normal. The deviation is estimated from `count` values, so fewer values need more
+/// (Student's t, by the expansion of Cornish and Fisher).
+double deviations_of_noise_margin(double count) {
+    constexpr double z = 4;
+    constexpr double z3 = z * z * z, z5 = z3 * z * z;
+    const double n = std::max(count - 1, 1.0); // degrees of freedom
+    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
+}
+
 /// Returns the interval of the mean product over tiles that are drawn with replacement.
 Interval compute_bootstrap_interval(std::vector<BootstrapTileSum> tiles) {
     std::erase_if(tiles, [](const BootstrapTileSum& tile) { return tile.pixels == 0; });
@@ -59,7 +120,8 @@ Interval compute_bootstrap_interval(std::vector<BootstrapTileSum> tiles) {
 struct NoiseFreeErrorSum {
     std::vector<BootstrapTileSum> tiles;
     double pixels = 0, products = 0, unclamped = 0, between = 0, crossing = 0, flip = 0, floor = 0;
-    double variance = 0; ///< variance of `products`
+    double variance = 0;     ///< variance of `products`
+    double clamp_excess = 0; ///< by which clamping may have lowered `products`
 };
 
 NoiseFreeErrorSum sum_noise_free_error_over_mask(const Picture& picture,
@@ -76,15 +138,15 @@ NoiseFreeErrorSum sum_noise_free_error_over_mask(const Picture& picture,
         if (!mask.empty() && mask[i] == 0) continue;
         if (!is_finite_pixel(x) || !is_finite_pixel(a) || !is_finite_pixel(b)) continue;
         const dvec3 low_a = clamp_pixel_to_unit_range(a), low_b = clamp_pixel_to_unit_range(b);
-        const double product = product_of_channel_differences(clamp_pixel_to_unit_range(x), low_a,
-                                                              low_b);
+        const dvec3 low_x = clamp_pixel_to_unit_range(x);
+        const double product = product_of_channel_differences(low_x, low_a, low_b);
         BootstrapTileSum& tile =
             sum.tiles[i / width / kBootstrapTileEdge * across + i % width / kBootstrapTileEdge];
         tile.products += product, ++tile.pixels;
         sum.products += product, ++sum.pixels;
-        const double swapped = glm::dot(clamp_pixel_to_unit_range(x) - (low_a + low_b) / 2.,
-                                        low_a - low_b);
+        const double swapped = glm::dot(low_x - (low_a + low_b) / 2., low_a - low_b);
         sum.variance += swapped * swapped;
+        sum.clamp_excess += excess_of_clamped_channels(low_x, low_a, low_b, a, b);
         sum.unclamped += product_of_channel_differences(dvec3(x), dvec3(a), dvec3(b));
         sum.between += glm::dot(low_a - low_b, low_a - low_b);
         sum.crossing += has_channel_clamped_in_one_only(a, b);
@@ -155,6 +217,9 @@ Difference compute_difference_from_halves(const Picture& picture,
     result.psnr.reset();
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.flip_floor = sum.floor / sum.pixels;
+    result.square_margin = (deviations_of_noise_margin(sum.pixels) * std::sqrt(sum.variance) +
+                            sum.clamp_excess) /
+                           (3 * sum.pixels);
     return result;
 }
 

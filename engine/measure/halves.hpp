@@ -33,11 +33,29 @@ std::vector<float> compute_flip_against_halves(const Picture& picture,
 /// Returns the difference of a picture, after exposure, and the halves. `rmse` is the root of the
 /// unbiased squared error; if the estimate is negative, -sqrt(-estimate), and the error is below
 /// the noise. `psnr` follows `rmse`, and is empty below the noise. `flip` is the mean of `flip_map`
-/// (see compute_flip_against_halves), and `flip_floor` the mean FLIP between the halves. All other
-/// figures are those against the mean of both halves, whose noise they include.
+/// (see compute_flip_against_halves), and `flip_floor` the mean FLIP between the halves.
+/// `square_margin` is such that the true squared error exceeds the estimate by more with a
+/// probability of kNoiseMissProbability at most. All other figures are those against the mean of
+/// both halves, whose noise they include.
 Difference compute_difference_from_halves(const Picture& picture,
                                           const NoisyReferenceHalves& halves, const Mask& mask,
                                           std::span<const float> flip_map);
+
+/// Probability that noise makes an error exceed find_rmse_bound or find_flip_bound.
+inline constexpr double kNoiseMissProbability = .001;
+/// Returns a bound of the picture's error against the reference without noise: the root of the
+/// squared error plus its margin. Without noise it is the error itself. NaN without finite pixels.
+double find_rmse_bound(const Difference& error);
+/// Returns a bound of the picture's FLIP against the reference without noise: the mean FLIP against
+/// both halves plus the FLIP between them. FLIP against a half alone may be too small, because
+/// noise of the half can resemble noise of the picture. Differences of colours obey the triangle
+/// inequality: the difference from the truth is at most that from a half plus that of this half
+/// from the truth, and the two halves differ more than a half and the truth.
+double find_flip_bound(const Difference& error);
+/// Return a bound on the other side, which the picture's error is not below, as an audit needs it
+/// for alarms. 0 if the error may be 0.
+double find_lower_rmse_bound(const Difference& error);
+double find_lower_flip_bound(const Difference& error);
 
 /// Returns sqrt(square), or -sqrt(-square) if an unbiased squared error is negative, as
 /// Difference::rmse has it.
@@ -106,6 +124,7 @@ struct ReferenceNoise {
     /// rmse between the halves that the variance of each half's frames predicts, over the mirrors
     /// and not clamped; NaN for fewer than two frames a half.
     double predicted_rmse = Difference::kNone;
+    std::vector<double> view_floors; ///< error between the halves in each drawn view; NaN: unknown
 
     bool is_noise_target_reached() const { return flip_floor <= wanted_floor; }
 };

@@ -43,7 +43,6 @@ using Mask = std::vector<std::uint8_t>;
 /// Returns the picture as displayed: multiplied by 2^exposure_stops, clamped to [0,1], through the
 /// sRGB curve and rounded to 8 bits. Values are in [0,1] (multiples of 1/255). NaN becomes 0.
 CATOPTRIC_API Picture to_display(const Picture& picture, double exposure_stops = 0);
-
 /// Returns the same without the rounding to 8 bits. FLIP of two renderings compares these values.
 CATOPTRIC_API Picture to_unrounded_display(const Picture& picture, double exposure_stops = 0);
 
@@ -80,7 +79,6 @@ CATOPTRIC_API void write_png(const Picture& display, const std::filesystem::path
 /// degree.
 CATOPTRIC_API std::vector<float> flip(const Picture& a_display, const Picture& b_display,
                                       double pixels_per_degree = 67);
-
 /// Returns the mean of a FLIP map over the pixels of the mask, or NaN if the mask has none.
 CATOPTRIC_API double flip_mean(std::span<const float> flip_map, const Mask& mask = {});
 
@@ -99,6 +97,7 @@ struct Difference {
     double mae = kNone;    ///< mean absolute difference over pixels and channels, 0..1
     double flip = kNone;   ///< mean of the FLIP map, 0..1
     double flip_floor = 0; ///< FLIP of the reference's noise (measure/halves.hpp); 0 without noise
+    double square_margin = 0;   ///< the mean square may be larger by this, because of noise
     std::optional<double> psnr; ///< -20 log10 rmse in dB; empty if rmse is 0 or NaN
     double p99 = kNone;         ///< 99th percentile of the pixels' largest channel difference, 0..1
     double max = kNone;         ///< the largest channel difference of all, 0..1

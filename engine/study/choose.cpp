@@ -5,12 +5,15 @@
 #include "measure/certificate.hpp"
 #include "measure/costs.hpp"
 #include "measure/findings.hpp"
+#include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/plan_mix.hpp"
 #include "report/costs.hpp"
 #include "session/plan_file.hpp"
+#include "study/choose_noise.hpp"
 #include "study/compare_checks.hpp"
+#include "study/compare_to_target.hpp"
 
 #include <fmt/format.h>
 
@@ -33,16 +36,18 @@ struct ResolvedChooseRequest : ChooseRequest {
     std::optional<measure::DeviceCosts> device_costs; ///< read from `costs`
 };
 
+/// Returns the error of the pixels that are finite, including the noise of the reference.
 double error_value_of_difference(ErrorQuantity quantity, const measure::Difference& error) {
-    return quantity == ErrorQuantity::flip ? error.flip : error.rmse;
+    return quantity == ErrorQuantity::flip ? measure::find_flip_bound(error)
+                                           : measure::find_rmse_bound(error);
 }
 
 /// Returns the number of proof views: the least number that can prove the share, and that `compare`
 /// accepts.
 int count_proof_views(const ResolvedChooseRequest& request) {
-    return static_cast<int>(
-        std::max(measure::count_views_needed_for_certificate(request.share, request.confidence, 0),
-                 measure::kMinIntervalSamples));
+    return static_cast<int>(std::max(measure::count_views_needed_for_certificate(
+                                         find_share_to_prove(request), request.confidence, 0),
+                                     measure::kMinIntervalSamples));
 }
 
 void check_choose_request(const ResolvedChooseRequest& request) {
@@ -97,7 +102,8 @@ PlanComparer make_rendering_comparer(Engine& engine, const ChooseRequest& reques
         compared.cameras_per_instant = cameras_per_instant;
         if (views > 0) compared.studies.push_back({"views", views});
         if (!request.costs.empty()) compared.studies.push_back({"work"});
-        measure::Comparison comparison = compare(engine, compared);
+        measure::Comparison comparison = compare_to_noise_target(engine, compared,
+                                                                 find_noise_target(request));
         if (comparison.stopped) throw Error(*comparison.stopped);
         return comparison;
     };
@@ -314,10 +320,13 @@ std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
         if (request.max_error)
             proof.failures = static_cast<std::size_t>(std::ranges::count_if(
                 errors, [&](double error) { return !(error <= *request.max_error); }));
-        proof.share_bound = measure::lower_bound_of_passing_view_share(
+        const double seen_share = measure::lower_bound_of_passing_view_share(
             proof.failures, errors.size(), request.confidence);
-        proof.error_bound = measure::upper_tolerance_limit(errors, request.share,
+        proof.share_bound = std::max(0.0, 1 - (1 - seen_share) /
+                                                  (1 - find_noise_miss_probability(request)));
+        proof.error_bound = measure::upper_tolerance_limit(errors, find_share_to_prove(request),
                                                            request.confidence);
+        proof.noise = find_noise_of_views(request, comparison);
         proof.keeps_error = request.max_error ? proof.share_bound >= request.share
                                               : std::isfinite(proof.error_bound);
         proof.keeps_time = keeps_time(request, proof.plan);
@@ -334,7 +343,8 @@ std::string format_limit_of_error(const ResolvedChooseRequest& request) {
 /// Returns the reason why no plan keeps the limits in the training views, and the plan that comes
 /// nearest.
 std::string describe_nearest_plan(const ResolvedChooseRequest& request,
-                                  const std::vector<JudgedPlan>& plans) {
+                                  const std::vector<JudgedPlan>& plans,
+                                  const std::optional<NoiseOfViews>& noise) {
     const JudgedPlan *closest = nullptr, *fastest = nullptr;
     for (const JudgedPlan& plan : plans) {
         if (fastest == nullptr || plan.ms < fastest->ms) fastest = &plan;
@@ -348,10 +358,10 @@ std::string describe_nearest_plan(const ResolvedChooseRequest& request,
                            "with {:.3g} ms",
                            *request.max_ms, fastest->text, fastest->ms);
     return fmt::format("no candidate keeps {} in the {} training views{}; the best that is "
-                       "reachable is {}, at most {:.4g}",
+                       "reachable is {}, at most {:.4g}{}",
                        format_limit_of_error(request), closest->errors.size(),
                        request.max_ms ? " within the time" : "", closest->text,
-                       closest->largest_error);
+                       closest->largest_error, describe_noise_as_cause(noise));
 }
 
 /// Returns the reason why no plan keeps its limits in the proof views.
@@ -363,9 +373,10 @@ std::string describe_failed_proof(const ResolvedChooseRequest& request,
                            "{:.3g} ms",
                            *request.max_ms, proofs.back().plan.text, proofs.back().plan.ms);
     return fmt::format("{} keeps the limits in the training views, but not in enough of the fresh "
-                       "ones ({} of {} fail); the best that is reachable is {} <= {:.4g}",
+                       "ones ({} of {} fail); the best that is reachable is {} <= {:.4g}{}",
                        surest.plan.text, surest.failures, surest.plan.errors.size(),
-                       error_quantity_name(request.quantity), surest.error_bound);
+                       error_quantity_name(request.quantity), surest.error_bound,
+                       describe_noise_as_cause(surest.noise));
 }
 
 } // namespace
@@ -377,6 +388,13 @@ const char* error_quantity_name(ErrorQuantity quantity) {
 double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
     if (mirrors.nonfinite > 0) return INFINITY;
     return mirrors.pixels == 0 ? 0 : error_value_of_difference(quantity, mirrors);
+}
+
+double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors) {
+    if (mirrors.nonfinite > 0) return INFINITY;
+    if (mirrors.pixels == 0) return 0;
+    return quantity == ErrorQuantity::flip ? measure::find_lower_flip_bound(mirrors)
+                                           : measure::find_lower_rmse_bound(mirrors);
 }
 
 PlanProof prove_plan(Engine& engine, const ChooseRequest& asked, const std::string& plan) {
@@ -411,7 +429,8 @@ PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_p
     const std::vector<std::string> chain = list_plans_to_prove(request, training,
                                                                choice.candidates);
     if (chain.empty()) {
-        choice.failure = describe_nearest_plan(request, choice.candidates);
+        choice.failure = describe_nearest_plan(request, choice.candidates,
+                                               find_noise_of_views(request, training));
         return choice;
     }
     choice.proofs = prove_plans(request, chain);

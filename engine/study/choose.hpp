@@ -2,6 +2,7 @@
 
 #include "compare.hpp"
 #include "measure/comparison.hpp"
+#include "study/choose_noise.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +19,11 @@ namespace catoptric::app {
 const char* error_quantity_name(ErrorQuantity quantity);
 
 /// Returns the error of a view, from the difference of the pictures over the mirrors: 0 if the view
-/// shows no mirror, and infinite if any mirror pixel is not finite.
+/// shows no mirror, and infinite if any mirror pixel is not finite. Against a reference with noise,
+/// it is a bound that includes the noise (measure::find_flip_bound and find_rmse_bound).
 double mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
+/// Returns the same error, but against a reference with noise a bound that it is not below.
+double lower_mirror_error_of_view(ErrorQuantity quantity, const measure::Difference& mirrors);
 
 /// A plan with its cost and its errors over views.
 struct JudgedPlan {
@@ -36,7 +40,9 @@ struct JudgedPlan {
 struct PlanProof {
     JudgedPlan plan;
     std::size_t failures = 0; ///< views above the limit of error; 0 without a limit
-    double share_bound = 0;   ///< measure::lower_bound_of_passing_view_share of the failures
+    /// measure::lower_bound_of_passing_view_share of the failures. With noise, it is lowered for
+    /// the failures that the noise may hide (measure::kNoiseMissProbability).
+    double share_bound = 0;
     /// Error that the share `share` of all views does not exceed, with confidence `confidence`
     /// (measure::upper_tolerance_limit).
     double error_bound = 0;
@@ -47,6 +53,7 @@ struct PlanProof {
     std::string device;     ///< whose times decide, with " (predicted)" if costs predict them
     std::string scene_hash; ///< hash of the scene whose views were drawn
     double exposure = 0;    ///< stops
+    std::optional<NoiseOfViews> noise; ///< of the proof views; none: the reference has no noise
 };
 
 struct PlanChoice {

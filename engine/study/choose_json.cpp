@@ -57,6 +57,15 @@ Json make_proof_json(const PlanProof& proof) {
     return json;
 }
 
+/// Returns the noise of the proof views; null if the reference has no noise.
+Json make_noise_json(const std::optional<NoiseOfViews>& noise) {
+    if (!noise) return nullptr;
+    return {{"median_floor", report::make_number_json(noise->median_floor)},
+            {"largest_floor", report::make_number_json(noise->largest_floor)},
+            {"wanted_floor", report::make_number_json(noise->wanted_floor)},
+            {"views_above_wanted", noise->views_above}};
+}
+
 Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
                            const std::string& scene) {
     return {{"quantity", error_quantity_name(request.quantity)},
@@ -76,6 +85,7 @@ Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
             {"scene_hash", proof.scene_hash},
             {"reference",
              choose_reference(request.reference, request.base.scene, ReferencePixelKind::centre)},
+            {"reference_noise", make_noise_json(proof.noise)},
             {"exposure", proof.exposure},
             {"width", request.base.size.x},
             {"height", request.base.size.y},
@@ -107,9 +117,10 @@ std::string describe_proof(const ChooseRequest& request, const PlanProof& proof)
                                       : fmt::format("at least {:g} % of views have {} <= {:.4g}",
                                                     100 * request.share, quantity,
                                                     proof.error_bound);
-    return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures)",
+    return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures){}",
                        proof.plan.text, format_plan_time(proof.plan), proof.device, statement,
-                       100 * request.confidence, proof.plan.errors.size(), proof.failures);
+                       100 * request.confidence, proof.plan.errors.size(), proof.failures,
+                       proof.noise ? "; " + describe_noise_of_views(*proof.noise) : "");
 }
 
 Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,

@@ -20,6 +20,7 @@
 #include "session/watcher.hpp"
 #include "study/compare_checks.hpp"
 #include "study/compare_row.hpp"
+#include "study/compare_to_target.hpp"
 #include "study/picture_rows.hpp"
 #include "study/plan_certificate.hpp"
 #include "study/reference_cache.hpp"
@@ -74,9 +75,10 @@ CompareRequest replace_auto_reference(CompareRequest request) {
 /// row with the reference of the same sample count.
 class RowComparisonRunner {
 public:
-    RowComparisonRunner(Engine& engine, const CompareRequest& request)
+    RowComparisonRunner(Engine& engine, const CompareRequest& request,
+                        const std::optional<NoiseFloorTarget>& noise_target)
         : comparison_engine_(engine), compare_request_(replace_auto_reference(request)),
-          compiled_before_(Access::compiled_pipelines(engine)),
+          noise_target_(noise_target), compiled_before_(Access::compiled_pipelines(engine)),
           shared_session_(engine, compare_request_.base.scene),
           truths_(shared_session_, compare_request_.base, compare_request_.reference,
                   compare_request_.watcher),
@@ -112,6 +114,7 @@ public:
                           .request = compare_request_,
                           .count = choice.count,
                           .texts = choice.texts,
+                          .noise_target = noise_target_,
                           .truth = truths_,
                           .comparison = comparison_,
                           .tell = [this] { report_progress(); },
@@ -255,7 +258,8 @@ private:
         for (const auto& [samples, rows] : groups)
             while (truths_.grow_reference(
                 samples, compare_request_.reference_seconds / static_cast<double>(groups.size()),
-                choose_target_noise_floor(rows))) {
+                noise_target_.value_or(
+                    NoiseFloorTarget{.floor = choose_target_noise_floor(rows)}))) {
                 for (const std::size_t row : rows)
                     compute_errors_of_measured_row(row, judged_[row].part, judged_[row].number);
                 fill_reference_noise();
@@ -491,6 +495,7 @@ private:
 
     Engine& comparison_engine_;
     CompareRequest compare_request_;
+    std::optional<NoiseFloorTarget> noise_target_; ///< none: the errors of the rows decide
     /// Pipelines that the engine compiled before this comparison.
     CompiledPipelines compiled_before_;
     Session shared_session_; ///< shared by all rows
@@ -513,7 +518,12 @@ private:
 } // namespace
 
 report::Comparison compare(Engine& engine, const CompareRequest& request) {
-    return RowComparisonRunner(engine, request).run_whole_comparison();
+    return compare_to_noise_target(engine, request, {});
+}
+
+report::Comparison compare_to_noise_target(Engine& engine, const CompareRequest& request,
+                                           const std::optional<NoiseFloorTarget>& target) {
+    return RowComparisonRunner(engine, request, target).run_whole_comparison();
 }
 
 } // namespace catoptric::app

@@ -72,10 +72,13 @@ RunResult ReferenceCache::render_reference(const std::string& technique, int num
     return run(reference_session_, request, watcher_);
 }
 
+bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene) {
+    return traces_paths(reference) ||
+           (draws_rays_from_lobes(reference) && scene::has_rough_reflector(scene));
+}
+
 bool ReferenceCache::has_reference_noise() const {
-    if (!noisy_)
-        noisy_ = traces_paths(reference_) ||
-                 (draws_rays_from_lobes(reference_) && scene::has_rough_reflector(base_.scene));
+    if (!noisy_) noisy_ = does_reference_have_noise(reference_, base_.scene);
     return *noisy_;
 }
 
@@ -170,13 +173,30 @@ const ReferencePicture& ReferenceCache::get_reference(const std::string& samples
     return find_reference_to_change(samples, number);
 }
 
-bool ReferenceCache::grow_reference(const std::string& samples, double seconds, double wanted) {
+double ReferenceCache::measure_noise_floor(const std::string& samples, ErrorQuantity quantity) {
+    const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
+    const ReferencePicture& reference = get_reference(samples);
+    check(reference.noisy != nullptr, Failure::internal, "the reference has no noise to measure");
+    const measure::NoisyReferenceHalves& halves = reference.noisy->halves;
+    return quantity == ErrorQuantity::flip
+               ? measure::flip_mean(halves.floor_map, mirrors)
+               : measure::difference(halves.a, halves.b, mirrors, halves.floor_map).rmse;
+}
+
+double ReferenceCache::seconds_of_noisy_references() const {
+    double seconds = 0;
+    for (const auto& [key, reference] : truths_)
+        if (reference.noisy) seconds += reference.noisy->seconds;
+    return seconds;
+}
+
+bool ReferenceCache::grow_reference(const std::string& samples, double seconds,
+                                    const NoiseFloorTarget& target) {
     if (!has_reference_noise()) return false;
     ReferencePicture& reference = find_reference_to_change(samples, base_.total());
-    const measure::Mask mirrors = measure::mask_mirror_pixels(find_mirror_hits());
-    const auto is_done = [&] {
-        return measure::flip_mean(reference.noisy->halves.floor_map, mirrors) <= wanted ||
-               reference.noisy->seconds >= seconds;
+    const auto is_done = [&] { // a floor of NaN, without a mirror pixel, is done, too
+        return reference.noisy->seconds >= seconds ||
+               !(measure_noise_floor(samples, target.quantity) > target.floor);
     };
     bool has_grown = false;
     const auto whole = static_cast<std::size_t>(std::max(std::ceil(seconds), 1.0));

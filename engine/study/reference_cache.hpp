@@ -6,6 +6,7 @@
 #include "session/technique_choice.hpp"
 #include "session/watcher.hpp"
 #include "study/compare_row.hpp"
+#include "study/compare_to_target.hpp"
 #include "study/reference_seeds.hpp"
 
 #include <filesystem>
@@ -35,6 +36,10 @@ inline constexpr const char* kConvergedRoughReference = "raytrace:depth=16,sampl
 /// and for this scene, which may have rough mirrors.
 std::string choose_reference(const std::string& asked, const scene::Scene& scene,
                              ReferencePixelKind truth = ReferencePixelKind::centre);
+
+/// Returns whether a reference of this scene has noise: it traces paths, or draws rays from the
+/// lobes of rough surfaces.
+bool does_reference_have_noise(const std::string& reference, const scene::Scene& scene);
 
 /// A noisy reference: two means of frames. All frames have different seeds.
 struct NoisyReference {
@@ -90,11 +95,16 @@ public:
 
     /// Returns whether the reference has noise.
     bool has_reference_noise() const;
-    /// Adds frames to both halves of the reference of a row's last frame, until the FLIP between
-    /// the halves over the mirrors is at most `wanted` or the reference took `seconds` in all.
-    /// Reports progress to the watcher. Returns whether any frame was added. Does nothing for a
-    /// reference without noise.
-    bool grow_reference(const std::string& samples, double seconds, double wanted);
+    /// Adds frames to both halves of the reference of a row's last frame, until the error between
+    /// the halves over the mirrors is at most that of the target or the reference took `seconds` in
+    /// all. Reports progress to the watcher. Returns whether any frame was added. Does nothing for
+    /// a reference without noise, and if no pixel shows a mirror.
+    bool grow_reference(const std::string& samples, double seconds, const NoiseFloorTarget& target);
+    /// Returns the error between the halves of the reference of a row's last frame, over the
+    /// mirrors; NaN if no pixel shows a mirror. Only for noisy references.
+    double measure_noise_floor(const std::string& samples, ErrorQuantity quantity);
+    /// Returns the time in which the frames of all references with noise were rendered, seconds.
+    double seconds_of_noisy_references() const;
     /// Keeps the reference of a row's last frame at one sample a pixel in a file, and begins with
     /// the content of the file if it exists. Call it before the reference is needed. Throws `usage`
     /// for a reference without noise.

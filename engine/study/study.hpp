@@ -6,6 +6,7 @@
 #include "study/reference_cache.hpp"
 
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct StudyInput {
     const CompareRequest& request;
     int count = 1;                  ///< value of StudyChoice::count
     std::vector<std::string> texts; ///< value of StudyChoice::texts
+    /// Noise floor at which references need no more frames; none: the errors of the rows decide.
+    std::optional<NoiseFloorTarget> noise_target;
     ReferenceCache& truth; ///< reference pictures and first hits of the comparison's camera
     report::Comparison& comparison;
     /// Passes the unfinished comparison to a listener, such as the writer of reports. Call it after

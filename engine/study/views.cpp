@@ -1,6 +1,7 @@
 #include "study/views.hpp"
 
 #include "core/error.hpp"
+#include "measure/halves.hpp"
 #include "measure/interval.hpp"
 #include "measure/views.hpp"
 #include "report/comparison.hpp"
@@ -93,17 +94,24 @@ struct ViewReferencePicture {
           cache(session, at_view, request.reference, request.watcher),
           hits(cache.find_mirror_hits()) {}
     /// Renders the reference pictures of the view for all rows. Reduces their noise for at most
-    /// `seconds` in all, until the noise is at most `floor`.
-    void render(const std::vector<std::string>& rows, double seconds, double floor) {
+    /// `seconds` in all, until the noise reaches the target. Returns the largest noise floor of the
+    /// pictures, by the target's quantity; NaN for references without noise.
+    double render(const std::vector<std::string>& rows, double seconds,
+                  const NoiseFloorTarget& target) {
         std::set<std::string> sample_counts;
         for (const std::string& text : rows)
             sample_counts.insert(find_sample_count(parse_technique(text)));
-        for (const std::string& samples : sample_counts)
+        double floor = NAN;
+        for (const std::string& samples : sample_counts) {
             cache.grow_reference(samples, seconds / static_cast<double>(sample_counts.size()),
-                                 floor);
+                                 target);
+            if (cache.has_reference_noise())
+                floor = std::fmax(floor, cache.measure_noise_floor(samples, target.quantity));
+        }
         // All references are rendered now, because rendering a reference later would interrupt
         // frames that share captures.
         for (const std::string& samples : sample_counts) cache.get_reference(samples);
+        return floor;
     }
 };
 
@@ -152,6 +160,7 @@ void measure_drawn_views(const StudyInput& input) {
                       {.base = input.request.base,
                        .reference = input.request.reference,
                        .reference_seconds = input.request.reference_seconds,
+                       .noise_target = input.noise_target,
                        .watcher = input.request.watcher,
                        .pictures = input.request.pictures,
                        .cameras_per_instant = input.request.cameras_per_instant,
@@ -222,6 +231,7 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
                                   ": " + what,
                               finished++, count * pictures);
     };
+    double seconds_left = request.reference_seconds;
     std::vector<const report::Row*> rows;
     for (const report::Row& row : comparison.rows) rows.push_back(&row);
     for (std::size_t first = 0; first < count;) {
@@ -232,8 +242,13 @@ void measure_views(Session& session, const ViewsRequest& request, report::Compar
             report_picture(i, "reference");
             truths.push_back(
                 std::make_unique<ViewReferencePicture>(session, request, comparison.views[i]));
-            truths.back()->render(texts, request.reference_seconds / static_cast<double>(count),
-                                  measure::choose_target_noise_floor(rows));
+            const double floor = truths.back()->render(
+                texts, seconds_left / static_cast<double>(count - i),
+                request.noise_target.value_or(
+                    NoiseFloorTarget{.floor = measure::choose_target_noise_floor(rows)}));
+            if (comparison.noise) comparison.noise->view_floors.push_back(floor);
+            seconds_left = std::max(0.0, seconds_left -
+                                             truths.back()->cache.seconds_of_noisy_references());
         }
         for (std::size_t k = 0; k < texts.size(); ++k)
             for (std::size_t i = first; i < end; ++i) {

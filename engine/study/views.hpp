@@ -3,7 +3,9 @@
 #include "report/comparison.hpp"
 #include "session/run.hpp"
 #include "session/watcher.hpp"
+#include "study/compare_to_target.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +28,11 @@ struct ViewsRequest {
     const Request&
         base; ///< the compared scene, with the techniques in the order of the comparison's rows
     std::string reference = "raytrace:depth=16";
-    /// Most time to reduce the noise of the reference, seconds for all views together.
+    /// Most time to reduce the noise of the reference, seconds for all views together. Views of
+    /// less noise leave their time to later views.
     double reference_seconds = 0;
+    /// Noise floor at which a reference needs no more frames; none: the errors of the rows decide.
+    std::optional<NoiseFloorTarget> noise_target = {};
     Watcher watcher;
     /// Rows of files: name, and folder of pictures (study/picture_rows.hpp). They are the last rows
     /// of the comparison. A row of a single picture gets no errors in views.

@@ -217,6 +217,13 @@ void add_limit_options(CommandVerb& verb, ChooseOptions& options) {
                     options.limits.confidence = parse_real("--confidence", text, .5, .9999);
                     options.is_confidence_given = true;
                 });
+    verb.option(
+        "--reference-seconds", "S",
+        "most seconds to reduce the noise of a reference with rays=N, in each comparison, if "
+        "a surface is rough (60)",
+        [&limits](const std::string& text) {
+            limits.reference_seconds = parse_real("--reference-seconds", text, 0, 1e6);
+        });
     verb.option("--costs", "FILE",
                 "choose for another device, by times predicted from its costs (see docs/costs)",
                 options.limits.costs);

@@ -6,6 +6,7 @@
 #include "report/comparison.hpp"
 #include "report/writer.hpp"
 #include "scene/classify.hpp"
+#include "study/choose.hpp"
 #include "study/reference_cache.hpp"
 #include "support/folder.hpp"
 #include "support/refusal.hpp"
@@ -244,6 +245,44 @@ TEST(NoisyReference, ViewsAreJudgedByHalvesAsWell) {
     const report::Comparison found = app::compare(test::get_test_engine(), request);
     ASSERT_EQ(found.rows[0].views.size(), 6u);
     for (const measure::Errors& view : found.rows[0].views) EXPECT_GT(view.error.flip_floor, 0);
+}
+
+app::ChooseRequest make_rough_choose_request(double seconds) {
+    app::ChooseRequest request;
+    request.base = test::make_test_request(make_metal_floor_below_patches(.3f), {}, {24, 24});
+    request.base.frames = 6, request.base.warmup = 1;
+    request.reference = "raytrace:depth=2,rays=1";
+    request.reference_seconds = seconds;
+    request.share = .5, request.confidence = .9; // 6 views prove it
+    request.max_error = .5;
+    return request;
+}
+
+/// `choose` adds frames to the reference of each view, until the noise floor is a fifth of the
+/// limit. Otherwise the certificate says that the floor was not reached, and the noise counts as
+/// error.
+TEST(NoisyReference, ProofReducesTheNoiseOfEachViewToAFifthOfTheLimit) {
+    for (const app::ErrorQuantity quantity : {app::ErrorQuantity::flip, app::ErrorQuantity::rmse}) {
+        app::ChooseRequest request = make_rough_choose_request(600);
+        request.quantity = quantity;
+        const app::PlanProof quiet = app::prove_plan(test::get_test_engine(), request,
+                                                     "reuse:face=16");
+        ASSERT_TRUE(quiet.noise);
+        EXPECT_DOUBLE_EQ(quiet.noise->wanted_floor.value_or(0), .1);
+        EXPECT_LE(quiet.noise->largest_floor, .1);
+        EXPECT_GT(quiet.noise->median_floor, 0);
+        EXPECT_EQ(quiet.noise->views_above, 0u);
+        EXPECT_EQ(quiet.plan.errors.size(), 6u);
+        request.max_error = .01;
+        request.reference_seconds = 0;
+        const app::PlanProof noisy = app::prove_plan(test::get_test_engine(), request,
+                                                     "reuse:face=16");
+        ASSERT_TRUE(noisy.noise);
+        EXPECT_EQ(noisy.noise->views_above, 6u);
+        EXPECT_GT(noisy.noise->median_floor, quiet.noise->median_floor);
+        EXPECT_GT(noisy.plan.largest_error, quiet.plan.largest_error);
+        EXPECT_FALSE(noisy.keeps_error);
+    }
 }
 
 } // namespace

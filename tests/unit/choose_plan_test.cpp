@@ -2,9 +2,12 @@
 #include "study/choose.hpp"
 
 #include "compare.hpp"
+#include "measure/halves.hpp"
 #include "report_sample.hpp"
 
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 namespace {
 
@@ -34,22 +37,34 @@ measure::Row make_row_of_plan(const MadeUpPlan& plan, std::size_t views) {
     return row;
 }
 
+/// Noise of the reference in each view.
+struct MadeUpNoise {
+    double floor = 0; ///< FLIP between the halves; 0: no noise
+};
+
 /// Chooses among the made-up plans. The plan `failing`, if any, has an error of 1 in the last
 /// `failures` views that prove it.
-app::PlanChoice choose_made_up_plan(const std::string& failing = "", std::size_t failures = 0) {
+app::PlanChoice choose_made_up_plan(const std::string& failing = "", std::size_t failures = 0,
+                                    const MadeUpNoise& noise = {}) {
     app::ChooseRequest request;
     for (const MadeUpPlan& plan : kMadeUpPlans) request.base.techniques.push_back(plan.text);
     request.max_error = .1;
+    if (noise.floor > 0) request.reference = "raytrace:depth=16,rays=64,indirect=paths";
     return app::choose_plan(
         request, [&](const std::vector<std::string>& plans, int views, std::uint64_t seed, int) {
             measure::Comparison comparison;
             comparison.device.name = "made up";
+            if (noise.floor > 0) {
+                comparison.noise = std::make_shared<measure::ReferenceNoise>();
+                comparison.noise->view_floors.assign(static_cast<std::size_t>(views), noise.floor);
+            }
             for (const std::string& text : plans) {
                 const auto plan = std::ranges::find(kMadeUpPlans, text, &MadeUpPlan::text);
                 measure::Row row = make_row_of_plan(*plan, static_cast<std::size_t>(views));
                 if (seed == request.proof_seed && text == failing)
                     for (std::size_t i = 0; i < failures; ++i)
                         row.views[row.views.size() - 1 - i].error.flip = 1;
+                for (measure::Errors& view : row.views) view.error.flip_floor = noise.floor;
                 comparison.rows.push_back(row);
             }
             return comparison;
@@ -81,6 +96,39 @@ TEST(ChoosePlan, PlanBeforeTheFirstFailedProofIsChosen) {
     EXPECT_FALSE(choice.proofs.back().keeps_error) << "59 views prove 95 % without a failure only";
     ASSERT_TRUE(choice.chosen);
     EXPECT_EQ(choice.proofs[*choice.chosen].plan.text, "raytrace:depth=4");
+}
+
+/// The noise of the reference counts as error, and the share is lowered for failures that the noise
+/// may hide.
+TEST(ChoosePlan, NoiseOfTheReferenceMakesACertificateStricter) {
+    const app::PlanChoice clean = choose_made_up_plan(), slight = choose_made_up_plan("", 0, {.01}),
+                          strong = choose_made_up_plan("", 0, {.0955});
+    ASSERT_TRUE(clean.chosen && slight.chosen && strong.chosen);
+    const app::PlanProof &without = clean.proofs[*clean.chosen],
+                         &with = slight.proofs[*slight.chosen];
+    EXPECT_FALSE(without.noise);
+    EXPECT_EQ(with.plan.text, without.plan.text);
+    EXPECT_EQ(with.plan.errors.size(), 59u);
+    EXPECT_DOUBLE_EQ(with.plan.largest_error, without.plan.largest_error + .01);
+    EXPECT_DOUBLE_EQ(with.error_bound, without.error_bound + .01);
+    EXPECT_NEAR(without.share_bound, std::pow(.05, 1. / 59), 1e-12);
+    EXPECT_NEAR(with.share_bound, 1 - (1 - without.share_bound) / .999, 1e-12);
+    ASSERT_TRUE(with.noise);
+    EXPECT_DOUBLE_EQ(with.noise->largest_floor, .01);
+    EXPECT_DOUBLE_EQ(with.noise->wanted_floor.value_or(0), .02); // a fifth of the limit
+    EXPECT_EQ(with.noise->views_above, 0u);
+    // With a floor of .0955, plans with a FLIP above .004 exceed the limit of .1.
+    EXPECT_EQ(strong.proofs[*strong.chosen].plan.text, "pyramid");
+    EXPECT_EQ(strong.proofs[*strong.chosen].noise->views_above, 59u);
+}
+
+TEST(ChoosePlan, NoiseAboveTheLimitIsNamedAsTheReason) {
+    const app::PlanChoice choice = choose_made_up_plan("", 0, {.2});
+    EXPECT_FALSE(choice.chosen);
+    EXPECT_THAT(choice.failure,
+                testing::HasSubstr("; errors include the noise floor of the reference: median 0.2, "
+                                   "at most 0.2, wanted 0.02 (12 views above), which more "
+                                   "--reference-seconds lower"));
 }
 
 TEST(ChoosePlan, NoPlanIsChosenIfTheSurestFails) {

@@ -131,6 +131,91 @@ TEST(Halves, IntervalHoldsTheTrueErrorInSeventeenOfTwentyDraws) {
     EXPECT_NEAR(width, wanted, .25 * wanted);
 }
 
+/// Pictures whose errors differ in kind. `truth` is the picture without noise.
+std::vector<std::pair<const char*, Picture>>
+make_pictures_with_errors(const Picture& truth, test::RandomNumbers& numbers) {
+    Picture shifted = truth, lines = make_picture_with_known_error(), clipped = truth;
+    for (vec3& pixel : shifted.pixels) pixel += vec3(.1f, .05f, -.05f);
+    for (vec3& pixel : clipped.pixels) pixel = glm::min(pixel, vec3(.45f));
+    return {{"perfect", truth},
+            {"shifted", shifted},
+            {"lines", lines},
+            {"clipped", clipped},
+            {"noise of few rays", add_noise(truth, .1, numbers)}};
+}
+
+/// The bounds decide whether a view keeps the limit of a certificate. Noise must never make a view
+/// pass that fails without noise. FLIP against one half may be too small, for example if the
+/// picture itself has noise, so the bound adds the noise floor.
+TEST(Halves, BoundsAreNeverBelowTheTrueError) {
+    const Picture truth = make_noise_free_picture();
+    int flip_of_halves_too_small = 0, unbiased_too_small = 0;
+    double widest = 0;
+    for (const double deviation : {.005, .02, .08})
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+            test::RandomNumbers numbers(seed);
+            for (const auto& [kind, picture] : make_pictures_with_errors(truth, numbers)) {
+                SCOPED_TRACE(testing::Message() << kind << " " << deviation << " " << seed);
+                const std::vector<float> map = measure::flip(measure::to_unrounded_display(picture),
+                                                             measure::to_unrounded_display(truth));
+                const measure::Difference wanted = measure::difference(picture, truth, {}, map);
+                const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(
+                    add_noise(truth, deviation, numbers), add_noise(truth, deviation, numbers), 0);
+                const measure::Difference found = measure::compute_difference_from_halves(
+                    picture, halves, {}, measure::compute_flip_against_halves(picture, halves, 0));
+                EXPECT_GE(measure::find_rmse_bound(found), wanted.rmse);
+                EXPECT_GE(measure::find_flip_bound(found), wanted.flip);
+                flip_of_halves_too_small += found.flip < wanted.flip;
+                unbiased_too_small += found.rmse < wanted.rmse;
+                if (deviation < .01)
+                    widest = std::max(widest, measure::find_rmse_bound(found) - wanted.rmse);
+            }
+        }
+    std::cout << "[ MEASURED ] of 60 pictures, FLIP against the halves is too small for "
+              << flip_of_halves_too_small << ", the unbiased rmse for " << unbiased_too_small
+              << "; the bound of rmse is at most " << widest << " too large at noise of .005\n";
+    EXPECT_GT(unbiased_too_small, 10); // an unbiased estimate errs to both sides
+    EXPECT_GT(flip_of_halves_too_small, 3);
+    EXPECT_LT(widest, .003);
+}
+
+/// Clamping at 1 lowers the noise of bright halves, and with it the estimate of an error. The bound
+/// must hold there, too.
+TEST(Halves, BoundHoldsWhereClampingHidesAnError) {
+    Picture truth(kTestPictureEdge, kTestPictureEdge), dark = truth;
+    for (vec3& pixel : truth.pixels) pixel = vec3(1);
+    for (vec3& pixel : dark.pixels) pixel = vec3(.9f);
+    test::RandomNumbers numbers(1);
+    const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(
+        add_noise(truth, .08, numbers), add_noise(truth, .08, numbers), 0);
+    const measure::Difference found = measure::compute_difference_from_halves(
+        dark, halves, {}, std::vector<float>(truth.pixels.size(), 0.f));
+    EXPECT_LT(found.rmse, .08); // the true rmse is .1
+    EXPECT_GE(measure::find_rmse_bound(found), .1);
+}
+
+TEST(Halves, BoundOfFewPixelsIsWideAndBoundWithoutNoiseIsTheError) {
+    const Picture truth = make_noise_free_picture(), wrong = make_picture_with_known_error();
+    const auto bound = [&](const measure::Mask& mask, double deviation) {
+        test::RandomNumbers numbers(3);
+        const measure::NoisyReferenceHalves halves = measure::make_noisy_reference_halves(
+            add_noise(truth, deviation, numbers), add_noise(truth, deviation, numbers), 0);
+        return measure::find_rmse_bound(measure::compute_difference_from_halves(
+            wrong, halves, mask, std::vector<float>(truth.pixels.size(), 0.f)));
+    };
+    measure::Mask few(truth.pixels.size(), 0);
+    for (std::size_t i = 0; i < 8; ++i) few[i * 1000] = 255;
+    EXPECT_GT(bound(few, .02), 1.15 * .05);
+    EXPECT_LT(bound({}, .02), 1.05 * .05);
+    EXPECT_NEAR(bound({}, 0), .05, 1e-6);
+    measure::Difference plain;
+    plain.rmse = .1, plain.flip = .2;
+    EXPECT_EQ(measure::find_rmse_bound(plain), .1);
+    EXPECT_EQ(measure::find_flip_bound(plain), .2);
+    plain.rmse = -.1, plain.square_margin = .0109; // below the noise: -.01 + .0109
+    EXPECT_NEAR(measure::find_rmse_bound(plain), .03, 1e-9);
+}
+
 TEST(Halves, IntervalIsUnknownForFewTiles) {
     const Picture picture = make_noise_free_picture();
     measure::Mask mask(picture.pixels.size(), 0);
