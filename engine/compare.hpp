@@ -106,7 +106,7 @@ struct AuditState {
     std::size_t frames = 0, failures = 0; ///< audited frames: all, and those above the limit
     double assured_share = 0;    ///< share of frames that keep the limit, with the confidence
     double time_share = 0;       ///< time of all audits over the time of all frames
-    std::optional<double> error; ///< of this frame, if it was audited and shows a mirror
+    std::optional<double> error; ///< of this frame, if audited; with noise an upper bound
     bool is_alarm = false;       ///< at this frame it is first certain that too many frames fail
     bool has_new_plan = false;   ///< PlanAudit::plan has changed to a plan with less error
     std::string message;         ///< about the alarm or the change, for the user; empty: neither
@@ -125,11 +125,12 @@ public:
     /// Returns the plan to render, for FrameSpec::techniques.
     CATOPTRIC_API const std::string& plan() const;
     /// Renders two references, so that shaders are compiled and the time of an audit is known. The
-    /// first frame of the plan does so otherwise. Throws `usage` if a surface is rough.
+    /// first frame of the plan does so otherwise. Throws `usage` if a surface is rough and the
+    /// certificate's reference has no rays for it.
     CATOPTRIC_API void prepare(Session& session, const FrameSpec& spec);
     /// Counts a frame of the session, and audits it if it was drawn. Call it after each frame and
     /// before the next. `seconds`: a time that never falls. Frames of other plans, with the picture
-    /// of the frame before, with a rough surface, or too early in a plan are not counted.
+    /// of the frame before, and the first 8 frames of a plan are not counted.
     CATOPTRIC_API AuditState watch_frame(Session& session, const Frame& frame,
                                          const FrameSpec& spec, double seconds);
     /// Counts no frame until captures can be complete, after a cut or in a new session.

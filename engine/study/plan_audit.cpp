@@ -5,16 +5,20 @@
 #include "core/text.hpp"
 #include "measure/display.hpp"
 #include "measure/flip.hpp"
+#include "measure/halves.hpp"
 #include "measure/masks.hpp"
+#include "measure/picture_mean.hpp"
 #include "scene/rough_reflectors.hpp"
 #include "session/access.hpp"
 #include "session/plan_file.hpp"
+#include "study/reference_cache.hpp"
 #include "study/reference_seeds.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <set>
 
 namespace catoptric::app {
 
@@ -24,6 +28,9 @@ using AuditJson = nlohmann::json;
 
 // Frames until captures and mirrors in mirrors are complete.
 constexpr int kUncountedFramesOfPlan = 8;
+// Frames of each half of a reference with noise, which limit the time of an audit.
+constexpr int kMostFramesOfHalf = 8;
+constexpr int kLargestLobeSeed = 999'999'999;
 
 /// Returns a member that must be a number from `low` to `high`.
 double read_number_member(const AuditJson& object, const char* member, double low, double high,
@@ -68,8 +75,6 @@ const PlanAuditRequest& check_plan_audit_request(const PlanAuditRequest& request
     check(!request.plans.empty(), Failure::usage, "audit: plans: wanted at least 1, found none");
     check(request.max_error >= 0 && request.max_error <= 1, Failure::usage,
           "audit: limit of error: wanted a number from 0 to 1, found ", request.max_error);
-    check(!draws_rays_from_lobes(request.reference), Failure::usage,
-          "audit: reference: wanted a technique without noise, found ", request.reference);
     return request;
 }
 
@@ -169,12 +174,51 @@ measure::Picture sample_picture(const measure::Picture& picture, const SampledVi
 
 RunningPlanAudit::RunningPlanAudit(PlanAuditRequest request)
     : request_(std::move(request)), audit_(check_plan_audit_request(request_).tested),
-      schedule_(request_.pace), ladder_(request_.plans.size()) {}
+      alarm_(request_.tested), schedule_(request_.pace), ladder_(request_.plans.size()) {}
+
+/// Returns whether the reference shows all surfaces of the scene as they are.
+bool RunningPlanAudit::can_reference_show(const scene::Scene& scene) const {
+    return draws_rays_from_lobes(request_.reference) || !scene::has_rough_reflector(scene);
+}
+
+/// Ray traces two halves of a reference with noise, and returns the difference over the mirrors.
+/// Adds frames to both halves until their noise floor is a fifth of the limit of error, or until
+/// each half has kMostFramesOfHalf frames. No frame of an audit has the seed of another, or of the
+/// audited plan.
+measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
+                                                          const measure::Picture& samples,
+                                                          const FrameSpec& traced) {
+    const std::set<int> taken = list_row_seeds({plan()});
+    FrameSpec spec = traced;
+    measure::PictureMean a, b;
+    measure::Mask mirrors;
+    measure::NoisyReferenceHalves halves;
+    double floor = INFINITY;
+    while (a.picture_count() < kMostFramesOfHalf &&
+           floor > kNoiseShareOfLimit * request_.max_error) {
+        for (measure::PictureMean* half : {&a, &b}) {
+            do {
+                lobe_seed_ = lobe_seed_ % kLargestLobeSeed + 1;
+            } while (taken.contains(lobe_seed_));
+            spec.techniques = {set_lobe_seed(request_.reference, lobe_seed_)};
+            const TechniqueResult truth = session.frame(spec).read();
+            half->add_picture(truth.hdr);
+            if (mirrors.empty()) mirrors = measure::mask_mirror_pixels(truth.hits);
+        }
+        halves = measure::make_noisy_reference_halves(a.mean(), b.mean(), spec.exposure);
+        floor = request_.quantity == ErrorQuantity::flip
+                    ? measure::flip_mean(halves.floor_map, mirrors)
+                    : measure::difference(halves.a, halves.b, mirrors, halves.floor_map).rmse;
+    }
+    return measure::compute_difference_from_halves(
+        measure::apply_exposure(samples, spec.exposure), halves, mirrors,
+        measure::compute_flip_against_halves(samples, halves, spec.exposure));
+}
 
 /// Ray traces the samples of a frame and returns the difference over the mirrors.
 measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session,
-                                                         const measure::Picture& running,
-                                                         const FrameSpec& spec) const {
+                                                                const measure::Picture& running,
+                                                                const FrameSpec& spec) {
     const SampledView view = choose_sampled_view(spec.camera, spec.size, kMostSamples);
     FrameSpec traced = spec;
     traced.techniques = {request_.reference};
@@ -182,9 +226,14 @@ measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session
     traced.most_captures = 0, traced.budget_ms = 0;
     FrameSequence sequence = Access::suspend_sequence(session); // keeps choices of the first frame,
                                                                 // such as those of `auto`
+    const measure::Picture samples = sample_picture(running, view);
+    if (does_reference_have_noise(request_.reference, session.scene())) {
+        const measure::Difference difference = compare_with_halves(session, samples, traced);
+        Access::resume_frame_sequence(session, std::move(sequence));
+        return difference;
+    }
     const TechniqueResult truth = session.frame(traced).read();
     Access::resume_frame_sequence(session, std::move(sequence));
-    const measure::Picture samples = sample_picture(running, view);
     std::vector<float> map(samples.pixels.size(), 0.0f); // only FLIP needs the map
     if (request_.quantity == ErrorQuantity::flip)
         map = measure::flip(measure::to_unrounded_display(samples, spec.exposure),
@@ -195,10 +244,9 @@ measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session
 }
 
 void RunningPlanAudit::prepare(Session& session, const FrameSpec& spec) {
-    check(!scene::has_rough_reflector(session.scene()), Failure::usage,
-          "audit: wanted a scene without rough surfaces, because their reference has noise, found "
-          "a rough surface in '",
-          session.scene().name, "'");
+    check(can_reference_show(session.scene()), Failure::usage,
+          "audit: reference: wanted one with rays=N, because surfaces of '", session.scene().name,
+          "' are rough, found ", request_.reference);
     const measure::Picture black(static_cast<int>(spec.size.x), static_cast<int>(spec.size.y));
     compare_with_traced_frame(session, black, spec);
     const Clock::time_point begin = Clock::now();
@@ -228,13 +276,15 @@ bool RunningPlanAudit::shows_new_picture(const Session& session, const FrameSpec
 }
 
 void RunningPlanAudit::audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
-                            AuditState& state) {
+                                   AuditState& state) {
     const measure::Difference difference = compare_with_traced_frame(session, frame.hdr(), spec);
     if (difference.pixels == 0) return; // frames that show no mirror do not count
     state.error = mirror_error_of_view(request_.quantity, difference);
     audit_.count_frame(*state.error <= request_.max_error);
-    state.is_alarm = audit_.is_alarmed() && !was_alarmed_;
-    was_alarmed_ = audit_.is_alarmed();
+    const double least = lower_mirror_error_of_view(request_.quantity, difference);
+    alarm_.count_frame(least <= request_.max_error);
+    state.is_alarm = is_alarmed() && !was_alarmed_;
+    was_alarmed_ = is_alarmed();
     assured_share_ = audit_.assured_share();
 }
 
@@ -243,12 +293,12 @@ void RunningPlanAudit::step_to_plan_with_less_error(double seconds, AuditState& 
     state.has_new_plan = ladder_.step_to_plan_with_less_error(seconds);
     if (state.is_alarm)
         state.message = fmt::format("audit: {} of {} frames break {} <= {:g}",
-                                      audit_.failure_count(), audit_.frame_count(),
-                                      error_quantity_name(request_.quantity), request_.max_error);
+                                    alarm_.failure_count(), alarm_.frame_count(),
+                                    error_quantity_name(request_.quantity), request_.max_error);
     if (state.has_new_plan) {
         state.message += (state.is_alarm ? "; " : "audit: ") +
-                           fmt::format("the plan is now {}", plan());
-        audit_ = measure::Audit(request_.tested);
+                         fmt::format("the plan is now {}", plan());
+        audit_ = alarm_ = measure::Audit(request_.tested);
         was_alarmed_ = false, frames_of_plan_ = 0, assured_share_ = 0;
     } else if (state.is_alarm && ladder_.place() == 0) {
         state.message += "; no surer plan is proved";
@@ -259,18 +309,21 @@ AuditState RunningPlanAudit::watch_frame(Session& session, const Frame& frame,
                                          const FrameSpec& spec, double seconds) {
     AuditState state;
     const bool is_of_plan = shows_audited_plan(spec);
-    if (is_of_plan && !is_prepared_) prepare(session, spec);
+    if (is_of_plan && !is_prepared_) {
+        if (request_.before_audit) request_.before_audit();
+        prepare(session, spec);
+    }
     const Clock::time_point begin = Clock::now();
     if (Access::session_counters(session).updates != updates_) // an edit may change a surface
-        is_rough_ = scene::has_rough_reflector(session.scene());
-    const bool is_counted = shows_new_picture(session, spec) && is_of_plan && !is_rough_ &&
+        is_paused_ = !can_reference_show(session.scene());
+    const bool is_counted = shows_new_picture(session, spec) && is_of_plan && !is_paused_ &&
                             ++frames_of_plan_ > kUncountedFramesOfPlan;
     if (is_counted && schedule_.count_frame(milliseconds_between(ended_, begin))) {
         if (request_.before_audit) request_.before_audit();
         audit_frame(session, frame, spec, state);
         schedule_.add_audit_time(milliseconds_between(begin, Clock::now()));
     }
-    if (is_of_plan && audit_.is_alarmed()) step_to_plan_with_less_error(seconds, state);
+    if (is_of_plan && is_alarmed()) step_to_plan_with_less_error(seconds, state);
     updates_ = Access::session_counters(session).updates;
     ended_ = Clock::now();
     state.plan = ladder_.place();
@@ -289,10 +342,10 @@ std::string RunningPlanAudit::describe() const {
     return fmt::format("audit: {} of {} frames keep {} <= {:g}; assured share {:.3f}; {:.1f} % of "
                        "the frames' time{}{}",
                        frames - audit_.failure_count(), frames,
-                       error_quantity_name(request_.quantity), request_.max_error,
-                       assured_share_, 100 * share_of_audit_time(),
-                       audit_.is_alarmed() ? "; alarm: too many frames fail" : "",
-                       is_rough_ ? "; paused, because a surface is rough" : "");
+                       error_quantity_name(request_.quantity), request_.max_error, assured_share_,
+                       100 * share_of_audit_time(),
+                       is_alarmed() ? "; alarm: too many frames fail" : "",
+                       is_paused_ ? "; paused, because a surface is rough" : "");
 }
 
 } // namespace catoptric::app

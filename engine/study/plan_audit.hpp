@@ -21,11 +21,11 @@ struct PlanAuditRequest {
     std::vector<std::string> plans;
     ErrorQuantity quantity = ErrorQuantity::flip;
     double max_error = 0;                        ///< limit of mirror_error_of_view in a frame, 0..1
-    std::string reference = "raytrace:depth=16"; ///< a technique that traces without noise
+    std::string reference = "raytrace:depth=16"; ///< with rays=N if surfaces are rough
     std::string scene_hash; ///< hash of the scene that the plans were proved for; empty: not known
     measure::AuditedShare tested;
     measure::AuditPace pace;
-    /// Called before a frame is audited, while results of the frames before it can still be read.
+    /// Called before watch_frame traces, while results of the frames before can still be read.
     /// May be empty.
     std::function<void()> before_audit;
 };
@@ -60,29 +60,35 @@ public:
     /// Samples of a frame; a larger picture is sampled in steps of 3, 5, ... pixels.
     static constexpr std::size_t kMostSamples = 40'000;
 
-    /// Throws `usage` for an empty list of plans, numbers out of range, and a reference with noise.
+    /// Throws `usage` for an empty list of plans, and for numbers out of range.
     explicit RunningPlanAudit(PlanAuditRequest request);
 
     const PlanAuditRequest& request() const { return request_; }
     /// Returns the plan to render, for FrameSpec::techniques.
     const std::string& plan() const { return request_.plans[ladder_.place()]; }
     /// Renders two references, so that shaders are compiled and the time of an audit is known.
-    /// Throws `usage` if surfaces of the scene are rough, because their reference has noise.
+    /// Throws `usage` if surfaces of the scene are rough and the reference draws no rays from their
+    /// lobes.
     void prepare(Session& session, const FrameSpec& spec);
     /// Counts a frame, and audits it if it is the randomly drawn frame of its block. Call it after
     /// each frame and before the next. `spec` is the frame's specification, and `seconds` a time
-    /// that never falls. Frames are not counted if `spec` does not begin with the plan, if they show
-    /// the same camera, instant and scene as the frame before, if a surface is rough, or within 8
-    /// frames after a change of plan. Results of the session's earlier frames cannot be read after
-    /// a frame was audited. Throws as prepare and Session::frame do.
+    /// that never falls. Frames are not counted if `spec` does not begin with the plan, if they
+    /// show the same camera, instant and scene as the frame before, if a surface is rough and the
+    /// reference has no rays for it, or within 8 frames after a change of plan. Results of the
+    /// session's earlier frames cannot be read after a frame was audited. Throws as prepare and
+    /// Session::frame do.
     AuditState watch_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                            double seconds);
 
     /// After a cut and for a new session, counts no frame until captures can be complete again.
     void wait_until_settled() { frames_of_plan_ = 0; }
 
-    /// Returns the audit of the present plan since this plan began to run.
+    /// Returns the audit of the present plan since this plan began to run. Against a reference with
+    /// noise, a frame passes only if the noise cannot hide a failure.
     const measure::Audit& audit() const { return audit_; }
+    /// Returns whether it is certain that too many frames of the present plan fail. Against a
+    /// reference with noise, only frames count that fail whatever the noise is.
+    bool is_alarmed() const { return alarm_.is_alarmed(); }
     const measure::AuditSchedule& schedule() const { return schedule_; }
     /// Returns a line such as "audit: 37 of 37 frames keep flip <= 0.05; assured share 0.885; 4.1 %
     /// of the frames' time".
@@ -93,20 +99,25 @@ private:
 
     bool shows_audited_plan(const FrameSpec& spec);
     bool shows_new_picture(const Session& session, const FrameSpec& spec);
+    bool can_reference_show(const scene::Scene& scene) const;
     measure::Difference compare_with_traced_frame(Session& session, const measure::Picture& running,
-                                                  const FrameSpec& spec) const;
+                                                  const FrameSpec& spec);
+    measure::Difference compare_with_halves(Session& session, const measure::Picture& samples,
+                                            const FrameSpec& traced);
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,
                      AuditState& state);
     void step_to_plan_with_less_error(double seconds, AuditState& state);
     double share_of_audit_time() const;
 
     PlanAuditRequest request_;
-    measure::Audit audit_;
+    measure::Audit audit_; ///< counts frames as passed if their error is surely within the limit
+    measure::Audit alarm_; ///< counts frames as failed if their error is surely above the limit
+    int lobe_seed_ = 0;    ///< seed of the last frame of a reference with noise
     measure::AuditSchedule schedule_;
     measure::PlanLadder ladder_;
     bool is_prepared_ = false, was_alarmed_ = false;
-    bool is_rough_ = false;  ///< whether the scene has a rough surface, whose reference has noise
-    int frames_of_plan_ = 0; ///< frames counted since the plan began
+    bool is_paused_ = false;   ///< whether a surface is rough that the reference cannot show
+    int frames_of_plan_ = 0;   ///< frames counted since the plan began
     double assured_share_ = 0; ///< measure::Audit::assured_share after the last audited frame
     std::optional<FrameSpec> watched_; ///< specification of the last frame
     /// Plan of a frame, the audited plan, and whether they are the same plan in two spellings.
@@ -115,8 +126,8 @@ private:
         bool are_same = false;
     };
     ComparedPlans compared_plans_;
-    std::uint64_t updates_ = 0;        ///< updates of the session's scene data after the last frame
-    Clock::time_point ended_;          ///< end of the last call
+    std::uint64_t updates_ = 0; ///< updates of the session's scene data after the last frame
+    Clock::time_point ended_;   ///< end of the last call
 };
 
 } // namespace catoptric::app

@@ -107,7 +107,7 @@ TEST_F(ViewAuditTest, InvalidPlansAreRefused) {
     refused_file(plan, "proofs[0].technique: wanted text, found number");
     Words rough = make_audit_command_words(1, "1");
     rough.front() = "cornell-rough";
-    expect_view_refused(rough, Failure::usage, "audit: wanted a scene without rough surfaces");
+    expect_view_refused(rough, Failure::usage, "audit: reference: wanted one with rays=N");
 }
 
 } // namespace
