@@ -1,6 +1,7 @@
 // Writes the data of the comparer in report.html: the list of rows in the page, and the linear
 // values of pictures in files beside the page.
 #include "measure/masks.hpp"
+#include "report/chart.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/tables.hpp"
@@ -95,12 +96,8 @@ std::string make_html_comparer(const Comparison& comparison) {
                     {"causes", make_cause_colours_json(comparison)},
                     {"mirrors_file", report_image_path(comparison, "mirrors.js")},
                     {"pictures", pictures}};
-    // The character "<" is escaped, because a label with "</script>" would end the script element.
-    std::string text;
-    for (const char c : data.dump(-1, ' ', true, Json::error_handler_t::replace))
-        text += c == '<' ? "\\u003c" : std::string(1, c);
-    return "<section class=\"comparer\" aria-label=\"Comparer\"><script type=\"application/json\">" +
-           text + "</script></section>";
+    return "<section class=\"comparer\" aria-label=\"Comparer\">" + make_html_data_script(data) +
+           "</section>";
 }
 
 std::string make_picture_values_script(const measure::Picture& picture, const std::string& file) {

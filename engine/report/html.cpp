@@ -3,7 +3,7 @@
 #include "measure/budget.hpp"
 #include "measure/heat.hpp"
 #include "measure/judge.hpp"
-#include "report/plot.hpp"
+#include "report/chart.hpp"
 #include "report/report_part.hpp"
 #include "report/tables.hpp"
 #include "report/text.hpp"
@@ -253,16 +253,13 @@ std::string make_html_report_part(const Comparison& comparison, const EncodedPic
 }
 
 std::string make_html_comparison_plot(const Comparison& comparison) {
-    std::string html;
-    if (const std::string drawing = make_comparison_plot(comparison); !drawing.empty())
-        html =
-            "<figure class=\"plot\"><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-            "aria-label=\"Plot\">" +
-            drawing +
-            "</div><figcaption>Lower left is better. Filled: on the Pareto front (dashed). "
-            "Squares: ray traced. Bars: 95 % intervals of times; which rows tie, the places in the "
-            "tables say. The lane below is error 0.</figcaption></figure>";
-    return html;
+    const std::string chart = make_html_rows_chart(comparison);
+    if (chart.empty()) return "";
+    return "<figure class=\"plot\">" + chart +
+           "<figcaption>Lower left is better. Filled: on the Pareto front of time and FLIP "
+           "(dashed). Squares: ray traced. Bars: 95 % intervals; which rows tie, the places say. "
+           "The lane below is error 0. A click on a mark, or arrow keys and Enter, show the row in "
+           "the comparer.</figcaption></figure>";
 }
 
 std::string make_html_pareto_front(const Comparison& comparison,
@@ -319,11 +316,16 @@ std::string make_html_figure(int width, int height, const std::string& png, cons
 }
 
 std::string make_html_page(const std::string& title, const std::string& content) {
+    const bool has_chart = content.find(kChartOpening) != std::string::npos;
+    const std::string charts = has_chart ? std::string("<script>") + kChartLibrary +
+                                               "</script>\n<script>" + kChartScript + "</script>"
+                                         : std::string();
     return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
            "<title>Reflections compared: " +
-           escape_html(title) + "</title><style>" + kStyleSheet + "</style></head>\n<body>" +
-           content + "\n<script>" + kPageScript + "</script></body></html>\n";
+           escape_html(title) + "</title><style>" + kStyleSheet +
+           (has_chart ? kChartStyleSheet : "") + "</style></head>\n<body>" + content +
+           "\n<script>" + kPageScript + "</script>" + charts + "</body></html>\n";
 }
 
 std::string make_html_section(const Comparison& comparison, const EncodedPictures& encoded) {

@@ -28,6 +28,13 @@ std::string make_html_titled_section(const std::string& title, const std::string
 /// CSS style sheet and script of report.html and stress.html, from report/page/.
 extern const char* const kStyleSheet;
 extern const char* const kPageScript;
+/// The library uPlot with its licence and style sheet, and the script that draws charts by it.
+/// Pages without a chart do not contain them.
+extern const char* const kChartStyleSheet;
+extern const char* const kChartLibrary;
+extern const char* const kChartScript;
+/// Begin of the element of each chart (report/chart.hpp).
+inline constexpr std::string_view kChartOpening = "<div class=\"chart\">";
 
 /// Returns the anchor in the page at which the pictures of a row stand. The ids of its pictures are
 /// the anchor with "-picture" and "-error".

@@ -1,5 +1,6 @@
 // Writes the lag of rows with history into reports, as JSON, tables, sentences and plots.
 #include "measure/lag.hpp"
+#include "report/chart.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/plot.hpp"
@@ -142,48 +143,48 @@ std::string describe_settling_after_cut(const LagRow& row, int cap) {
 }
 
 std::string make_html_lag_along_path(const LagResults& lag, const LagRow& row) {
-    LinePlot plot{.x_name = "instant of the scene, s",
-                  .y_name = "FLIP to the still picture",
-                  .says = "Lag of " + row.label + " along the path, one line a speed",
-                  .x = lag.seconds};
+    LineChart chart{.x_name = "instant of the scene, s",
+                    .y_name = "FLIP to the still picture",
+                    .says = "Lag of " + row.label + " along the path, one line a speed",
+                    .x = lag.seconds};
     for (const double share : {0.0, 0.25, 0.5, 0.75})
-        plot.x_ticks.push_back(lag.seconds.front() + share * lag.path);
-    std::erase_if(plot.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
+        chart.x_ticks.push_back(lag.seconds.front() + share * lag.path);
+    std::erase_if(chart.x_ticks, [&](double tick) { return tick > lag.seconds.back(); });
     for (const LagAtSpeed& at : row.speeds)
-        plot.lines.push_back(
+        chart.lines.push_back(
             {format_motion_speed(at.speed),
              measure::list_error_metric_at_instants(at.errors, kFlipMemberOfDifference)});
-    return make_line_plot(plot);
+    return make_html_line_chart(chart);
 }
 
 std::string make_html_lag_against_speed(const LagResults& lag) {
-    LinePlot plot{.x_name = "speed of the scene's time",
-                  .y_name = "FLIP to the still picture, mean",
-                  .says = "Mean lag against speed, one line a row",
-                  .log_x = true};
-    for (const LagAtSpeed& at : lag.rows.front().speeds) plot.x.push_back(at.speed);
-    plot.x_ticks = plot.x;
+    LineChart chart{.x_name = "speed of the scene's time",
+                    .y_name = "FLIP to the still picture, mean",
+                    .says = "Mean lag against speed, one line a row",
+                    .log_x = true};
+    for (const LagAtSpeed& at : lag.rows.front().speeds) chart.x.push_back(at.speed);
+    chart.x_ticks = chart.x;
     for (const LagRow& row : lag.rows) {
-        PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, {}});
+        ChartLine& line = chart.lines.emplace_back(ChartLine{row.label, {}});
         for (const LagAtSpeed& at : row.speeds)
             line.y.push_back(measure::mean_error_over_instants(at.errors, kFlipMemberOfDifference));
     }
-    return make_line_plot(plot);
+    return make_html_line_chart(chart);
 }
 
 std::string make_html_settling_curves(const LagResults& lag) {
     constexpr std::size_t kMaxShownFrames = 10; // number of frames shown
-    LinePlot plot{.x_name = "frame after a jump of half the path",
-                  .y_name = "rmse to the still picture",
-                  .says = "Error of the frames after a jump, one line a row"};
+    LineChart chart{.x_name = "frame after a jump of half the path",
+                    .y_name = "rmse to the still picture",
+                    .says = "Error of the frames after a jump, one line a row"};
     for (const LagRow& row : lag.rows) {
-        PlotLine& line = plot.lines.emplace_back(PlotLine{row.label, row.after_jump.rmse});
+        ChartLine& line = chart.lines.emplace_back(ChartLine{row.label, row.after_jump.rmse});
         line.y.resize(std::min(kMaxShownFrames, line.y.size()));
-        for (std::size_t i = plot.x.size(); i < line.y.size(); ++i)
-            plot.x.push_back(static_cast<double>(i + 1));
+        for (std::size_t i = chart.x.size(); i < line.y.size(); ++i)
+            chart.x.push_back(static_cast<double>(i + 1));
     }
-    plot.x_ticks = plot.x;
-    return make_line_plot(plot);
+    chart.x_ticks = chart.x;
+    return make_html_line_chart(chart);
 }
 
 std::string make_html_lag_figure(const std::string& drawing, const std::string& caption) {

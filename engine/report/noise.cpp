@@ -2,6 +2,7 @@
 #include "measure/halves.hpp"
 #include "measure/metric.hpp"
 #include "report/report_part.hpp"
+#include "report/tables.hpp"
 #include "report/text.hpp"
 
 #include <fmt/format.h>
@@ -82,5 +83,17 @@ const RegisteredReportPart kNoiseReportPart{
      .look = "noise"}};
 
 } // namespace
+
+measure::Interval find_rmse_interval(const Row& row) {
+    const measure::MetricValue value = measure::find_row_metric_of_study(row,
+                                                                         measure::kNoiseMetricName);
+    const measure::NamedMetricValueParts* noise = find_mirror_noise(value);
+    if (noise == nullptr) return {};
+    for (const auto& [what, part] : noise->values)
+        if (const auto* ends = std::get_if<std::vector<double>>(&part); what == "ci95" && ends)
+            return {measure::square_root_keeping_sign(ends->front()),
+                    measure::square_root_keeping_sign(ends->back())};
+    return {};
+}
 
 } // namespace catoptric::report

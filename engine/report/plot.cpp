@@ -105,58 +105,6 @@ std::string ChartFrame::axes(const std::vector<AxisTick>& x_ticks,
 }
 
 // width, height, left, right, top, lane, bottom, tick_gap, y_name_at
-constexpr ChartFrame kLinePlotFrame{500, 300, 66, 340, 12, 226, 250, 6, 12};
-constexpr std::size_t kMaxAxisTicks = 8;
-
-double data_to_plot_x(const LinePlot& plot, double x) {
-    const auto along = [&](double value) { return plot.log_x ? std::log10(value) : value; };
-    const double first = along(plot.x.front()), last = along(plot.x.back());
-    return last > first ? kLinePlotFrame.left + (along(x) - first) / (last - first) *
-                                                    (kLinePlotFrame.right - kLinePlotFrame.left)
-                        : kLinePlotFrame.left;
-}
-
-double data_to_plot_y(const LogarithmicAxisScale& scale, double y) {
-    return y > 0 ? scale(y) : kLinePlotFrame.plot_y_of_zero_value_lane();
-}
-
-std::vector<double> list_y_ticks(const LogarithmicAxisScale& scale) {
-    std::vector<double> values = list_axis_tick_values(scale);
-    if (values.size() > kMaxAxisTicks) // too many ticks: keep only powers of ten
-        std::erase_if(values, [](double value) {
-            const double place = std::log10(value);
-            return std::abs(place - std::round(place)) > 0.01;
-        });
-    return values;
-}
-
-std::string make_svg_path_of_line(const LinePlot& plot, const PlotLine& line,
-                                  const LogarithmicAxisScale& y, double opacity) {
-    std::string path;
-    for (std::size_t i = 0; i < line.y.size(); ++i)
-        if (std::isfinite(line.y[i]))
-            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
-                                data_to_plot_x(plot, plot.x[i]), data_to_plot_y(y, line.y[i]));
-    return fmt::format(R"(<path class="line" style="opacity:{:.2f}" d="{}"/>)", opacity, path);
-}
-
-/// Returns the names at the right ends of the lines. A name moves up if it would overlap another.
-std::string make_svg_line_names(const LinePlot& plot, const LogarithmicAxisScale& y) {
-    std::vector<std::pair<double, std::string>> places;
-    for (const PlotLine& line : plot.lines)
-        if (!line.y.empty() && std::isfinite(line.y.back()))
-            places.emplace_back(data_to_plot_y(y, line.y.back()), line.name);
-    std::ranges::stable_sort(places, std::greater(), &std::pair<double, std::string>::first);
-    std::string drawn;
-    double free = kLinePlotFrame.bottom + kTextLineHeight;
-    for (const auto& [place, name] : places) {
-        free = std::min(place, free - kTextLineHeight);
-        drawn += make_svg_text(kLinePlotFrame.right + 6, free + 4, "start", escape_html(name));
-    }
-    return drawn;
-}
-
-// width, height, left, right, top, lane, bottom, tick_gap, y_name_at
 constexpr ChartFrame kComparisonPlotFrame{860, 470, 64, 836, 16, 380, 424, 8, 14};
 
 struct RowPlotPoint {
@@ -164,7 +112,6 @@ struct RowPlotPoint {
     double low, high; ///< ends of the time's interval, clamped to the axes
     const Row* row;
     bool front;
-    std::size_t picture; ///< number of the row's picture in the comparer
 };
 
 struct PlotLabelRectangle {
@@ -175,7 +122,7 @@ struct PlotLabelRectangle {
 };
 
 bool has_time_and_flip_to_plot(const Row& row) {
-    return row.time_ms().median > 0 && std::isfinite(row.error.flip);
+    return has_time_to_plot(row) && std::isfinite(row.error.flip);
 }
 
 /// Returns the front as a staircase: the least error for each time.
@@ -192,24 +139,21 @@ std::string make_svg_front_staircase(std::vector<RowPlotPoint> points) {
            "\"/>";
 }
 
-/// Returns a line through all rows that differ only in the value of one knob, in the order of the
-/// values. There is no line for fewer than three rows.
-std::string make_svg_knob_curves(const std::vector<RowPlotPoint>& points) {
-    std::map<std::string, std::map<double, const RowPlotPoint*>> curves; // by all but the knob
-    for (const RowPlotPoint& point : points)
-        for (const Setting& varied : point.row->settings) {
-            if (!varied.number) continue;
-            std::string others = point.row->technique + ' ' + point.row->model + ' ' + varied.name;
-            for (const Setting& setting : point.row->settings)
-                if (setting.name != varied.name) others += ' ' + setting.name + '=' + setting.text;
-            curves[others].emplace(*varied.number, &point);
-        }
+/// Returns a line through all rows that differ only in the value of one knob.
+std::string make_svg_knob_curves(const Comparison& comparison,
+                                 const std::vector<RowPlotPoint>& points) {
+    std::map<std::size_t, const RowPlotPoint*> places;
+    std::vector<std::size_t> rows;
+    for (const RowPlotPoint& point : points) {
+        rows.push_back(static_cast<std::size_t>(point.row - comparison.rows.data()));
+        places[rows.back()] = &point;
+    }
     std::string svg;
-    for (const auto& [others, curve] : curves) {
-        if (curve.size() < 3) continue;
+    for (const std::vector<std::size_t>& curve : list_knob_curves(comparison, rows)) {
         std::string path;
-        for (const auto& [value, point] : curve)
-            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", point->x, point->y);
+        for (const std::size_t row : curve)
+            path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", places[row]->x,
+                                places[row]->y);
         svg += R"(<path class="curve" d=")" + path + "\"/>";
     }
     return svg;
@@ -227,17 +171,15 @@ std::string make_svg_time_interval(const RowPlotPoint& point) {
 std::string make_svg_row_mark(const RowPlotPoint& point) {
     std::string kind = point.front ? "mark front" : "mark";
     if (measure::is_below_noise(point.row->error)) kind += " hidden";
-    const std::string choice = fmt::format(R"(data-picture="{}" tabindex="0" role="button")",
-                                           point.picture);
     const std::string title = fmt::format(
         "<title>{}: {} ms, FLIP {}</title>", escape_html(point.row->label),
         format_ms(point.row->time_ms().median), format_flip(point.row->error));
     if (measure::is_ray_traced_row(*point.row))
         return fmt::format(
-            R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9" {}>{}</rect>)", kind,
-            point.x - 4.5, point.y - 4.5, choice, title);
-    return fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5" {}>{}</circle>)", kind,
-                       point.x, point.y, choice, title);
+            R"(<rect class="{}" x="{:.1f}" y="{:.1f}" width="9" height="9">{}</rect>)", kind,
+            point.x - 4.5, point.y - 4.5, title);
+    return fmt::format(R"(<circle class="{}" cx="{:.1f}" cy="{:.1f}" r="5">{}</circle>)", kind,
+                       point.x, point.y, title);
 }
 
 /// Returns the first of several places around the point where the label overlaps no earlier label,
@@ -289,29 +231,34 @@ std::string make_svg_labels(const std::vector<RowPlotPoint>& points) {
 
 } // namespace
 
-std::string make_line_plot(const LinePlot& plot) {
-    std::vector<double> positive;
-    bool any = false;
-    for (const PlotLine& line : plot.lines)
-        for (const double y : line.y) {
-            any |= std::isfinite(y);
-            if (std::isfinite(y) && y > 0) positive.push_back(y);
+bool has_time_to_plot(const Row& row) { return row.time_ms().median > 0; }
+
+std::string make_time_axis_name(const Comparison& comparison) {
+    return !comparison.rows.empty() && comparison.rows.front().moves
+               ? "Time of a frame, host and GPU, median, ms"
+               : "GPU time of a frame, median, ms";
+}
+
+std::vector<std::vector<std::size_t>> list_knob_curves(const Comparison& comparison,
+                                                       const std::vector<std::size_t>& rows) {
+    std::map<std::string, std::map<double, std::size_t>> curves; // by all but the knob
+    for (const std::size_t index : rows) {
+        const Row& row = comparison.rows[index];
+        for (const Setting& varied : row.settings) {
+            if (!varied.number) continue;
+            std::string others = row.technique + ' ' + row.model + ' ' + varied.name;
+            for (const Setting& setting : row.settings)
+                if (setting.name != varied.name) others += ' ' + setting.name + '=' + setting.text;
+            curves[others].emplace(*varied.number, index);
         }
-    if (!any) return "";
-    const LogarithmicAxisScale y = make_log_scale(positive, kLinePlotFrame.lane - 6,
-                                                  kLinePlotFrame.top);
-    std::string drawn = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)",
-                                    kLinePlotFrame.width, kLinePlotFrame.height,
-                                    escape_html(plot.says));
-    std::vector<AxisTick> x_ticks;
-    for (const double value : plot.x_ticks) x_ticks.push_back({value, data_to_plot_x(plot, value)});
-    drawn += kLinePlotFrame.axes(x_ticks, make_axis_ticks(y, list_y_ticks(y)), plot.x_name,
-                                 plot.y_name);
-    const double count = static_cast<double>(plot.lines.size());
-    for (std::size_t k = 0; k < plot.lines.size(); ++k)
-        drawn += make_svg_path_of_line(plot, plot.lines[k], y,
-                                       0.3 + 0.7 * static_cast<double>(k + 1) / count);
-    return drawn + make_svg_line_names(plot, y) + "</svg>";
+    }
+    std::vector<std::vector<std::size_t>> list;
+    for (const auto& [others, curve] : curves) {
+        if (curve.size() < 3) continue;
+        std::vector<std::size_t>& indices = list.emplace_back();
+        for (const auto& [value, index] : curve) indices.push_back(index);
+    }
+    return list;
 }
 
 std::string make_comparison_plot(const Comparison& comparison) {
@@ -337,8 +284,7 @@ std::string make_comparison_plot(const Comparison& comparison) {
                                              : kComparisonPlotFrame.plot_y_of_zero_value_lane(),
                           std::max(x(ci95.low), kComparisonPlotFrame.left),
                           std::min(x(ci95.high), kComparisonPlotFrame.right), &row,
-                          measure::is_on_pareto_front(comparison, row),
-                          static_cast<std::size_t>(&row - comparison.rows.data()) + 1});
+                          measure::is_on_pareto_front(comparison, row)});
     }
     std::string svg = fmt::format(
         R"(<svg viewBox="0 0 {} {}" role="img" aria-label="Scatter plot of time )"
@@ -347,12 +293,9 @@ std::string make_comparison_plot(const Comparison& comparison) {
     svg += kComparisonPlotFrame.axes(make_axis_ticks(x, list_axis_tick_values(x)),
                                      make_axis_ticks(y, errors.empty() ? std::vector<double>()
                                                                        : list_axis_tick_values(y)),
-                                     points.front().row->moves
-                                         ? "Time of a frame, host and GPU, median, ms"
-                                         : "GPU time of a frame, median, ms",
-                                     "FLIP over the mirrors") +
+                                     make_time_axis_name(comparison), "FLIP over the mirrors") +
            make_svg_noise_floor(comparison, y) + make_svg_front_staircase(points) +
-           make_svg_knob_curves(points);
+           make_svg_knob_curves(comparison, points);
     for (const RowPlotPoint& point : points) svg += make_svg_time_interval(point);
     for (const RowPlotPoint& point : points) svg += make_svg_row_mark(point);
     return svg + make_svg_labels(points) + "</svg>";

@@ -2,30 +2,21 @@
 
 #include "report/comparison.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
-// Functions that draw plots as SVG, to embed in a page.
+// Functions that draw plots as SVG, for figures and for readers without script.
 namespace catoptric::report {
 
-struct PlotLine {
-    std::string name; ///< name shown at the line's right end
-    /// One value for each of LinePlot::x, at least 0; NaN leaves the point out.
-    std::vector<double> y;
-};
-
-struct LinePlot {
-    std::string x_name, y_name;
-    std::string says;      ///< text for readers who cannot see the plot
-    std::vector<double> x; ///< increasing; positive if `log_x`
-    std::vector<double> x_ticks;
-    bool log_x = false;
-    std::vector<PlotLine> lines; ///< the last line is the strongest
-};
-
-/// Returns an SVG to embed in a page. The y axis is logarithmic and values of 0 lie in a separate
-/// lane. Returns an empty text if the plot has no point.
-std::string make_line_plot(const LinePlot& plot);
+/// Returns whether a plot of time has a place for the row: its time is known and above 0.
+bool has_time_to_plot(const Row& row);
+/// Returns the name of the axis of time, with its unit.
+std::string make_time_axis_name(const Comparison& comparison);
+/// Returns lists of indices of rows that differ only in the value of one knob, in the order of the
+/// values. There is no list of fewer than three rows. `rows`: indices of the rows to consider.
+std::vector<std::vector<std::size_t>> list_knob_curves(const Comparison& comparison,
+                                                       const std::vector<std::size_t>& rows);
 
 /// Returns the rows as an SVG: median ms against FLIP, both logarithmic. Error 0
 /// has a separate lane and the Pareto front is drawn. Empty if no row can be placed.

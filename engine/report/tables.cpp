@@ -26,14 +26,6 @@ std::string format_median_interval(const measure::SampleSummary& times, int deci
     return format_fixed(times.ci95.low, decimals) + "–" + format_fixed(times.ci95.high, decimals);
 }
 
-/// Returns the places of a row in the order of time, as "3" or "3–5"; an empty cell for a row
-/// without a time.
-std::string format_time_places(const measure::TimeRankRange& places) {
-    if (places.first == 0) return std::string(kEmptyCellText);
-    const std::string first = std::to_string(places.first);
-    return places.first == places.last ? first : first + "–" + std::to_string(places.last);
-}
-
 const Row* find_row_of_this_program(const Comparison& comparison,
                                     const measure::SeedReportRow& seed) {
     if (seed.inter_reflections >= 0)
@@ -249,6 +241,12 @@ std::string format_metric_number(double value, const measure::MetricColumn& colu
     }
 }
 
+std::string format_time_places(const measure::TimeRankRange& places) {
+    if (places.first == 0) return std::string(kEmptyCellText);
+    const std::string first = std::to_string(places.first);
+    return places.first == places.last ? first : first + "–" + std::to_string(places.last);
+}
+
 TableColumn make_text_column(const char* title) {
     TableColumn column(title);
     column.is_number = false;
@@ -304,6 +302,44 @@ ReportTable make_rows_table(const Comparison& comparison) {
         table.marked.push_back(measure::is_on_pareto_front(comparison, row));
     }
     return table;
+}
+
+std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& comparison) {
+    using measure::MetricValueFormat;
+    const std::string_view ranked = !comparison.rows.empty() && comparison.rows.front().moves
+                                        ? "frame_ms"
+                                        : "gpu_ms"; // see Row::time_ms
+    std::vector<RowMetricColumn> list;
+    for (const MetricTableColumn& column :
+         list_metric_columns(measure::MetricTableKind::rows, comparison)) {
+        const MetricValueFormat style = column.column.style;
+        if (style == MetricValueFormat::time_interval || column.quantity->name == ranked) continue;
+        const bool is_over_mirrors = column.mask != nullptr && column.mask->title.empty();
+        RowMetricColumn numbers{
+            column.metric_column_title() + (is_over_mirrors ? " over the mirrors" : ""), {}, {}};
+        const double scale = style == MetricValueFormat::percent     ? 100
+                             : style == MetricValueFormat::mebibytes ? 1.0 / (1 << 20)
+                                                                     : 1;
+        for (const Row& row : comparison.rows) {
+            const measure::MetricValue value = column.metric_value_of_row(row);
+            const auto* times = std::get_if<measure::SampleSummary>(&value);
+            const auto* number = std::get_if<double>(&value);
+            const bool is_missing = measure::is_missing_value(value);
+            numbers.values.push_back(is_missing          ? NAN
+                                     : times != nullptr  ? times->median
+                                     : number != nullptr ? scale * *number
+                                                         : NAN);
+            const bool is_rmse = is_over_mirrors && column.quantity->name == "rmse";
+            numbers.intervals.push_back(times != nullptr ? times->ci95
+                                        : is_rmse        ? find_rmse_interval(row)
+                                                         : measure::Interval());
+        }
+        if (std::ranges::any_of(numbers.values, [](double value) { return std::isfinite(value); }))
+            list.push_back(std::move(numbers));
+    }
+    std::ranges::stable_partition(
+        list, [](const RowMetricColumn& column) { return column.name == "FLIP over the mirrors"; });
+    return list;
 }
 
 ReportTable make_mirror_table(const Comparison& comparison) {

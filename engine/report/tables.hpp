@@ -1,5 +1,6 @@
 #pragma once
 
+#include "measure/judge.hpp"
 #include "measure/metric.hpp"
 #include "report/comparison.hpp"
 
@@ -41,6 +42,21 @@ std::string to_markdown(const ReportTable& table);
 ReportTable make_seed_report_table(const Comparison& comparison);
 /// Returns the table of all rows with all its metrics. Rows on the Pareto front are marked.
 ReportTable make_rows_table(const Comparison& comparison);
+/// A column of the table of all rows as numbers, for charts. Values that are missing are NaN.
+struct RowMetricColumn {
+    std::string name;           ///< the column's title, with the mask of its pixels
+    std::vector<double> values; ///< one for each row; the median of a list of times
+    /// 95 % intervals of the values, one for each row.
+    std::vector<measure::Interval> intervals;
+};
+/// Returns the columns of the table of all rows that hold numbers, without the time by which the
+/// rows are ranked. The first is FLIP over the mirrors.
+std::vector<RowMetricColumn> list_row_metric_columns(const Comparison& comparison);
+/// Returns the 95 % interval of a row's rmse over the mirrors against a reference with noise.
+/// Unknown for a reference without noise.
+measure::Interval find_rmse_interval(const Row& row);
+/// Returns the places of a row in the order of time, as "3" or "3–5"; "–" for a row without a time.
+std::string format_time_places(const measure::TimeRankRange& places);
 /// Returns the technique of each mirror, for rows that are plans. Without such rows the table is
 /// empty.
 ReportTable make_plan_table(const Comparison& comparison);

@@ -1,5 +1,5 @@
-// The script of report.html: the comparer, sortable tables, plot marks that choose a row, the choice of a device, and
-// tabs of scenes.
+// The script of report.html: the comparer, sortable tables, the choice of a device, and tabs of scenes. charts.js draws
+// the charts.
 // The page works from disk. Pictures are in the page, or beside it if they are many; their linear values are in images/*.js beside it, which the
 // comparer loads when it shows a row. Without these files the comparer shows the values of the 8-bit pictures.
 "use strict";
@@ -431,18 +431,10 @@ function make_tabs(links) {
 for (const place of document.querySelectorAll(".comparer")) {
     const comparer = new Comparer(place);
     const section = place.closest(".scene") ?? document;
-    for (const mark of section.querySelectorAll("[data-picture]")) {
-        const choose = () => {
-            comparer.choose_picture(mark.dataset.picture);
-            place.scrollIntoView({block: "nearest"});
-        };
-        mark.addEventListener("click", choose);
-        mark.addEventListener("keydown", event => {
-            if (event.key !== "Enter" && event.key !== " ") return;
-            event.preventDefault();
-            choose();
-        });
-    }
+    section.addEventListener("choose-picture", event => { // of a chart
+        comparer.choose_picture(event.detail);
+        place.scrollIntoView({block: "nearest"});
+    });
 }
 for (const choice of document.querySelectorAll(".devices")) { // of this comparison alone
     const section = choice.closest(".scene") ?? document;
