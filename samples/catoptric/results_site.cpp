@@ -5,6 +5,7 @@
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "report.hpp"
+#include "report/chart.hpp"
 #include "report/html.hpp"
 #include "report/json.hpp"
 #include "report/text.hpp"
@@ -26,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using report::escape_html;
+using SiteJson = nlohmann::ordered_json;
 
 constexpr std::uintmax_t kMaxReportBytes = 256U << 20U;
 constexpr std::size_t kMaxHistoryColumns = 12; // only the latest reports get a column
@@ -91,66 +93,45 @@ std::vector<const SiteRow*> list_front_rows(const SiteComparison& run) {
     return front;
 }
 
-/// Returns a plot of time (logarithmic) against FLIP. Points of the front are filled and joined.
-std::string make_front_plot(const SiteComparison& run) {
-    constexpr double kWidth = 720, kHeight = 320, kLeft = 56, kRight = 24, kTop = 16, kBottom = 44;
-    double low = INFINITY, high = 0, most = 0;
-    for (const SiteRow& row : run.rows)
-        if (row.ms > 0 && std::isfinite(row.flip)) {
-            low = std::min(low, row.ms), high = std::max(high, row.ms);
-            most = std::max(most, row.flip);
-        }
-    if (!(high > 0)) return "";
-    low = std::log10(low / 1.2), high = std::log10(high * 1.2), most = std::max(most * 1.1, 1e-6);
-    const auto x = [&](double ms) {
-        return kLeft + (std::log10(ms) - low) / (high - low) * (kWidth - kLeft - kRight);
-    };
-    const auto y = [&](double flip) {
-        return kHeight - kBottom - flip / most * (kHeight - kTop - kBottom);
-    };
-    std::string svg = fmt::format(
-        "<figure class=\"plot scroll\" tabindex=\"0\"><svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Time and FLIP "
-        "of each row\" font-size=\"11\" fill=\"currentColor\"><g stroke=\"currentColor\" "
-        "stroke-opacity=\".25\"><path d=\"M{} {}V{}H{}\" fill=\"none\"/></g>",
-        kWidth, kHeight, kLeft, kTop, kHeight - kBottom, kWidth - kRight);
-    for (int power = static_cast<int>(std::floor(low)); power <= std::floor(high); ++power)
-        for (const double step : {1.0, 2.0, 5.0})
-            if (const double at = step * std::pow(10, power);
-                std::log10(at) >= low && std::log10(at) <= high)
-                svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>",
-                                   x(at), kHeight - kBottom + 16, at);
-    for (const double share : {0.0, .5, 1.0})
-        svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3g}</text>",
-                           kLeft - 6, y(share * most / 1.1) + 4, share * most / 1.1);
-    svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">device time of a frame, ms "
-                       "(logarithmic)</text><text x=\"{}\" y=\"{}\">FLIP over the mirrors</text>",
-                       (kLeft + kWidth - kRight) / 2, kHeight - 8, kLeft + 6, kTop + 4);
+/// Returns a chart of time (logarithmic) against FLIP or RMSE. Marks of rows on the front are
+/// filled, and have the rows' numbers.
+std::string make_front_chart(const SiteComparison& run) {
+    using report::make_number_json;
     const std::vector<const SiteRow*> front = list_front_rows(run);
-    std::string path;
-    for (const SiteRow* row : front)
-        path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x(row->ms), y(row->flip));
-    svg += "<path d=\"" + path + "\" fill=\"none\" stroke=\"var(--accent)\"/>";
+    SiteJson rows = SiteJson::array(), times = rows, intervals = rows, flips = rows, rmses = rows,
+             flip_intervals = rows, unknown = rows;
     for (const SiteRow& row : run.rows) {
         if (!(row.ms > 0) || !std::isfinite(row.flip)) continue;
-        const std::string says = fmt::format("{}: {} ms, FLIP {}", row.label,
-                                             format_cell(row.ms, 3),
-                                             report::format_picture_error(row.flip));
-        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\" fill=\"{}\" "
-                           "stroke=\"var(--accent)\"><title>{}</title></circle>",
-                           x(row.ms), y(row.flip), row.on_front ? "var(--accent)" : "var(--card)",
-                           escape_html(says));
+        const auto place = std::ranges::find(front, &row);
+        const bool is_on_front = place != front.end();
+        rows.push_back({{"label", row.label},
+                        {"name", is_on_front ? std::to_string(place - front.begin() + 1) : ""},
+                        {"front", is_on_front}});
+        times.push_back(row.ms);
+        intervals.push_back(report::make_interval_json({row.ms_low, row.ms_high}));
+        flips.push_back(row.flip);
+        flip_intervals.push_back(report::make_interval_json({row.flip_low, row.flip_high}));
+        rmses.push_back(make_number_json(row.rmse));
+        unknown.push_back(nullptr);
     }
-    // Writes the numbers of the front's rows above their circles. A number that would cover the
-    // previous number moves up.
-    dvec2 last(-INFINITY);
-    for (std::size_t i = 0; i < front.size(); ++i) {
-        dvec2 at(x(front[i]->ms), y(front[i]->flip) - 8);
-        if (at.x - last.x < 12) at.y = std::min(at.y, last.y - 12);
-        svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", at.x,
-                           at.y, i + 1);
-        last = at;
-    }
-    return svg + "</svg></figure>";
+    if (rows.empty()) return "";
+    const auto column = [](const char* name, const SiteJson& values, const SiteJson& ranges) {
+        return SiteJson{{"name", name}, {"values", values}, {"intervals", ranges}};
+    };
+    const SiteJson data{{"kind", "rows"},
+                        {"says", "Time and FLIP of each row; the table has the same values"},
+                        {"time", column("device time of a frame, ms", times, intervals)},
+                        {"metrics",
+                         {column("FLIP over the mirrors", flips, flip_intervals),
+                          column("RMSE over the mirrors", rmses, unknown)}},
+                        {"rows", rows},
+                        {"curves", SiteJson::array()},
+                        {"log_x", true},
+                        {"log_y", false}};
+    return "<figure class=\"plot\">" +
+           report::make_html_chart(data, "<p class=\"note\">The chart needs JavaScript; the table "
+                                         "has the same values.</p>") +
+           "</figure>";
 }
 
 /// Returns the cell that tells a row's place: its number on the front, "reference", or empty text.
@@ -272,7 +253,7 @@ std::string make_comparison_parts(const std::vector<SiteComparison>& runs) {
     return "<p>" +
            escape_html(fmt::format("Latest report: {}, commit {}, version {}.", latest.date,
                                    latest.commit, latest.version)) +
-           "</p>" + make_front_plot(latest) + make_latest_table(latest) + make_history_table(runs);
+           "</p>" + make_front_chart(latest) + make_latest_table(latest) + make_history_table(runs);
 }
 
 std::string make_scene_page(const SitePage& page) {
