@@ -46,7 +46,11 @@ add_custom_target(package_files DEPENDS ${package_files})
 
 file(GLOB pages CONFIGURE_DEPENDS docs/*.md)
 install(FILES README.md ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+# The licences of the package and of uPlot, which the library writes into pages.
+file(READ LICENSE licence)
+file(READ engine/report/page/third_party/uplot/LICENSE uplot_licence)
+file(WRITE ${generated_folder}/copyright "${licence}\nPages of reports contain uPlot (https://github.com/leeoniya/uPlot):\n\n${uplot_licence}\n")
+install(FILES ${generated_folder}/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET catoptric_view)
     install(FILES samples/view/catoptric-view.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 endif()

@@ -23,6 +23,7 @@ cmake --install "$build" --prefix "$work/prefix" --strip >/dev/null
 licenses=$work/licenses
 rm -rf "$licenses"; mkdir -p "$licenses"
 cp "$source/../LICENSE" "$licenses/LICENSE"
+cp "$source/../engine/report/page/third_party/uplot/LICENSE" "$licenses/uplot.txt"
 find "$tool/../lib" -path '*/nanobind-*/licenses/LICENSE' -exec cp {} "$licenses/nanobind.txt" ';'
 packages=(libglm-dev nlohmann-json3-dev spirv-tools)
 while read -r library; do

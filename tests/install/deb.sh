@@ -21,6 +21,7 @@ for file in bin/catoptric include/catoptric/compare.hpp share/catoptric/shaders/
     share/fish/vendor_completions.d/catoptric.fish share/doc/catoptric/copyright share/doc/catoptric/glossary.md; do
     [[ -s $root/$file ]] || die "wanted usr/$file, found none"
 done
+grep -q 'Leon Sorokin' "$root/share/doc/catoptric/copyright" || die "wanted the licence of uPlot in usr/share/doc/catoptric/copyright"
 [[ $(find "$work/root" -type f -not -path "$root/*") == '' ]] || die "the package writes outside of usr"
 "$root/bin/catoptric" --version | grep -q '^catoptric ' || die "the unpacked program does not start"
 "$root/bin/catoptric" diff "$3" "$3" >/dev/null || die "the unpacked program finds no image module"

@@ -14,7 +14,7 @@ bytes=$(stat -c %s "$wheel")
 names=$("${PYTHON:-python3}" -m zipfile -l "$wheel" | awk 'NR > 1 {print $1}')
 libraries=$(sed -n 's,^catoptric\.libs/lib\([a-z0-9]*\)-.*,\1,p' <<<"$names")
 [[ -n $libraries ]] || die "$wheel: wanted libraries in catoptric.libs, found none"
-for name in LICENSE nanobind glm nlohmann spirv $libraries; do # of each library, and of what is compiled into ours
+for name in LICENSE uplot nanobind glm nlohmann spirv $libraries; do # of each library, and of what is compiled into ours
     grep -q "dist-info/licenses/.*$name" <<<"$names" || die "$wheel: wanted the licence of $name, found: $names"
 done
 ((bytes <= 40000000)) || die "$wheel: wanted at most 40 MB, found $bytes bytes"
