@@ -22,8 +22,8 @@ SIZE = (96, 64)
 ROWS = ["naive:bounces=1", "reuse", "secant", "raytrace:depth=1"]
 
 
-def open_page(path, width=1400, dark=False, script=True):
-    """Returns a browser that shows the page once its comparer is drawn. `script`: whether scripts of the page run."""
+def open_page(path, width=1400, dark=False, script=True, comparer=True):
+    """Returns a browser that shows the page once its comparer is drawn, if it has one. `script`: whether scripts run."""
     options = Options()
     options.binary_location = "/usr/bin/chromium"
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"):
@@ -38,7 +38,7 @@ def open_page(path, width=1400, dark=False, script=True):
                                 {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
     browser.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": not script})
     browser.get(path.resolve().as_uri())
-    if script:
+    if script and comparer:
         wait(browser, "return document.querySelector('.comparer')?.dataset.ready")
     return browser
 
@@ -297,6 +297,49 @@ def test_without_script(page):
     browser.quit()
 
 
+def test_lines(page, folder):
+    """A chart of lines tells the value of each point to the keys, joins points with values, and has a lane for 0."""
+    data = {"kind": "lines", "says": "two lines", "x_name": "instant, s", "y_name": "FLIP", "x": [1, 2, 4], "x_ticks": [1, 4],
+            "lines": [{"name": "slow", "y": [0.25, 0, 0.5]}, {"name": "fast", "y": [0.125, None, 0.75]}],
+            "log_x": True, "log_y": True}
+    text, count = re.subn(r'(?s)(?<=<div class="chart"><script type="application/json">).*?(?=</script>)',
+                          lambda found: json.dumps(data), page.read_text(), count=1)
+    expect(count == 1, "the page has no chart")
+    folder.mkdir(exist_ok=True)
+    (folder / "lines.html").write_text(text)
+    browser = open_page(folder / "lines.html")
+    wait(browser, "return document.querySelector('.plot .chart').chart.plot?.status", 1)
+    box = browser.find_element(By.CSS_SELECTOR, ".plot .chart-box")
+    for keys, line, x, y in ((Keys.HOME, "slow", 1, 0.25), (Keys.ARROW_RIGHT, "slow", 2, 0), (Keys.ARROW_RIGHT, "slow", 4, 0.5),
+                             (Keys.ARROW_UP, "fast", 4, 0.75), (Keys.ARROW_LEFT, "fast", 1, 0.125),
+                             (Keys.ARROW_UP, "slow", 1, 0.25)):
+        box.send_keys(keys)
+        wanted = [line, f"instant, s: {x}", f"FLIP: {y}"]
+        expect(read_tip(browser) == wanted, f"a chart of lines: wanted {wanted}, told {read_tip(browser)}")
+    xs, zero, low, height = read_chart(browser, """return [[0, 1, 2].map(index => chart.find_place({series: 1, index})[0]),
+        chart.find_place({series: 1, index: 1})[1], chart.find_place({series: 2, index: 0})[1], plot.over.clientHeight]""")
+    expect(abs(xs[0]) <= 1 and abs(xs[1] - xs[2] / 2) <= 1, f"1, 2 and 4 on a logarithmic axis stand at {xs}")
+    expect(low < zero < height, f"0 stands at {zero}, the least other value at {low} of {height}")
+    browser.quit()
+
+
+def test_results_site(program, folder, report):
+    """The page of a scene in a site of results has a chart with the values of its report, without a comparer."""
+    site = folder / "site"
+    subprocess.run([program, "results", "add", str(folder / "report.json"), str(site)], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([program, "results", "build", str(site)], check=True, stdout=subprocess.DEVNULL)
+    browser = open_page(next(site.glob("scene-*.html")), comparer=False)
+    wait(browser, "return document.querySelector('.plot .chart').chart.plot?.status", 1)
+    places = read_chart(browser, "return chart.order.map((row, i) => [chart.data.rows[row].label, plot.data[0][i], plot.data[1][i]])")
+    wanted = sorted(([row["label"], row["gpu_ms"]["median"], row["error"]["flip"]] for row in report["rows"]), key=lambda x: x[1])
+    expect(places == wanted, f"the chart of the site: wanted {wanted}, found {places}")
+    point_at_row(browser, wanted[0][0]).click().perform()
+    expect(read_tip(browser)[0] == wanted[0][0], f"the pointer on a mark of the site tells {read_tip(browser)}")
+    problems = [entry["message"] for entry in browser.get_log("browser")]
+    expect(not problems, f"the console says {problems}")
+    browser.quit()
+
+
 def test_tables(browser):
     """Headers sort the table of rows."""
     header = "[...document.querySelectorAll('table.all thead th')].findIndex(x => x.textContent.trim() === 'FLIP')"
@@ -450,6 +493,8 @@ def main():
         expect(wide <= width, f"at {width} pixels the page is {wide} wide")
         browser.quit()
     test_without_script(page)
+    test_lines(page, folder)
+    test_results_site(program, folder, report)
     # Without the values beside it, the page shows those of its 8-bit pictures and says so.
     alone = folder / "alone"
     alone.mkdir(exist_ok=True)

@@ -4,7 +4,8 @@
 "use strict";
 (() => {
 const kFontPixels = 12, kReach = 30; // the pointer finds points within so many CSS pixels
-const kPrintWidth = 600, kPrintSharpness = 3; // CSS pixels of a chart on paper, canvas pixels per CSS pixel there
+const kPrintWidths = {rows: 600, lines: 290}; // CSS pixels of charts on paper, by kind
+const kPrintSharpness = 3; // canvas pixels for each of them
 
 const root = document.documentElement;
 const colour = name => getComputedStyle(root).getPropertyValue(name).trim();
@@ -26,7 +27,7 @@ function find_range(values, log) {
     const known = values.filter(is_known), positive = known.filter(x => x > 0);
     if (!log) {
         const low = Math.min(0, ...known), high = Math.max(...known, 0), air = 0.06 * (high - low || 1);
-        return {low: low < 0 ? low - air : 0, high: high + air};
+        return {low: Math.min(...known) > 0 ? 0 : low - air, high: high + air};
     }
     let [low, high] = positive.length ? [Math.min(...positive), Math.max(...positive)].map(Math.log10) : [-3, 0];
     const air = Math.max(0.08 * (high - low), (0.6 - (high - low)) / 2);
@@ -95,7 +96,7 @@ class Chart {
         const axis = (name, label, side, ticks) => ({
             scale: name, side, label, font, labelFont: font, stroke: () => colour("--soft"), gap: 6 * k, labelSize: 20 * k,
             size: side === 2 ? 26 * k : (plot, values) => (14 + 7 * Math.max(...(values ?? [""]).map(text => text.length))) * k,
-            grid: {stroke: () => colour("--line"), width: k}, ticks: {show: false}, space: (side === 2 ? 50 : 32) * k,
+            grid: {stroke: () => colour("--line"), width: k}, ticks: {show: false}, space: (side === 2 ? 50 : 40) * k,
             ...log[name] || ticks ? {filter: (plot, splits) => splits,
                 splits: () => [...ticks ?? list_log_ticks(ranges[name], name === "x" ? width / 60 : 12)]} : {},
             values: (plot, splits) => splits.map(tick => ranges[name].lane === tick ? ranges[name].lane_name : format_number(tick)),
@@ -200,7 +201,7 @@ class Chart {
     print(on) {
         if (this.box.clientWidth === 0) return;
         this.sharpness = on ? kPrintSharpness : 1;
-        this.build(Math.min(this.box.clientWidth, on ? kPrintWidth : Infinity));
+        this.build(Math.min(this.box.clientWidth, on ? kPrintWidths[this.data.kind] : Infinity));
     }
 }
 
@@ -292,7 +293,7 @@ class RowsChart extends Chart {
             const [x, y] = places.get(row), {label, name = label, front} = this.data.rows[row], wide = pen.measureText(name).width;
             if (!name) continue;
             const sides = front ? [x - far - wide, x + far] : [x + far, x - far - wide]; // no stairs lie on the left
-            const box = [0, -1, 1, -2, 2, -3, 3].flatMap(rise => sides.map(at =>
+            const box = [0, -1, 1].flatMap(rise => sides.map(at =>
                 [at, y + (rise - 0.5) * high, at + wide, y + (rise + 0.5) * high])).find(is_free);
             if (!box) continue; // the label stands beside the pointer
             taken.push(box);
