@@ -30,7 +30,9 @@ std::vector<ReportTable> make_pass_time_tables(const Comparison& comparison) {
 
 std::string make_pass_time_plot(const Comparison& comparison) {
     const std::string svg = draw_stacked_bars(make_pass_time_bars(comparison));
-    return svg.empty() ? "" : "<div class=\"plot\">" + svg + "</div>";
+    if (svg.empty()) return "";
+    return "<div class=\"plot scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Time by pass\">" +
+           svg + "</div>";
 }
 
 const RegisteredReportPart kPassTimesReportPart{{.name = "pass times",
