@@ -96,7 +96,7 @@ struct AuditOptions {
     int every = 60;         ///< least number of frames in a block, of which one is audited
     double most_time = .05; ///< limit of the audits' time, as a share of the frames' time
     std::uint64_t seed = 1; ///< seed of the random choice of audited frames
-    /// Called before a frame is audited, while results of earlier frames can still be read.
+    /// Called before references are rendered. Afterwards earlier frames can be read no more.
     std::function<void()> before_audit = {};
 };
 
@@ -129,8 +129,8 @@ public:
     /// certificate's reference has no rays for it.
     CATOPTRIC_API void prepare(Session& session, const FrameSpec& spec);
     /// Counts a frame of the session, and audits it if it was drawn. Call it after each frame and
-    /// before the next. `seconds`: a time that never falls. Frames of other plans, with the picture
-    /// of the frame before, and the first 8 frames of a plan are not counted.
+    /// before the next. `seconds`: a time that never falls. Not counted: the first 8 frames of a
+    /// plan, and frames of other plans, without a mirror, or with the picture of the frame before.
     CATOPTRIC_API AuditState watch_frame(Session& session, const Frame& frame,
                                          const FrameSpec& spec, double seconds);
     /// Counts no frame until captures can be complete, after a cut or in a new session.

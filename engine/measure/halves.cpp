@@ -89,12 +89,13 @@ double excess_of_clamped_channels(const dvec3& x, const dvec3& a, const dvec3& b
 
 /// Returns the standard deviations of the noise that the margin of an error covers. 4 deviations of
 /// a normal distribution are exceeded with a probability of .00003, which leaves room for noise
-/// that is not normal. The deviation is estimated from `count` values, so fewer values need more
-/// (Student's t, by the expansion of Cornish and Fisher).
+/// that is not normal. The deviation is estimated from `count` squares around 0, so fewer values
+/// need more (Student's t, by the expansion of Cornish and Fisher). One value bounds nothing.
 double deviations_of_noise_margin(double count) {
     constexpr double z = 4;
     constexpr double z3 = z * z * z, z5 = z3 * z * z;
-    const double n = std::max(count - 1, 1.0); // degrees of freedom
+    if (count < 2) return INFINITY;
+    const double n = count; // degrees of freedom
     return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
 }
 
@@ -217,9 +218,10 @@ Difference compute_difference_from_halves(const Picture& picture,
     result.psnr.reset();
     if (result.rmse > 0) result.psnr = -20 * std::log10(result.rmse);
     result.flip_floor = sum.floor / sum.pixels;
-    result.square_margin = (deviations_of_noise_margin(sum.pixels) * std::sqrt(sum.variance) +
-                            sum.clamp_excess) /
-                           (3 * sum.pixels);
+    const double noise = sum.variance > 0
+                             ? deviations_of_noise_margin(sum.pixels) * std::sqrt(sum.variance)
+                             : 0;
+    result.square_margin = (noise + sum.clamp_excess) / (3 * sum.pixels);
     return result;
 }
 

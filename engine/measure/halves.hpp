@@ -41,7 +41,9 @@ Difference compute_difference_from_halves(const Picture& picture,
                                           const NoisyReferenceHalves& halves, const Mask& mask,
                                           std::span<const float> flip_map);
 
-/// Probability that noise makes an error exceed find_rmse_bound or find_flip_bound.
+/// Probability that noise makes an error exceed find_rmse_bound, for noise that is independent in
+/// each pixel and nearly normal in the sum over pixels. Taken for find_flip_bound as well, whose
+/// noise is not known in closed form (tests/unit/halves_test.cpp tries it).
 inline constexpr double kNoiseMissProbability = .001;
 /// Returns a bound of the picture's error against the reference without noise: the root of the
 /// squared error plus its margin. Without noise it is the error itself. NaN without finite pixels.

@@ -81,8 +81,12 @@ std::string make_html_rows_chart(const Comparison& comparison) {
         {"log_y", true}};
     if (comparison.noise && comparison.noise->flip_floor > 0)
         data["floor"] = {{"value", comparison.noise->flip_floor}, {"name", kBelowNoiseText}};
-    return make_html_chart(data,
-                           "<div class=\"scroll\">" + make_comparison_plot(comparison) + "</div>");
+    const std::string plot = make_comparison_plot(comparison);
+    return make_html_chart(data, plot.empty()
+                                     ? plot
+                                     : "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                                       "aria-label=\"Plot\">" +
+                                           plot + "</div>");
 }
 
 std::string make_html_line_chart(const LineChart& chart) {

@@ -202,6 +202,7 @@ measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
             } while (taken.contains(lobe_seed_));
             spec.techniques = {set_lobe_seed(request_.reference, lobe_seed_)};
             const TechniqueResult truth = session.frame(spec).read();
+            check_reference_is_traced(truth);
             half->add_picture(truth.hdr);
             if (mirrors.empty()) mirrors = measure::mask_mirror_pixels(truth.hits);
         }
@@ -213,6 +214,13 @@ measure::Difference RunningPlanAudit::compare_with_halves(Session& session,
     return measure::compute_difference_from_halves(
         measure::apply_exposure(samples, spec.exposure), halves, mirrors,
         measure::compute_flip_against_halves(samples, halves, spec.exposure));
+}
+
+/// Throws `usage` for a reference without first hits of camera rays, which would count all pixels
+/// as mirrors.
+void RunningPlanAudit::check_reference_is_traced(const TechniqueResult& truth) const {
+    check(!truth.hits.empty(), Failure::usage, "audit: reference: wanted a ray-traced one, found ",
+          request_.reference);
 }
 
 /// Ray traces the samples of a frame and returns the difference over the mirrors.
@@ -234,6 +242,7 @@ measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session
     }
     const TechniqueResult truth = session.frame(traced).read();
     Access::resume_frame_sequence(session, std::move(sequence));
+    check_reference_is_traced(truth);
     std::vector<float> map(samples.pixels.size(), 0.0f); // only FLIP needs the map
     if (request_.quantity == ErrorQuantity::flip)
         map = measure::flip(measure::to_unrounded_display(samples, spec.exposure),
@@ -286,6 +295,11 @@ void RunningPlanAudit::audit_frame(Session& session, const Frame& frame, const F
     state.is_alarm = is_alarmed() && !was_alarmed_;
     was_alarmed_ = is_alarmed();
     assured_share_ = audit_.assured_share();
+    // Noise hides a failure with a small probability, so somewhat more frames fail than were seen
+    // to.
+    if (difference.flip_floor)
+        assured_share_ = std::max(0.,
+                                  1 - (1 - assured_share_) / (1 - measure::kNoiseMissProbability));
 }
 
 /// Changes to the next plan with less error. The audit of this plan begins without evidence.

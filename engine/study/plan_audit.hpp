@@ -102,6 +102,7 @@ private:
     bool can_reference_show(const scene::Scene& scene) const;
     measure::Difference compare_with_traced_frame(Session& session, const measure::Picture& running,
                                                   const FrameSpec& spec);
+    void check_reference_is_traced(const TechniqueResult& truth) const;
     measure::Difference compare_with_halves(Session& session, const measure::Picture& samples,
                                             const FrameSpec& traced);
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,

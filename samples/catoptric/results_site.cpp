@@ -45,10 +45,11 @@ struct SitePage {
 std::vector<SitePage> group_comparisons_by_page(const std::vector<SiteComparison>& comparisons) {
     std::map<std::string, SitePage> pages; // sorted by scene and setting
     for (const SiteComparison& one : comparisons) {
-        const std::string key = one.scene + "\n" + one.hash + "\n" + one.setting;
+        const bool is_sweep = !one.machine.empty();
+        const std::string key = one.scene + "\n" + (is_sweep ? "" : one.hash) + "\n" + one.setting;
         SitePage& page = pages[key];
         page.scene = one.scene;
-        page.setting = (one.hash.empty() ? "sweep, " : "hash " + one.hash.substr(0, 8) + ", ") +
+        page.setting = (is_sweep ? "sweep, " : "hash " + one.hash.substr(0, 8) + ", ") +
                        one.setting;
         page.file = std::string(kPagePrefix) + compute_sha256(key).substr(0, kIdCharacters) +
                     ".html";
@@ -131,7 +132,8 @@ std::string make_front_chart(const SiteComparison& run) {
     return "<figure class=\"plot\">" +
            report::make_html_chart(data, "<p class=\"note\">The chart needs JavaScript; the table "
                                          "has the same values.</p>") +
-           "</figure>";
+           "<figcaption>Each mark is a row. Filled marks are on the front, and have their numbers in "
+           "the table; stairs join them. Bars are 95 % intervals.</figcaption></figure>";
 }
 
 /// Returns the cell that tells a row's place: its number on the front, "reference", or empty text.
@@ -190,7 +192,7 @@ std::string make_history_table(const std::vector<SiteComparison>& runs) {
         for (const SiteRow& row : run.rows)
             if (std::ranges::find(labels, row.label) == labels.end()) labels.push_back(row.label);
     }
-    std::string html = fmt::format("<h3>History: the latest {} of {} reports</h3>", shown.size(),
+    std::string html = fmt::format("<h4>History: the latest {} of {} reports</h4>", shown.size(),
                                    runs.size()) +
                        "<div class=\"scroll\" tabindex=\"0\"><table>" + make_table_head(titles) +
                        "<tbody>";
@@ -207,7 +209,8 @@ std::string make_history_table(const std::vector<SiteComparison>& runs) {
     return html + "</tbody></table></div>";
 }
 
-/// Returns the comparisons of one section, from the oldest to the newest.
+/// Returns the comparisons of one section, from the oldest to the newest. Comparisons of an earlier
+/// version of the scene are left out.
 std::vector<SiteComparison> list_runs_of_section(const std::vector<SiteComparison>& runs,
                                                  const std::string& section) {
     std::vector<SiteComparison> list;

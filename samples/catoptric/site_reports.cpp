@@ -188,7 +188,6 @@ SiteComparison read_site_comparison(const SiteJson& json, const ReportPlace& pla
 /// Reads a comparison of results.json, which `sweep merge` writes.
 SiteComparison read_sweep_comparison(const SiteJson& json, const ReportPlace& place) {
     SiteComparison found = read_common_members(json, place);
-    found.hash.clear();
     found.setting = read_text_member_of_report(json, "setting", place);
     found.section = read_text_member_of_report(json, "section", place);
     found.machine = read_text_member_of_report(json, "machine", place);

@@ -20,7 +20,7 @@ struct SiteRow {
 /// A comparison of one scene on one device, or the rows of a sweep with equal options.
 struct SiteComparison {
     std::string scene, device, driver, commit, date, version;
-    std::string hash;    ///< of the scene; empty for a sweep, whose options may change the scene
+    std::string hash;    ///< of the scene, which options of a sweep may change
     std::string setting; ///< camera, instant, size and reference, as text
     std::string section; ///< the values of a sweep's axes; empty for a report
     std::string machine; ///< on which a sweep measured times; empty for a report

@@ -518,7 +518,8 @@ void check_sweep_result(const SweepJson& result, const SweepPiece& piece,
     require(rows.is_array() && rows.size() == piece.content["techniques"].size(),
             "a row for each technique");
     require(!piece.is_timing() || result.value("machine", SweepJson()).is_string(), "a machine");
-    require(!piece.is_timing() || result.value("date", SweepJson()).is_string(), "a date");
+    require(!piece.is_timing() || result.value("date", SweepJson()).is_string(),
+            "a date (results of earlier versions lack it: delete them and run again)");
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const SweepJson& row = rows[i];
         const std::string what = "rows[" + std::to_string(i) + "]: ";

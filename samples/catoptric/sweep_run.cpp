@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
+#include "measure/judge.hpp"
 #include "measure/views.hpp"
 #include "progress.hpp"
 #include "report/json.hpp"
@@ -354,7 +355,8 @@ private:
                             {"ci95", report::make_interval_json(times.ci95)},
                             {"rounds", report::make_number_list_json(times.rounds)},
                             {"waited", report::make_number_json(row.waited)},
-                            {"noisy", row.noisy}});
+                            {"noisy", row.noisy},
+                            {"ranked", measure::is_row_eligible_for_ranking(row)}});
         }
         return {{"rows", sort_members(rows)},
                 {"machine", read_host_name()},

@@ -22,6 +22,7 @@ struct SweepTime {
     std::vector<double> pieces; ///< median time of each piece
     std::vector<double> ratios; ///< in each piece, this median over that of the first row
     bool noisy = false;
+    bool is_ranked = true; ///< false for a row that leaves mirrors black
 
     /// Returns the median time with its interval. The interval counts pieces if there are enough,
     /// and otherwise rounds.
@@ -58,11 +59,12 @@ std::vector<SweepTime> list_times(const SweepGroup& group) {
             time.identity = result["identity"];
             time.date = std::max(time.date, result["date"].get<std::string>());
             time.noisy = time.noisy || row.at("noisy").get<bool>();
+            time.is_ranked = time.is_ranked && row.value("ranked", true);
             std::vector<double> rounds = row.at("rounds");
             time.rounds.insert(time.rounds.end(), rounds.begin(), rounds.end());
             time.pieces.push_back(summarise(std::move(rounds)).median);
             if (&row == &result["rows"].front()) first_row_ms = time.pieces.back();
-            time.ratios.push_back(time.pieces.back() / first_row_ms);
+            if (first_row_ms > 0) time.ratios.push_back(time.pieces.back() / first_row_ms);
         }
     }
     return times;
@@ -211,6 +213,7 @@ std::string describe_axis_values(const SweepGroup& group, const std::vector<std:
 struct SweepSiteRow {
     std::string label;
     SweepSummary ms, flip, rmse;
+    bool is_ranked;
 };
 
 /// Returns the rows of a group that were timed on the machine and with the identity of `machine`.
@@ -224,20 +227,22 @@ std::vector<SweepSiteRow> list_site_rows(const SweepGroup& group,
                 time.identity == machine.identity)
                 rows.push_back({time.label, time.summary(),
                                 summarise_metric(group, list_metric_values(group, row, "flip")),
-                                summarise_metric(group, list_metric_values(group, row, "rmse"))});
+                                summarise_metric(group, list_metric_values(group, row, "rmse")),
+                                time.is_ranked});
     return rows;
 }
 
 /// Returns the indices of the rows that no other row beats in both median time and median FLIP.
+/// Rows that leave mirrors black are never among them.
 std::vector<std::size_t> find_front_of_medians(const std::vector<SweepSiteRow>& rows) {
     std::vector<std::size_t> front;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double ms = rows[i].ms.median, flip = rows[i].flip.median;
         const bool beaten = std::ranges::any_of(rows, [&](const SweepSiteRow& other) {
-            return other.ms.median <= ms && other.flip.median <= flip &&
+            return other.is_ranked && other.ms.median <= ms && other.flip.median <= flip &&
                    (other.ms.median < ms || other.flip.median < flip);
         });
-        if (!std::isnan(flip) && !beaten) front.push_back(i);
+        if (rows[i].is_ranked && !std::isnan(flip) && !beaten) front.push_back(i);
     }
     return front;
 }

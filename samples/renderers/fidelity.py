@@ -23,6 +23,7 @@ import tempfile
 DEFAULT_OPTIONS = ["--technique", "raytrace:depth=8,rays=64"]
 # three.js shows the middle column of an environment towards +x, and Catoptric towards -z.
 ENVIRONMENT_DEGREES = 90
+LEAST_PHI = 1e-4 # radians; a camera that looks along +y would have no direction up
 # The fit of the ACES tone curve by Stephen Hill, as three.js uses it. The factor 1 / .6 is its exposure.
 ACES_EXPOSURE = 1 / 0.6
 ACES_INPUT = ((.59719, .35458, .04823), (.07600, .90834, .01566), (.02840, .13383, .83777))
@@ -49,6 +50,13 @@ def number(values, *names):
     return value
 
 
+def text_member(values, *names):
+    value = member(values, *names)
+    if not isinstance(value, str):
+        raise ScenarioError(f"{'.'.join(names)}: wanted text, found {json.dumps(value)}")
+    return value
+
+
 def find_file(text, output):
     """Returns a file of the scenario. Its name is relative to the output's folder, or to the current folder."""
     for folder in (output.parent, pathlib.Path(".")):
@@ -61,6 +69,7 @@ def camera_option(config):
     """Returns the camera as an option of `catoptric render`: theta turns around +y from +z, phi is the angle from +y."""
     target = [number(config, "scenario", "target", axis) for axis in "xyz"]
     theta, phi = (math.radians(number(config, "scenario", "orbit", name)) for name in ("theta", "phi"))
+    phi = min(max(phi, LEAST_PHI), math.pi - LEAST_PHI)
     radius = number(config, "scenario", "orbit", "radius")
     direction = (math.sin(phi) * math.sin(theta), math.cos(phi), math.sin(phi) * math.cos(theta))
     eye = [at + radius * along for at, along in zip(target, direction)]
@@ -88,9 +97,9 @@ def run(words):
 
 
 def draw(config, options):
-    output = pathlib.Path(member(config, "outputFile"))
+    output = pathlib.Path(text_member(config, "outputFile"))
     size = [2 * int(number(config, "scenario", "dimensions", side)) for side in ("width", "height")]
-    model, lighting = (find_file(member(config, "scenario", name), output) for name in ("model", "lighting"))
+    model, lighting = (find_file(text_member(config, "scenario", name), output) for name in ("model", "lighting"))
     with tempfile.TemporaryDirectory() as folder:
         linear, mapped = pathlib.Path(folder) / "linear.exr", pathlib.Path(folder) / "mapped.png"
         run([os.environ.get("CATOPTRIC", "catoptric"), "render", model, "--environment", lighting,

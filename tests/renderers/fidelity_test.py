@@ -88,8 +88,9 @@ def test_pictures(adapter, folder):
         expect(len(found) == 3 and max(abs(a - b) for a, b in zip(found, wanted)) <= 1,
                f"theta {theta}: wanted the environment of {seen}, {wanted}, found {found}")
     # From above, the triangle is a line without area.
-    draw(adapter, folder, make_scenario(0, 1, False))
-    expect(pixel(folder / "out.png", 2, last)[3] == 0, "phi 1: wanted no triangle")
+    ended = draw(adapter, folder, make_scenario(0, 0, False))
+    expect(ended.returncode == 0, ended.stderr)
+    expect(pixel(folder / "out.png", 2, last)[3] == 0, "phi 0: wanted no triangle")
 
 
 def test_refusals(adapter, folder):
@@ -106,6 +107,8 @@ def test_refusals(adapter, folder):
     refuse(lambda config: "{", 2, "wanted JSON, found '{'")
     refuse(lambda config: config["scenario"].pop("orbit") and None, 1, "scenario.orbit: wanted a value, found none")
     refuse(lambda config: config["scenario"]["target"].update(y="up"), 1, "scenario.target.y: wanted a number, found \"up\"")
+    refuse(lambda config: config["scenario"].update(model=5), 1, "scenario.model: wanted text, found 5")
+    refuse(lambda config: config.update(outputFile=None), 1, "outputFile: wanted text, found null")
     refuse(lambda config: config["scenario"].update(model="none.glb"), 1, "none.glb: wanted a file below")
     (folder / "bad.obj").write_text("f 1 2 9\n")
     refuse(lambda config: config["scenario"].update(model="bad.obj"), 1, "exit code 65")

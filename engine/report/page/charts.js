@@ -197,11 +197,12 @@ class Chart {
         event.preventDefault();
     }
 
-    /** Draws the chart for paper and back: in the light theme, with sharper pixels. */
+    /** Draws the chart for paper and back: in the light theme, with sharper pixels. Paper also shows hidden tabs. */
     print(on) {
-        if (this.box.clientWidth === 0) return;
+        const width = on ? Math.min(this.box.clientWidth || Infinity, kPrintWidths[this.data.kind]) : this.box.clientWidth;
+        if (width === 0) return;
         this.sharpness = on ? kPrintSharpness : 1;
-        this.build(Math.min(this.box.clientWidth, on ? kPrintWidths[this.data.kind] : Infinity));
+        this.build(width);
     }
 }
 
@@ -223,7 +224,7 @@ class RowsChart extends Chart {
         const {time, metrics, rows, floor} = this.data, metric = metrics[this.metric];
         const known = rows.map((_, i) => i).filter(i => is_known(metric.values[i]));
         this.order = known.sort((a, b) => time.values[a] - time.values[b]); // row of each index of the chart
-        this.is_first = this.metric === 0; // FLIP, of which the front and the noise are
+        this.is_first = metric.name.startsWith("FLIP over the mirrors"); // of which the front and the noise are
         const shown = column => this.order.map(i => column.values[i]);
         const values = shown(metric);
         return {x: {name: time.name, values: shown(time)},
