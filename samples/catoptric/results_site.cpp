@@ -228,7 +228,9 @@ std::string make_overview_table(const std::vector<std::string>& sections,
     for (const std::string& section : sections) {
         const std::vector<SiteComparison> list = list_runs_of_section(runs, section);
         if (list.empty()) continue; // another device measured this section
-        titles.push_back(section);
+        std::string title;          // with spaces at which a long title can be broken
+        for (const char c : section) title += c == ',' ? std::string(", ") : std::string(1, c);
+        titles.push_back(title);
         latest.push_back(list.back());
         for (const SiteRow& row : latest.back().rows)
             if (std::ranges::find(labels, row.label) == labels.end()) labels.push_back(row.label);
@@ -320,10 +322,10 @@ std::string join_labels_of_front_rows(const SitePage& page,
 
 std::string make_index_page(const std::vector<SitePage>& pages, std::size_t reports) {
     std::string html = fmt::format(
-        "<header><h1>Reflections compared</h1><p class=\"lede\">{} reports on {} scenes and "
+        "<header><h1>Reflections compared</h1><p class=\"lede\">{} {} on {} scenes and "
         "settings.</p><p><label>Search <input id=\"search\" type=\"search\"></label></p></header>"
         "<main><div class=\"scroll\" tabindex=\"0\"><table class=\"words\">",
-        reports, pages.size());
+        reports, reports == 1 ? "report" : "reports", pages.size());
     static const std::vector<std::string> kTitles{
         "Scene", "Setting", "Device", "Front of the latest report, fastest first", "Reports"};
     html += make_table_head(kTitles, kTitles.size() - 1) + "<tbody>";
