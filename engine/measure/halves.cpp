@@ -92,11 +92,11 @@ double excess_of_clamped_channels(const dvec3& x, const dvec3& a, const dvec3& b
 /// that is not normal. The deviation is estimated from `count` squares around 0, so fewer values
 /// need more (Student's t, by the expansion of Cornish and Fisher). One value bounds nothing.
 double deviations_of_noise_margin(double count) {
-    constexpr double z = 4;
-    constexpr double z3 = z * z * z, z5 = z3 * z * z;
+    constexpr double kZ = 4;
+    constexpr double kZ3 = kZ * kZ * kZ, kZ5 = kZ3 * kZ * kZ;
     if (count < 2) return INFINITY;
     const double n = count; // degrees of freedom
-    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
+    return kZ + (kZ3 + kZ) / (4 * n) + (5 * kZ5 + 16 * kZ3 + 3 * kZ) / (96 * n * n);
 }
 
 /// Returns the interval of the mean product over tiles that are drawn with replacement.

@@ -297,7 +297,7 @@ void RunningPlanAudit::audit_frame(Session& session, const Frame& frame, const F
     assured_share_ = audit_.assured_share();
     // Noise hides a failure with a small probability, so somewhat more frames fail than were seen
     // to.
-    if (difference.flip_floor)
+    if (does_reference_have_noise(request_.reference, session.scene()))
         assured_share_ = std::max(0.,
                                   1 - (1 - assured_share_) / (1 - measure::kNoiseMissProbability));
 }
