@@ -223,7 +223,23 @@ void RunningPlanAudit::check_reference_is_traced(const TechniqueResult& truth) c
           request_.reference);
 }
 
-/// Ray traces the samples of a frame and returns the difference over the mirrors.
+/// Ray traces the samples by a reference without noise and returns the difference over the mirrors.
+measure::Difference RunningPlanAudit::compare_with_one_picture(Session& session,
+                                                               const measure::Picture& samples,
+                                                               const FrameSpec& traced) {
+    const TechniqueResult truth = session.frame(traced).read();
+    check_reference_is_traced(truth);
+    std::vector<float> map(samples.pixels.size(), 0.0f); // only FLIP needs the map
+    if (request_.quantity == ErrorQuantity::flip)
+        map = measure::flip(measure::to_unrounded_display(samples, traced.exposure),
+                            measure::to_unrounded_display(truth.hdr, traced.exposure));
+    return measure::difference(measure::apply_exposure(samples, traced.exposure),
+                               measure::apply_exposure(truth.hdr, traced.exposure),
+                               measure::mask_mirror_pixels(truth.hits), map);
+}
+
+/// Ray traces the samples of a frame and returns the difference over the mirrors. The session's
+/// sequence of frames goes on afterwards, also after an exception.
 measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session,
                                                                 const measure::Picture& running,
                                                                 const FrameSpec& spec) {
@@ -232,24 +248,20 @@ measure::Difference RunningPlanAudit::compare_with_traced_frame(Session& session
     traced.techniques = {request_.reference};
     traced.camera = view.camera, traced.size = view.size;
     traced.most_captures = 0, traced.budget_ms = 0;
+    const measure::Picture samples = sample_picture(running, view);
     FrameSequence sequence = Access::suspend_sequence(session); // keeps choices of the first frame,
                                                                 // such as those of `auto`
-    const measure::Picture samples = sample_picture(running, view);
-    if (does_reference_have_noise(request_.reference, session.scene())) {
-        const measure::Difference difference = compare_with_halves(session, samples, traced);
+    measure::Difference difference;
+    try {
+        difference = does_reference_have_noise(request_.reference, session.scene())
+                         ? compare_with_halves(session, samples, traced)
+                         : compare_with_one_picture(session, samples, traced);
+    } catch (...) {
         Access::resume_frame_sequence(session, std::move(sequence));
-        return difference;
+        throw;
     }
-    const TechniqueResult truth = session.frame(traced).read();
     Access::resume_frame_sequence(session, std::move(sequence));
-    check_reference_is_traced(truth);
-    std::vector<float> map(samples.pixels.size(), 0.0f); // only FLIP needs the map
-    if (request_.quantity == ErrorQuantity::flip)
-        map = measure::flip(measure::to_unrounded_display(samples, spec.exposure),
-                            measure::to_unrounded_display(truth.hdr, spec.exposure));
-    return measure::difference(measure::apply_exposure(samples, spec.exposure),
-                               measure::apply_exposure(truth.hdr, spec.exposure),
-                               measure::mask_mirror_pixels(truth.hits), map);
+    return difference;
 }
 
 void RunningPlanAudit::prepare(Session& session, const FrameSpec& spec) {

@@ -103,6 +103,8 @@ private:
     measure::Difference compare_with_traced_frame(Session& session, const measure::Picture& running,
                                                   const FrameSpec& spec);
     void check_reference_is_traced(const TechniqueResult& truth) const;
+    measure::Difference compare_with_one_picture(Session& session, const measure::Picture& samples,
+                                                 const FrameSpec& traced);
     measure::Difference compare_with_halves(Session& session, const measure::Picture& samples,
                                             const FrameSpec& traced);
     void audit_frame(Session& session, const Frame& frame, const FrameSpec& spec,

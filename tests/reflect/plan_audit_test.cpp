@@ -439,6 +439,22 @@ TEST(PlanAudit, ImpossibleAuditsAreRefused) {
                         "rough, found raytrace:depth=16"});
 }
 
+/// An audit compares mirror pixels, which only a ray-traced reference knows. After the refusal the
+/// session goes on as if there were no audit.
+TEST(PlanAudit, ReferenceWithoutFirstHitsIsRefusedAndTheSessionGoesOn) {
+    const scene::Scene room = make_audited_room();
+    app::PlanAuditRequest request = make_audit_request();
+    request.reference = "naive:bounces=1";
+    app::FrameSpec spec = make_audited_spec(room);
+    spec.techniques = {"reuse"};
+    app::Session audited(test::get_test_engine(), room), other(test::get_test_engine(), room);
+    audited.frame(spec).read(), other.frame(spec).read();
+    app::RunningPlanAudit audit(request);
+    test::expect_error([&] { audit.prepare(audited, spec); }, Failure::usage,
+                       {"audit: reference: wanted a ray-traced one, found naive:bounces=1"});
+    EXPECT_EQ(audited.frame(spec).read().hdr.pixels, other.frame(spec).read().hdr.pixels);
+}
+
 /// Runs frames of a rough scene, and returns the audit after them. The reference has two halves.
 std::unique_ptr<app::RunningPlanAudit> audit_rough_room(app::ErrorQuantity quantity, double limit,
                                                         int frames) {

@@ -17,12 +17,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-json read_chart_data(const std::string& html) {
-    const std::string open = "json\">";
-    const std::size_t begin = html.find(open) + open.size();
-    return json::parse(html.substr(begin, html.find("</script>") - begin));
-}
-
 json find_chart_column(const json& data, const std::string& name) {
     for (const json& column : data["metrics"])
         if (column["name"] == name) return column;

@@ -148,6 +148,14 @@ TEST(LagReport, LagChartsHaveALineForEachSpeedAndEachRow) {
     const std::string html = catoptric::report::to_html(made);
     EXPECT_EQ(count_pattern_matches(html, R"(\{"name":"[^"]*","y":\[)"),
               2 * 2 + 2 + 2); // lines along the path, against speed, and after a jump
+    int charts = 0;
+    for (std::size_t at = 0; (at = html.find(R"({"kind":"lines")", at)) != html.npos; ++at) {
+        const json chart = read_chart_data(html, html.rfind("<script", at));
+        for (const json& line : chart["lines"])
+            EXPECT_EQ(line["y"].size(), chart["x"].size()) << chart["says"] << line["name"];
+        ++charts;
+    }
+    EXPECT_EQ(charts, 4) << "a path for each row, speeds, and a jump";
     EXPECT_THAT(html, Not(HasSubstr("<b>")));
     EXPECT_THAT(html, HasSubstr("<h2>Lag</h2>"));
     made.lag->rows.resize(1);

@@ -2,6 +2,8 @@
 
 #include "report/writer.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <string>
 #include <vector>
 
@@ -117,6 +119,13 @@ inline Comparison make_usual_comparison() {
          make_row("parallax", 6, 0.03, 0.1, {make_choice_setting("distance", "r32f")}), exact});
     made.pareto = {0, 2, 3};
     return made;
+}
+
+/// Returns the data of the first chart in a page, from character `from` on.
+inline nlohmann::json read_chart_data(const std::string& html, std::size_t from = 0) {
+    const std::string open = "json\">";
+    const std::size_t begin = html.find(open, from) + open.size();
+    return nlohmann::json::parse(html.substr(begin, html.find("</script>", begin) - begin));
 }
 
 /// Returns the text of report.md.
