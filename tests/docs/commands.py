@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Runs the commands of the documentation. `commands.py CATOPTRIC FOLDER [PAGE...]` runs the commands of these pages, or
-of all pages, in FOLDER. `commands.py` alone checks that a test covers each command.
+of all pages, in FOLDER. `commands.py` alone checks that a test covers each command, and that tests named in tables
+exist.
 
 A command is a line of a block of code that names no language. Pictures are small, and frames and views are few."""
 
+import fnmatch
 import json
 import os
 import pathlib
@@ -125,6 +127,18 @@ def check_cover(pages):
     return here
 
 
+def check_test_names(pages):
+    """Fails if a table names a test that does not exist. A star stands for any characters, as in Suite.*"""
+    sources = "\n".join(file.read_text() for file in sorted((ROOT / "tests").rglob("*_test.cpp")))
+    tests = {f"{suite}.{test}" for suite, test in
+             re.findall(r"^TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\s*\)", sources, re.M)}
+    for name, text in pages.items():
+        for line in text.split("\n"):
+            for wanted in re.findall(r"\b[A-Z]\w+\*?\.(?:[A-Z]\w+\*?|\*(?!\*))", line if line.startswith("| ") else ""):
+                if not fnmatch.filter(tests, wanted):
+                    fail(f"{name}: wanted the name of a test, found '{wanted}', which no test has")
+
+
 def expect_refusal(words, text):
     """Expects that a page with this text is refused with these words."""
     with tempfile.TemporaryDirectory() as folder:
@@ -191,10 +205,12 @@ def run_page(name, blocks, folder, environment):
 def main():
     pages = list_pages()
     here = check_cover(pages)
+    check_test_names(pages)
     if len(sys.argv) == 1:
         expect_refusal("docs/new.md: wanted a test of the command 'unknown --option'", "Text:\n\n    unknown --option\n")
         expect_refusal("docs/new.md: wanted a test of the command './dev format'", "```\n./dev demo\n./dev format\n```\n")
         expect_refusal("docs/new.md: wanted a test of the command 'catoptrics list'", "```sh\ncatoptrics list\n```\n")
+        expect_refusal("docs/new.md: wanted the name of a test, found 'Memory.Wrong*'", "| a | Memory.Wrong* |\n")
         print(f"docs: a test covers each command; {sum(len(block) for page in here.values() for block in page)} run here")
         return
     program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
