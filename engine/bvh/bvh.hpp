@@ -134,7 +134,7 @@ IndexRange refit_bvh(Bvh& bvh, std::span<const Triangle> triangles, const Bounds
 /// from their neighbours. Takes O(n).
 double compute_sah_cost(const Bvh& bvh);
 
-/// Writes the two words of the header at which walks begin.
+/// Writes the two words of the tree's header that say at which nodes rays begin their traversal.
 void write_bvh_traversal_start(Bvh& bvh, std::uint32_t casters, std::uint32_t others);
 
 std::size_t count_nodes(const Bvh& bvh);     ///< including the header

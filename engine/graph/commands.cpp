@@ -9,7 +9,7 @@ namespace catoptric::graph {
 
 namespace {
 
-// Names in shaders/lib/work.glsl.
+// Names of the specialisation constant and the buffer by which shaders/lib/work.glsl counts work.
 constexpr const char* kCountWorkShaderConstantName = "count_work";
 constexpr std::string_view kWorkBufferName = "WorkBuffer";
 

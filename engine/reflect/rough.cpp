@@ -25,8 +25,9 @@ std::uint32_t face_edge_of_level(RoughMirrorLookup rough, std::uint32_t face, st
     return graph::size_at_mip(face, rough == RoughMirrorLookup::mips ? level : level + 1);
 }
 
-/// Returns the number of levels above the capture: the box-filtered chain ends with one texel a
-/// face, and the prefiltered levels with the first whose lobe has a width alpha of at least 1.
+/// Returns the number of filtered levels of a capture, without the capture itself. The last
+/// box-filtered level has one texel per face. The last prefiltered level is the first whose lobe
+/// has an alpha of at least 1.
 std::uint32_t count_capture_levels(RoughMirrorLookup rough, std::uint32_t face) {
     std::uint32_t level = 1;
     while (face_edge_of_level(rough, face, level) > 1 &&

@@ -26,8 +26,9 @@ struct TechniqueOutputs {
     /// Image with the direction in which each mirror pixel looked into a capture
     /// (shaders/lib/mirror.glsl), rgba32f; only if the inputs ask for this image.
     std::optional<graph::ImageHandle> lookup;
-    /// Image of the numbers of tracers that complete the pixels (render::CameraPassOutputs); only
-    /// with `lookup`, if tracers of listed pixels do.
+    /// Image with the number of the tracer that traces each pixel which the search leaves open
+    /// (render::CameraPassOutputs). Only set with `lookup`, and only if tracers of listed pixels
+    /// complete the picture.
     std::optional<graph::ImageHandle> tracer_marks;
     /// Whether rays draw all mirrors of the picture, so that `lookup` says nothing.
     bool traces_all_mirrors = false;

@@ -160,7 +160,7 @@ PixelsToTraceList add_pass_listing_pixels_to_trace(graph::Graph& graph,
     const uvec2 size = inputs.size;
     const std::string name = inputs.prefix + "list" + suffix;
     PixelsToTraceList list;
-    // Entries are those of shaders/lib/trace_list.glsl.
+    // shaders/lib/trace_list.glsl describes the words of an entry.
     const std::uint32_t words = first_raster ? 3 : 1;
     list.pixels = graph.add_buffer({name, words * sizeof(std::uint32_t) * size.x * size.y});
     list.arguments = graph.add_buffer({name + "/arguments", 3 * sizeof(std::uint32_t)});

@@ -82,9 +82,10 @@ make_frame_geometry(const scene::Scene& now, const SceneUnitTransform& space,
 bool needs_other_vertex_space(const FrameGeometry& geometry, const scene::Scene& now,
                               const SceneUnitTransform& space, std::size_t object);
 
-/// Moves an object's triangles to their present place. Nothing else about the object may have
-/// changed since `make_frame_geometry`. Returns whether vertices changed; moving only an object
-/// space changes none. Throws as check_object_distance does.
+/// Moves the triangles of an object to where the object is in `now`. Only the place of the object
+/// may have changed since `make_frame_geometry`. Returns whether vertices changed: no vertex
+/// changes if the object has a coordinate space of its own, which then moves. Throws as
+/// check_object_distance does.
 bool move_object_geometry(FrameGeometry& geometry, const scene::Scene& now,
                           const SceneUnitTransform& space, std::size_t index);
 

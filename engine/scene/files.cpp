@@ -93,8 +93,8 @@ std::string SceneFileOpener::read_main_scene_file() {
     return bytes;
 }
 
-void SceneFileOpener::check_scene_file_place(const fs::path& real, const std::string& name,
-                                             const std::string& place) const {
+void SceneFileOpener::check_file_lies_below_root(const fs::path& real, const std::string& name,
+                                                 const std::string& place) const {
     check(is_inside_folder(real, folder_) || is_inside_folder(real, root_), Failure::bad_data,
           place, ": wanted a file below '", folder_.string(),
           "' or a folder given with --root, found ", quote_text_with_escapes(name), ", which is '",
@@ -110,10 +110,10 @@ fs::path SceneFileOpener::find_scene_file_by_name(const std::string& name,
     const fs::path path = folder_ / name;
     fs::path real = resolve_symbolic_links(path);
     const int why = errno;
-    check_scene_file_place(real.empty() ? path.lexically_normal() : real, name, place);
+    check_file_lies_below_root(real.empty() ? path.lexically_normal() : real, name, place);
     if (real.empty()) {
         const fs::path parent = resolve_symbolic_links(path.parent_path());
-        if (!parent.empty()) check_scene_file_place(parent / path.filename(), name, place);
+        if (!parent.empty()) check_file_lies_below_root(parent / path.filename(), name, place);
         errno = why;
         return {};
     }

@@ -48,8 +48,8 @@ public:
 
 private:
     void add_file(const std::filesystem::path& real);
-    void check_scene_file_place(const std::filesystem::path& real, const std::string& name,
-                                const std::string& place) const;
+    void check_file_lies_below_root(const std::filesystem::path& real, const std::string& name,
+                                    const std::string& place) const;
 
     std::filesystem::path scene_, folder_, root_;
     SceneLoadBudgetUsage& account_;

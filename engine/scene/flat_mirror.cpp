@@ -143,7 +143,7 @@ group_triangles_into_runs(const std::vector<std::uint32_t>& ascending) {
 
 /// Returns whether every edge has two triangles.
 bool is_closed_mesh(const Mesh& mesh) {
-    const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
+    const std::vector<std::size_t> first = find_first_vertex_at_each_position(mesh.positions);
     std::vector<TriangleCorners> triangles;
     for (const uvec3& t : mesh.triangles) triangles.push_back({first[t.x], first[t.y], first[t.z]});
     bool closed = true;

@@ -142,7 +142,7 @@ ConnectedMeshComponents find_mesh_components(const Mesh& mesh, const dmat4& worl
     std::vector<dvec3> world;
     for (const dvec3& p : mesh.positions)
         world.push_back(transform_point_to_world(world_from_object, p));
-    const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
+    const std::vector<std::size_t> first = find_first_vertex_at_each_position(mesh.positions);
 
     ConnectedVertexSets islands(world.size());
     // Area of the triangles whose first corner is the vertex.

@@ -40,7 +40,7 @@ CentredObjectTriangles make_centred_triangles(const Scene& scene, const Object& 
     if (box.empty()) return soup;
     soup.centre = box.centre();
     soup.extent = std::max({box.extent().x, box.extent().y, box.extent().z});
-    const std::vector<std::size_t> first = find_first_vertex_of_each_place(mesh.positions);
+    const std::vector<std::size_t> first = find_first_vertex_at_each_position(mesh.positions);
     std::vector<std::size_t> place(first.size(), soup.places.max_size());
     const auto place_of = [&](std::uint32_t vertex) {
         std::size_t& number = place[first[vertex]];

@@ -22,11 +22,11 @@ public:
     std::vector<std::string> lines(const std::string& file) const;
 
 private:
-    struct NoteKind {
+    struct RepeatedNote {
         std::string text, first;
         std::uint64_t count = 0;
     };
-    std::vector<NoteKind> kinds_;
+    std::vector<RepeatedNote> kinds_;
     std::unordered_map<std::string, std::size_t> index_of_;
     std::uint64_t others_ = 0;
 };

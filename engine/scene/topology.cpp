@@ -72,7 +72,7 @@ private:
 
 } // namespace
 
-std::vector<std::size_t> find_first_vertex_of_each_place(std::span<const dvec3> positions) {
+std::vector<std::size_t> find_first_vertex_at_each_position(std::span<const dvec3> positions) {
     VertexPositionGrid places(positions);
     std::vector<std::size_t> first(positions.size());
     for (std::size_t i = 0; i < first.size(); ++i)
@@ -99,7 +99,7 @@ std::vector<TriangleEdge> list_triangle_edges(std::span<const TriangleCorners> t
 
 bool is_closed_triangle_surface(std::span<const dvec3> positions,
                                 std::span<const uvec3> triangles) {
-    const std::vector<std::size_t> first = find_first_vertex_of_each_place(positions);
+    const std::vector<std::size_t> first = find_first_vertex_at_each_position(positions);
     std::vector<TriangleCorners> corners;
     for (const uvec3& t : triangles) corners.push_back({first[t.x], first[t.y], first[t.z]});
     bool is_closed = true;

@@ -20,7 +20,7 @@ inline bool has_three_distinct_places(const TriangleCorners& t) {
 /// Returns for each vertex the first vertex at the same place. Two places are the same if no
 /// coordinate differs by more than 2^-21 of the largest coordinate, four roundings of a float. The
 /// tolerance is needed because files compute the two ends of a seam apart. O(n).
-std::vector<std::size_t> find_first_vertex_of_each_place(std::span<const dvec3> positions);
+std::vector<std::size_t> find_first_vertex_at_each_position(std::span<const dvec3> positions);
 
 /// Edge of one triangle.
 struct TriangleEdge {

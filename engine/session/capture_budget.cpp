@@ -4,12 +4,13 @@
 
 namespace catoptric::app {
 
-std::string describe_capture_budget(const CaptureBudget& slices) {
-    const std::uint32_t round = slices.frames_per_cycle(), oldest = round - 1;
+std::string describe_capture_budget(const CaptureBudget& capture_budget) {
+    const std::uint32_t round = capture_budget.frames_per_cycle(), oldest = round - 1;
     return fmt::format("captures: at most {} of {} mirror{} a frame; none shows what is older than "
                        "{} frame{}, and {} more for each further mirror that it is seen by",
-                       slices.most, slices.mirrors, slices.mirrors == 1 ? "" : "s", oldest,
-                       oldest == 1 ? "" : "s", round);
+                       capture_budget.most, capture_budget.mirrors,
+                       capture_budget.mirrors == 1 ? "" : "s", oldest, oldest == 1 ? "" : "s",
+                       round);
 }
 
 } // namespace catoptric::app

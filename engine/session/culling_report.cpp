@@ -71,7 +71,7 @@ constexpr const char* kUndrawnReflectionsRemedy =
 } // namespace
 
 std::string format_culling_as_text(const Request& request,
-                                   const std::optional<CaptureBudget>& slices) {
+                                   const std::optional<CaptureBudget>& capture_budget) {
     const auto [now, model, suggestion] = find_required_work(request);
     const std::vector<std::string> names = list_mirror_names(now);
     std::string text = require::describe_model(model, now);
@@ -80,7 +80,7 @@ std::string format_culling_as_text(const Request& request,
                 report::format_fixed(100 * *gap->pixel_share, 1) +
                 " % of the picture (first: " + escape_control_characters(gap->first) +
                 ")\n    why: " + kUndrawnReflectionsRemedy + "\n";
-    if (slices) text += describe_capture_budget(*slices) + "\n";
+    if (capture_budget) text += describe_capture_budget(*capture_budget) + "\n";
     if (names.empty()) return text;
     text += "suggested --plan \"" + suggestion.plan + "\"\n";
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -90,7 +90,7 @@ std::string format_culling_as_text(const Request& request,
 }
 
 std::string format_culling_as_json(const Request& request,
-                                   const std::optional<CaptureBudget>& slices) {
+                                   const std::optional<CaptureBudget>& capture_budget) {
     const RequiredWorkReport required = app::find_required_work(request);
     const std::vector<std::string> names = list_mirror_names(required.now);
     OrderedJson document{
@@ -115,12 +115,14 @@ std::string format_culling_as_json(const Request& request,
                                          {"why", kUndrawnReflectionsRemedy},
                                          {"first", gap->first},
                                          {"pixel_share", *gap->pixel_share}});
-    document["captures"] = slices ? OrderedJson{{"mirrors", slices->mirrors},
-                                                {"most", slices->most},
-                                                {"oldest_frames", slices->frames_per_cycle() - 1},
-                                                {"round_frames", slices->frames_per_cycle()},
-                                                {"said", describe_capture_budget(*slices)}}
-                                  : OrderedJson();
+    document["captures"] = capture_budget
+                               ? OrderedJson{{"mirrors", capture_budget->mirrors},
+                                             {"most", capture_budget->most},
+                                             {"oldest_frames",
+                                              capture_budget->frames_per_cycle() - 1},
+                                             {"round_frames", capture_budget->frames_per_cycle()},
+                                             {"said", describe_capture_budget(*capture_budget)}}
+                               : OrderedJson();
     return document.dump(2, ' ', true, OrderedJson::error_handler_t::replace) + "\n";
 }
 
@@ -133,7 +135,7 @@ std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Reques
         session.forget();
         session.frame(spec);
     }
-    return session.frame(spec).slices();
+    return session.frame(spec).capture_budget();
 }
 
 } // namespace catoptric::app

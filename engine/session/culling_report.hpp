@@ -9,14 +9,14 @@
 /// device.
 namespace catoptric::app {
 
-/// Returns the report as text for the user. `slices`: only if there is a budget.
+/// Returns the report as text for the user. `capture_budget`: only if there is a budget.
 std::string format_culling_as_text(const Request& request,
-                                   const std::optional<CaptureBudget>& slices = {});
+                                   const std::optional<CaptureBudget>& capture_budget = {});
 /// Returns the report as JSON with a final newline: {"schema": "catoptric/why/1", "mirrors": [...],
 /// "lights": [...], "left_out": [...], "not_drawn": [...], "suggested": PLAN, "captures": SLICES or
 /// null}.
 std::string format_culling_as_json(const Request& request,
-                                   const std::optional<CaptureBudget>& slices = {});
+                                   const std::optional<CaptureBudget>& capture_budget = {});
 /// Renders a few frames and returns how many captures fit into the request's budget. Returns
 /// nothing if no captures are kept.
 std::optional<CaptureBudget> measure_capture_budget(Engine& engine, const Request& request);

@@ -21,9 +21,9 @@ struct EngineOptions {
     /// Device profile to use (docs/performance.md), as `catoptric bench --tune` writes it. The
     /// engine throws `bad_data` or `missing_input` unless it is a file for this device and driver.
     std::filesystem::path profile = {};
-    /// Folder with profiles, searched if `profile` is empty. The profile for this device and driver
-    /// is used if the folder has it. DeviceInfo::warning says why a profile cannot be used. Empty:
-    /// all variants have their defaults.
+    /// Folder in which the profile of this device and driver is looked up if `profile` is empty. If
+    /// the profile cannot be used, DeviceInfo::warning says why. If this path is empty too, no
+    /// profile is used.
     std::filesystem::path profiles = {};
     /// Variants to use instead of a profile.
     VariantNames variants = {};

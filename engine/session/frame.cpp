@@ -38,14 +38,14 @@ bool Access::does_frame_part_need_previous_frame(const Frame& frame, std::size_t
                                           self.technique_part_at_index(part));
 }
 
-const std::optional<CaptureBudget>& Frame::slices(std::size_t part) const {
-    return impl_->technique_part_at_index(part).slices;
+const std::optional<CaptureBudget>& Frame::capture_budget(std::size_t part) const {
+    return impl_->technique_part_at_index(part).capture_budget;
 }
 
 std::uint32_t Frame::waiting() const {
     std::uint32_t waiting = 0;
     for (const TechniqueGraphPart& part : impl_->frame.parts)
-        waiting += part.slices ? part.slices->waiting : 0;
+        waiting += part.capture_budget ? part.capture_budget->waiting : 0;
     return waiting;
 }
 
@@ -66,7 +66,7 @@ TechniqueResult Frame::read(std::size_t part) const {
     read.model = impl_->spec.model;
     if (!impl_->technique_part_at_index(part).outputs.draws_everything)
         read.left_out = impl_->model->left_out;
-    read.slices = slices(part);
+    read.capture_budget = capture_budget(part);
     return read;
 }
 

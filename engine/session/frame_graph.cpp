@@ -86,15 +86,15 @@ std::optional<CaptureBudget> make_capture_budget(const reflect::TechniqueOutputs
                                                  const reflect::PreviousCaptureHistory& keeping) {
     if (!outputs.kept || keeping.most == 0) return std::nullopt;
     const render::CaptureCache& kept = *outputs.kept;
-    CaptureBudget slices;
+    CaptureBudget capture_budget;
     for (std::size_t i = 0; i < kept.options.size(); ++i) {
-        slices.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
-        slices.drawn += kept.changes[i] != render::CaptureChangeKind::none;
-        slices.waiting += kept.waited[i] > 0;
-        slices.longest = std::max(slices.longest, kept.waited[i]);
+        capture_budget.mirrors += kept.options[i].face > 0 && keeping.model.mirrors[i].is_captured;
+        capture_budget.drawn += kept.changes[i] != render::CaptureChangeKind::none;
+        capture_budget.waiting += kept.waited[i] > 0;
+        capture_budget.longest = std::max(capture_budget.longest, kept.waited[i]);
     }
-    slices.most = std::min(keeping.most, slices.mirrors);
-    return slices;
+    capture_budget.most = std::min(keeping.most, capture_budget.mirrors);
+    return capture_budget;
 }
 
 /// Returns the bytes of persistent images that the frame does not use.
@@ -169,8 +169,9 @@ FrameGraph declare_frame_graph(const FrameSpec& spec, const FrameHooks& hooks,
                     frame.graph.mark_as_graph_output(*cubes.distance);
             }
         }
-        const std::optional<CaptureBudget> slices = make_capture_budget(outputs, kept);
-        frame.parts.push_back({plan, assignment, prefix, std::move(outputs), display, slices});
+        const std::optional<CaptureBudget> capture_budget = make_capture_budget(outputs, kept);
+        frame.parts.push_back(
+            {plan, assignment, prefix, std::move(outputs), display, capture_budget});
     }
     return frame;
 }

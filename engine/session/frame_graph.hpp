@@ -19,7 +19,7 @@ struct TechniqueGraphPart {
     std::string prefix;
     reflect::TechniqueOutputs outputs;
     graph::ImageHandle display;
-    std::optional<CaptureBudget> slices; ///< see Frame::slices
+    std::optional<CaptureBudget> capture_budget; ///< see Frame::capture_budget
 };
 
 struct FrameGraph {

@@ -54,7 +54,8 @@ bool FrameLoop::render_next(const scene::Camera& camera, double time) {
 int FrameLoop::max_frame_count() const {
     std::uint32_t round = 1;
     for (std::size_t i = 0; request_.until_settled && frame_ && i < frame_->size(); ++i)
-        round = std::max(round, frame_->slices(i) ? frame_->slices(i)->frames_per_cycle() : 1);
+        round = std::max(
+            round, frame_->capture_budget(i) ? frame_->capture_budget(i)->frames_per_cycle() : 1);
     return static_cast<int>(std::min<std::int64_t>(std::int64_t{request_.total()} * round,
                                                    std::numeric_limits<int>::max()));
 }

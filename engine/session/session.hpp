@@ -100,8 +100,8 @@ struct TechniqueResult {
     std::vector<PlanEntry> plan;    ///< technique of each mirror
     std::vector<std::string> notes; ///< deviations from what was asked for, a sentence each
     RenderedWork model = RenderedWork::everything;
-    std::vector<CulledWork> left_out;    ///< work that the model left out
-    std::optional<CaptureBudget> slices; ///< only if captures are kept under a limit
+    std::vector<CulledWork> left_out;            ///< work that the model left out
+    std::optional<CaptureBudget> capture_budget; ///< only if captures are kept under a limit
     int scene_passes = 0;
     int scene_draws = 0;            ///< scene passes times their layers
     bool remembers = false;         ///< the picture depends on the frame before
@@ -133,7 +133,7 @@ public:
     CATOPTRIC_API std::size_t size() const;
     /// Returns the outcome of the capture limit, if the technique keeps captures and FrameSpec sets
     /// a limit.
-    CATOPTRIC_API const std::optional<CaptureBudget>& slices(std::size_t part = 0) const;
+    CATOPTRIC_API const std::optional<CaptureBudget>& capture_budget(std::size_t part = 0) const;
     /// Returns how many mirrors, over all techniques, have captures that still wait to be drawn
     /// again. If some captures wait, the picture can differ from the picture without a limit.
     CATOPTRIC_API std::uint32_t waiting() const;

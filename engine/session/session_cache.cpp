@@ -97,7 +97,8 @@ void Session::Impl::mark_frame_for_capture_timing(const FrameGraph& frame,
                                                   graph::SubmittedFrameTicket ticket) {
     timed = {ticket, {}};
     for (const TechniqueGraphPart& part : frame.parts)
-        timed->drawn.emplace_back(part.prefix, part.slices ? part.slices->drawn : 0);
+        timed->drawn.emplace_back(part.prefix,
+                                  part.capture_budget ? part.capture_budget->drawn : 0);
 }
 
 } // namespace catoptric::app

@@ -25,8 +25,9 @@ void render_ablated_pictures(Session& session, const Request& request,
 /// Splits the error of rows that look into captures by cause, against the default reference.
 class ErrorCauseFinder {
 public:
-    /// `truth`: the reference's picture. `hits`: what its camera rays met (see measure/masks.hpp).
-    /// `halves`: of a reference with noise, else null. The session must show the scene of `base`.
+    /// Finds causes of errors in the scene of `base`, which `session` must show. `truth` is the
+    /// reference's picture, and `hits` holds what each of its camera rays met (measure/masks.hpp).
+    /// `halves` are the two halves of a reference with noise; null for a reference without noise.
     /// All objects passed by reference must outlive the finder.
     ErrorCauseFinder(Session& session, const Request& base, const measure::Picture& truth,
                      const std::vector<std::uint32_t>& hits, const Watcher& watcher = {},

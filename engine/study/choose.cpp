@@ -326,7 +326,7 @@ std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
                                                   (1 - find_noise_miss_probability(request)));
         proof.error_bound = measure::upper_tolerance_limit(errors, find_share_to_prove(request),
                                                            request.confidence);
-        proof.noise = find_noise_of_views(request, comparison);
+        proof.noise = find_reference_noise_of_views(request, comparison);
         proof.keeps_error = request.max_error ? proof.share_bound >= request.share
                                               : std::isfinite(proof.error_bound);
         proof.keeps_time = keeps_time(request, proof.plan);
@@ -430,7 +430,7 @@ PlanChoice choose_plan(const ChooseRequest& asked, const PlanComparer& compare_p
                                                                choice.candidates);
     if (chain.empty()) {
         choice.failure = describe_nearest_plan(request, choice.candidates,
-                                               find_noise_of_views(request, training));
+                                               find_reference_noise_of_views(request, training));
         return choice;
     }
     choice.proofs = prove_plans(request, chain);

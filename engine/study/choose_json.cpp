@@ -99,7 +99,7 @@ Json make_certificate_json(const ChooseRequest& request, const PlanProof& proof,
 
 } // namespace
 
-std::string format_plan_time(const JudgedPlan& plan) {
+std::string format_milliseconds_with_range(const JudgedPlan& plan) {
     std::string text = fmt::format("{:.3g}", plan.ms);
     if (plan.ms_range.low < plan.ms_range.high)
         text += fmt::format(" [{:.3g} - {:.3g}]", plan.ms_range.low, plan.ms_range.high);
@@ -118,8 +118,9 @@ std::string describe_proof(const ChooseRequest& request, const PlanProof& proof)
                                                     100 * request.share, quantity,
                                                     proof.error_bound);
     return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures){}",
-                       proof.plan.text, format_plan_time(proof.plan), proof.device, statement,
-                       100 * request.confidence, proof.plan.errors.size(), proof.failures,
+                       proof.plan.text, format_milliseconds_with_range(proof.plan), proof.device,
+                       statement, 100 * request.confidence, proof.plan.errors.size(),
+                       proof.failures,
                        proof.noise ? "; " + describe_noise_of_views(*proof.noise) : "");
 }
 

@@ -20,6 +20,6 @@ report::Json make_proved_plan_json(const ChooseRequest& request, const std::stri
 /// Returns one sentence with the result of testing a plan on the proof views.
 std::string describe_proof(const ChooseRequest& request, const PlanProof& proof);
 /// Returns the time of a plan in milliseconds with its range, such as "3.1 [2.9 - 3.4]".
-std::string format_plan_time(const JudgedPlan& plan);
+std::string format_milliseconds_with_range(const JudgedPlan& plan);
 
 } // namespace catoptric::app

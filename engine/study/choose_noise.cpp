@@ -28,8 +28,8 @@ std::optional<NoiseFloorTarget> find_noise_target(const ChooseRequest& request) 
     return NoiseFloorTarget{request.quantity, kNoiseShareOfLimit * *request.max_error};
 }
 
-std::optional<NoiseOfViews> find_noise_of_views(const ChooseRequest& request,
-                                                const measure::Comparison& comparison) {
+std::optional<NoiseOfViews> find_reference_noise_of_views(const ChooseRequest& request,
+                                                          const measure::Comparison& comparison) {
     if (!comparison.noise) return {};
     std::vector<double> floors = comparison.noise->view_floors;
     std::erase_if(floors, [](double floor) { return std::isnan(floor); }); // no mirror is seen

@@ -36,8 +36,8 @@ double find_share_to_prove(const ChooseRequest& request);
 
 /// Returns the noise of the drawn views of a comparison; none if its reference has no noise, or if
 /// no view shows a mirror.
-std::optional<NoiseOfViews> find_noise_of_views(const ChooseRequest& request,
-                                                const measure::Comparison& comparison);
+std::optional<NoiseOfViews> find_reference_noise_of_views(const ChooseRequest& request,
+                                                          const measure::Comparison& comparison);
 
 /// Returns a clause such as "noise floor of the reference: median 0.004, at most 0.007, wanted 0.01
 /// (0 views above)".

@@ -176,7 +176,8 @@ RunningPlanAudit::RunningPlanAudit(PlanAuditRequest request)
     : request_(std::move(request)), audit_(check_plan_audit_request(request_).tested),
       alarm_(request_.tested), schedule_(request_.pace), ladder_(request_.plans.size()) {}
 
-/// Returns whether the reference shows all surfaces of the scene as they are.
+/// Returns whether the reference can show the scene: rough reflectors need a reference that draws
+/// rays from lobes.
 bool RunningPlanAudit::can_reference_show(const scene::Scene& scene) const {
     return draws_rays_from_lobes(request_.reference) || !scene::has_rough_reflector(scene);
 }
@@ -223,7 +224,8 @@ void RunningPlanAudit::check_reference_is_traced(const TechniqueResult& truth) c
           request_.reference);
 }
 
-/// Ray traces the samples by a reference without noise and returns the difference over the mirrors.
+/// Ray traces the sampled pixels by a reference without noise. Returns the difference between the
+/// reference and `samples`, the shown colours of these pixels, over the mirrors.
 measure::Difference RunningPlanAudit::compare_with_one_picture(Session& session,
                                                                const measure::Picture& samples,
                                                                const FrameSpec& traced) {

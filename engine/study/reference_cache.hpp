@@ -19,7 +19,8 @@
 
 namespace catoptric::app {
 
-/// Rays from each rough surface in a frame of the default reference of scenes with rough mirrors.
+/// Default reference of scenes with rough mirrors. Each of its frames traces 64 rays from the first
+/// rough surface of each pixel.
 inline constexpr const char* kRoughReference = "raytrace:depth=16,rays=64";
 /// What the pixels of the reference picture show.
 enum class ReferencePixelKind {

@@ -104,12 +104,13 @@ std::string make_candidate_table(const app::ChooseRequest& request, const app::P
          fmt::format("largest {} in {} views", app::error_quantity_name(request.quantity),
                      request.training_views)}};
     for (const app::JudgedPlan& plan : choice.candidates)
-        rows.push_back(
-            {plan.text, app::format_plan_time(plan), fmt::format("{:.5f}", plan.largest_error)});
+        rows.push_back({plan.text, app::format_milliseconds_with_range(plan),
+                        fmt::format("{:.5f}", plan.largest_error)});
     return align_columns(rows);
 }
 
-app::ChooseRequest make_choose_request(const ChooseOptions& options, ProgressPrinter& progress) {
+app::ChooseRequest make_choose_request_from_options(const ChooseOptions& options,
+                                                    ProgressPrinter& progress) {
     app::ChooseRequest request = options.limits;
     request.base = make_render_request_of_options(options.common, app::check_has_mirror);
     request.base.techniques = options.techniques;
@@ -169,7 +170,7 @@ int run_choose(const ChooseOptions& options) {
           "--reference: wanted a technique, found a file");
     if (!options.output.empty()) check_file_can_be_made(options.output);
     ProgressPrinter progress(options.common.manners, ProgressPrinter::ProgressOffTerminal::tenths);
-    const app::ChooseRequest request = make_choose_request(options, progress);
+    const app::ChooseRequest request = make_choose_request_from_options(options, progress);
     if (!options.output.empty()) check_output_place(options, request);
     app::Engine engine(make_engine_options(options.common.device));
     print_device_and_warnings(engine, options.common.manners);

@@ -98,7 +98,8 @@ std::string format_diff_facts(const PictureDiffFacts& facts) {
 
 int run_diff(const DiffOptions& options) {
     const PictureDiffFacts facts = compare_files(options);
-    print_result(options.manners.json ? make_diff_json(facts) : format_diff_facts(facts));
+    print_result(options.manners.json ? format_picture_difference_as_json(facts)
+                                      : format_diff_facts(facts));
     check(facts.over.empty(), Failure::threshold, join_with_commas(facts.over));
     return 0;
 }

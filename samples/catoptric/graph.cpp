@@ -37,7 +37,7 @@ struct GraphOptions {
     bool why = false;
 };
 
-app::GraphPlanFormat choose_plan_format(const GraphOptions& options) {
+app::GraphPlanFormat find_graph_output_format(const GraphOptions& options) {
     const app::GraphPlanFormat asked = options.common.manners.json ? app::GraphPlanFormat::json
                                                                    : app::GraphPlanFormat::text;
     const app::GraphPlanFormat format = options.format.value_or(asked);
@@ -49,14 +49,14 @@ app::GraphPlanFormat choose_plan_format(const GraphOptions& options) {
 }
 
 void print_culling_report(const app::Request& request, app::GraphPlanFormat format,
-                          const std::optional<app::CaptureBudget>& slices) {
+                          const std::optional<app::CaptureBudget>& capture_budget) {
     print_result(format == app::GraphPlanFormat::json
-                     ? app::format_culling_as_json(request, slices)
-                     : app::format_culling_as_text(request, slices));
+                     ? app::format_culling_as_json(request, capture_budget)
+                     : app::format_culling_as_text(request, capture_budget));
 }
 
 int run_graph(const GraphOptions& options) {
-    const app::GraphPlanFormat format = choose_plan_format(options);
+    const app::GraphPlanFormat format = find_graph_output_format(options);
     check(!options.common.both_models, Failure::usage,
           "--model both: wanted everything or required, of which a plan has one");
     const bool is_limited = options.common.budget_ms > 0;

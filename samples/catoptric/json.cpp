@@ -54,16 +54,17 @@ Json make_culled_work_json(const app::TechniqueResult& part) {
 }
 
 /// Returns how many captures a frame draws again, and how old their contents can be.
-Json make_capture_budget_json(const std::optional<app::CaptureBudget>& slices, double budget_ms) {
-    if (!slices) return nullptr;
+Json make_capture_budget_json(const std::optional<app::CaptureBudget>& capture_budget,
+                              double budget_ms) {
+    if (!capture_budget) return nullptr;
     return {{"budget_ms", budget_ms},
-            {"mirrors", slices->mirrors},
-            {"most", slices->most},
-            {"drawn", slices->drawn},
-            {"waiting", slices->waiting},
-            {"oldest_frames", slices->frames_per_cycle() - 1},
-            {"round_frames", slices->frames_per_cycle()},
-            {"said", app::describe_capture_budget(*slices)}};
+            {"mirrors", capture_budget->mirrors},
+            {"most", capture_budget->most},
+            {"drawn", capture_budget->drawn},
+            {"waiting", capture_budget->waiting},
+            {"oldest_frames", capture_budget->frames_per_cycle() - 1},
+            {"round_frames", capture_budget->frames_per_cycle()},
+            {"said", app::describe_capture_budget(*capture_budget)}};
 }
 
 Json make_settings_json(const std::vector<Setting>& list) {
@@ -86,7 +87,7 @@ Json make_better_direction_json(measure::BetterDirection better) {
 
 } // namespace
 
-std::string make_diff_json(const PictureDiffFacts& facts) {
+std::string format_picture_difference_as_json(const PictureDiffFacts& facts) {
     Json document{{"schema", "catoptric/diff/1"}, {"a", facts.a}, {"b", facts.b}};
     document["mask"] = facts.mask.empty() ? Json() : Json(facts.mask);
     document["size"] = {facts.size.x, facts.size.y};
@@ -130,7 +131,7 @@ std::string make_render_json(const app::Request& request, int first_frame,
     document["notes"] = part.notes;
     document["model"] = rendered_work_name(part.model);
     document["left_out"] = make_culled_work_json(part);
-    document["captures"] = make_capture_budget_json(part.slices, request.budget_ms);
+    document["captures"] = make_capture_budget_json(part.capture_budget, request.budget_ms);
     document["scene_passes"] = part.scene_passes;
     document["scene_draws"] = part.scene_draws;
     // Frames of a still picture also compile shaders at their first use. The times of such frames

@@ -22,7 +22,7 @@ struct PictureDiffFacts {
     measure::Mean a_mean, b_mean, a_clamped, b_clamped;
     std::vector<std::string> over; ///< quantities that exceed their threshold, in words
 };
-std::string make_diff_json(const PictureDiffFacts& facts);
+std::string format_picture_difference_as_json(const PictureDiffFacts& facts);
 
 /// `first_frame`: number of the first measured frame in its sequence, from 1.
 std::string make_render_json(const app::Request& request, int first_frame,

@@ -318,7 +318,8 @@ void print_render_summary(const RenderOptions& options, const app::Request& requ
     print_note_unless_quiet(manners,
                             fmt::format("{}: {} scene passes, {}, mean {:.5f}, written: {}",
                                         part.label, part.scene_passes, frames, mean.all, output));
-    if (part.slices) print_detail_if_verbose(manners, app::describe_capture_budget(*part.slices));
+    if (part.capture_budget)
+        print_detail_if_verbose(manners, app::describe_capture_budget(*part.capture_budget));
     if (request.until_settled) return;
     for (const app::PassTime& pass : result.frames.back().passes)
         print_detail_if_verbose(manners, fmt::format("  {:<40} {:10.4f} ms", pass.name, pass.ms()));

@@ -42,7 +42,8 @@ std::vector<double> average_values_per_instant(const SweepGroup& group,
 
 } // namespace
 
-std::vector<SweepGroup> group_results(const std::filesystem::path& folder, const SweepPlan& plan) {
+std::vector<SweepGroup> read_results_by_sweep_group(const std::filesystem::path& folder,
+                                                    const SweepPlan& plan) {
     std::vector<SweepGroup> groups;
     for (const SweepPiece& piece : plan.pieces) {
         const SweepJson &scene = piece.content["scene"], &options = piece.content["options"];

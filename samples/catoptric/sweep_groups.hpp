@@ -22,7 +22,8 @@ struct SweepGroup {
 };
 
 /// Reads the results of all pieces. Throws if a result is missing or broken.
-std::vector<SweepGroup> group_results(const std::filesystem::path& folder, const SweepPlan& plan);
+std::vector<SweepGroup> read_results_by_sweep_group(const std::filesystem::path& folder,
+                                                    const SweepPlan& plan);
 
 /// Mean, median and largest of some values, and the 95 % interval of the median.
 struct SweepSummary {

@@ -236,7 +236,7 @@ MergedSweep merge_sweep(const fs::path& folder, const SweepPlan& plan, AcrossIde
     check(state.is_complete(), Failure::bad_data, folder.string(), ": wanted the results of ",
           state.pieces, " pieces, found ", state.finished, "; 'catoptric sweep check ",
           folder.string(), "' names the others");
-    const std::vector<SweepGroup> groups = group_results(folder, plan);
+    const std::vector<SweepGroup> groups = read_results_by_sweep_group(folder, plan);
     MergedSweep merged;
     std::map<SweepJson, std::vector<SweepJson>> devices; // identities by the options for the device
     for (const SweepGroup& group : groups)

@@ -192,7 +192,7 @@ void SceneViewer::render_frame(const ViewState& state, uvec2 size, app::WindowOv
     began_ = begin;
     last_ = made;
     left_out_ = app::Access::rendered_model(made).left_out;
-    slices_ = made.slices();
+    capture_budget_ = made.capture_budget();
     pending_.push_back({std::move(made), std::move(sample)});
     ++frames_;
 }

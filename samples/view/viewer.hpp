@@ -33,7 +33,9 @@ public:
     std::vector<PlanEntry> entries() const;
     const std::vector<require::CulledWork>& culled_work() const { return left_out_; }
     /// Returns the capture budget of the first technique, if there is one.
-    const std::optional<app::CaptureBudget>& capture_budget_of_technique() const { return slices_; }
+    const std::optional<app::CaptureBudget>& capture_budget_of_technique() const {
+        return capture_budget_;
+    }
 
     /// Renders a frame of `size`, and shows it if the window is visible (`is_seen`). Throws `usage`
     /// for a plan that does not fit the scene, `device_lost` and `exhausted`.
@@ -75,7 +77,7 @@ private:
     ProgressiveReference reference_;
     std::optional<measure::Difference> error_;
     std::vector<require::CulledWork> left_out_;
-    std::optional<app::CaptureBudget> slices_;
+    std::optional<app::CaptureBudget> capture_budget_;
     double budget_ms_ = 0;
     std::shared_ptr<const measure::Picture> made_; ///< picture made for `made_mode_`
     ViewMode made_mode_ = ViewMode::plan;

@@ -72,7 +72,7 @@ bool reflect_at_exact_sphere(inout MirrorPath path) {
     float radius = read_probe(next).radius;
     vec3 error;
     vec3 met = sphere_hit_point(centre, radius, ray, t, error);
-    // A captured surface that is more than the sphere's radius nearer hides the sphere.
+    // The capture shows a surface in front of the sphere if its distance is smaller by more than the sphere's radius.
     vec3 seen = met - path.centre;
     if (captured_distance(path.mirror, normalize(seen)) + radius < length(seen)) return false;
     vec3 n = (met - centre) / radius;

@@ -44,7 +44,7 @@ vec3 sample_cosine(vec3 normal, float u, float v) {
 }
 
 // Returns the share of light, per steradian, that the surface reflects from `leaving` to where the ray along `direction`
-// comes from, without the mirrored part, and the density with which draw_reflection draws `leaving`.
+// comes from, without the mirrored part, and the density with which sample_reflection_direction draws `leaving`.
 vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 leaving, out float density) {
     vec3 reflected = vec3(0);
     density = 0.0;
@@ -64,7 +64,7 @@ vec3 evaluate_reflection(SurfacePoint p, Reflection parts, vec3 direction, vec3 
 // Draws the direction in which a ray leaves a surface at the path's `bounce`th reflection. `direction` is that of the
 // arriving ray. Multiplies the weight by what the surface reflects from there. Returns false, with the mirrored direction
 // and density 0, if a smooth part of the surface reflects the ray.
-bool draw_reflection(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving, out float density) {
+bool sample_reflection_direction(SurfacePoint p, Reflection parts, vec3 direction, uint bounce, inout vec3 weight, out vec3 leaving, out float density) {
     leaving = reflect_above_facet(direction, p.normal, p.facet);
     density = 0.0;
     float part = 0.0, survival = 0.0, u = 0.0, v = 0.0;

@@ -138,8 +138,9 @@ bool find_way_to_back_face(vec3 at, vec3 inside, out float way, out vec3 normal)
     return dot(inside, normal) < 0.0;
 }
 
-// Returns the ray that meets the glass at `at` along the unit vector `seen`, behind the glass. `n` is the surface's unit
-// normal; that of a solid body points outwards. `from_viewer`: the distance to the viewer, who may be inside the body.
+// Returns the ray behind a glass body, for a ray that meets the glass at the point `at` with the unit direction `seen`.
+// `n`: the unit normal of the surface, which points out of a solid body. `from_viewer`: the distance to the viewer, who
+// may be inside the body.
 RefractedRay refract_through_body(uint detail, vec3 at, vec3 seen, vec3 n, float from_viewer, Probe body) {
     MaterialParameters glass = read_material_parameters(detail);
     bool is_auto = refract_model == kRefractAuto || refract_model == kRefractTraced || refract_model >= kRefractBackface;

@@ -536,7 +536,7 @@ vec3 trace_radiance(Ray ray, uint first, out uint met) {
         } else {
             vec3 direction, weight_before = weight, arriving = ray.direction;
             Reflection parts = split_reflection(surface, reflects, -dot(point.normal, arriving));
-            bool is_drawn = draw_reflection(point, parts, arriving, bounce, weight, direction, ray_density);
+            bool is_drawn = sample_reflection_direction(point, parts, arriving, bounce, weight, direction, ray_density);
 #ifdef DOUBLES
             if (!is_drawn) direction = reflect_exact_ray();
 #endif

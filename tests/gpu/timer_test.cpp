@@ -54,8 +54,8 @@ TEST_P(SessionClosingTest, IsolatedPassesAddUpToTheFrame) {
     const double largest = std::ranges::max(shares),
                  median = measure::summarise_samples(shares).median;
     std::cout << "[ MEASURED ] passes are " << 100 * median << " % (median) and up to "
-              << 100 * largest << " % of a frame of "
-              << measure::summarise_samples(walls).median << " ms\n";
+              << 100 * largest << " % of a frame of " << measure::summarise_samples(walls).median
+              << " ms\n";
     if (cpu && measure::summarise_samples(walls).median < 20)
         GTEST_SKIP() << "frames below 20 ms: the cost of a submit is not small beside them";
     EXPECT_GE(largest, .95);

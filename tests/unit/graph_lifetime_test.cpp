@@ -282,7 +282,7 @@ TEST(Imported, ImportedBufferIsLeftReadableByTheHost) {
     EXPECT_EQ(plan.bytes, 0u);
 }
 
-struct Mips : ::testing::Test {
+struct GraphMipLevelTest : ::testing::Test {
     Graph g;
     ImageHandle image = g.add_image(
         {.name = "pyramid", .width = 8, .height = 4, .layers = 2, .mips = 4});
@@ -303,7 +303,7 @@ struct Mips : ::testing::Test {
     }
 };
 
-TEST_F(Mips, EachMipHasItsOwnBarriers) {
+TEST_F(GraphMipLevelTest, EachMipHasItsOwnBarriers) {
     for (std::uint32_t m = 0; m < 4; ++m) add_mip_writing_pass(m);
     add_mip_reading_pass(image);
     const GraphPlan plan = plan_test_graph(g);
@@ -317,7 +317,7 @@ TEST_F(Mips, EachMipHasItsOwnBarriers) {
     EXPECT_EQ(plan.images[0].bytes, 768u); // (32 + 8 + 2 + 1) texels * 2 layers * 8 bytes, padded
 }
 
-TEST_F(Mips, BarriersCoverRangesOfMipsAndLayers) {
+TEST_F(GraphMipLevelTest, BarriersCoverRangesOfMipsAndLayers) {
     for (std::uint32_t m = 0; m < 4; ++m) add_mip_writing_pass(m);
     add_mip_reading_pass(image.select_image_layers(1, 1));
     EXPECT_THAT(describe_barriers(plan_test_graph(g).passes.at(4).barriers),
@@ -326,7 +326,7 @@ TEST_F(Mips, BarriersCoverRangesOfMipsAndLayers) {
                             "image 1 mips [0,1) layers [0,1) nothing > colour!"));
 }
 
-TEST_F(Mips, ReadingUnwrittenMipsIsRefused) {
+TEST_F(GraphMipLevelTest, ReadingUnwrittenMipsIsRefused) {
     add_mip_writing_pass(0);
     add_mip_writing_pass(1);
     add_mip_reading_pass(image.select_image_mips(0, 3));
@@ -335,14 +335,14 @@ TEST_F(Mips, ReadingUnwrittenMipsIsRefused) {
               "writes layers [0,2) of mip 2");
 }
 
-TEST_F(Mips, WritingSeveralMipsAtOnceIsRefused) {
+TEST_F(GraphMipLevelTest, WritingSeveralMipsAtOnceIsRefused) {
     g.add_pass("all").writes(image, ResourceUse::storage_write).record(record_no_commands);
     EXPECT_EQ(graph_lifetime_error_text(g),
               "pass 'all' uses 'pyramid' [0,2) mips [0,4) as storage_write: one mip at "
               "a time");
 }
 
-TEST_F(Mips, MipOutOfRangeIsRefused) {
+TEST_F(GraphMipLevelTest, MipOutOfRangeIsRefused) {
     g.add_pass("all")
         .writes(image.select_image_mip(4), ResourceUse::storage_write)
         .record(record_no_commands);
@@ -351,20 +351,20 @@ TEST_F(Mips, MipOutOfRangeIsRefused) {
               "mips [0,4)");
 }
 
-TEST_F(Mips, MoreMipsThanTheSizeAllowsAreRefused) {
+TEST_F(GraphMipLevelTest, MoreMipsThanTheSizeAllowsAreRefused) {
     g.add_image({.name = "deep", .width = 8, .height = 4, .mips = 5});
     EXPECT_EQ(graph_lifetime_error_text(g),
               "image 'deep' wants 5 mips, but of 8x4 there are 1 to 4");
 }
 
-TEST_F(Mips, OutputOfMipsOutOfRangeIsRefused) {
+TEST_F(GraphMipLevelTest, OutputOfMipsOutOfRangeIsRefused) {
     add_mip_writing_pass(0);
     g.mark_as_graph_output(image.select_image_mips(0, 5));
     EXPECT_EQ(graph_lifetime_error_text(g),
               "'pyramid' [0,2) mips [0,5) is wanted, but the image has mips [0,4)");
 }
 
-TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
+TEST_F(GraphMipLevelTest, AttachmentsOfDifferentSizesAreRefused) {
     const ImageHandle depth = g.add_image(
         {.name = "depth", .format = TexelFormat::d32f, .width = 8, .height = 4});
     g.add_pass("draw")
@@ -377,7 +377,7 @@ TEST_F(Mips, AttachmentsOfDifferentSizesAreRefused) {
               "[0,1) as depth (8x4): attachments have one size");
 }
 
-TEST_F(Mips, ReadingAndWritingOneMipInTheSamePassIsRefused) {
+TEST_F(GraphMipLevelTest, ReadingAndWritingOneMipInTheSamePassIsRefused) {
     add_mip_writing_pass(0);
     g.add_pass("twice")
         .reads(image.select_image_mip(0), ResourceUse::sampled)

@@ -305,10 +305,10 @@ TEST(Topology, PositionsWithinRoundingErrorsAreMerged) {
     const std::vector<dvec3> places{{1, 0, 0},     {1, 1e-17, -1e-17}, {1 + 2e-7, 0, 0},
                                     {1.01, 0, 0},  {1, 2e-6, 0},       {0, 0, 0},
                                     {0, -1e-9, 0}, {1, 0, 0}};
-    EXPECT_THAT(find_first_vertex_of_each_place(places),
+    EXPECT_THAT(find_first_vertex_at_each_position(places),
                 testing::ElementsAre(0, 0, 0, 3, 4, 5, 5, 0));
-    EXPECT_TRUE(find_first_vertex_of_each_place({}).empty());
-    EXPECT_THAT(find_first_vertex_of_each_place(std::vector(3, dvec3(0))),
+    EXPECT_TRUE(find_first_vertex_at_each_position({}).empty());
+    EXPECT_THAT(find_first_vertex_at_each_position(std::vector(3, dvec3(0))),
                 testing::ElementsAre(0, 0, 0));
 }
 

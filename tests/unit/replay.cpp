@@ -12,20 +12,20 @@ namespace {
 /// An earlier access to a cell, which is an image layer or a buffer. Barriers order some later
 /// accesses after it.
 struct PastCellAccess {
-    GraphContentCell cell;
+    GraphSubresource cell;
     AccessState touch;
     bool is_write = false; // true for a write or a layout change
     bool is_layout = false;
-    std::vector<std::pair<GraphContentCell, AccessState>>
+    std::vector<std::pair<GraphSubresource, AccessState>>
         ordered; // later accesses, by the barrier's cell
 
     /// Returns whether a barrier orders the access `t` to cell `by` after this access. A barrier on
     /// this access's own cell counts for every cell.
-    bool is_ordered_before(const GraphContentCell& by, const AccessState& t) const {
+    bool is_ordered_before(const GraphSubresource& by, const AccessState& t) const {
         return std::ranges::count(ordered, std::pair(by, t)) > 0 ||
                std::ranges::count(ordered, std::pair(cell, t)) > 0;
     }
-    bool is_in_barrier_scope(const GraphContentCell& by,
+    bool is_in_barrier_scope(const GraphSubresource& by,
                              const std::vector<AccessState>& scope) const {
         return (!is_layout && std::ranges::count(scope, touch) > 0) ||
                std::ranges::any_of(scope,
@@ -44,7 +44,7 @@ public:
         compute.raster = false;
         for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
             for (std::uint32_t l = 0; l < graph.list_images()[i].layers; ++l) {
-                const GraphContentCell cell{GraphCellKind::previous, i, l};
+                const GraphSubresource cell{GraphSubresourceKind::previous, i, l};
                 layouts_[cell] = ResourceUse::sampled;
                 events_[cell] = {{cell, {}, true, true, {{cell, raster}, {cell, compute}}}};
             }
@@ -66,22 +66,24 @@ public:
 
 private:
     template <typename... Parts>
-    void record_fault_of_cell_unless(bool ok, const GraphContentCell& cell, const Parts&... parts) {
+    void record_fault_of_cell_unless(bool ok, const GraphSubresource& cell, const Parts&... parts) {
         if (ok) return;
-        const std::string name = cell.kind == GraphCellKind::buffer
+        const std::string name = cell.kind == GraphSubresourceKind::buffer
                                      ? replayed_graph_.list_buffers()[cell.id].name
                                      : replayed_graph_.list_images()[cell.id].name;
         faults_.push_back(where_ + ": " + name + " layer " + std::to_string(cell.layer) +
-                          (cell.kind == GraphCellKind::previous ? " of last frame" : "") + ": " +
-                          (std::string(parts) + ...));
+                          (cell.kind == GraphSubresourceKind::previous ? " of last frame" : "") +
+                          ": " + (std::string(parts) + ...));
     }
 
-    const MemoryPlacement& placement_of_cell(const GraphContentCell& cell) const {
-        return cell.kind == GraphCellKind::buffer ? plan_.buffers[cell.id] : plan_.images[cell.id];
+    const MemoryPlacement& placement_of_cell(const GraphSubresource& cell) const {
+        return cell.kind == GraphSubresourceKind::buffer ? plan_.buffers[cell.id]
+                                                         : plan_.images[cell.id];
     }
 
-    bool do_cells_share_memory(const GraphContentCell& a, const GraphContentCell& b) const {
-        if (a.kind == GraphCellKind::previous || b.kind == GraphCellKind::previous) return false;
+    bool do_cells_share_memory(const GraphSubresource& a, const GraphSubresource& b) const {
+        if (a.kind == GraphSubresourceKind::previous || b.kind == GraphSubresourceKind::previous)
+            return false;
         if (a.kind == b.kind && a.id == b.id) return false;
         const MemoryPlacement& x = placement_of_cell(a);
         const MemoryPlacement& y = placement_of_cell(b);
@@ -103,7 +105,7 @@ private:
         std::ranges::sort(all);
         for (std::uint32_t p = 0; p < replayed_graph_.list_passes().size(); ++p)
             if (p >= all.size() || all[p] != p) faults_.push_back("a pass is lost or doubled");
-        const std::vector<GraphContentCell> cells = list_outcome_cells(replayed_graph_, plan_);
+        const std::vector<GraphSubresource> cells = list_outcome_cells(replayed_graph_, plan_);
         const std::vector<Value> outcome = simulate_with_separate_memory(replayed_graph_, kept,
                                                                          cells);
         for (const std::uint32_t p : kept) {
@@ -116,12 +118,13 @@ private:
     }
 
     void check_memory_placements() {
-        std::map<GraphContentCell, std::pair<std::uint32_t, std::uint32_t>> lives;
+        std::map<GraphSubresource, std::pair<std::uint32_t, std::uint32_t>> lives;
         for (std::uint32_t at = 0; at < plan_.passes.size(); ++at)
-            for (GraphCellUse u :
+            for (GraphSubresourceUse u :
                  list_cell_uses_of_pass(replayed_graph_.list_passes()[plan_.passes[at].pass])) {
                 u.cell.layer = 0;
-                if (u.cell.kind == GraphCellKind::previous) u.cell.kind = GraphCellKind::image;
+                if (u.cell.kind == GraphSubresourceKind::previous)
+                    u.cell.kind = GraphSubresourceKind::image;
                 lives.try_emplace(u.cell, at, at).first->second.second = at;
             }
         std::vector<std::uint64_t> ends(plan_.heap_bytes.size(), 0);
@@ -147,8 +150,8 @@ private:
             faults_.push_back("heap sizes are wrong");
     }
 
-    bool must_cell_have_own_memory(const GraphContentCell& cell) const {
-        if (cell.kind == GraphCellKind::buffer)
+    bool must_cell_have_own_memory(const GraphSubresource& cell) const {
+        if (cell.kind == GraphSubresourceKind::buffer)
             return std::ranges::count(replayed_graph_.list_output_buffers(), cell.id,
                                       &BufferHandle::id) > 0;
         return (replayed_graph_.image_lifetime(cell.id) == ImageLifetime::previous) ||
@@ -156,9 +159,9 @@ private:
                    0;
     }
 
-    void check_placement_size(const GraphContentCell& cell) {
+    void check_placement_size(const GraphSubresource& cell) {
         const MemoryPlacement& p = placement_of_cell(cell);
-        const bool is_buffer = cell.kind == GraphCellKind::buffer;
+        const bool is_buffer = cell.kind == GraphSubresourceKind::buffer;
         const MemoryRequirements wanted =
             is_buffer ? sizer_.buffer(replayed_graph_.list_buffers()[cell.id])
                       : sizer_.image(replayed_graph_.list_images()[cell.id]);
@@ -177,16 +180,16 @@ private:
     /// Applies all barriers of one pass at once, because barriers of the same command do not order
     /// each other.
     void apply_barriers_of_pass(const std::vector<PlannedBarrier>& barriers) {
-        std::vector<std::tuple<PastCellAccess*, GraphContentCell, AccessState>> ordered;
-        std::map<GraphContentCell, AccessState> transitions;
+        std::vector<std::tuple<PastCellAccess*, GraphSubresource, AccessState>> ordered;
+        std::map<GraphSubresource, AccessState> transitions;
         for (const PlannedBarrier& b : barriers) {
             std::vector<AccessState> scope = b.shared;
             if (!b.before.nothing) scope.push_back(b.before);
-            const GraphCellKind kind = b.is_buffer  ? GraphCellKind::buffer
-                                       : b.previous ? GraphCellKind::previous
-                                                    : GraphCellKind::image;
+            const GraphSubresourceKind kind = b.is_buffer  ? GraphSubresourceKind::buffer
+                                              : b.previous ? GraphSubresourceKind::previous
+                                                           : GraphSubresourceKind::image;
             for (std::uint32_t l = 0; l < b.layer_count; ++l) {
-                const GraphContentCell cell{kind, b.id, b.first_layer + l};
+                const GraphSubresource cell{kind, b.id, b.first_layer + l};
                 const bool same = !b.before.nothing && b.before.use == b.after.use;
                 const bool moves = !b.is_buffer && !same;
                 if (!b.is_buffer && !b.before.nothing)
@@ -216,17 +219,17 @@ private:
     void execute_planned_pass(const PlannedPass& planned) {
         const std::uint32_t index = planned.pass;
         const Pass& pass = replayed_graph_.list_passes()[index];
-        const std::vector<GraphCellUse> uses = list_cell_uses_of_pass(pass);
-        for (const GraphCellUse& u : uses)
+        const std::vector<GraphSubresourceUse> uses = list_cell_uses_of_pass(pass);
+        for (const GraphSubresourceUse& u : uses)
             check_access_state_of_use(u, make_access_state_of_use(pass, u));
-        for (const GraphCellUse& u : uses)
+        for (const GraphSubresourceUse& u : uses)
             for (const auto& [other, events] : events_)
                 if (u.write && do_cells_share_memory(u.cell, other))
                     contents_.set_contents_to_garbage(other.kind, other.id);
         contents_.execute_pass(pass, index);
         for (std::size_t i = 0; i < pass.images.size(); ++i)
             if (planned.unread >> i & 1) mark_attachment_lost(pass.images[i]);
-        for (const GraphCellUse& u : uses) {
+        for (const GraphSubresourceUse& u : uses) {
             std::vector<PastCellAccess>& events = events_[u.cell];
             if (u.write) events.clear();
             events.push_back({u.cell, make_access_state_of_use(pass, u), u.write, false, {}});
@@ -236,7 +239,7 @@ private:
     /// Marks the contents of an attachment that a pass does not store as lost.
     void mark_attachment_lost(const ImageUse& use) {
         for (std::uint32_t l = 0; l < use.image.layer_count; ++l) {
-            const GraphContentCell cell{GraphCellKind::image, use.image.id,
+            const GraphSubresource cell{GraphSubresourceKind::image, use.image.id,
                                         use.image.first_layer + l};
             record_fault_of_cell_unless(
                 use.write && (use.use == ResourceUse::colour || use.use == ResourceUse::depth),
@@ -245,12 +248,12 @@ private:
         }
     }
 
-    static AccessState make_access_state_of_use(const Pass& pass, const GraphCellUse& u) {
+    static AccessState make_access_state_of_use(const Pass& pass, const GraphSubresourceUse& u) {
         return {.nothing = false, .use = u.use, .write = u.write, .raster = pass.is_raster_pass()};
     }
 
-    void check_access_state_of_use(const GraphCellUse& u, const AccessState& t) {
-        if (u.cell.kind != GraphCellKind::buffer)
+    void check_access_state_of_use(const GraphSubresourceUse& u, const AccessState& t) {
+        if (u.cell.kind != GraphSubresourceKind::buffer)
             record_fault_of_cell_unless(layouts_.contains(u.cell) && layouts_[u.cell] == u.use,
                                         u.cell, "wrong layout for ",
                                         std::string(resource_use_name(u.use)));
@@ -269,13 +272,13 @@ private:
     void check_contents_at_frame_end() {
         std::vector<std::uint32_t> all(replayed_graph_.list_passes().size());
         for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = p;
-        const std::vector<GraphContentCell> cells = list_outcome_cells(replayed_graph_, plan_);
+        const std::vector<GraphSubresource> cells = list_outcome_cells(replayed_graph_, plan_);
         const std::vector<Value> ideal = simulate_with_separate_memory(replayed_graph_, all, cells);
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            const GraphContentCell& cell = cells[i];
+            const GraphSubresource& cell = cells[i];
             record_fault_of_cell_unless(contents_.content_of_cell(cell) == ideal[i], cell,
                                         "wrong contents");
-            if (cell.kind == GraphCellKind::image)
+            if (cell.kind == GraphSubresourceKind::image)
                 check_no_access_left_unordered(cell);
             else
                 expect_ordered_access(cell, ResourceUse::copy_from);
@@ -284,10 +287,10 @@ private:
             for (std::uint32_t l = 0; l < replayed_graph_.list_images()[i].layers; ++l)
                 if (plan_.images[i].used &&
                     (replayed_graph_.image_lifetime(i) == ImageLifetime::previous))
-                    check_no_access_left_unordered({GraphCellKind::image, i, l});
+                    check_no_access_left_unordered({GraphSubresourceKind::image, i, l});
     }
 
-    void check_no_access_left_unordered(const GraphContentCell& cell) {
+    void check_no_access_left_unordered(const GraphSubresource& cell) {
         const ResourceUse use = (replayed_graph_.image_lifetime(cell.id) == ImageLifetime::previous)
                                     ? ResourceUse::sampled
                                     : ResourceUse::copy_from;
@@ -296,7 +299,7 @@ private:
         expect_ordered_access(cell, use);
     }
 
-    void expect_ordered_access(const GraphContentCell& cell, ResourceUse use) {
+    void expect_ordered_access(const GraphSubresource& cell, ResourceUse use) {
         for (const PastCellAccess& e : events_[cell])
             record_fault_of_cell_unless(e.is_ordered_before(cell, {.nothing = false, .use = use}),
                                         cell, "races with its reader");
@@ -308,8 +311,8 @@ private:
     std::string where_ = "memory";
     std::vector<std::string> faults_;
     SimulatedGraphContents contents_;
-    std::map<GraphContentCell, ResourceUse> layouts_;
-    std::map<GraphContentCell, std::vector<PastCellAccess>> events_;
+    std::map<GraphSubresource, ResourceUse> layouts_;
+    std::map<GraphSubresource, std::vector<PastCellAccess>> events_;
 };
 
 } // namespace

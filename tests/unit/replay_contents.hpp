@@ -9,19 +9,19 @@
 // and from everything that this pass read.
 namespace catoptric::graph {
 
-enum class GraphCellKind { image, previous, buffer };
+enum class GraphSubresourceKind { image, previous, buffer };
 
 /// A unit of contents: one layer of an image, one layer of the image's contents in the last frame,
 /// or a whole buffer.
-struct GraphContentCell {
-    GraphCellKind kind = GraphCellKind::image;
+struct GraphSubresource {
+    GraphSubresourceKind kind = GraphSubresourceKind::image;
     std::uint32_t id = 0;
     std::uint32_t layer = 0;
-    friend auto operator<=>(const GraphContentCell&, const GraphContentCell&) = default;
+    friend auto operator<=>(const GraphSubresource&, const GraphSubresource&) = default;
 };
 
-struct GraphCellUse {
-    GraphContentCell cell;
+struct GraphSubresourceUse {
+    GraphSubresource cell;
     ResourceUse use = ResourceUse::sampled;
     bool write = false;
     bool needs = false;
@@ -34,20 +34,21 @@ inline Value mix_content_values(Value a, Value b) {
     return (a ^ (b + 0x9e3779b97f4a7c15u + (a << 6) + (a >> 2))) * 31;
 }
 
-inline std::vector<GraphCellUse> list_cell_uses_of_pass(const Pass& pass) {
-    std::vector<GraphCellUse> uses;
+inline std::vector<GraphSubresourceUse> list_cell_uses_of_pass(const Pass& pass) {
+    std::vector<GraphSubresourceUse> uses;
     for (const ImageUse& u : pass.images) {
         const bool attached = u.use == ResourceUse::colour || u.use == ResourceUse::depth;
         const bool needs = !u.write || u.use == ResourceUse::storage || (attached && !u.clear);
         for (std::uint32_t l = 0; l < u.image.layer_count; ++l)
-            uses.push_back({{u.image.previous ? GraphCellKind::previous : GraphCellKind::image,
-                             u.image.id, u.image.first_layer + l},
-                            u.use,
-                            u.write,
-                            needs});
+            uses.push_back(
+                {{u.image.previous ? GraphSubresourceKind::previous : GraphSubresourceKind::image,
+                  u.image.id, u.image.first_layer + l},
+                 u.use,
+                 u.write,
+                 needs});
     }
     for (const BufferUse& u : pass.buffers)
-        uses.push_back({{GraphCellKind::buffer, u.buffer.id, 0},
+        uses.push_back({{GraphSubresourceKind::buffer, u.buffer.id, 0},
                         u.use,
                         u.write,
                         !u.write || u.use == ResourceUse::storage});
@@ -56,56 +57,57 @@ inline std::vector<GraphCellUse> list_cell_uses_of_pass(const Pass& pass) {
 
 class SimulatedGraphContents {
 public:
-    Value content_of_cell(const GraphContentCell& cell) const {
-        if (cell.kind == GraphCellKind::previous)
+    Value content_of_cell(const GraphSubresource& cell) const {
+        if (cell.kind == GraphSubresourceKind::previous)
             return mix_content_values(mix_content_values(7, cell.id), cell.layer);
         const auto found = values_.find(cell);
         return found == values_.end() ? kGarbageContent : found->second;
     }
-    void set_content_of_cell(const GraphContentCell& cell, Value value) { values_[cell] = value; }
-    void set_contents_to_garbage(GraphCellKind kind, std::uint32_t id) {
+    void set_content_of_cell(const GraphSubresource& cell, Value value) { values_[cell] = value; }
+    void set_contents_to_garbage(GraphSubresourceKind kind, std::uint32_t id) {
         for (auto& [cell, value] : values_)
             if (cell.kind == kind && cell.id == id) value = kGarbageContent;
     }
     /// Executes a pass. The value of each written cell is a hash of the pass's number and of all
     /// values that the pass reads.
     void execute_pass(const Pass& pass, std::uint32_t index) {
-        const std::vector<GraphCellUse> uses = list_cell_uses_of_pass(pass);
+        const std::vector<GraphSubresourceUse> uses = list_cell_uses_of_pass(pass);
         Value inputs = index + 1;
-        for (const GraphCellUse& u : uses)
+        for (const GraphSubresourceUse& u : uses)
             if (u.needs) inputs = mix_content_values(inputs, content_of_cell(u.cell));
         for (std::size_t i = 0; i < uses.size(); ++i)
             if (uses[i].write) set_content_of_cell(uses[i].cell, mix_content_values(inputs, i));
     }
 
 private:
-    std::map<GraphContentCell, Value> values_;
+    std::map<GraphSubresource, Value> values_;
 };
 
 /// Returns the cells (image layers and buffers) whose contents matter after a frame: all outputs,
 /// and the images whose contents of the last frame the plan's passes read.
-inline std::vector<GraphContentCell> list_outcome_cells(const Graph& graph, const GraphPlan& plan) {
-    std::vector<GraphContentCell> cells;
+inline std::vector<GraphSubresource> list_outcome_cells(const Graph& graph, const GraphPlan& plan) {
+    std::vector<GraphSubresource> cells;
     for (const ImageHandle& image : graph.list_output_images())
         for (std::uint32_t l = 0; l < image.layer_count; ++l)
-            cells.push_back({GraphCellKind::image, image.id, image.first_layer + l});
+            cells.push_back({GraphSubresourceKind::image, image.id, image.first_layer + l});
     for (const BufferHandle& buffer : graph.list_output_buffers())
-        cells.push_back({GraphCellKind::buffer, buffer.id, 0});
+        cells.push_back({GraphSubresourceKind::buffer, buffer.id, 0});
     for (const PlannedPass& planned : plan.passes)
-        for (const GraphCellUse& u : list_cell_uses_of_pass(graph.list_passes()[planned.pass]))
-            if (u.cell.kind == GraphCellKind::previous)
-                cells.push_back({GraphCellKind::image, u.cell.id, u.cell.layer});
+        for (const GraphSubresourceUse& u :
+             list_cell_uses_of_pass(graph.list_passes()[planned.pass]))
+            if (u.cell.kind == GraphSubresourceKind::previous)
+                cells.push_back({GraphSubresourceKind::image, u.cell.id, u.cell.layer});
     return cells;
 }
 
 /// Returns the values of `cells` after the passes have run, if each resource has its own memory.
 inline std::vector<Value>
 simulate_with_separate_memory(const Graph& graph, const std::vector<std::uint32_t>& passes,
-                              const std::vector<GraphContentCell>& cells) {
+                              const std::vector<GraphSubresource>& cells) {
     SimulatedGraphContents contents;
     for (const std::uint32_t p : passes) contents.execute_pass(graph.list_passes()[p], p);
     std::vector<Value> values;
-    for (const GraphContentCell& cell : cells) values.push_back(contents.content_of_cell(cell));
+    for (const GraphSubresource& cell : cells) values.push_back(contents.content_of_cell(cell));
     return values;
 }
 

@@ -49,12 +49,12 @@ make_spec_with_capture_budget(const scene::Scene& scene, std::uint32_t most,
 
 /// Expects that the budget a frame reports agrees with its passes.
 void expect_reported_budget(const app::Frame& frame, std::uint32_t most) {
-    ASSERT_TRUE(frame.slices());
-    const app::CaptureBudget& slices = *frame.slices();
-    EXPECT_EQ(list_drawn_mirrors(frame.times()).size(), slices.drawn);
-    EXPECT_EQ(slices.most, std::min(most, slices.mirrors));
-    EXPECT_LT(slices.longest, slices.frames_per_cycle());
-    EXPECT_EQ(frame.waiting(), slices.waiting);
+    ASSERT_TRUE(frame.capture_budget());
+    const app::CaptureBudget& capture_budget = *frame.capture_budget();
+    EXPECT_EQ(list_drawn_mirrors(frame.times()).size(), capture_budget.drawn);
+    EXPECT_EQ(capture_budget.most, std::min(most, capture_budget.mirrors));
+    EXPECT_LT(capture_budget.longest, capture_budget.frames_per_cycle());
+    EXPECT_EQ(frame.waiting(), capture_budget.waiting);
 }
 
 constexpr int kBallCellCount = 5;
@@ -217,7 +217,7 @@ TEST(CaptureBudget, BudgetOfAllMirrorsChangesNothing) {
         const app::Frame found = one.frame(spec), wanted = other.frame(whole);
         EXPECT_TRUE(test::have_equal_pixel_bytes(found.hdr(), wanted.hdr())) << k;
         EXPECT_EQ(list_drawn_mirrors(found.times()), list_drawn_mirrors(wanted.times())) << k;
-        EXPECT_FALSE(wanted.slices());
+        EXPECT_FALSE(wanted.capture_budget());
     }
 }
 
@@ -232,17 +232,17 @@ TEST(CaptureBudget, BudgetInMillisecondsLimitsTheNumberOfMirrors) {
         spec.budget_ms = 1e-6;
         const app::Frame frame = little.frame(spec);
         expect_reported_budget(frame, k == 1 ? 3 : 1);
-        EXPECT_EQ(frame.slices()->drawn, k == 1 ? 3u : 1u);
+        EXPECT_EQ(frame.capture_budget()->drawn, k == 1 ? 3u : 1u);
         app::FrameSpec aside = spec;
         aside.keeps_history = true;
-        EXPECT_FALSE(little.frame(aside).slices()) << "beside the sequence all are drawn";
+        EXPECT_FALSE(little.frame(aside).capture_budget()) << "beside the sequence all are drawn";
         if (k == 3) { // the times measured before and after this other sequence still count
             app::FrameSequence sequence = app::Access::suspend_sequence(little);
-            EXPECT_EQ(little.frame(spec).slices()->drawn, 3u) << "the first of its own";
+            EXPECT_EQ(little.frame(spec).capture_budget()->drawn, 3u) << "the first of its own";
             app::Access::resume_frame_sequence(little, std::move(sequence));
         }
         spec.budget_ms = 1e9;
-        EXPECT_EQ(much.frame(spec).slices()->drawn, 3u);
+        EXPECT_EQ(much.frame(spec).capture_budget()->drawn, 3u);
     }
 }
 
@@ -282,7 +282,7 @@ TEST(CaptureBudget, RunIsNotSettledWhileACaptureWaits) {
     EXPECT_TRUE(whole.settled && sliced.settled);
     EXPECT_GT(sliced.frames.size(), whole.frames.size());
     EXPECT_TRUE(test::have_equal_pixel_bytes(sliced.parts.front().hdr, whole.parts.front().hdr));
-    EXPECT_EQ(sliced.parts.front().slices->waiting, 0u);
+    EXPECT_EQ(sliced.parts.front().capture_budget->waiting, 0u);
     request.frames = 1; // under a budget, one frame counts as a round of three
     EXPECT_EQ(app::run(session, request).frames.size(), 3u);
 }
