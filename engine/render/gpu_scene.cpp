@@ -365,7 +365,7 @@ void GpuScene::bind_vertices(graph::PassCommands& commands, std::size_t object) 
     vertices_.bind(commands, slot_, object);
 }
 
-void GpuScene::prepare_frame() const {
+void GpuScene::write_views_and_update_trees() const {
     if (added_views_ > 0) {
         view_buffer_.set_device_list_contents(views_);
         uploads_ += view_buffer_.upload_changed_pages(scene_device_, slot_);

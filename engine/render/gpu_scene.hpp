@@ -124,8 +124,8 @@ public:
     bool has_tinted_shadows() const { return material_details_.has_tinted_shadows(); }
     /// Returns whether some surface has more than one colour.
     bool has_varying_colours() const { return material_details_.has_varying_colours(); }
-    /// Returns whether rays can aim at points drawn on lamps. Valid from `prepare_frame` on, in
-    /// frames that requested lamp points.
+    /// Returns whether rays can aim at points drawn on lamps. Valid from
+    /// `write_views_and_update_trees` on, in frames that requested lamp points.
     bool has_sampled_lamps() const { return has_sampled_lamps_; }
     /// Returns whether rays that leave the scene can see an environment.
     bool has_sky() const { return environment_.shader_environment_kind() != 0; }
@@ -136,8 +136,8 @@ public:
     /// Adds a view for passes of this frame and returns its number. If it differs from the frame
     /// before, all views are written again.
     std::uint32_t add_view(const shared::View& view) const;
-    /// Returns whether `prepare_frame` will write views. No frame may then be in flight in this
-    /// slot. Call it after the passes are declared.
+    /// Returns whether `write_views_and_update_trees` will write views. No frame may then be in
+    /// flight in this slot. Call it after the passes are declared.
     bool has_new_views() const;
     std::uint32_t capture_view_index(std::uint32_t mirror) const { return 1 + 6 * mirror; }
     std::uint32_t shadow_view_index(std::uint32_t light) const {
@@ -165,8 +165,8 @@ public:
     /// Writes the views that `add_view` added to device memory, and updates the bounding volume
     /// hierarchies and the list of lamps that passes of this frame read. Call it after the frame's
     /// passes are declared.
-    void prepare_frame() const;
-    /// Binds the hierarchy. Updates it first if `prepare_frame` has not.
+    void write_views_and_update_trees() const;
+    /// Binds the hierarchy. Updates it first if `write_views_and_update_trees` has not.
     void
     bind_ray_tracing_buffers(graph::PassCommands& commands,
                              SphereIntersectionMode spheres = SphereIntersectionMode::mesh) const;

@@ -81,7 +81,7 @@ FirstSurfaces Access::trace_first_surfaces(Session& session, const FrameSpec& sp
     graph.mark_as_graph_output(images.objects_and_roughness);
     graph.mark_as_graph_output(images.counters);
     if (resident.has_new_views()) self.wait_until_buffer_slot_is_free(self.copy);
-    resident.prepare_frame();
+    resident.write_views_and_update_trees();
     const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(
         graph, graph::PassTiming::isolated, true);
     self.last = ticket;

@@ -190,7 +190,7 @@ Frame Access::submit_frame(Session& session, const FrameSpec& spec, const FrameH
     const double declare_ms = compute_milliseconds_since(start);
     if (self.resident->has_new_views()) self.wait_until_buffer_slot_is_free(self.copy);
     const SteadyClock::time_point trees = SteadyClock::now();
-    self.resident->prepare_frame();
+    self.resident->write_views_and_update_trees();
     const double hierarchy_ms = compute_milliseconds_since(trees);
     const graph::ExternalSemaphores outside = finish(frame);
     const graph::SubmittedFrameTicket ticket = self.runner.submit_frame(

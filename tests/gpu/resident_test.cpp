@@ -24,7 +24,7 @@ std::vector<std::byte> render_resident_scene(const render::GpuScene& scene,
     const reflect::TechniqueOutputs outputs = test::add_technique(
         graph, {scene, kResidentPictureSize, ""}, technique);
     graph.mark_as_graph_output(outputs.hdr);
-    scene.prepare_frame();
+    scene.write_views_and_update_trees();
     test::run_graph(runner, graph);
     return runner.read_back_resource(outputs.hdr);
 }
