@@ -57,11 +57,13 @@ void check_baseline_has_same_settings(const Json& before, const Json& now,
               find_json_member(before, "rows").is_array(),
           Failure::bad_data, file, ": wanted a complete report, found one that was stopped");
     const auto check_equal = [&](const std::string& name, const Json& a, const Json& b) {
+        const auto write = [](const Json& value) {
+            return value.dump(-1, ' ', true, Json::error_handler_t::replace);
+        };
         // Other programs may have written the members in another order.
         check(nlohmann::json(a) == nlohmann::json(b), Failure::bad_data, file,
-              ": wanted a baseline with the same ", name, " as now (",
-              b.dump(-1, ' ', true, Json::error_handler_t::replace), "), found ",
-              describe_json_value(a));
+              ": wanted a baseline with the same ", name, " as now (", write(b), "), found ",
+              a.is_null() ? "nothing" : quote_text_with_escapes(write(a)));
     };
     for (const char* name : {"hash", "camera"})
         check_equal(std::string("scene.") + name,

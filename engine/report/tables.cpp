@@ -192,7 +192,7 @@ constexpr CellTextWriter kCellTextWriters[] = {
     {"blend-shadow", "blended over what is behind, but shadows and mirrors are cut at half their "
                      "alpha, and overlapping parts of one object are not sorted"},
     {"indirect-left-out", "light from one diffuse surface to another is not computed; --ambient "
-                          "stands in for it"},
+                          "or light probes can stand in for it"},
     {"environment-unshadowed", "lit by the whole environment, whatever stands in its way"},
     {"rough-metal", "too rough for a capture: where rays are not traced, it reflects the "
                     "environment and lights without a surface, and lamps light it as if it were "

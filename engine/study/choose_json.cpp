@@ -117,11 +117,12 @@ std::string describe_proof(const ChooseRequest& request, const PlanProof& proof)
                                       : fmt::format("at least {:g} % of views have {} <= {:.4g}",
                                                     100 * request.share, quantity,
                                                     proof.error_bound);
-    return fmt::format("{}: {} ms on {}; {}, with {:g} % confidence ({} views, {} failures){}",
-                       proof.plan.text, format_milliseconds_with_range(proof.plan), proof.device,
-                       statement, 100 * request.confidence, proof.plan.errors.size(),
-                       proof.failures,
-                       proof.noise ? "; " + describe_noise_of_views(*proof.noise) : "");
+    return fmt::format(
+        "{}: {} ms on {}; {}, with {:g} % confidence ({} views of {}x{}, {} failures){}",
+        proof.plan.text, format_milliseconds_with_range(proof.plan), proof.device, statement,
+        100 * request.confidence, proof.plan.errors.size(), request.base.size.x,
+        request.base.size.y, proof.failures,
+        proof.noise ? "; " + describe_noise_of_views(*proof.noise) : "");
 }
 
 Json make_choice_json(const ChooseRequest& request, const PlanChoice& choice,

@@ -8,6 +8,7 @@
 #include "measure/findings.hpp"
 #include "measure/masks.hpp"
 #include "measure/picture_file.hpp"
+#include "measure/srgb.hpp"
 #include "report/json.hpp"
 #include "session/scene_facts.hpp"
 #include "session/technique_choice.hpp"
@@ -43,6 +44,56 @@ measure::Difference compute_plain_error(const measure::Picture& picture,
                                         double exposure) {
     const std::vector<float> no_flip(picture.pixels.size());
     return compute_masked_error(picture, {truth.hdr}, mask, no_flip, exposure);
+}
+
+/// Returns the picture with a function of each colour channel, clamped to [0,1] before.
+template <class Curve>
+measure::Picture apply_curve(measure::Picture picture, Curve curve) {
+    for (vec3& pixel : picture.pixels)
+        for (int channel = 0; channel < 3; ++channel)
+            pixel[channel] = static_cast<float>(
+                curve(static_cast<double>(std::clamp(pixel[channel], 0.F, 1.F))));
+    return picture;
+}
+
+/// Returns the picture with the reference's mean light.
+measure::Picture scale_to_mean_of(const measure::Picture& truth, measure::Picture picture) {
+    double wanted = 0, found = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            wanted += static_cast<double>(truth.pixels[i][channel]);
+            found += static_cast<double>(picture.pixels[i][channel]);
+        }
+    if (found > 0)
+        for (vec3& pixel : picture.pixels) pixel *= static_cast<float>(wanted / found);
+    return picture;
+}
+
+/// Returns the fault of the picture's curve as the end of a sentence, empty if there is none. The
+/// curve is wrong if the values fit the reference twice as well with the sRGB curve removed or
+/// applied, and better than with another exposure. `picture`: linear light, as its file was
+/// understood.
+std::string describe_wrong_curve(const measure::Picture& picture, const ComparedReference& truth,
+                                 double exposure) {
+    const measure::Mask all(picture.pixels.size(), 255);
+    const auto find_rmse = [&](const measure::Picture& tried) {
+        return compute_plain_error(tried, truth, all, exposure).rmse;
+    };
+    const double error = find_rmse(picture);
+    if (error < 2 * measure::kEightBitStep) return "";
+    const double wanted = std::min(error / 2, find_rmse(scale_to_mean_of(truth.hdr, picture)));
+    const measure::Picture decoded = apply_curve(picture, measure::linear_from_srgb);
+    // A displayed picture usually contains the exposure.
+    if (find_rmse(decoded) < wanted ||
+        find_rmse(measure::apply_exposure(decoded, -exposure)) < wanted)
+        return "its values seem to have the sRGB curve of a display; wanted linear light, as the "
+               "format holds";
+    const measure::Picture shown = apply_curve(measure::apply_exposure(picture, exposure),
+                                               measure::srgb_from_linear);
+    if (find_rmse(measure::apply_exposure(shown, -exposure)) < wanted)
+        return "its values seem to be linear light; wanted values with the sRGB curve, as the "
+               "format holds";
+    return "";
 }
 
 // Share of the pixels without reflections that must be off before their light is called different.
@@ -169,13 +220,15 @@ std::vector<std::string> list_picture_row_warnings(const std::string& name,
                                                    const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure) {
+    const std::string begin = "'" + name + "': ";
+    if (const std::string curve = describe_wrong_curve(picture, truth, exposure); !curve.empty())
+        return {begin + curve};
     // Only surfaces that reflect nothing are compared, because techniques draw reflections
     // differently.
     measure::Mask beside(hits.size());
     std::ranges::transform(hits, beside.begin(),
                            [](std::uint32_t hit) { return hit == 0 ? 255 : 0; });
     if (std::ranges::count(beside, 255) == 0) return {};
-    const std::string begin = "'" + name + "': ";
     std::vector<std::string> warnings;
     const measure::Difference error = compute_plain_error(picture, truth, beside, exposure),
                               turned = compute_plain_error(flip_picture_vertically(picture), truth,

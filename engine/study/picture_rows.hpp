@@ -47,7 +47,8 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
 /// Returns warnings about a picture of another renderer, as sentences that begin with `name`. One
 /// warning is given if the picture differs from the reference more where surfaces reflect nothing
 /// than on the mirrors. Another is given if the picture turned upside down is closer to the
-/// reference. `rmse`: error on the mirrors.
+/// reference, or if it is closer with the sRGB curve removed or applied. `rmse`: error on the
+/// mirrors.
 std::vector<std::string> list_picture_row_warnings(const std::string& name,
                                                    const measure::Picture& picture, double rmse,
                                                    const ComparedReference& truth,

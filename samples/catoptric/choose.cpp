@@ -56,13 +56,19 @@ void read_error_limit(const std::string& text, app::ChooseRequest& limits) {
     limits.max_error = parse_real("--max-error", text.substr(end + 1), 0, 1);
 }
 
-/// Sets limits, share, confidence and seeds from a plan's certificate, where the options give none.
-void read_certificate(const ChooseOptions& options, app::ChooseRequest& request) {
-    const std::string& file = options.certified;
+/// Returns the certificate in a file of a plan; an empty object if the file has none.
+nlohmann::json read_certificate_of_plan(const std::string& file) {
     const auto document = parse_json<nlohmann::json>(file, read_file(file));
     nlohmann::json certificate;
     if (document.is_object()) certificate = document.value("certificate", nlohmann::json());
-    if (!certificate.is_object()) certificate = nlohmann::json::object();
+    return certificate.is_object() ? certificate : nlohmann::json::object();
+}
+
+/// Sets size, reference, limits, share, confidence and seeds from a plan's certificate, where the
+/// options give none.
+void read_certificate(const ChooseOptions& options, app::ChooseRequest& request) {
+    const std::string& file = options.certified;
+    const nlohmann::json certificate = read_certificate_of_plan(file);
     const auto number = [&](const char* name, double low, double high) -> std::optional<double> {
         const nlohmann::json value = certificate.value(name, nlohmann::json());
         if (value.is_null()) return std::nullopt;
@@ -72,6 +78,20 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
               " to ", high, ", found ", report::describe_json_value(value));
         return value.get<double>();
     };
+    constexpr double kMaxEdge = 1 << 20; // as of --size
+    const std::optional<double> width = number("width", 1, kMaxEdge),
+                                height = number("height", 1, kMaxEdge);
+    if (width && height && !options.common.is_size_given)
+        request.base.size = {static_cast<unsigned>(*width), static_cast<unsigned>(*height)};
+    const nlohmann::json reference = certificate.value("reference", nlohmann::json());
+    if (reference.is_string() && options.common.reference.empty()) {
+        request.reference = reference.get<std::string>();
+        try {
+            app::check_row_techniques({request.reference});
+        } catch (const Error& error) {
+            throw_error(Failure::bad_data, file + ": certificate.reference: " + error.what());
+        }
+    }
     constexpr double kMaxSeed = 0x1p53; // integers of a double
     if (!request.max_error) {
         request.max_error = number("max_error", 0, 1);

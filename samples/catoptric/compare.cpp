@@ -237,6 +237,12 @@ public:
         for (const report::Row& row : comparison.rows)
             for (const std::string& what : measure::list_row_notes(comparison, row))
                 print_note_unless_quiet(manners, row.label + ": " + what);
+        std::size_t views = 0;
+        for (const report::Row& row : comparison.rows) views = std::max(views, row.views.size());
+        if (views > 0)
+            print_note_unless_quiet(manners, "the report has the errors over " +
+                                                 std::to_string(views) +
+                                                 " drawn views; the table shows one view");
         if (!manners.json)
             print_result((is_one_ ? "" : escape_control_characters(comparison.scene.name) + "\n") +
                          make_compare_table(comparison) +

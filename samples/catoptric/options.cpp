@@ -164,7 +164,10 @@ void add_validate_option(CommandVerb& verb, DeviceOptions& device) {
 void add_view_options(CommandVerb& verb, CommonOptions& common) {
     verb.heading(kCommonOptions);
     verb.option("--size", "WxH", "size of the picture in pixels (512x512)",
-                [&](const std::string& text) { common.size = parse_size("--size", text); });
+                [&](const std::string& text) {
+                    common.size = parse_size("--size", text);
+                    common.is_size_given = true;
+                });
     add_camera_options(verb, common);
     verb.option("--time", "SECONDS", "instant of the scene's motion (0)",
                 [&](const std::string& text) { common.time = parse_real("--time", text); });

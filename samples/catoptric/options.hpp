@@ -32,6 +32,7 @@ struct CommonOptions {
     scene::SceneLoadBudgetOverride budget; ///< limits for loading the scene
     std::string root; ///< folder in which files of the scene may lie as well; empty: none
     uvec2 size{512, 512};
+    bool is_size_given = false;
     std::optional<int> frames;      ///< default: 20
     bool takes_frame_range = false; ///< whether --frames also takes A..B
     int first_frame = 1;            ///< A of --frames A..B; `frames` is then the number of them

@@ -157,6 +157,36 @@ TEST_F(Choose, CertificateIsProvedAgainOnOtherViews) {
     EXPECT_EQ(certify({}).exit_code, 65);
 }
 
+TEST_F(Choose, CertificateIsProvedAgainAtItsOwnSizeAndWithItsReference) {
+    const auto certify = [&](const Words& more) {
+        Words words{"choose",    "flat",         "--frames", "6",          "--warmup", "1",
+                    "--share",   ".5",           "-o",       "again.json", "-q",       "--certify",
+                    "plan.json", "--confidence", ".9"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_cli(words);
+    };
+    const auto find_certificate = [&] {
+        return json::parse(read_file_at_path(folder / "again.json"))["certificate"];
+    };
+    write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "reuse:face=16"}],
+        "certificate": {"max_error": 1, "width": 24, "height": 20, "reference": "raytrace:depth=2"}})");
+    const test::ProcessResult same = certify({});
+    ASSERT_EQ(same.exit_code, 0) << same.err;
+    EXPECT_THAT(same.out, HasSubstr("(6 views of 24x20, "));
+    EXPECT_EQ(find_certificate()["width"], 24);
+    EXPECT_EQ(find_certificate()["height"], 20);
+    EXPECT_EQ(find_certificate()["reference"], "raytrace:depth=2");
+    ASSERT_EQ(certify({"--size", "20x24", "--reference", "raytrace:depth=3"}).exit_code, 0);
+    EXPECT_EQ(find_certificate()["width"], 20) << "options win over the certificate";
+    EXPECT_EQ(find_certificate()["reference"], "raytrace:depth=3");
+
+    write_input_file("plan.json", R"({"plan": [{"mirror": "*", "technique": "reuse:face=16"}],
+        "certificate": {"max_error": 1, "reference": "raytracer"}})");
+    const test::ProcessResult unknown = certify({});
+    EXPECT_EQ(unknown.exit_code, 65);
+    EXPECT_THAT(unknown.err, HasSubstr("plan.json: certificate.reference: "));
+}
+
 TEST_F(Choose, BadRequestsAreRefusedBeforeMeasuring) {
     const auto refused = [&](const Words& more, const std::string& says) {
         const test::ProcessResult ended = choose_between_two_techniques(more);

@@ -2,7 +2,9 @@
 #include "cli/program.hpp"
 #include "measure/display.hpp"
 #include "measure/picture_file.hpp"
+#include "measure/srgb.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -90,6 +92,33 @@ TEST_F(PictureRowsCliTest, PictureUpsideDownOrOfOtherLightIsNamed) {
         json::parse(read_file_at_path(folder / "out/report.json"))["warnings"].dump();
     EXPECT_THAT(warnings, testing::HasSubstr("'t': its picture is upside down"));
     EXPECT_THAT(warnings, testing::HasSubstr("'b': its rmse is "));
+    EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("'o'")));
+}
+
+TEST_F(PictureRowsCliTest, PictureWithTheCurveOfADisplayIsNamed) {
+    namespace measure = catoptric::measure;
+    const measure::Picture own = measure::read_picture(folder / "own.exr");
+    measure::Picture shown = own, darker = own;
+    for (auto& pixel : shown.pixels)
+        for (int c = 0; c < 3; ++c)
+            pixel[c] = static_cast<float>(
+                measure::srgb_from_linear(std::clamp(static_cast<double>(pixel[c]), 0., 1.)));
+    // Linear values in a PNG, which has the sRGB curve: a writer that forgot the curve.
+    for (auto& pixel : darker.pixels)
+        for (int c = 0; c < 3; ++c)
+            pixel[c] = static_cast<float>(
+                measure::linear_from_srgb(std::clamp(static_cast<double>(pixel[c]), 0., 1.)));
+    measure::write_exr(shown, folder / "shown.exr");
+    measure::write_exr(darker, folder / "darker.exr");
+    const test::ProcessResult ended = compare_picture_rows(
+        {"s=shown.exr", "d=darker.exr", "o=own.exr"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    const json report = json::parse(read_file_at_path(folder / "out/report.json"));
+    const std::string warnings = report["warnings"].dump();
+    EXPECT_THAT(warnings, testing::HasSubstr("'s': its values seem to have the sRGB curve of a "
+                                             "display; wanted linear light"));
+    EXPECT_THAT(warnings, testing::HasSubstr("'d': its values seem to be linear light; wanted "
+                                             "values with the sRGB curve"));
     EXPECT_THAT(warnings, testing::Not(testing::HasSubstr("'o'")));
 }
 

@@ -205,7 +205,13 @@ TEST(Baseline, OtherSceneSizeOrDocumentIsRefused) {
               "old.json: wanted a baseline with the same scene.hash as now (\"feed\"), found "
               "'\"deadbeef\"'");
     other = before, other.width = 5;
-    EXPECT_THAT(refusal(other, to_json(before)), HasSubstr("the same size as now"));
+    const auto size = [](const Comparison& comparison) {
+        return "[" + std::to_string(comparison.width) + "," + std::to_string(comparison.height) +
+               "]";
+    };
+    EXPECT_EQ(refusal(other, to_json(before)),
+              "old.json: wanted a baseline with the same size as now (" + size(other) +
+                  "), found '" + size(before) + "'");
     other = before, other.reference_label = "raytrace:depth=2";
     EXPECT_THAT(refusal(other, to_json(before)), HasSubstr("the same reference.label as now"));
     other = before, other.complete = false;
