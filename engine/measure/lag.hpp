@@ -2,6 +2,7 @@
 
 #include "measure/comparison.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,19 @@ struct SettlingAfterCut {
     std::optional<int> rmse_settled, max_settled;
 };
 
+/// The instant and speed at which the FLIP of a row from its still picture is largest, with linear
+/// pictures before exposure. Copies of a comparison without pictures have empty pictures.
+struct WorstLag {
+    double speed = 1;   ///< see LagAtSpeed::speed
+    double seconds = 0; ///< the instant, one of LagResults::seconds
+    double flip = 0;    ///< FLIP from the still picture over the mirrors, above 0
+    Picture moving;     ///< the picture of the moving scene
+    Picture still;      ///< the row's picture of the scene at rest
+    Picture reference;  ///< the reference of the scene at rest
+    /// The first mirror hit of each pixel, as in Comparison::mirror_hits.
+    std::vector<std::uint32_t> mirror_hits;
+};
+
 struct LagRow {
     std::string label;
     /// Facts about the still pictures. The still picture of an instant shows the scene at rest:
@@ -43,6 +57,7 @@ struct LagRow {
     /// The scene jumps to `seconds[0]` from `jump_from`, where its still picture had been reached.
     SettlingAfterCut after_jump;
     std::vector<LagAtSpeed> speeds;
+    std::optional<WorstLag> worst; ///< empty as long as no picture differs from its still picture
 };
 
 struct LagResults {

@@ -142,6 +142,7 @@ private:
     /// The mirror pixels and the reference picture at one instant.
     struct ReferenceAtInstant {
         double seconds = 0;
+        std::vector<std::uint32_t> hits; ///< as in Comparison::mirror_hits
         measure::Mask mirrors;
         measure::Picture reference;
     };
@@ -192,13 +193,11 @@ private:
     void add_reference_instant(double seconds) {
         const TechniqueResult reference =
             render_still_picture(lag_request_.reference, seconds).part;
-        const bool traces = !reference.hits.empty();
-        instants_.push_back(
-            {seconds,
-             measure::mask_mirror_pixels(
-                 traces ? reference.hits
-                        : render_still_picture("raytrace:depth=1", seconds).part.hits),
-             reference.hdr});
+        std::vector<std::uint32_t> hits =
+            !reference.hits.empty() ? reference.hits
+                                    : render_still_picture("raytrace:depth=1", seconds).part.hits;
+        const measure::Mask mirrors = measure::mask_mirror_pixels(hits);
+        instants_.push_back({seconds, std::move(hits), mirrors, reference.hdr});
     }
 
     void measure_lag_of_technique(std::size_t index) {
@@ -215,7 +214,8 @@ private:
         row.after_jump = measure_settling_after_cut(text, kMaxLagFrames);
         lag_.rows.push_back(std::move(row)); // keeps partial results if a signal comes
         for (const double speed : lag_request_.speeds)
-            lag_.rows.back().speeds.push_back(measure_lag_at_speed(text, speed));
+            lag_.rows.back().speeds.push_back(
+                measure_lag_at_speed(text, speed, lag_.rows.back().worst));
     }
 
     measure::Difference compute_masked_difference(const measure::Picture& a,
@@ -257,7 +257,9 @@ private:
         return settling;
     }
 
-    report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed) {
+    /// Measures a speed, and replaces `worst` by each instant with a larger FLIP.
+    report::LagAtSpeed measure_lag_at_speed(const std::string& text, double speed,
+                                            std::optional<measure::WorstLag>& worst) {
         report::LagAtSpeed lag{.speed = speed};
         const int between = path_.count_frames_per_instant(speed),
                   count = count_lag_frames_at_speed(speed) - kLagPathWarmupFrames;
@@ -270,6 +272,15 @@ private:
             lag.errors.push_back(compute_masked_difference(picture, stills_[i], instants_[i]));
             lag.reference_errors.push_back(
                 compute_masked_difference(picture, instants_[i].reference, instants_[i]));
+            // The FLIP of an instant without a mirror is NaN, and never larger.
+            if (const double flip = lag.errors.back().flip; flip > (worst ? worst->flip : 0))
+                worst = {speed,
+                         instants_[i].seconds,
+                         flip,
+                         picture,
+                         stills_[i],
+                         instants_[i].reference,
+                         instants_[i].hits};
         }
         return lag;
     }

@@ -43,6 +43,7 @@ report::LagResults measure_lag_results(const app::LagRequest& request) {
 void expect_no_lag(const report::LagResults& lag, std::size_t rows, std::size_t speeds) {
     ASSERT_EQ(lag.rows.size(), rows);
     for (const report::LagRow& row : lag.rows) {
+        EXPECT_FALSE(row.worst) << row.label;
         EXPECT_EQ(row.restless_stills, 0) << row.label;
         ASSERT_EQ(row.speeds.size(), speeds) << row.label;
         for (const report::LagAtSpeed& at : row.speeds) {
@@ -121,6 +122,29 @@ TEST(Lag, LagGrowsWithSpeed) {
         EXPECT_GT(mean(1), 1.4 * mean(0));
         EXPECT_GT(mean(2), 1.4 * mean(1));
     }
+    // The kept pictures are those of the largest FLIP of all speeds and instants.
+    ASSERT_TRUE(lag.rows[0].worst);
+    const measure::WorstLag& worst = *lag.rows[0].worst;
+    double largest = 0, speed = 0, instant = 0;
+    for (const report::LagAtSpeed& at : speeds)
+        for (std::size_t i = 0; i < at.errors.size(); ++i)
+            if (at.errors[i].flip > largest)
+                largest = at.errors[i].flip, speed = at.speed, instant = lag.seconds[i];
+    EXPECT_EQ(worst.flip, largest);
+    EXPECT_EQ(worst.speed, speed);
+    EXPECT_EQ(worst.seconds, instant);
+    const measure::Mask mirrors = measure::mask_mirror_pixels(worst.mirror_hits);
+    const auto flip_from = [&](const measure::Picture& other) {
+        return measure::difference(worst.moving, other, mirrors,
+                                   measure::flip(measure::to_unrounded_display(worst.moving),
+                                                 measure::to_unrounded_display(other)))
+            .flip;
+    };
+    EXPECT_NEAR(flip_from(worst.still), largest, 1e-6);
+    app::Request traced = request.base;
+    traced.techniques = {request.reference}, traced.time = instant;
+    EXPECT_TRUE(test::have_equal_pixel_bytes(
+        worst.reference, app::run(test::get_test_engine(), traced).parts.front().hdr));
 }
 
 /// Checks the lag by another computation: the last frame of an animation against a still picture
