@@ -57,6 +57,29 @@ Json make_cause_colours_json(const Comparison& comparison) {
     return list;
 }
 
+/// Returns the pictures of each row's largest lag, one entry an instant: the reference first, then
+/// the row in the moving scene and in the scene at rest. They have no maps.
+Json make_lag_instants_json(const Comparison& comparison) {
+    Json list = Json::array();
+    if (!comparison.lag) return list;
+    for (const LagRow& row : comparison.lag->rows) {
+        const std::string name = find_lag_image_name(comparison, row);
+        if (!row.worst || name.empty()) continue;
+        const std::string when = fmt::format("{:.2f} s", row.worst->seconds);
+        Json pictures = Json::array();
+        for (const auto& [label, ending] :
+             {std::pair("reference at " + when, "-reference"),
+              {fmt::format("{}, moving at {:g}x", row.label, row.worst->speed), "-moving"},
+              {row.label + ", at rest", "-still"}})
+            pictures.push_back(make_picture_json(comparison, label, name + ending, "", "", false));
+        list.push_back({{"label", fmt::format("worst lag of {}: {:g}x, {}", row.label,
+                                              row.worst->speed, when)},
+                        {"mirrors_file", report_image_path(comparison, name + "-mirrors.js")},
+                        {"pictures", pictures}});
+    }
+    return list;
+}
+
 /// Returns the row with the smallest FLIP above 0 over the mirrors, or null if there is none. The
 /// comparer shows this row first.
 const Row* find_closest_row_with_error(const Comparison& comparison) {
@@ -95,7 +118,8 @@ std::string make_html_comparer(const Comparison& comparison) {
                     {"mirrors", mirrors},
                     {"causes", make_cause_colours_json(comparison)},
                     {"mirrors_file", report_image_path(comparison, "mirrors.js")},
-                    {"pictures", pictures}};
+                    {"pictures", pictures},
+                    {"lag", make_lag_instants_json(comparison)}};
     return "<section class=\"comparer\" aria-label=\"Comparer\">" + make_html_data_script(data) +
            "</section>";
 }
@@ -108,10 +132,11 @@ std::string make_picture_values_script(const measure::Picture& picture, const st
     return make_words_script(halves, file);
 }
 
-std::string make_mirror_pixels_script(const Comparison& comparison, const std::string& file) {
+std::string make_mirror_pixels_script(const std::vector<std::uint32_t>& mirror_hits,
+                                      const std::string& file) {
     std::vector<std::uint16_t> mirrors;
-    mirrors.reserve(comparison.mirror_hits.size());
-    for (const std::uint32_t hit : comparison.mirror_hits)
+    mirrors.reserve(mirror_hits.size());
+    for (const std::uint32_t hit : mirror_hits)
         mirrors.push_back(static_cast<std::uint16_t>(hit & 0xFFFF));
     return make_words_script(mirrors, file);
 }

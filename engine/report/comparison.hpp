@@ -26,5 +26,6 @@ using measure::SceneFacts;
 using measure::SettlingAfterCut;
 using measure::SetupFacts;
 using measure::UnsupportedFeatureFacts;
+using measure::WorstLag;
 
 } // namespace catoptric::report

@@ -50,8 +50,9 @@ std::string make_bytes_script(std::string_view bytes, const std::string& file);
 /// `file` is its path relative to the page.
 std::string make_picture_values_script(const measure::Picture& picture, const std::string& file);
 /// Returns a script that gives the comparer the mirror that each pixel shows: 0 for none, or the
-/// mirror's number from 1, in 16 bits.
-std::string make_mirror_pixels_script(const Comparison& comparison, const std::string& file);
+/// mirror's number from 1, in 16 bits. `mirror_hits`: as in Comparison::mirror_hits.
+std::string make_mirror_pixels_script(const std::vector<std::uint32_t>& mirror_hits,
+                                      const std::string& file);
 
 /// Returns the whole report.html of one comparison.
 std::string to_html(const Comparison& comparison, const EncodedPictures& pictures);

@@ -271,7 +271,7 @@ Json make_report_json(const Comparison& comparison) {
                                   [&](const Row& row) { return to_json(comparison, row); });
     json["pareto"] = comparison.pareto;
     if (measure::has_time_or_flip_budget(comparison)) json["budget"] = make_budget_json(comparison);
-    if (comparison.lag) json["lag"] = to_json(*comparison.lag);
+    if (comparison.lag) json["lag"] = make_lag_json(comparison);
     return json;
 }
 

@@ -57,13 +57,29 @@ Json to_json(const LagAtSpeed& at) {
     return json;
 }
 
-Json to_json(const LagRow& row) {
+/// Returns the field "worst" of a row: null, or where the lag is largest, with the names of its
+/// pictures.
+Json make_worst_lag_json(const Comparison& comparison, const LagRow& row) {
+    if (!row.worst) return nullptr;
+    Json json{{"speed", make_number_json(row.worst->speed)},
+              {"seconds", make_number_json(row.worst->seconds)},
+              {"flip", make_number_json(row.worst->flip)}};
+    const std::string name = find_lag_image_name(comparison, row);
+    if (name.empty()) return json;
+    for (const std::string_view ending : kLagPictureNames)
+        json[std::string(ending.substr(1))] = report_image_path(
+            comparison, name + std::string(ending) + ".exr");
+    return json;
+}
+
+Json to_json(const Comparison& comparison, const LagRow& row) {
     Json json{{"label", row.label},
               {"still_frames", row.still_frames},
               {"restless_stills", row.restless_stills},
               {"after_black", to_json(row.after_black)},
               {"after_jump", to_json(row.after_jump)}};
     add_lag_metrics(json, "still_reference_", row.still_reference_errors);
+    json["worst"] = make_worst_lag_json(comparison, row);
     json["speeds"] = make_list_json(row.speeds, [](const LagAtSpeed& at) { return to_json(at); });
     return json;
 }
@@ -194,7 +210,8 @@ std::string make_html_lag_figure(const std::string& drawing, const std::string& 
 
 } // namespace
 
-Json to_json(const LagResults& lag) {
+Json make_lag_json(const Comparison& comparison) {
+    const LagResults& lag = *comparison.lag;
     return {{"mask", "mirrors"},
             {"complete", lag.complete},
             {"path_seconds", make_number_json(lag.path)},
@@ -202,7 +219,8 @@ Json to_json(const LagResults& lag) {
             {"frame_cap", lag.frame_cap},
             {"seconds", make_number_list_json(lag.seconds)},
             {"without_history", lag.without_history},
-            {"rows", make_list_json(lag.rows, [](const LagRow& row) { return to_json(row); })}};
+            {"rows", make_list_json(lag.rows,
+                                    [&](const LagRow& row) { return to_json(comparison, row); })}};
 }
 
 ReportTable make_lag_table(const Comparison& comparison) {

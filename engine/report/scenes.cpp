@@ -41,6 +41,12 @@ Comparison copy_without_pictures(const Comparison& comparison) {
             row.worst = std::make_shared<measure::WorstView>(
                 measure::WorstView{row.worst->view, {}});
     }
+    if (bare.lag) { // copied, because comparisons share it
+        bare.lag = std::make_shared<LagResults>(*bare.lag);
+        for (LagRow& row : bare.lag->rows)
+            if (row.worst)
+                row.worst = WorstLag{row.worst->speed, row.worst->seconds, row.worst->flip};
+    }
     return bare;
 }
 

@@ -134,6 +134,13 @@ std::string describe_worst_view(const Comparison& comparison, const measure::Wor
                        comparison.views.size(), view.camera.name, view.time);
 }
 
+std::string make_lag_image_name(const std::string& image) { return "lag-" + image; }
+
+std::string find_lag_image_name(const Comparison& comparison, const measure::LagRow& row) {
+    const auto found = std::ranges::find(comparison.rows, row.label, &Row::label);
+    return found == comparison.rows.end() ? "" : make_lag_image_name(found->image);
+}
+
 std::string make_worst_view_image_name(const std::string& image) {
     return "worst-" + image + ".png";
 }

@@ -2,6 +2,7 @@
 
 #include "report/comparison.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -54,5 +55,14 @@ std::string join_labels_of_rows(const std::vector<const Row*>& rows,
 std::string describe_worst_view(const Comparison& comparison, const measure::WorstView& worst);
 /// Returns the file name of a row's picture at its worst view, from its Row::image.
 std::string make_worst_view_image_name(const std::string& image);
+/// Returns how names of the files begin that show a row's largest lag, without folder. Returns
+/// nothing if the comparison has no row with the label of `row`. kLagPictureNames lists the ends of
+/// these names.
+std::string find_lag_image_name(const Comparison& comparison, const measure::LagRow& row);
+std::string make_lag_image_name(const std::string& image);
+/// Ends of the names of a row's lag pictures: the moving scene, the row's picture of the scene at
+/// rest, and the reference.
+inline constexpr std::array<std::string_view, 3> kLagPictureNames{"-moving", "-still",
+                                                                  "-reference"};
 
 } // namespace catoptric::report

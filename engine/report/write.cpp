@@ -9,7 +9,9 @@
 #include "report/text.hpp"
 #include "report/writer.hpp"
 
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <system_error>
 
 #include <unistd.h>
@@ -50,6 +52,32 @@ std::size_t count_picture_bytes(const EncodedPictures& pictures) {
     return bytes;
 }
 
+/// Writes the pictures of each row's largest lag that are new since the last call.
+void write_new_lag_pictures(EncodedPictures& pictures, const Comparison& comparison,
+                            const fs::path& images) {
+    pictures.worst_lags.resize(comparison.lag->rows.size(), {NAN, NAN});
+    for (std::size_t i = 0; i < comparison.lag->rows.size(); ++i) {
+        const LagRow& row = comparison.lag->rows[i];
+        const std::string name = find_lag_image_name(comparison, row);
+        if (!row.worst || name.empty()) continue;
+        const std::pair<double, double> place(row.worst->speed, row.worst->seconds);
+        if (pictures.worst_lags[i] == place) continue;
+        const std::array shown{&row.worst->moving, &row.worst->still, &row.worst->reference};
+        for (std::size_t k = 0; k < shown.size(); ++k) {
+            const std::string file = name + std::string(kLagPictureNames[k]);
+            measure::write_exr(*shown[k], images / (file + ".exr"));
+            write_file(
+                images / (file + ".js"),
+                make_picture_values_script(*shown[k], report_image_path(comparison, file + ".js")));
+        }
+        const std::string mirrors = name + "-mirrors.js";
+        write_file(images / mirrors,
+                   make_mirror_pixels_script(row.worst->mirror_hits,
+                                             report_image_path(comparison, mirrors)));
+        pictures.worst_lags[i] = place;
+    }
+}
+
 /// Writes the report on `shown`, one comparison or several scenes.
 template <class Shown>
 void write_report_texts(const fs::path& folder, const Shown& shown, CsvColumnSet csv,
@@ -85,9 +113,9 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
     if (pictures.reference.empty() || pictures.noise_frames != noise_frames) {
         write_values("reference", comparison.reference_hdr);
         if (!images.empty() && !comparison.mirror_hits.empty())
-            write_file(
-                images / "mirrors.js",
-                make_mirror_pixels_script(comparison, report_image_path(comparison, "mirrors.js")));
+            write_file(images / "mirrors.js",
+                       make_mirror_pixels_script(comparison.mirror_hits,
+                                                 report_image_path(comparison, "mirrors.js")));
         encode(pictures.reference, comparison.reference_display, "reference.png");
     }
     pictures.noise_frames = noise_frames;
@@ -127,6 +155,7 @@ void encode_new_pictures(EncodedPictures& pictures, const Comparison& comparison
             encoded.worst_view = row.worst->view;
         }
     }
+    if (!images.empty() && comparison.lag) write_new_lag_pictures(pictures, comparison, images);
 }
 
 void ReportWriter::write_comparison(const Comparison& comparison) {
@@ -148,6 +177,11 @@ std::vector<fs::path> list_report_files(const std::vector<std::string>& images,
         for (const std::string& more : {"causes-" + image + ".png", "causes-" + image + ".js",
                                         make_worst_view_image_name(image)})
             files.push_back(there / more);
+        const std::string lag = make_lag_image_name(image);
+        for (const std::string_view name : kLagPictureNames)
+            for (const char* ending : {".exr", ".js"})
+                files.push_back(there / (lag + std::string(name) + ending));
+        files.push_back(there / (lag + "-mirrors.js"));
     }
     return files;
 }

@@ -41,6 +41,8 @@ struct EncodedPictures {
     std::string reference; ///< empty if the reference was not rendered
     int noise_frames = 0;  ///< value of ReferenceNoise::frames when the reference was encoded
     std::vector<RowPngPictures> rows;
+    /// Speed and instant of the largest lag of each row of LagResults whose pictures were written.
+    std::vector<std::pair<double, double>> worst_lags;
     bool is_inlined = true; ///< whether the page holds the pictures, and not the names of files
 };
 /// Returns the file of a picture relative to the page, for make_html_figure; empty if the page
@@ -63,8 +65,10 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
 /// images/<row>-error.png and images/reference.png. The linear values for the page lie in
 /// images/<row>.js, images/reference.js and images/mirrors.js, and its heat maps in
 /// images/<row>-error.js. Rows with causes add
-/// images/causes-<row>.png, and drawn views add images/worst-<row>.png. `write` is called again as
-/// rows are added. It replaces only pictures that changed and all other files, each as a whole.
+/// images/causes-<row>.png, and drawn views add images/worst-<row>.png. Rows with lag add
+/// images/lag-<row>-moving.exr and .js, and the same of -still and -reference. `write` is called
+/// again as rows are added. It replaces only pictures that changed and all other files, each as a
+/// whole.
 class ReportWriter {
 public:
     explicit ReportWriter(std::filesystem::path folder, CsvColumnSet csv = CsvColumnSet::table,

@@ -11,6 +11,7 @@ import sys
 import time
 
 import charts
+import lag
 from browser import expect, open_page, wait
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -276,6 +277,7 @@ def main():
         expect(abs(told - min(real, 1)) <= 0.005 + 0.01 * real, f"pixel {x}, {y} of the 8-bit picture: {told}, {real}")
     browser.quit()
     test_causes(program, folder / "causes")
+    lag.test_lag(program, folder / "lag")
     print("page: passed")
 
 

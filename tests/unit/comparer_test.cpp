@@ -91,8 +91,9 @@ TEST(Comparer, ExtremeValuesStayWhatTheyAre) {
 TEST(Comparer, MirrorOfEachPixelIsThatOfTheFirstHit) {
     Comparison made = catoptric::report::sample::make_usual_comparison();
     made.mirror_hits = {0, 3, 2U << 16 | 1, 7U << 16};
-    EXPECT_EQ(decode_words(catoptric::report::make_mirror_pixels_script(made, "mirrors.js")),
-              (std::vector<unsigned>{0, 3, 1, 0}));
+    EXPECT_EQ(
+        decode_words(catoptric::report::make_mirror_pixels_script(made.mirror_hits, "mirrors.js")),
+        (std::vector<unsigned>{0, 3, 1, 0}));
 }
 
 TEST(Comparer, ListsTheReferenceAndEveryRowAndBeginsWithTheClosestRowThatDiffers) {

@@ -1,6 +1,8 @@
 // Tests of incomplete reports. Every file of a running or stopped run says so, and each picture is
 // written once.
 #include "core/file.hpp"
+#include "measure/lag.hpp"
+#include "measure/picture_file.hpp"
 #include "measure/views.hpp"
 #include "report/stress.hpp"
 #include "report/writer.hpp"
@@ -111,9 +113,14 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
                                       "naive0-error.js", "naive0-error.png", "naive0.exr",
                                       "naive0.js", "naive0.png", "reference.js", "reference.png"}));
     std::vector<fs::path> missing = catoptric::report::list_report_files({"naive0"});
-    EXPECT_EQ(missing.size(), 4 + list_image_files().size() + 1);
+    EXPECT_EQ(missing.size(), 4 + list_image_files().size() + 8);
     std::erase_if(missing, [&](const fs::path& file) { return fs::exists(folder / "out" / file); });
-    EXPECT_EQ(missing, (std::vector<fs::path>{"images/worst-naive0.png"})); // the run drew no views
+    EXPECT_EQ(missing, (std::vector<fs::path>{
+                           "images/worst-naive0.png",      // the run drew no views
+                           "images/lag-naive0-moving.exr", // and measured no lag
+                           "images/lag-naive0-moving.js", "images/lag-naive0-still.exr",
+                           "images/lag-naive0-still.js", "images/lag-naive0-reference.exr",
+                           "images/lag-naive0-reference.js", "images/lag-naive0-mirrors.js"}));
     fs::remove_all(folder / "out/images");
     made.rows.push_back(whole.rows[1]);
     writer.write_comparison(made);
@@ -134,6 +141,69 @@ TEST_F(GrowingReport, EachPictureIsWrittenOnce) {
                                      std::pair("report.md", catoptric::report::to_markdown(whole)),
                                      std::pair("rows.csv", catoptric::report::to_csv(whole))})
         EXPECT_TRUE(catoptric::read_file(folder / "out" / file) == text) << file;
+}
+
+/// The instant of the largest lag is known after some speeds of a row, and may change with further
+/// speeds. Its pictures are written again only if it changes.
+TEST_F(GrowingReport, LagPicturesAreWrittenAgainWhenTheirInstantChanges) {
+    Comparison made = make_usual_comparison();
+    made.rows.resize(2);
+    made.lag = std::make_shared<catoptric::measure::LagResults>();
+    made.lag->seconds = {0, 1};
+    for (const auto& row : made.rows) made.lag->rows.push_back({.label = row.label});
+    catoptric::report::ReportWriter writer(folder / "out");
+    writer.write_comparison(made);
+    const std::string lag = "lag-" + made.rows[1].image;
+    const auto list_lag_files = [&] {
+        std::vector<std::string> files = list_image_files();
+        std::erase_if(files, [](const std::string& file) { return !file.starts_with("lag-"); });
+        return files;
+    };
+    EXPECT_EQ(list_lag_files(), std::vector<std::string>());
+    EXPECT_TRUE(json::parse(catoptric::report::to_json(made))["lag"]["rows"][1]["worst"].is_null());
+    catoptric::measure::Picture grey(9, 3);
+    grey.pixels.assign(27, catoptric::vec3(.5f));
+    made.lag->rows[1].worst = {.speed = 2,
+                               .seconds = 1,
+                               .flip = .25,
+                               .moving = grey,
+                               .still = catoptric::measure::Picture(9, 3),
+                               .reference = grey,
+                               .mirror_hits = std::vector<std::uint32_t>(27, 0x10002)};
+    writer.write_comparison(made);
+    const std::vector<std::string> wanted{
+        lag + "-mirrors.js",   lag + "-moving.exr", lag + "-moving.js", lag + "-reference.exr",
+        lag + "-reference.js", lag + "-still.exr",  lag + "-still.js"};
+    EXPECT_EQ(list_lag_files(), wanted);
+    EXPECT_EQ(
+        catoptric::measure::read_picture(folder / "out/images" / (lag + "-moving.exr")).pixels,
+        grey.pixels);
+    EXPECT_EQ(catoptric::measure::read_picture(folder / "out/images" / (lag + "-still.exr")).pixels,
+              made.lag->rows[1].worst->still.pixels);
+    const json worst = json::parse(
+        catoptric::read_file(folder / "out/report.json"))["lag"]["rows"][1]["worst"];
+    EXPECT_EQ(worst, (json{{"speed", 2},
+                           {"seconds", 1},
+                           {"flip", .25},
+                           {"moving", "images/" + lag + "-moving.exr"},
+                           {"still", "images/" + lag + "-still.exr"},
+                           {"reference", "images/" + lag + "-reference.exr"}}));
+    const std::string page = catoptric::report::to_html(made);
+    EXPECT_THAT(page, HasSubstr("worst lag of " + made.rows[1].label + ": 2x, 1.00 s"));
+    EXPECT_THAT(page, Not(HasSubstr("worst lag of " + made.rows[0].label + ":")));
+    fs::remove_all(folder / "out/images");
+    writer.write_comparison(made);
+    EXPECT_EQ(list_lag_files(), std::vector<std::string>());
+    made.lag->rows[1].worst->speed = 4;
+    writer.write_comparison(made);
+    EXPECT_EQ(list_lag_files(), wanted);
+    // A copy for a report on several scenes keeps the figures.
+    const Comparison bare = catoptric::report::copy_without_pictures(made);
+    EXPECT_TRUE(bare.lag->rows[1].worst->moving.pixels.empty());
+    EXPECT_TRUE(bare.lag->rows[1].worst->mirror_hits.empty());
+    EXPECT_EQ(json::parse(catoptric::report::to_json(bare))["lag"],
+              json::parse(catoptric::report::to_json(made))["lag"]);
+    EXPECT_FALSE(made.lag->rows[1].worst->moving.pixels.empty());
 }
 
 /// The worst view of a row may change with every drawn view. The picture of a changed worst view is

@@ -86,7 +86,10 @@ class Comparer {
     constructor(place) {
         this.place = place;
         this.data = JSON.parse(place.querySelector("script").textContent);
-        const {width, height, exposure, pictures} = this.data;
+        const {width, height, exposure, pictures, mirrors_file, lag = []} = this.data;
+        // What can be compared: the rows, or the largest lag of a row. Each entry has its own reference, which is its first picture.
+        this.instants = [{label: "at rest", mirrors_file, pictures}, ...lag];
+        this.instant = this.instants[0];
         Object.assign(this, {width, height, exposure, pictures});
         this.left = "0";
         this.right = String(Math.max(pictures.findIndex(picture => picture.first), 1));
@@ -103,11 +106,12 @@ class Comparer {
     }
 
     make_controls() {
-        const names = this.pictures.map((picture, i) => [String(i), picture.label]);
+        const names = this.list_names();
         const choose = name => value => { this[name] = value, this.refresh(); };
         const [left, left_select] = make_choice("Left", names, this.left, choose("left"));
         const [right, right_select] = make_choice("Right", names, this.right, choose("right"));
-        this.selects = {left: left_select, right: right_select};
+        const [instant, instant_select] = make_choice("Instant", this.instants.map(({label}, i) => [String(i), label]), "0",
+            value => this.choose_instant(Number(value)));
         const [layout, layout_select] = make_choice("Layout", [["split", "split"], ["flip", "flip"],
             ["beside", "side by side"]], this.layout, choose("layout"));
         const [show, show_select] = make_choice("Show", [["picture", "picture"],
@@ -117,7 +121,7 @@ class Comparer {
             value => { this.gain = Number(value), this.refresh(); });
         const mirrors = this.data.mirrors.map((name, i) => [String(i + 1), name]);
         const [mask] = make_choice("Pixels", [["all", "all"], ["mirrors", "mirrors"], ...mirrors], "all", choose("mask"));
-        Object.assign(this.selects, {layout: layout_select, show: show_select});
+        this.selects = {left: left_select, right: right_select, instant: instant_select, layout: layout_select, show: show_select};
         const stops = make("output", {}, format_value(this.exposure));
         this.slider = make("input", {type: "range", min: this.exposure - 8, max: this.exposure + 8, step: 0.25,
             value: this.exposure});
@@ -132,11 +136,11 @@ class Comparer {
         };
         this.canvas = make("canvas", {tabIndex: 0, role: "img", "aria-label": "Comparer of two pictures. Arrow keys move " +
             "the pixel, with Shift the split; plus and minus zoom; 0 shows all; F, S and B choose the layout; P, D, E " +
-            "and C what is shown; brackets change the exposure."});
+            "and C what is shown; brackets change the exposure" + (this.instants.length > 1 ? "; I the instant." : ".")});
         this.values = make("p", {className: "values", "aria-live": "polite"});
         this.note = make("p", {className: "note"});
         this.place.replaceChildren(
-            make("div", {className: "controls"}, left, right, layout, show, gain, mask,
+            make("div", {className: "controls"}, ...this.instants.length > 1 ? [instant] : [], left, right, layout, show, gain, mask,
                 make("label", {}, "Exposure, stops ", this.slider, stops),
                 make("span", {}, button("−", "zoom out", () => this.zoom_by(1 / 2)),
                     button("+", "zoom in", () => this.zoom_by(2)), button("all", "show the whole picture", () => this.zoom_by(0)))),
@@ -151,8 +155,39 @@ class Comparer {
         this.canvas.addEventListener("pointermove", event => this.on_pointer_move(event));
     }
 
-    /** Shows a picture, by its index, beside the reference. */
+    list_names() {
+        return this.pictures.map((picture, i) => [String(i), picture.label]);
+    }
+
+    /** Chooses what is compared, by its index, without drawing. Pictures of a lag have no maps. */
+    set_instant(index) {
+        if (this.instant === this.instants[index]) return;
+        for (const picture of this.pictures) delete picture.values; // they load again
+        delete this.mirrors;
+        this.bitmaps.clear();
+        this.telling = (this.telling ?? 0) + 1; // the line of values tells nothing of the earlier instant
+        this.instant = this.instants[index], this.pictures = this.instant.pictures;
+        this.selects.instant.value = String(index);
+        for (const side of ["left", "right"])
+            this.selects[side].replaceChildren(...this.list_names().map(([value, text]) => make("option", {value}, text)));
+        for (const option of this.selects.show.options)
+            option.disabled = index > 0 && ["error", "causes"].includes(option.value);
+        if (this.selects.show.selectedOptions[0].disabled) this.selects.show.value = this.show = "picture";
+    }
+
+    /** Shows the reference of an instant beside its first row, or beside the row that the page shows first. */
+    choose_instant(index) {
+        this.set_instant(index);
+        this.show_beside_reference(Math.max(this.pictures.findIndex(picture => picture.first), 1));
+    }
+
+    /** Shows a row, by the index of its picture, beside the reference. */
     choose_picture(index) {
+        this.set_instant(0);
+        this.show_beside_reference(index);
+    }
+
+    show_beside_reference(index) {
         this.selects.left.value = this.left = "0";
         this.selects.right.value = this.right = String(index);
         this.refresh();
@@ -176,6 +211,7 @@ class Comparer {
      * the page, or from the page. Returns null if the row has no such map.
      */
     async load_map(index, kind) {
+        if (!this.pictures[index]) return null; // of another instant
         const {file, id} = this.pictures[index][kind], image = id && document.getElementById(id);
         if (!image) return null;
         return (this.maps ??= new Map()).get(file) ?? this.maps.set(file, load_values(file)
@@ -187,13 +223,13 @@ class Comparer {
     }
 
     load_mirrors() {
-        return this.mirrors ??= load_values(this.data.mirrors_file)
+        return this.mirrors ??= load_values(this.instant.mirrors_file)
             .then(bytes => new Uint16Array(bytes.buffer, bytes.byteOffset, bytes.byteLength / 2)).catch(() => null);
     }
 
     /** Returns a canvas with one picture as the controls ask for it. */
     async make_bitmap(index) {
-        const {show, exposure, gain, mask} = this; // the controls may change while files are loaded
+        const {show, exposure, gain, mask, instant} = this; // the controls may change while files are loaded
         const key = [index, show, exposure, gain, mask].join();
         const known = this.bitmaps.get(key);
         if (known) return known;
@@ -216,7 +252,7 @@ class Comparer {
         }
         pen.putImageData(image, 0, 0);
         if (this.bitmaps.size > 8) this.bitmaps.clear();
-        this.bitmaps.set(key, canvas);
+        if (instant === this.instant) this.bitmaps.set(key, canvas);
         return canvas;
     }
 
@@ -304,6 +340,7 @@ class Comparer {
         const mirrors = await this.load_mirrors(), mirror = mirrors ? mirrors[y * this.width + x] : 0;
         const parts = [];
         for (const index of new Set(["0", this.left, this.right])) {
+            if (turn !== this.telling) return; // a later call tells
             const floats = await this.load(index);
             const cause = await this.find_cause(index, x, y);
             parts.push(`${this.pictures[index].label}: ${Array.from(floats.slice(at, at + 3), format_value).join(" ")}` +
@@ -344,6 +381,7 @@ class Comparer {
     }
 
     set_show(show) {
+        if (Array.from(this.selects.show.options).some(option => option.value === show && option.disabled)) return;
         this.selects.show.value = this.show = show;
         this.refresh();
     }
@@ -362,6 +400,7 @@ class Comparer {
             f: () => this.set_layout("flip"), s: () => this.set_layout("split"), b: () => this.set_layout("beside"),
             p: () => this.set_show("picture"), d: () => this.set_show("difference"), e: () => this.set_show("error"),
             ...this.data.causes.length > 0 && {c: () => this.set_show("causes")},
+            i: () => this.choose_instant((this.instants.indexOf(this.instant) + 1) % this.instants.length),
             "[": () => move_exposure(-0.5), "]": () => move_exposure(0.5),
         };
         const act = keys[event.key] ?? keys[event.key.toLowerCase()];
