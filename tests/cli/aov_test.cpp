@@ -119,6 +119,16 @@ TEST_F(AovTest, EachPictureOfASequenceHasItsOwnLayers) {
     EXPECT_EQ(read_channels("still.exr").values.at("object.V"), last.values.at("object.V"));
 }
 
+/// A limit of captures changes no still picture, and therefore none of its layers.
+TEST_F(AovTest, LayersOfAStillPictureDoNotDependOnTheLimitOfCaptures) {
+    const std::string technique = "hybrid:face=16,shadow_map=64"; // has captures and rays
+    render_layers(technique, "all.exr", {"--aov", "all"});
+    const test::ProcessResult limited = render_layers(
+        technique, "limited.exr", {"--aov", "all", "--budget-ms", "1e-6", "--verbose"});
+    EXPECT_THAT(limited.err, HasSubstr("captures: at most 1 of 4 mirrors a frame"));
+    EXPECT_EQ(read_output_file("limited.exr"), read_output_file("all.exr"));
+}
+
 TEST_F(AovTest, OtherFilesAndUnknownLayersAreRefused) {
     const Words start{"render", "--technique", "raytrace", "--size", "16x16"};
     const auto refuse = [&](const std::string& list, const std::string& file, const Words& parts) {

@@ -283,6 +283,38 @@ TEST(FirstSurface, TracingLeavesTheHistoryAsItIs) {
     }
 }
 
+/// With a limit of captures, a mirror may show an older capture. Tiers and layers of the frames of
+/// a moving scene change neither the frames nor the order in which captures are drawn again, and a
+/// pixel that shows an older capture still has the tier of a capture.
+TEST(FirstSurface, LayersLeaveTheOrderOfLimitedCapturesAsItIs) {
+    const scene::Scene scene = scene::make_cornell_mirrors();
+    app::FrameSpec spec = test::make_test_request(scene, {"reuse:face=32"}, {48, 48});
+    spec.model = app::RenderedWork::required, spec.most_captures = 1;
+    app::FrameSpec layered = spec;
+    layered.with_lookup = true;
+    app::Session plain(test::get_test_engine(), scene), traced(test::get_test_engine(), scene);
+    std::uint32_t waited = 0;
+    for (int frame = 0; frame < 9; ++frame) {
+        spec.time = layered.time = frame / 60.;
+        const app::Frame wanted = plain.frame(spec), found = traced.frame(layered);
+        EXPECT_TRUE(test::have_equal_pixel_bytes(wanted.hdr(), found.hdr())) << frame;
+        ASSERT_TRUE(wanted.slices() && found.slices());
+        EXPECT_EQ(found.slices()->drawn, wanted.slices()->drawn) << frame;
+        EXPECT_EQ(found.slices()->longest, wanted.slices()->longest) << frame;
+        waited = std::max(waited, found.slices()->waiting);
+        const app::ReflectionTiers tiers = app::Access::read_reflection_tiers(found);
+        const app::FirstSurfaces surfaces = app::Access::trace_first_surfaces(traced, layered);
+        std::size_t mirrored = 0, captured = 0;
+        for (std::size_t i = 0; i < surfaces.mirror.size(); ++i) {
+            mirrored += surfaces.mirror[i] > 0;
+            captured += tiers.tier_at(i, surfaces.mirror[i]) == ReflectionTier::capture;
+        }
+        EXPECT_GT(mirrored, 80u);
+        EXPECT_GE(captured + 6, mirrored) << frame << ": but for pixels at outlines";
+    }
+    EXPECT_GT(waited, 0u) << "captures had to wait";
+}
+
 struct TierPictures {
     app::TechniqueResult result;
     std::vector<ReflectionTier> tiers;
