@@ -7,9 +7,6 @@
 
 namespace catoptric::measure {
 
-namespace {
-
-/// Returns P(Binomial(count, p) <= most), summed from its largest logarithm.
 double binomial_cumulative(std::size_t most, std::size_t count, double p) {
     if (most >= count || p <= 0) return 1;
     if (p >= 1) return 0;
@@ -22,8 +19,6 @@ double binomial_cumulative(std::size_t most, std::size_t count, double p) {
     }
     return std::min(sum, 1.0);
 }
-
-} // namespace
 
 double lower_bound_of_passing_view_share(std::size_t failures, std::size_t views,
                                          double confidence) {

@@ -8,6 +8,10 @@
 // distribution of errors.
 namespace catoptric::measure {
 
+/// Returns the probability that at most `most` of `count` independent trials succeed, if each
+/// succeeds with probability `p`. O(most).
+double binomial_cumulative(std::size_t most, std::size_t count, double p);
+
 /// Returns the largest share of all views, 0 to 1, that is proved to keep a limit with this
 /// confidence, 0 to 1, if `failures` of `views` drawn views break the limit (Clopper and Pearson,
 /// The Use of Confidence or Fiducial Limits, 1934, one-sided). Returns 0 without views. Takes

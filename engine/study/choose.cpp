@@ -9,6 +9,7 @@
 #include "measure/interval.hpp"
 #include "measure/judge.hpp"
 #include "measure/plan_mix.hpp"
+#include "measure/proof_order.hpp"
 #include "report/costs.hpp"
 #include "session/plan_file.hpp"
 #include "study/choose_noise.hpp"
@@ -48,6 +49,11 @@ int count_proof_views(const ResolvedChooseRequest& request) {
     return static_cast<int>(std::max(measure::count_views_needed_for_certificate(
                                          find_share_to_prove(request), request.confidence, 0),
                                      measure::kMinIntervalSamples));
+}
+
+/// Returns the number of fresh views in which plans are proved.
+int find_proof_view_count(const ResolvedChooseRequest& request) {
+    return request.proof_views > 0 ? request.proof_views : count_proof_views(request);
 }
 
 void check_choose_request(const ResolvedChooseRequest& request) {
@@ -261,33 +267,50 @@ std::vector<const JudgedPlan*> list_unbeaten_plans(const ResolvedChooseRequest& 
     return unbeaten;
 }
 
-/// Removes plans until `count` are left, but never the first and the last. The times of the plans
-/// fall along the list. If a plan's proof fails, the plan before it is chosen, which should not
-/// take much longer. So each step removes the plan whose neighbours have the smallest ratio of
-/// times.
-void thin_out_plans_by_time(std::vector<const JudgedPlan*>& plans, std::size_t count) {
-    while (plans.size() > count) {
-        const auto ratio_without = [&](std::size_t i) {
-            return plans[i - 1]->ms / std::max(plans[i + 1]->ms, 1e-9);
-        };
-        std::size_t least = 1;
-        for (std::size_t i = 2; i + 1 < plans.size(); ++i)
-            if (ratio_without(i) < ratio_without(least)) least = i;
-        plans.erase(plans.begin() + static_cast<std::ptrdiff_t>(least));
-    }
+/// Returns the most failures among the proof views with which a proof succeeds.
+std::size_t find_most_failures_of_proof(const ResolvedChooseRequest& request, std::size_t views) {
+    std::size_t failures = 0;
+    while (failures < views &&
+           measure::count_views_needed_for_certificate(find_share_to_prove(request),
+                                                       request.confidence, failures + 1) <= views)
+        ++failures;
+    return failures;
 }
 
-/// Returns the plans to prove, in order from the smallest error to the shortest time.
+/// Returns those of the plans that are worth a proof, in the order of their proofs. If a plan's
+/// proof fails, the plan before it is chosen.
+std::vector<const JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
+                                                const std::vector<const JudgedPlan*>& plans) {
+    constexpr std::size_t kMaxProvedPlans = 4; // without the mix of techniques
+    // Chosen on recorded views of three scenes (docs/choose.md): without it, a few views with
+    // similar errors make a proof look certain.
+    constexpr double kAddedDeviation = .5;
+    // Having no plan is as bad as a plan that takes this many times as long.
+    constexpr double kNoPlanFactor = 10;
+    const auto views = static_cast<std::size_t>(find_proof_view_count(request));
+    const std::size_t failures = find_most_failures_of_proof(request, views);
+    std::vector<measure::ProofCandidate> candidates;
+    for (const JudgedPlan* plan : plans)
+        candidates.push_back({std::max(plan->ms, 1e-9), measure::estimate_probability_of_proof(
+                                                            plan->errors, *request.max_error, views,
+                                                            failures, kAddedDeviation)});
+    std::vector<const JudgedPlan*> chain;
+    for (const std::size_t i :
+         measure::find_best_proof_order(candidates, kMaxProvedPlans, kNoPlanFactor))
+        chain.push_back(plans[i]);
+    if (chain.empty()) chain.push_back(plans.front());
+    return chain;
+}
+
+/// Returns the plans to prove, in order from the slowest to the fastest.
 std::vector<std::string> list_plans_to_prove(const ResolvedChooseRequest& request,
                                              const measure::Comparison& training,
                                              const std::vector<JudgedPlan>& plans) {
-    // Most plans that are proved, without the mix of techniques.
-    constexpr std::size_t kMaxProvedPlans = 4;
     std::vector<const JudgedPlan*> unbeaten = list_unbeaten_plans(request, plans);
     if (unbeaten.empty()) return {};
     if (!request.max_error) // with a limit of time alone, the plan with the least error is wanted
         return {unbeaten.front()->text};
-    thin_out_plans_by_time(unbeaten, kMaxProvedPlans);
+    unbeaten = find_best_proofs(request, unbeaten);
     std::vector<std::string> chain;
     for (const JudgedPlan* plan : unbeaten) chain.push_back(plan->text);
     const std::string mixed = find_fastest_mixed_plan(request, training, plans),
@@ -300,7 +323,7 @@ std::vector<std::string> list_plans_to_prove(const ResolvedChooseRequest& reques
 
 std::vector<PlanProof> prove_plans(const ResolvedChooseRequest& request,
                                    const std::vector<std::string>& texts) {
-    const int views = request.proof_views > 0 ? request.proof_views : count_proof_views(request);
+    const int views = find_proof_view_count(request);
     report_choose_step(
         request,
         fmt::format("proving {} on {} fresh views",
