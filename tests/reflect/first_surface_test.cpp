@@ -298,10 +298,10 @@ TEST(FirstSurface, LayersLeaveTheOrderOfLimitedCapturesAsItIs) {
         spec.time = layered.time = frame / 60.;
         const app::Frame wanted = plain.frame(spec), found = traced.frame(layered);
         EXPECT_TRUE(test::have_equal_pixel_bytes(wanted.hdr(), found.hdr())) << frame;
-        ASSERT_TRUE(wanted.slices() && found.slices());
-        EXPECT_EQ(found.slices()->drawn, wanted.slices()->drawn) << frame;
-        EXPECT_EQ(found.slices()->longest, wanted.slices()->longest) << frame;
-        waited = std::max(waited, found.slices()->waiting);
+        ASSERT_TRUE(wanted.capture_budget() && found.capture_budget());
+        EXPECT_EQ(found.capture_budget()->drawn, wanted.capture_budget()->drawn) << frame;
+        EXPECT_EQ(found.capture_budget()->longest, wanted.capture_budget()->longest) << frame;
+        waited = std::max(waited, found.capture_budget()->waiting);
         const app::ReflectionTiers tiers = app::Access::read_reflection_tiers(found);
         const app::FirstSurfaces surfaces = app::Access::trace_first_surfaces(traced, layered);
         std::size_t mirrored = 0, captured = 0;
