@@ -45,7 +45,7 @@ double error_value_of_difference(ErrorQuantity quantity, const measure::Differen
 
 /// Returns the number of proof views: the least number that can prove the share, and that `compare`
 /// accepts.
-int count_proof_views(const ResolvedChooseRequest& request) {
+int count_fewest_proof_views(const ResolvedChooseRequest& request) {
     return static_cast<int>(std::max(measure::count_views_needed_for_certificate(
                                          find_share_to_prove(request), request.confidence, 0),
                                      measure::kMinIntervalSamples));
@@ -53,7 +53,7 @@ int count_proof_views(const ResolvedChooseRequest& request) {
 
 /// Returns the number of fresh views in which plans are proved.
 int find_proof_view_count(const ResolvedChooseRequest& request) {
-    return request.proof_views > 0 ? request.proof_views : count_proof_views(request);
+    return request.proof_views > 0 ? request.proof_views : count_fewest_proof_views(request);
 }
 
 void check_choose_request(const ResolvedChooseRequest& request) {
@@ -82,7 +82,7 @@ void check_choose_request(const ResolvedChooseRequest& request) {
     check(request.share <= kMaxPart && request.confidence <= kMaxPart, Failure::usage,
           "share and confidence: wanted at most ", kMaxPart, ", found ", request.share, " and ",
           request.confidence);
-    const int needed = count_proof_views(request);
+    const int needed = count_fewest_proof_views(request);
     check(request.proof_views == 0 || request.proof_views >= needed, Failure::usage,
           "views of the proof: wanted at least ", needed, ", since fewer cannot prove a share of ",
           request.share, " with a confidence of ", request.confidence, ", found ",
@@ -282,8 +282,8 @@ std::size_t find_most_failures_of_proof(const ResolvedChooseRequest& request, st
 std::vector<const JudgedPlan*> find_best_proofs(const ResolvedChooseRequest& request,
                                                 const std::vector<const JudgedPlan*>& plans) {
     constexpr std::size_t kMaxProvedPlans = 4; // without the mix of techniques
-    // Chosen on recorded views of three scenes (docs/choose.md): without it, a few views with
-    // similar errors make a proof look certain.
+    // Without it, a few views with similar errors make a proof look certain. Chosen by replaying
+    // recorded views of courtyard, room and cornell-mirrors-closed (tests/long/choose_test.cpp).
     constexpr double kAddedDeviation = .5;
     // Having no plan is as bad as a plan that takes this many times as long.
     constexpr double kNoPlanFactor = 10;
@@ -390,16 +390,16 @@ std::string describe_nearest_plan(const ResolvedChooseRequest& request,
 /// Returns the reason why no plan keeps its limits in the proof views.
 std::string describe_failed_proof(const ResolvedChooseRequest& request,
                                   const std::vector<PlanProof>& proofs) {
-    const PlanProof& surest = proofs.front();
-    if (surest.keeps_error)
+    const PlanProof& first = proofs.front();
+    if (first.keeps_error)
         return fmt::format("no plan takes at most {:g} ms when it is measured again; {} takes "
                            "{:.3g} ms",
                            *request.max_ms, proofs.back().plan.text, proofs.back().plan.ms);
     return fmt::format("{} keeps the limits in the training views, but not in enough of the fresh "
                        "ones ({} of {} fail); the best that is reachable is {} <= {:.4g}{}",
-                       surest.plan.text, surest.failures, surest.plan.errors.size(),
-                       error_quantity_name(request.quantity), surest.error_bound,
-                       describe_noise_as_cause(surest.noise));
+                       first.plan.text, first.failures, first.plan.errors.size(),
+                       error_quantity_name(request.quantity), first.error_bound,
+                       describe_noise_as_cause(first.noise));
 }
 
 } // namespace

@@ -59,7 +59,7 @@ struct PlanProof {
 struct PlanChoice {
     std::vector<JudgedPlan> candidates; ///< over the training views
     std::vector<std::string> dropped;   ///< candidates left out after the first view
-    /// Plans in the order of their test, from the surest. The order is fixed before the proof's
+    /// Plans in the order of their test, from the slowest. The order is fixed before the proof's
     /// views are drawn. A plan counts only if all before it keep the limit of error, so none of the
     /// tests lowers the confidence of another (fixed-sequence testing; Maurer, Hothorn, Lehmacher,
     /// Multiple Comparisons in Drug Clinical Trials and Preclinical Assays, 1995). The list ends
@@ -72,9 +72,9 @@ struct PlanChoice {
 /// Chooses a plan in four steps. First, all candidates are measured in the comparison's own view,
 /// and a candidate is dropped if another is faster and errs less by a wide margin. Second, the
 /// remaining candidates are drawn in the training views. Third, a mix of techniques by mirror is
-/// computed from their errors (measure::find_fastest_technique_mix). Fourth, the plan with the
-/// least error and the cheapest plans are tested on fresh views. Throws `usage` for limits out of
-/// range, and what `compare` throws. Each step with drawn views takes one comparison.
+/// computed from their errors (measure::find_fastest_technique_mix). Fourth, up to
+/// four plans and the mix are tested on fresh views (measure/proof_order.hpp). Throws `usage` for
+/// limits out of range, and what `compare` throws. Each step with drawn views takes one comparison.
 PlanChoice choose_plan(Engine& engine, const ChooseRequest& request);
 
 /// Returns a comparison of plans with the reference, in the comparison's own view and in `views`

@@ -342,13 +342,13 @@ private:
         const double exposure = compare_request_.base.exposure;
         for (std::size_t i = 0; i < compare_request_.pictures.size(); ++i) {
             const auto& [name, path] = compare_request_.pictures[i];
-            const measure::Picture picture = read_row_picture(*find_view_picture(path, 0),
-                                                              exposure);
+            const std::string file = *find_view_picture(path, 0);
+            const measure::Picture picture = read_row_picture(file, exposure);
             const report::Row& row = comparison_.rows.emplace_back(
                 make_picture_row(name, i, picture, truth, hits,
                                  scene::mirrors(compare_request_.base.scene).size(), exposure));
-            row_warnings_.push_back(
-                list_picture_row_warnings(name, picture, row.error.rmse, truth, hits, exposure));
+            row_warnings_.push_back(list_picture_row_warnings(name, file, picture, row.error.rmse,
+                                                              truth, hits, exposure));
         }
     }
 

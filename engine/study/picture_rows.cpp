@@ -56,44 +56,34 @@ measure::Picture apply_curve(measure::Picture picture, Curve curve) {
     return picture;
 }
 
-/// Returns the picture with the reference's mean light.
-measure::Picture scale_to_mean_of(const measure::Picture& truth, measure::Picture picture) {
-    double wanted = 0, found = 0;
-    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
-        for (int channel = 0; channel < 3; ++channel) {
-            wanted += static_cast<double>(truth.pixels[i][channel]);
-            found += static_cast<double>(picture.pixels[i][channel]);
-        }
-    if (found > 0)
-        for (vec3& pixel : picture.pixels) pixel *= static_cast<float>(wanted / found);
-    return picture;
-}
-
 /// Returns the fault of the picture's curve as the end of a sentence, empty if there is none. The
-/// curve is wrong if the values fit the reference twice as well with the sRGB curve removed or
-/// applied, and better than with another exposure. `picture`: linear light, as its file was
-/// understood.
-std::string describe_wrong_curve(const measure::Picture& picture, const ComparedReference& truth,
-                                 double exposure) {
+/// curve is wrong if the values fit the reference twice as well with the sRGB curve removed (EXR
+/// and Radiance files) or applied (PNG files), and better than at any other exposure. `picture`:
+/// linear light, as its file was understood.
+std::string describe_wrong_curve(const measure::Picture& picture, bool is_png,
+                                 const ComparedReference& truth, double exposure) {
     const measure::Mask all(picture.pixels.size(), 255);
     const auto find_rmse = [&](const measure::Picture& tried) {
         return compute_plain_error(tried, truth, all, exposure).rmse;
     };
     const double error = find_rmse(picture);
     if (error < 2 * measure::kEightBitStep) return "";
-    const double wanted = std::min(error / 2, find_rmse(scale_to_mean_of(truth.hdr, picture)));
-    const measure::Picture decoded = apply_curve(picture, measure::linear_from_srgb);
-    // A displayed picture usually contains the exposure.
-    if (find_rmse(decoded) < wanted ||
-        find_rmse(measure::apply_exposure(decoded, -exposure)) < wanted)
-        return "its values seem to have the sRGB curve of a display; wanted linear light, as the "
-               "format holds";
-    const measure::Picture shown = apply_curve(measure::apply_exposure(picture, exposure),
-                                               measure::srgb_from_linear);
-    if (find_rmse(measure::apply_exposure(shown, -exposure)) < wanted)
-        return "its values seem to be linear light; wanted values with the sRGB curve, as the "
-               "format holds";
-    return "";
+    double corrected = 0; // error with the other curve
+    if (is_png) {
+        const measure::Picture shown = apply_curve(measure::apply_exposure(picture, exposure),
+                                                   measure::srgb_from_linear);
+        corrected = find_rmse(measure::apply_exposure(shown, -exposure));
+    } else { // a displayed picture usually contains the exposure
+        const measure::Picture decoded = apply_curve(picture, measure::linear_from_srgb);
+        corrected = std::min(find_rmse(decoded),
+                             find_rmse(measure::apply_exposure(decoded, -exposure)));
+    }
+    if (corrected > error / 2) return "";
+    for (int thirds = -12; thirds <= 12; ++thirds) // of a stop
+        if (find_rmse(measure::apply_exposure(picture, thirds / 3.)) <= corrected) return "";
+    return is_png ? "its values seem to be linear light; wanted values with the sRGB curve in a PNG"
+                  : "its values seem to have the sRGB curve of a display; wanted linear light in "
+                    "EXR and Radiance files";
 }
 
 // Share of the pixels without reflections that must be off before their light is called different.
@@ -215,14 +205,14 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
     return row;
 }
 
-std::vector<std::string> list_picture_row_warnings(const std::string& name,
+std::vector<std::string> list_picture_row_warnings(const std::string& name, const std::string& file,
                                                    const measure::Picture& picture, double rmse,
                                                    const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,
                                                    double exposure) {
     const std::string begin = "'" + name + "': ";
-    if (const std::string curve = describe_wrong_curve(picture, truth, exposure); !curve.empty())
-        return {begin + curve};
+    const std::string curve = describe_wrong_curve(picture, measure::is_png(file), truth, exposure);
+    if (!curve.empty()) return {begin + curve};
     // Only surfaces that reflect nothing are compared, because techniques draw reflections
     // differently.
     measure::Mask beside(hits.size());

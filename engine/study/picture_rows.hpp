@@ -44,12 +44,11 @@ report::Row make_picture_row(const std::string& name, std::size_t index,
                              const std::vector<std::uint32_t>& hits, std::size_t mirrors,
                              double exposure);
 
-/// Returns warnings about a picture of another renderer, as sentences that begin with `name`. One
-/// warning is given if the picture differs from the reference more where surfaces reflect nothing
-/// than on the mirrors. Another is given if the picture turned upside down is closer to the
-/// reference, or if it is closer with the sRGB curve removed or applied. `rmse`: error on the
-/// mirrors.
-std::vector<std::string> list_picture_row_warnings(const std::string& name,
+/// Returns warnings about a picture of another renderer, as sentences that begin with `name`. At
+/// most one is given: that values in `file` have the wrong curve, that the picture is upside down,
+/// or that it differs from the reference more where surfaces reflect nothing than on the mirrors.
+/// `rmse`: error on the mirrors.
+std::vector<std::string> list_picture_row_warnings(const std::string& name, const std::string& file,
                                                    const measure::Picture& picture, double rmse,
                                                    const ComparedReference& truth,
                                                    const std::vector<std::uint32_t>& hits,

@@ -142,7 +142,7 @@ void add_errors_of_view_picture(const ViewsRequest& request, std::size_t index, 
     part.display = measure::to_display(part.hdr, exposure);
     add_view_errors(row, part, truth, hits, mirrors, exposure);
     for (const std::string& warning : list_picture_row_warnings(
-             name + "', '" + view_picture_name(view), part.hdr, row.views.back().error.rmse,
+             name + "', '" + view_picture_name(view), *file, part.hdr, row.views.back().error.rmse,
              truth.compared_reference(), hits, exposure))
         if (request.on_warning && ++warned <= kMaxViewWarnings) request.on_warning(warning);
 }

@@ -33,8 +33,8 @@ constexpr const char* kChooseExamples = R"(Examples:
   catoptric render room.glb --plan plan.json -o look.png
   catoptric choose room.glb --certify plan.json --proof-seed 7
 
-Candidates are judged in drawn views, and techniques are mixed by mirror. The surest and the cheapest plans are then
-proved on fresh views. plan.json holds the last plan that holds, with its certificate: "at least this share of drawn
+Candidates are judged in drawn views, and techniques are mixed by mirror. Up to five plans that are likely to hold are
+then proved on fresh views, the slowest first. plan.json holds the last plan that holds, with its certificate: "at least this share of drawn
 views keeps the limit, with this confidence". With --max-ms alone, the certificate states the error that this share
 keeps. The exit code is 1 if no plan keeps the limits.)";
 
@@ -81,13 +81,17 @@ void read_certificate(const ChooseOptions& options, app::ChooseRequest& request)
     constexpr double kMaxEdge = 1 << 20; // as of --size
     const std::optional<double> width = number("width", 1, kMaxEdge),
                                 height = number("height", 1, kMaxEdge);
-    if (width && height && !options.common.is_size_given)
+    check(width.has_value() == height.has_value(), Failure::bad_data, file,
+          ": certificate: wanted width and height, found one of them");
+    if (width && !options.common.is_size_given)
         request.base.size = {static_cast<unsigned>(*width), static_cast<unsigned>(*height)};
     const nlohmann::json reference = certificate.value("reference", nlohmann::json());
+    check(reference.is_null() || reference.is_string(), Failure::bad_data, file,
+          ": certificate.reference: wanted a technique, found ",
+          report::describe_json_value(reference));
     if (reference.is_string() && options.common.reference.empty()) {
-        request.reference = reference.get<std::string>();
         try {
-            app::check_row_techniques({request.reference});
+            request.reference = parse_reference(reference.get<std::string>());
         } catch (const Error& error) {
             throw_error(Failure::bad_data, file + ": certificate.reference: " + error.what());
         }
@@ -294,9 +298,11 @@ void add_choose_verb(CommandLine& program, std::vector<std::string> command) {
                 options->output);
     verb.option("--techniques", "T", "candidates, as of compare (a built-in list)",
                 options->techniques);
-    verb.option("--certify", "FILE",
-                "prove the plan of this file again, by its certificate's limits, on fresh views",
-                options->certified);
+    verb.option(
+        "--certify", "FILE",
+        "prove the plan of this file again on fresh views, by its certificate's limits, size and "
+        "reference",
+        options->certified);
     add_limit_options(verb, *options);
     add_view_count_options(verb, *options);
     add_common_options_without_scene(verb, options->common);

@@ -239,7 +239,7 @@ public:
                 print_note_unless_quiet(manners, row.label + ": " + what);
         std::size_t views = 0;
         for (const report::Row& row : comparison.rows) views = std::max(views, row.views.size());
-        if (views > 0)
+        if (views > 0 && !manners.json)
             print_note_unless_quiet(manners, "the report has the errors over " +
                                                  std::to_string(views) +
                                                  " drawn views; the table shows one view");

@@ -80,10 +80,7 @@ void add_choice_options(CommandVerb& verb, CommonOptions& common) {
                 common.reference_file = text;
                 return;
             }
-            const app::TechniqueChoice choice = app::parse_technique(text);
-            check(choice.technique != "plan", Failure::usage,
-                  "--reference: wanted one technique for all mirrors, found '", text, "'");
-            common.reference = choice.label;
+            common.reference = parse_reference(text);
         });
     verb.option(
         "--timing", "T",
@@ -123,6 +120,13 @@ scene::SceneFileOptions make_scene_file_options(const CommonOptions& common) {
     return {.root = common.root,
             .budget = scene::choose_load_budget(common.scene, common.budget,
                                                 scene::read_free_memory())};
+}
+
+std::string parse_reference(const std::string& text) {
+    const app::TechniqueChoice choice = app::parse_technique(text);
+    check(choice.technique != "plan", Failure::usage,
+          "--reference: wanted one technique for all mirrors, found '", text, "'");
+    return choice.label;
 }
 
 double parse_stops(const std::string& text) {

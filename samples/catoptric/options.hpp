@@ -76,6 +76,9 @@ void add_view_options(CommandVerb& verb, CommonOptions& common);
 void add_camera_options(CommandVerb& verb, CommonOptions& common);
 /// Returns the options for loading the scene.
 scene::SceneFileOptions make_scene_file_options(const CommonOptions& common);
+/// Returns the label of a technique that can be the reference. Throws `usage` for plans and unknown
+/// techniques.
+std::string parse_reference(const std::string& text);
 /// Returns an exposure in stops, from -64 to 64. Throws `usage` for other text.
 double parse_stops(const std::string& text);
 

@@ -73,7 +73,7 @@ TEST_F(Choose, CertificateIsWhatAComparisonInTheSameViewsFinds) {
         0);
     EXPECT_THAT(read_output_file("out/report.html"),
                 HasSubstr("plan:plan.json was chosen for another scene: at least 50 %"));
-    // Plans are proved in the order from the smallest error to the lowest cost.
+    // Plans are proved from the slowest to the fastest.
     const json& proofs = plan["proofs"];
     for (std::size_t i = 0; i + 1 < proofs.size(); ++i)
         EXPECT_GE(proofs[i]["ms"], proofs[i + 1]["ms"]);

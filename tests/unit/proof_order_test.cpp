@@ -29,8 +29,8 @@ TEST(ProbabilityOfProof, FollowsTablesOfStudentsDistribution) {
         std::vector<double> errors;
         double squares = 0;
         for (const double value : tested.logarithms) {
-            errors.push_back(.01 * std::exp(.1 * value));
-            squares += .01 * value * value;
+            errors.push_back(.01 * std::exp(.05 * value));
+            squares += .0025 * value * value;
         }
         const double deviation = std::sqrt(squares / (count - 1) * (1 + 1 / count)),
                      limit = .01 * std::exp(tested.t * deviation),
@@ -46,7 +46,7 @@ TEST(ProbabilityOfProof, FollowsTablesOfStudentsDistribution) {
 
 TEST(ProbabilityOfProof, IsTheShareOfFurtherValuesBelowTheLimit) {
     std::mt19937_64 random(7);
-    std::normal_distribution<double> normal(-3, .6);
+    std::normal_distribution<double> normal(-3, .3);
     constexpr int kDraws = 40000;
     double estimated = 0, kept = 0;
     for (int draw = 0; draw < kDraws; ++draw) {
@@ -61,6 +61,16 @@ TEST(ProbabilityOfProof, IsTheShareOfFurtherValuesBelowTheLimit) {
         kept += (std::exp(normal(random)) <= limit ? 1. : 0.) / kDraws;
     }
     EXPECT_NEAR(estimated, kept, .004); // the standard error of `kept` is below .001
+}
+
+TEST(ProbabilityOfProof, ViewsWithoutAnErrorDoNotMakeAProofUnlikely) {
+    for (const std::size_t zeros : {1, 3, 6, 11})
+        for (const double share : {.001, .02, .1}) {
+            std::vector<double> errors(12, share * .05);
+            std::fill_n(errors.begin(), zeros, 0.);
+            EXPECT_GT(measure::estimate_probability_of_proof(errors, .05, 59, 0, .5), .9)
+                << zeros << ' ' << share;
+        }
 }
 
 TEST(ProbabilityOfProof, ExtremesHaveCertainAnswers) {

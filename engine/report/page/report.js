@@ -341,9 +341,10 @@ class Comparer {
         const parts = [];
         for (const index of new Set(["0", this.left, this.right])) {
             if (turn !== this.telling) return; // a later call tells
+            const label = this.pictures[index].label; // the instant may change while pictures load
             const floats = await this.load(index);
             const cause = await this.find_cause(index, x, y);
-            parts.push(`${this.pictures[index].label}: ${Array.from(floats.slice(at, at + 3), format_value).join(" ")}` +
+            parts.push(`${label}: ${Array.from(floats.slice(at, at + 3), format_value).join(" ")}` +
                 (cause && ` (${cause})`));
         }
         if (turn !== this.telling) return; // a later call tells
@@ -400,7 +401,9 @@ class Comparer {
             f: () => this.set_layout("flip"), s: () => this.set_layout("split"), b: () => this.set_layout("beside"),
             p: () => this.set_show("picture"), d: () => this.set_show("difference"), e: () => this.set_show("error"),
             ...this.data.causes.length > 0 && {c: () => this.set_show("causes")},
-            i: () => this.choose_instant((this.instants.indexOf(this.instant) + 1) % this.instants.length),
+            ...this.instants.length > 1 && {
+                i: () => this.choose_instant((this.instants.indexOf(this.instant) + 1) % this.instants.length),
+            },
             "[": () => move_exposure(-0.5), "]": () => move_exposure(0.5),
         };
         const act = keys[event.key] ?? keys[event.key.toLowerCase()];
