@@ -1,4 +1,5 @@
-// Comparison of incoherent rays, with random origins in a scene's bounds and random directions.
+// Comparison of the first hits of ray lists: incoherent rays, with random origins in a scene's
+// bounds and random directions, and coherent rays from the scene's camera.
 #include "cases.hpp"
 #include "comparison.hpp"
 #include "ray_list.hpp"
@@ -37,6 +38,29 @@ std::vector<Ray> make_random_rays_in_bounds(std::span<const bvh::Triangle> trian
     return rays;
 }
 
+/// Returns the camera's rays through the centres of all pixels. Each 64 rays cover 8x8 pixels, and
+/// each 8 of them cover 4x2 pixels, as in technique `raytrace`.
+std::vector<Ray> make_rays_of_camera(const WhittedTracerScene& view) {
+    std::vector<Ray> rays;
+    const auto pixels = static_cast<std::size_t>(view.width) *
+                        static_cast<std::size_t>(view.height);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const auto tile = static_cast<int>(i / 64), block = static_cast<int>(i / 8 % 8),
+                   lane = static_cast<int>(i % 8), tiles_across = view.width / 8;
+        const int column = tile % tiles_across * 8 + block % 2 * 4 + lane % 4,
+                  row = tile / tiles_across * 8 + block / 2 * 2 + lane / 4;
+        const float x = (static_cast<float>(column) + .5F) / static_cast<float>(view.width) * 2 - 1,
+                    y = (static_cast<float>(row) + .5F) / static_cast<float>(view.height) * 2 - 1;
+        const auto along = [&](float PeerVector3::*axis) {
+            return view.forward.*axis + view.right.*axis * x + view.down.*axis * y;
+        };
+        const vec3 direction = normalize(
+            vec3(along(&PeerVector3::x), along(&PeerVector3::y), along(&PeerVector3::z)));
+        rays.push_back({view.eye, {direction.x, direction.y, direction.z}});
+    }
+    return rays;
+}
+
 std::size_t count_hits(const std::vector<FirstRayHit>& met) {
     return met.size() - static_cast<std::size_t>(std::ranges::count(met, FirstRayHit::kNoTriangle,
                                                                     &FirstRayHit::triangle));
@@ -63,14 +87,12 @@ bool print_and_check_ray_hit_differences(const std::string& name,
     return places <= kMaxDifferingPixels;
 }
 
-} // namespace
-
-bool compare_random_rays_with_embree(const EmbreeComparisonBench& bench,
-                                     const NamedSceneFactory& of) {
-    const std::string name = std::string("rays/") + of.name;
-    const std::vector<bvh::Triangle> triangles = make_bvh_triangles_of_scene(of.make());
-    const std::vector<Ray> rays = make_random_rays_in_bounds(triangles);
-    std::printf("\nrays in any direction, %s: %zu triangles\n", of.name, triangles.size());
+/// Compares the first hits of a list of rays. Prints times and differences. Returns whether our
+/// hits and Embree's agree.
+bool compare_ray_list_with_embree(const EmbreeComparisonBench& bench, const std::string& name,
+                                  const std::vector<bvh::Triangle>& triangles,
+                                  const std::vector<Ray>& rays) {
+    std::printf("\n%s: %zu triangles\n", name.c_str(), triangles.size());
     gpu::GpuDevice device{{}};
     gpu::PipelineStore pipelines(device);
     RayListBenchmark list(device, pipelines, triangles, rays);
@@ -100,9 +122,24 @@ bool compare_random_rays_with_embree(const EmbreeComparisonBench& bench,
         {.iterations = bench.rounds * kFramesPerRound, .rounds = bench.rounds, .watcher = {}});
     std::printf("\n");
     for (const BenchmarkResult& benchmark : found)
-        print_benchmark(benchmark, "rays", kRandomRayCount / 1e6);
+        print_benchmark(benchmark, "rays", static_cast<double>(rays.size()) / 1e6);
     print_cost_ratios_of_pair(found, name);
     return same;
+}
+
+} // namespace
+
+bool compare_ray_lists_with_embree(const EmbreeComparisonBench& bench,
+                                   const NamedSceneFactory& of) {
+    const app::Request request = make_request_of_scene(of.make());
+    const std::vector<bvh::Triangle> triangles = make_bvh_triangles_of_scene(request.scene);
+    const EmbreeWhittedTracer tracer(bench.device, request, kMirrorBounces, false);
+    const bool camera_rays_agree = compare_ray_list_with_embree(
+        bench, std::string("camera-rays/") + of.name, triangles,
+        make_rays_of_camera(tracer.whitted_tracer_scene()));
+    return compare_ray_list_with_embree(bench, std::string("rays/") + of.name, triangles,
+                                        make_random_rays_in_bounds(triangles)) &&
+           camera_rays_agree;
 }
 
 } // namespace peers

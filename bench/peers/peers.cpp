@@ -3,7 +3,8 @@
 //   catoptric_peers [ROUNDS] [CASE...]
 // ROUNDS is at least 6. Without CASE, all cases run. The exit code is 1 if results differ.
 // The cases `built-in`, `100k`, `1M` and `room` compare pictures of these scenes. `built-in` also
-// compares captures and prototypes. The cases `rays` and `trees` compare incoherent rays and trees.
+// compares captures and prototypes. The case `rays` compares lists of camera rays and of
+// incoherent rays, and the case `trees` compares trees.
 #include "cases.hpp"
 #include "core/error.hpp"
 #include "gpu/shader.hpp"
@@ -36,8 +37,7 @@ std::vector<EmbreeComparisonCase> list_embree_comparison_cases() {
                          return std::ranges::count_if(
                                     peers::list_named_scene_factories(),
                                     [&](const peers::NamedSceneFactory& scene) {
-                                        return !peers::compare_random_rays_with_embree(bench,
-                                                                                       scene);
+                                        return !peers::compare_ray_lists_with_embree(bench, scene);
                                     }) == 0;
                      }});
     cases.push_back({"trees", [](const EmbreeComparisonBench& bench) {
