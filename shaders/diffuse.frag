@@ -3,6 +3,8 @@
 // the surface.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #include "lib/first_hit.glsl"
 #include "lib/lit.glsl"
 

@@ -1,6 +1,8 @@
 // Draws a mirror that has no capture. The mirror is black, or shows only its diffuse and emitted light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #include "lib/lit.glsl"
 
 void main() {

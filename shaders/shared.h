@@ -274,8 +274,9 @@ struct Counters {
 // Work that shaders count in frames that count work (lib/work.glsl). engine/core/work.hpp explains each kind.
 const uint kWorkCameraRays = 0u, kWorkMirrorRays = 1u, kWorkShadowRays = 2u, kWorkBvhNodes = 3u, kWorkTriangleTests = 4u,
            kWorkNodeLanes = 5u, kWorkTriangleLanes = 6u, kWorkShadowLookups = 7u, kWorkColourLookups = 8u,
-           kWorkDistanceLookups = 9u, kWorkTextureLookups = 10u, kWorkMaterialReads = 11u, kWorkLightEvaluations = 12u;
-const uint kShaderWorkKindCount = 13u;
+           kWorkDistanceLookups = 9u, kWorkColourLanes = 10u, kWorkDistanceLanes = 11u, kWorkSearchLanes = 12u,
+           kWorkTextureLookups = 13u, kWorkMaterialReads = 14u, kWorkLightEvaluations = 15u;
+const uint kShaderWorkKindCount = 16u;
 
 // Push constants of the pass that shows pictures in a window (engine/session/screen.cpp).
 struct ScreenParameters {

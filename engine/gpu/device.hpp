@@ -110,6 +110,8 @@ public:
     bool supports_float_colour_blending() const { return blends_; }
     /// Returns whether the device counts vertices, fragments and other invocations.
     bool has_pipeline_statistics() const { return pipeline_statistics_; }
+    /// Returns whether fragment shaders have basic subgroup operations.
+    bool has_subgroups_in_fragments() const { return fragment_subgroups_; }
     bool needs_staged_uploads() const { return staged_; }
     std::uint32_t valid_timestamp_bits() const { return timestamp_bits_; }
 
@@ -190,6 +192,7 @@ private:
     bool layered_ = true;
     bool doubles_ = false, numbers_triangles_ = false, blends_ = false;
     bool pipeline_statistics_ = false;
+    bool fragment_subgroups_ = false;
     bool filters_floats_ = false;
     bool staged_ = false;
     bool has_debug_utils_ = false;

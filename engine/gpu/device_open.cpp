@@ -130,6 +130,7 @@ void GpuDevice::read_physical_device(const DeviceOptions& options) {
     doubles_ = has.core.features.shaderFloat64;
     numbers_triangles_ = has.core.features.geometryShader;
     pipeline_statistics_ = has.core.features.pipelineStatisticsQuery;
+    fragment_subgroups_ = DeviceFeatures::has_fragment_subgroups(physical_);
     filters_floats_ = DeviceFeatures::has_float_filtering(physical_);
     blends_ = has.core.features.independentBlend && DeviceFeatures::has_float_blending(physical_);
     std::uint32_t count = queue_family_ + 1;

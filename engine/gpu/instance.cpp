@@ -114,14 +114,15 @@ bool format_allows_features(VkPhysicalDevice device, VkFormat format,
     return (properties.optimalTilingFeatures & features) == features;
 }
 
-/// Returns whether compute shaders have these subgroup operations.
-bool has_subgroup_operations(VkPhysicalDevice device, VkSubgroupFeatureFlags wanted) {
+/// Returns whether shaders of this stage have these subgroup operations.
+bool has_subgroup_operations(VkPhysicalDevice device, VkShaderStageFlagBits stage,
+                             VkSubgroupFeatureFlags wanted) {
     VkPhysicalDeviceSubgroupProperties subgroups{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                            &subgroups};
     vkGetPhysicalDeviceProperties2(device, &properties);
-    return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+    return (subgroups.supportedStages & stage) != 0 &&
            (subgroups.supportedOperations & wanted) == wanted;
 }
 
@@ -297,6 +298,11 @@ bool DeviceFeatures::has_float_filtering(VkPhysicalDevice device) {
            format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kLinearFilterFeature);
 }
 
+bool DeviceFeatures::has_fragment_subgroups(VkPhysicalDevice device) {
+    return has_subgroup_operations(device, VK_SHADER_STAGE_FRAGMENT_BIT,
+                                   VK_SUBGROUP_FEATURE_BASIC_BIT);
+}
+
 bool DeviceFeatures::has_float_blending(VkPhysicalDevice device) {
     constexpr VkFormatFeatureFlags kBlendFeature = VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT;
     return format_allows_features(device, VK_FORMAT_R32G32B32A32_SFLOAT, kBlendFeature) &&
@@ -318,9 +324,11 @@ std::string DeviceFeatures::describe_missing_features(VkPhysicalDevice device) {
         {"maintenance4", has.v13.maintenance4},
         {"shaderTerminateInvocation", has.v13.shaderTerminateInvocation},
         {"subgroup arithmetic in compute shaders",
-         has_subgroup_operations(device, VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)},
+         has_subgroup_operations(device, VK_SHADER_STAGE_COMPUTE_BIT,
+                                 VK_SUBGROUP_FEATURE_ARITHMETIC_BIT)},
         {"subgroup ballots in compute shaders",
-         has_subgroup_operations(device, VK_SUBGROUP_FEATURE_BALLOT_BIT)},
+         has_subgroup_operations(device, VK_SHADER_STAGE_COMPUTE_BIT,
+                                 VK_SUBGROUP_FEATURE_BALLOT_BIT)},
         {"work groups of 256", max_work_group_invocations(device) >= 256},
     };
     std::string names;

@@ -44,6 +44,8 @@ struct DeviceFeatures {
     /// Returns whether images of 32-bit floats can be sampled with linear filtering, which is
     /// optional in Vulkan.
     static bool has_float_filtering(VkPhysicalDevice device);
+    /// Returns whether fragment shaders have basic subgroup operations.
+    static bool has_fragment_subgroups(VkPhysicalDevice device);
     /// Returns whether colour attachments of floats, of 16 and of 32 bits, can be blended.
     static bool has_float_blending(VkPhysicalDevice device);
     VkPhysicalDeviceFeatures2 core{};

@@ -2,7 +2,9 @@
 
 #include "core/error.hpp"
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include <spirv-tools/optimizer.hpp>
@@ -23,6 +25,29 @@ void register_specialisation_passes(spvtools::Optimizer& optimiser,
         .RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
 }
 
+constexpr std::string_view kSubgroupCapabilityPassName = "remove-unused-subgroup-capability";
+
+/// Removes the capability of subgroup operations if no such operation is left. The code that counts
+/// work in fragment shaders has subgroup operations, which a device need not support there.
+void remove_unused_subgroup_capability(std::vector<std::uint32_t>& words) {
+    constexpr std::size_t kSpirvHeaderWords = 5;
+    // Numbers of SPIR-V: instruction OpCapability, its operand, and the instructions of subgroups.
+    constexpr std::uint32_t kCapabilityInstruction = 17, kSubgroupCapability = 61,
+                            kFirstSubgroupInstruction = 333, kLastSubgroupInstruction = 366;
+    std::size_t capability = 0;
+    for (std::size_t at = kSpirvHeaderWords; at < words.size();) {
+        const std::uint32_t instruction = words[at] & 0xffffu, length = words[at] >> 16u;
+        if (instruction >= kFirstSubgroupInstruction && instruction <= kLastSubgroupInstruction)
+            return;
+        if (instruction == kCapabilityInstruction && words[at + 1] == kSubgroupCapability)
+            capability = at;
+        at += std::max(length, 1u);
+    }
+    if (capability == 0) return;
+    const auto first = words.begin() + static_cast<std::ptrdiff_t>(capability);
+    words.erase(first, first + 2);
+}
+
 } // namespace
 
 std::string list_specialisation_passes() {
@@ -30,7 +55,7 @@ std::string list_specialisation_passes() {
     register_specialisation_passes(optimiser, {});
     std::string names;
     for (const char* name : optimiser.GetPassNames()) names.append(name).append("\n");
-    return names;
+    return names.append(kSubgroupCapabilityPassName).append("\n");
 }
 
 std::vector<std::uint32_t>
@@ -48,6 +73,7 @@ specialise_shader(std::string_view name, std::span<const std::uint32_t> words,
     std::vector<std::uint32_t> result;
     check(optimiser.Run(words.data(), words.size(), &result, options), Failure::internal,
           "shader '", name, "' cannot be specialised: ", said);
+    remove_unused_subgroup_capability(result);
     return result;
 }
 

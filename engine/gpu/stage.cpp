@@ -10,6 +10,7 @@ ShaderConstantValues make_device_feature_constants(const GpuDevice& device) {
     ShaderConstantValues constants;
     if (device.needs_storage_buffers_for_texels()) constants.emplace_back("texels_in_storage", 1u);
     if (!device.has_float_filtering()) constants.emplace_back("distances_by_gather", 1u);
+    if (!device.has_subgroups_in_fragments()) constants.emplace_back("counts_lanes", 0u);
     return constants;
 }
 

@@ -108,11 +108,8 @@ std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const R
 
 std::vector<CountedWorkKind> list_fitted_kinds() {
     std::vector<CountedWorkKind> kinds;
-    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i) {
-        const auto kind = static_cast<CountedWorkKind>(i);
-        if (kind != CountedWorkKind::node_lanes && kind != CountedWorkKind::triangle_lanes)
-            kinds.push_back(kind);
-    }
+    for (std::size_t i = 0; i < kCountedWorkKindCount; ++i)
+        kinds.push_back(static_cast<CountedWorkKind>(i));
     return kinds;
 }
 

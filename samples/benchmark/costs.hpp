@@ -23,8 +23,9 @@ std::vector<measure::TimedWorkSample> measure_cost_samples(Engine& engine, const
 std::vector<measure::TimedWorkSample> count_work_samples(Engine& engine, const Request& request,
                                                          const Watcher& watcher);
 
-/// Returns the kinds of work whose unit costs are fitted to measured times: all kinds except counts
-/// of lanes, because the number of lanes depends on the driver.
+/// Returns the kinds of work whose unit costs are fitted to measured times: all kinds. The counts
+/// of lanes depend on the number of lanes in a subgroup, and their costs hold only on devices with
+/// subgroups of the same size.
 std::vector<CountedWorkKind> list_fitted_kinds();
 
 } // namespace catoptric::app

@@ -43,6 +43,7 @@
 // Constants for features that a gpu::GpuDevice lacks:
 #define TEXELS_IN_STORAGE_CONSTANT 30
 #define DISTANCES_BY_GATHER_CONSTANT 31
+#define COUNTS_LANES_CONSTANT 57
 // Constants that engine/gpu/variants.hpp tunes:
 #define GROUPS_IN_ORDER_CONSTANT 32
 #define BVH_IN_STORAGE_CONSTANT 33
@@ -63,6 +64,6 @@
 #define HAS_CLEAR_COATS_CONSTANT 53
 #define HAS_LIGHT_PROBES_CONSTANT 54
 #define TINTS_SHADOWS_CONSTANT 56
-#define OWN_CONSTANTS 57
+#define OWN_CONSTANTS 58
 
 #endif

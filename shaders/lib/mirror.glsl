@@ -46,7 +46,7 @@ struct MirrorPath {
 bool is_mirror_surface(vec4 surface) { return surface.x > 0.0; }
 vec4 read_captured_surface(uint mirror, vec3 direction) {
 #define SURFACE(i) textureLod(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, SURFACE)
 }
 

@@ -16,7 +16,7 @@ vec3 opaque_picture_colour(vec2 place) {
     ivec2 last = textureSize(opaque_picture, 0) - 1;
     vec2 low = floor(place - 0.5), share = round((place - 0.5 - low) * kWeightSteps) / kWeightSteps;
     vec3 sum = vec3(0);
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         float weight = (step.x == 1 ? share.x : 1.0 - share.x) * (step.y == 1 ? share.y : 1.0 - share.y);
@@ -46,7 +46,7 @@ bool find_light_in_opaque_picture(uint detail, vec3 end, out vec3 light) {
     if (has_lobes != 0u && has_levels) {
         float level = opaque_picture_level(detail);
         if (level > 0.0) {
-            count_work_once(kWorkColourLookups);
+            count_colour_lookups(1u);
             light = textureLod(sampler2D(opaque_levels, mipmapped_texels), place, max(level, 1.0) - 1.0).rgb;
             if (level < 1.0) light = mix(opaque_picture_colour(place * vec2(textureSize(opaque_picture, 0))), light, level);
             return true;

@@ -26,29 +26,29 @@ layout(constant_id = BY_OBJECT_CONSTANT) const uint by_object = 0u;
 
 vec3 captured_colour_bilinear(uint mirror, vec3 direction) {
 #define COLOUR(i) textureLod(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0).rgb
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, COLOUR)
 }
 
 // Each of these functions gathers one value of the four texels around a direction: object number, red, green or blue.
 vec4 gather_object_numbers(uint mirror, vec3 direction) {
 #define NUMBERS(i) textureGather(SURFACE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, NUMBERS)
 }
 vec4 gather_reds(uint mirror, vec3 direction) {
 #define REDS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, REDS)
 }
 vec4 gather_greens(uint mirror, vec3 direction) {
 #define GREENS(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 1)
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, GREENS)
 }
 vec4 gather_blues(uint mirror, vec3 direction) {
 #define BLUES(i) textureGather(COLOUR_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 2)
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, BLUES)
 }
 
@@ -109,7 +109,7 @@ layout(constant_id = TESTS_VOID_CONSTANT) const uint tests_void = 1u;
 layout(constant_id = DISTANCES_BY_GATHER_CONSTANT) const uint distances_by_gather = 0u;
 vec4 gather_distances(uint mirror, vec3 direction) {
 #define DISTANCES(i) textureGather(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_index_of_mirror(mirror)), 0)
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, DISTANCES)
 }
 
@@ -118,12 +118,12 @@ float stored_distance(uint mirror, vec3 direction) {
     if (distances_by_gather != 0u)
         return dot(bilinear_texel_weights(direction, distance_edge(mirror)), gather_distances(mirror, direction));
 #define STORED(i) textureLod(DISTANCE_CUBES(i), vec4(direction, cube_index_of_mirror(mirror)), 0).r
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, STORED)
 }
 float nearest_stored_distance(uint mirror, vec3 direction) {
 #define NEAREST_STORED(i) textureLod(DISTANCE_CUBES_NEAREST(i), vec4(direction, cube_index_of_mirror(mirror)), 0).r
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, NEAREST_STORED)
 }
 

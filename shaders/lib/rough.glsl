@@ -22,7 +22,7 @@ vec3 capture_colour_at_level(uint mirror, vec3 direction, float level) {
     textureLod(samplerCubeArray(rough_cubes[i], mipmapped_texels), vec4(direction, cube_index_of_mirror(mirror)),      \
                level - 1.0)                                                                                            \
         .rgb
-    count_work_once(kWorkColourLookups);
+    count_colour_lookups(1u);
     RETURN_OF_ARRAY(mirror, ROUGH_COLOUR)
 }
 

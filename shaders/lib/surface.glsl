@@ -57,6 +57,7 @@ layout(set = 0, binding = FIRST_LAYER_BINDING) uniform sampler2DArray first_laye
 // Returns whether depth peeling removes the fragment from the second layer. The second layer keeps only surfaces behind
 // the first layer that face the capture's centre.
 bool is_peeled_from_second_layer() {
+    count_distance_lookup();
     float first = texelFetch(first_layer, ivec3(gl_FragCoord.xy, rendered_view_layer()), 0).r;
     return !(length(from_eye) * distance_scale > first * (1.0 + peel_margin) + stored_rounding) || !(dot(normal, from_eye) < 0.0);
 }

@@ -23,4 +23,29 @@ void count_work_once(uint kind) {
     if (count_work != 0u) add_to_work_count(kind, 1u);
 }
 
+#ifdef COUNTS_LANES
+// 0: the device has no subgroup operations in fragment shaders, so the shader counts no executed lanes.
+layout(constant_id = COUNTS_LANES_CONSTANT) const uint counts_lanes = 1u;
+#endif
+// Adds `count` to the pass's count of work kind `kind` for each subgroup that executes this call. Only fragment shaders
+// that define COUNTS_LANES count subgroups. A helper invocation covers no sample, and never stands for its subgroup,
+// because it cannot count.
+void count_work_of_subgroup(uint kind, uint count) {
+#ifdef COUNTS_LANES
+    if (count_work != 0u && counts_lanes != 0u && gl_SampleMaskIn[0] != 0) {
+        if (subgroupElect()) add_to_work_count(kind, count);
+    }
+#endif
+}
+void count_distance_lookup() {
+    count_work_once(kWorkDistanceLookups);
+    count_work_of_subgroup(kWorkDistanceLanes, 1u);
+}
+void count_colour_lookups(uint count) {
+    add_to_work_count(kWorkColourLookups, count);
+    count_work_of_subgroup(kWorkColourLanes, count);
+}
+// Called in each step of a search's loops.
+void count_search_step() { count_work_of_subgroup(kWorkSearchLanes, 1u); }
+
 #endif

@@ -46,6 +46,7 @@ Lookup find_surface_crossing(uint mirror, RayArc arc, ArcSample front, ArcSample
     bool is_wide = are_more_than_texel_apart(front, behind, texel);
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (is_wide) {
+            count_search_step();
             bool halves = (i & 1u) == 1u;
             ArcSample middle = sample_capture_on_arc(mirror, arc, halves ? normalize(front.place + behind.place) : estimate_crossing_between_samples(front, behind));
             if (is_ray_behind_surface(middle)) behind = middle;
@@ -76,6 +77,7 @@ bool bisect_to_missing_surface_edge(uint mirror, RayArc arc, inout ArcSample fro
     bool is_wide = sine_between(front.place, next.place) > least;
     do {
         if (is_wide) {
+            count_search_step();
             ArcSample middle = sample_capture_on_arc(mirror, arc, normalize(front.place + next.place));
             if (middle.captured == 0.0) next = middle;
             else if (is_ray_behind_surface(middle)) {

@@ -8,6 +8,8 @@
 // captured surfaces are nearer to the centre than the ray, the last farther surface is assumed to continue.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #define CONTINUE
 #define OWN_LOOKUP_COLOUR
 #include "lib/constants.glsl"
@@ -33,24 +35,24 @@ struct ArcSample {
 // layer.
 float first_layer_distance(uint mirror, ivec3 texel) {
 #define FIRST(i) texelFetch(FACES_OF(distance1, i), texel, 0).r * stored_distance_unit(mirror)
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, FIRST)
 }
 float second_layer_distance(uint mirror, ivec3 texel) {
 #define SECOND(i) texelFetch(FACES_OF(distance2, i), texel, 0).r * stored_distance_unit(mirror)
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, SECOND)
 }
 // Returns the captured distances, scene units, of four texels in the first layer. gather_second_layer_distances reads the second
 // layer.
 vec4 gather_first_layer_distances(uint mirror, vec3 at) {
 #define FIRSTS(i) textureGather(FACES_OF(distance1, i), at) * stored_distance_unit(mirror)
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, FIRSTS)
 }
 vec4 gather_second_layer_distances(uint mirror, vec3 at) {
 #define SECONDS(i) textureGather(FACES_OF(distance2, i), at) * stored_distance_unit(mirror)
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, SECONDS)
 }
 // Returns the weighted sum of the colours of four texels in both layers.
@@ -62,7 +64,7 @@ vec3 sum_weighted_colours(uint mirror, vec3 at, vec4 in_first, vec4 in_second) {
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 1)),                                               \
          dot(in_first, textureGather(FACES_OF(colour1, i), at, 2)) +                                                   \
              dot(in_second, textureGather(FACES_OF(colour2, i), at, 2)))
-    add_to_work_count(kWorkColourLookups, 6u);
+    count_colour_lookups(6u);
     RETURN_OF_ARRAY(mirror, WEIGHTED)
 }
 // Returns a direction's position on its cube face, in texels, and the array layer of that face.
@@ -257,6 +259,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         bool changes = false; // whether a and b differ and are less than a texel apart
         do {
+            count_search_step();
             if (do_samples_see_same_surfaces(a, b)) {
                 a = b;
                 is_done = a.place == arc.end || ++samples > kMaxSearchSamples;

@@ -6,6 +6,8 @@
 // Otherwise, the surface last seen beside the silhouette is assumed to continue behind the silhouette.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #define CONTINUE
 #include "lib/constants.glsl"
 #include "lib/probe.glsl"
@@ -29,6 +31,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         bool goes_behind = false, ends = false;
         do {
             ++k;
+            count_search_step();
             place = k == steps ? arc.end : vec2(place.x * turn.x - place.y * turn.y, place.x * turn.y + place.y * turn.x);
             next = sample_capture_on_arc(mirror, arc, place);
             goes_behind = !is_ray_behind_surface(last) && is_ray_behind_surface(next);

@@ -3,6 +3,8 @@
 // capture's centre sees in the reflected direction is assumed to be a plane perpendicular to that direction.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #include "lib/probe.glsl"
 
 Lookup search(uint mirror, vec3 offset, vec3 direction) {

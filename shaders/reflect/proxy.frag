@@ -3,6 +3,8 @@
 // starts outside the box or sphere is looked up where it enters.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #define CONTINUE
 #include "lib/constants.glsl"
 #include "lib/probe.glsl"

@@ -17,6 +17,8 @@
 //   captured beside the silhouette, the ray leaves along its own direction and sees the environment.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #define CONTINUE
 #include "lib/probe.glsl"
 #include "reflect/pyramid.glsl"
@@ -127,7 +129,7 @@ void advance_walk_to_next_cell(inout PyramidCellWalk walk, RayArc arc, vec2 leav
 
 uint read_packed_bounds(uint mirror, ivec3 place) {
 #define PACKED(i) texelFetch(WHOLE_FACES_OF(bounds, i), place, 0).r
-    count_work_once(kWorkDistanceLookups);
+    count_distance_lookup();
     RETURN_OF_ARRAY(mirror, PACKED)
 }
 
@@ -155,6 +157,7 @@ Lookup refine_crossing_by_false_position(uint mirror, RayArc arc, float before, 
     float residual = 0.0;
     vec3 direction;
     for (int i = 0; i < kCrossingRefinements; ++i) {
+        count_search_step();
         float s = mix(before, behind, depth_before / (depth_before - depth_behind));
         direction = normalize(arc_direction_at(arc, s));
         float captured = captured_distance(mirror, direction);
@@ -188,6 +191,7 @@ void skip_cells_without_crossing(inout PyramidCellWalk walk, inout int visits, R
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (goes_on) {
             ++visits;
+            count_search_step();
             vec2 leave = arc_parameters_leaving_cell(walk.line, low_corner_of_cell(walk), high_corner_of_cell(walk, face), face,
                 walk.s);
             float end = min(min(leave.x, leave.y), 1.0);
@@ -217,6 +221,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
         skip_cells_without_crossing(walk, visits, arc, mirror, face);
         if (walk.s >= 1.0) break;
         ++visits;
+        count_search_step();
         vec2 leave = arc_parameters_leaving_cell(walk.line, walk.texel, walk.texel + 1, face, walk.s);
         float end = min(min(leave.x, leave.y), 1.0);
         float captured_end = captured_distance(mirror, arc_direction_at(arc, end));

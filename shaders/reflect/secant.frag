@@ -7,6 +7,8 @@
 // the second case no distance gives a first guess, so the search bisects the arc.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_basic : require
+#define COUNTS_LANES
 #define CONTINUE
 #include "lib/constants.glsl"
 #include "lib/probe.glsl"
@@ -29,6 +31,7 @@ void bisect_towards_surface_edge(uint mirror, RayArc arc, inout ArcSample front,
     uint i = 0u;
     do { // a loop that tests its condition at the end is faster on the software driver (lib/trace.glsl)
         if (!is_ray_behind_surface(end)) {
+            count_search_step();
             ArcSample middle = sample_capture_on_arc(mirror, arc, normalize(front.place + end.place));
             if (middle.captured > 0.0 && !is_ray_behind_surface(middle)) front = middle;
             else end = middle;
@@ -54,6 +57,7 @@ Lookup search(uint mirror, vec3 offset, vec3 direction) {
     } else {
         vec2 place = guess_crossing_at_captured_distance(arc, offset, direction, first);
         for (uint i = 0u; i < steps; ++i) {
+            count_search_step();
             ArcSample next = sample_capture_on_arc(mirror, arc, place);
             if (is_ray_behind_surface(next)) behind = next;
             else front = next;

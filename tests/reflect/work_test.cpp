@@ -107,10 +107,48 @@ TEST(Work, LiveLanesLieBetweenOneAndTheSubgroup) {
     }
 }
 
+TEST(Work, LanesOfLookupsLieBetweenOneAndTheSubgroup) {
+    const scene::Scene scene = scene::load("cornell-mirrors");
+    for (const char* technique : {"secant", "pyramid", "layered"}) {
+        const auto work = count_work_of_frame(scene, technique);
+        for (const auto& [each, lanes] :
+             {std::pair(CountedWorkKind::distance_lookups, CountedWorkKind::distance_lanes),
+              std::pair(CountedWorkKind::colour_lookups, CountedWorkKind::colour_lanes)})
+            for (const PassWorkCounts& pass : work) {
+                // Compute shaders look distances up, too, but count no lanes.
+                if (pass.counts[CountedWorkKind::fragments].value_or(0) == 0) continue;
+                const std::uint64_t lookups = pass.counts[each].value_or(0),
+                                    executed = pass.counts[lanes].value_or(0);
+                EXPECT_GE(lookups, executed) << technique << ' ' << pass.name;
+                EXPECT_LE(lookups, 128 * executed) << technique << ' ' << pass.name;
+            }
+        EXPECT_GT(total_work_of_kind(work, CountedWorkKind::colour_lanes), 0u) << technique;
+        EXPECT_GT(total_work_of_kind(work, CountedWorkKind::distance_lanes), 0u) << technique;
+    }
+}
+
+TEST(Work, SearchLanesAreStepsOfSearches) {
+    const scene::Scene scene = scene::load("cornell-mirrors");
+    for (const char* technique : {"parallax", "raytrace:depth=4"})
+        EXPECT_EQ(total_work_of_kind(count_work_of_frame(scene, technique),
+                                     CountedWorkKind::search_lanes),
+                  0u)
+            << technique;
+    // Each step of the march makes one look-up, and a second one where no surface was captured.
+    const auto coarse = count_work_of_frame(scene, "march:steps=4"),
+               fine = count_work_of_frame(scene, "march:steps=32");
+    const std::uint64_t coarse_steps = total_work_of_kind(coarse, CountedWorkKind::search_lanes),
+                        fine_steps = total_work_of_kind(fine, CountedWorkKind::search_lanes);
+    EXPECT_GT(coarse_steps, 0u);
+    EXPECT_GT(fine_steps, 2 * coarse_steps);
+    EXPECT_LE(fine_steps, 8 * coarse_steps);
+    EXPECT_GE(total_work_of_kind(fine, CountedWorkKind::distance_lanes), fine_steps);
+}
+
 TEST(Work, CountsRepeatToTheLastDigit) {
     const scene::Scene scene = test::make_random_hall(5, 4);
-    for (const char* technique :
-         {"parallax", "layered", "hybrid", "raytrace:depth=4", "raytrace:depth=4,first=raster"})
+    for (const char* technique : {"parallax", "pyramid", "layered", "hybrid", "raytrace:depth=4",
+                                  "raytrace:depth=4,first=raster"})
         EXPECT_EQ(count_work_of_frame(scene, technique, app::RenderedWork::required),
                   count_work_of_frame(scene, technique, app::RenderedWork::required))
             << technique;
@@ -191,6 +229,34 @@ TEST(Work, PassesDrawsAndBytesAreThoseOfThePlan) {
         if (pass.name.find("capture") != std::string::npos) {
             EXPECT_GE(pass.counts[CountedWorkKind::draws].value_or(0), 1u) << pass.name;
         }
+}
+
+/// Returns whether a shader declares the capability of subgroup operations.
+bool has_subgroup_capability(const std::vector<std::uint32_t>& words) {
+    constexpr std::uint32_t kCapability = 17, kGroupNonUniform = 61;
+    for (std::size_t at = 5; at < words.size(); at += words[at] >> 16u)
+        if ((words[at] & 0xffffu) == kCapability && words[at + 1] == kGroupNonUniform) return true;
+    return false;
+}
+
+TEST(Work, SubgroupsAreOnlyInFragmentShadersThatCountLanes) {
+    for (const char* name :
+         {"reflect/march.frag", "reflect/pyramid.frag", "reflect/layered.frag"}) {
+        const gpu::EmbeddedShader& shader = gpu::find_shader(name);
+        const auto constants = gpu::reflect_spirv(name, shader.words).constants;
+        const auto id_of = [&](const char* constant) {
+            return std::ranges::find(constants, constant, &gpu::SpecialisationConstant::name)->id;
+        };
+        const std::uint32_t count_work = id_of("count_work"), counts_lanes = id_of("counts_lanes");
+        EXPECT_TRUE(
+            has_subgroup_capability(gpu::specialise_shader(name, shader.words, {{count_work, 1}})))
+            << name;
+        EXPECT_FALSE(has_subgroup_capability(
+            gpu::specialise_shader(name, shader.words, {{count_work, 1}, {counts_lanes, 0}})))
+            << name;
+        EXPECT_FALSE(has_subgroup_capability(gpu::specialise_shader(name, shader.words, {})))
+            << name;
+    }
 }
 
 TEST(Work, ShadersOfOtherFramesHaveNoCountingCode) {
