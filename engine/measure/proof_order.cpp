@@ -36,7 +36,7 @@ double estimate_probability_of_proof(std::span<const double> errors, double limi
     if (limit <= 0) return std::ranges::all_of(errors, [](double error) { return error <= 0; });
     // Smaller errors count as this share of the limit. Views without an error would otherwise make
     // the logarithms spread so far that large errors seem likely.
-    constexpr double kLeastShareOfLimit = .1;
+    constexpr double kLeastShareOfLimit = .03;
     const double count = static_cast<double>(errors.size());
     double mean = 0, squares = 0; // of logarithms of error over limit
     for (const double error : errors) {

@@ -11,11 +11,10 @@ namespace catoptric::measure {
 /// exceed `limit`. `errors` are errors of a plan in other drawn views of the same scene. The
 /// logarithms of errors are taken for normally distributed with unknown mean and deviation, so a
 /// further logarithm follows Student's t distribution (Hahn, Factors for Calculating Two-Sided
-/// Prediction Intervals, 1969). `added_deviation` is a further standard deviation of logarithms, at
-/// least 0, because a few views seldom show the largest errors of a scene. Errors below a tenth of
-/// the limit count as a tenth. The estimate can order
-/// proofs, but proves nothing. Returns 0 with fewer than two errors. With a limit of 0, returns 1
-/// if all errors are 0, else 0.
+/// Prediction Intervals, 1969). Errors below .03 of the limit count as .03. `added_deviation` is a
+/// further standard deviation of logarithms, at least 0, because a few views seldom show the
+/// largest errors of a scene. The estimate can order proofs, but proves nothing. Returns 0 with
+/// fewer than two errors. With a limit of 0, returns 1 if all errors are 0, else 0.
 double estimate_probability_of_proof(std::span<const double> errors, double limit,
                                      std::size_t views, std::size_t max_failures,
                                      double added_deviation);
