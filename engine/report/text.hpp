@@ -55,10 +55,11 @@ std::string join_labels_of_rows(const std::vector<const Row*>& rows,
 std::string describe_worst_view(const Comparison& comparison, const measure::WorstView& worst);
 /// Returns the file name of a row's picture at its worst view, from its Row::image.
 std::string make_worst_view_image_name(const std::string& image);
-/// Returns how names of the files begin that show a row's largest lag, without folder. Returns
-/// nothing if the comparison has no row with the label of `row`. kLagPictureNames lists the ends of
-/// these names.
+/// Returns the first part of the names of the files that show a row's largest lag, such as
+/// "lag-reuse", from the row's label. Returns an empty text if the comparison has no such row.
+/// kLagPictureNames lists the ends of these names.
 std::string find_lag_image_name(const Comparison& comparison, const measure::LagRow& row);
+/// Returns the same from the row's Row::image.
 std::string make_lag_image_name(const std::string& image);
 /// Ends of the names of a row's lag pictures: the moving scene, the row's picture of the scene at
 /// rest, and the reference.

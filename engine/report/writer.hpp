@@ -66,7 +66,8 @@ std::string to_csv(const std::vector<const Comparison*>& comparisons, CsvColumnS
 /// images/<row>.js, images/reference.js and images/mirrors.js, and its heat maps in
 /// images/<row>-error.js. Rows with causes add
 /// images/causes-<row>.png, and drawn views add images/worst-<row>.png. Rows with lag add
-/// images/lag-<row>-moving.exr and .js, and the same of -still and -reference. `write` is called
+/// images/lag-<row>-moving.exr and .js, the same of -still and -reference, and
+/// images/lag-<row>-mirrors.js. `write` is called
 /// again as rows are added. It replaces only pictures that changed and all other files, each as a
 /// whole.
 class ReportWriter {

@@ -141,10 +141,27 @@ TEST_F(Costs, BenchFitsTheTimesOfAnotherDevice) {
 }
 
 TEST_F(Costs, BenchFitsThisDevice) {
-    const test::ProcessResult ended = run_cli(
-        {"bench", "flat", "--costs", "--size", "16x16", "--frames", "2", "--warmup", "1",
-         "--rounds", "2", "-o", "costs.json", "--techniques", "reuse", "naive:bounces=1",
-         "parallax", "raytrace:depth=0", "raytrace:depth=4"});
+    const test::ProcessResult ended = run_cli({"bench",
+                                               "flat",
+                                               "--costs",
+                                               "--size",
+                                               "16x16",
+                                               "--frames",
+                                               "2",
+                                               "--warmup",
+                                               "1",
+                                               "--rounds",
+                                               "2",
+                                               "-o",
+                                               "costs.json",
+                                               "--techniques",
+                                               "reuse",
+                                               "naive:bounces=1",
+                                               "parallax",
+                                               "naive:bounces=0",
+                                               "raytrace:depth=0",
+                                               "raytrace:depth=1",
+                                               "raytrace:depth=4"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.out, testing::ContainsRegex("[0-9]+ rows, each predicted by costs that were "
                                                   "fitted to the others: [0-9]+ % within 20 %"));

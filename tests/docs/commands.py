@@ -169,6 +169,11 @@ def write_inputs(folder, text, program, environment):
     sweep["views"]["count"] = 6
     for file in (folder / "samples/sweep/roughness.json", folder / "sweep.json"):
         file.write_text(json.dumps(sweep))
+    own = re.search(r'^```json\n(\{\n  "scenes".*?)^```$', text, re.M | re.S) # the page shows a sweep of its own
+    if own:
+        shown = json.loads(own.group(1))
+        shown["options"]["size"] = "16x16"
+        (folder / "sweep.json").write_text(json.dumps(shown))
     for name in ("scene", "room", "a", "b"):
         shutil.copy(ROOT / "samples/scenes/cornell-mirrors.glb", folder / f"{name}.glb")
     for name in ("card", "my-card"):

@@ -9,21 +9,21 @@ namespace catoptric::graph {
 
 namespace {
 
-/// An earlier access to a cell, which is an image layer or a buffer. Barriers order some later
-/// accesses after it.
-struct PastCellAccess {
-    GraphSubresource cell;
+/// An earlier access to a subresource, which is an image layer or a buffer. Barriers order some
+/// later accesses after it.
+struct PastSubresourceAccess {
+    GraphSubresource subresource;
     AccessState touch;
     bool is_write = false; // true for a write or a layout change
     bool is_layout = false;
     std::vector<std::pair<GraphSubresource, AccessState>>
-        ordered; // later accesses, by the barrier's cell
+        ordered; // later accesses, by the barrier's subresource
 
-    /// Returns whether a barrier orders the access `t` to cell `by` after this access. A barrier on
-    /// this access's own cell counts for every cell.
+    /// Returns whether a barrier orders the access `t` to subresource `by` after this access. A
+    /// barrier on this access's own subresource counts for every subresource.
     bool is_ordered_before(const GraphSubresource& by, const AccessState& t) const {
         return std::ranges::count(ordered, std::pair(by, t)) > 0 ||
-               std::ranges::count(ordered, std::pair(cell, t)) > 0;
+               std::ranges::count(ordered, std::pair(subresource, t)) > 0;
     }
     bool is_in_barrier_scope(const GraphSubresource& by,
                              const std::vector<AccessState>& scope) const {
@@ -44,9 +44,10 @@ public:
         compute.raster = false;
         for (std::uint32_t i = 0; i < graph.list_images().size(); ++i)
             for (std::uint32_t l = 0; l < graph.list_images()[i].layers; ++l) {
-                const GraphSubresource cell{GraphSubresourceKind::previous, i, l};
-                layouts_[cell] = ResourceUse::sampled;
-                events_[cell] = {{cell, {}, true, true, {{cell, raster}, {cell, compute}}}};
+                const GraphSubresource subresource{GraphSubresourceKind::previous, i, l};
+                layouts_[subresource] = ResourceUse::sampled;
+                events_[subresource] = {
+                    {subresource, {}, true, true, {{subresource, raster}, {subresource, compute}}}};
             }
     }
 
@@ -66,27 +67,29 @@ public:
 
 private:
     template <typename... Parts>
-    void record_fault_of_cell_unless(bool ok, const GraphSubresource& cell, const Parts&... parts) {
+    void record_fault_of_subresource_unless(bool ok, const GraphSubresource& subresource,
+                                            const Parts&... parts) {
         if (ok) return;
-        const std::string name = cell.kind == GraphSubresourceKind::buffer
-                                     ? replayed_graph_.list_buffers()[cell.id].name
-                                     : replayed_graph_.list_images()[cell.id].name;
-        faults_.push_back(where_ + ": " + name + " layer " + std::to_string(cell.layer) +
-                          (cell.kind == GraphSubresourceKind::previous ? " of last frame" : "") +
-                          ": " + (std::string(parts) + ...));
+        const std::string name = subresource.kind == GraphSubresourceKind::buffer
+                                     ? replayed_graph_.list_buffers()[subresource.id].name
+                                     : replayed_graph_.list_images()[subresource.id].name;
+        faults_.push_back(
+            where_ + ": " + name + " layer " + std::to_string(subresource.layer) +
+            (subresource.kind == GraphSubresourceKind::previous ? " of last frame" : "") + ": " +
+            (std::string(parts) + ...));
     }
 
-    const MemoryPlacement& placement_of_cell(const GraphSubresource& cell) const {
-        return cell.kind == GraphSubresourceKind::buffer ? plan_.buffers[cell.id]
-                                                         : plan_.images[cell.id];
+    const MemoryPlacement& placement_of_subresource(const GraphSubresource& subresource) const {
+        return subresource.kind == GraphSubresourceKind::buffer ? plan_.buffers[subresource.id]
+                                                                : plan_.images[subresource.id];
     }
 
-    bool do_cells_share_memory(const GraphSubresource& a, const GraphSubresource& b) const {
+    bool do_subresources_share_memory(const GraphSubresource& a, const GraphSubresource& b) const {
         if (a.kind == GraphSubresourceKind::previous || b.kind == GraphSubresourceKind::previous)
             return false;
         if (a.kind == b.kind && a.id == b.id) return false;
-        const MemoryPlacement& x = placement_of_cell(a);
-        const MemoryPlacement& y = placement_of_cell(b);
+        const MemoryPlacement& x = placement_of_subresource(a);
+        const MemoryPlacement& y = placement_of_subresource(b);
         return x.used && y.used && x.heap == y.heap && x.offset < y.offset + y.bytes &&
                y.offset < x.offset + x.bytes;
     }
@@ -105,13 +108,14 @@ private:
         std::ranges::sort(all);
         for (std::uint32_t p = 0; p < replayed_graph_.list_passes().size(); ++p)
             if (p >= all.size() || all[p] != p) faults_.push_back("a pass is lost or doubled");
-        const std::vector<GraphSubresource> cells = list_outcome_cells(replayed_graph_, plan_);
+        const std::vector<GraphSubresource> subresources = list_outcome_subresources(
+            replayed_graph_, plan_);
         const std::vector<Value> outcome = simulate_with_separate_memory(replayed_graph_, kept,
-                                                                         cells);
+                                                                         subresources);
         for (const std::uint32_t p : kept) {
             std::vector<std::uint32_t> fewer = kept;
             std::erase(fewer, p);
-            if (simulate_with_separate_memory(replayed_graph_, fewer, cells) == outcome)
+            if (simulate_with_separate_memory(replayed_graph_, fewer, subresources) == outcome)
                 faults_.push_back("nobody needs pass '" + replayed_graph_.list_passes()[p].name +
                                   "'");
         }
@@ -120,28 +124,30 @@ private:
     void check_memory_placements() {
         std::map<GraphSubresource, std::pair<std::uint32_t, std::uint32_t>> lives;
         for (std::uint32_t at = 0; at < plan_.passes.size(); ++at)
-            for (GraphSubresourceUse u :
-                 list_cell_uses_of_pass(replayed_graph_.list_passes()[plan_.passes[at].pass])) {
-                u.cell.layer = 0;
-                if (u.cell.kind == GraphSubresourceKind::previous)
-                    u.cell.kind = GraphSubresourceKind::image;
-                lives.try_emplace(u.cell, at, at).first->second.second = at;
+            for (GraphSubresourceUse u : list_subresource_uses_of_pass(
+                     replayed_graph_.list_passes()[plan_.passes[at].pass])) {
+                u.subresource.layer = 0;
+                if (u.subresource.kind == GraphSubresourceKind::previous)
+                    u.subresource.kind = GraphSubresourceKind::image;
+                lives.try_emplace(u.subresource, at, at).first->second.second = at;
             }
         std::vector<std::uint64_t> ends(plan_.heap_bytes.size(), 0);
-        for (const auto& [cell, life] : lives) {
-            const MemoryPlacement& p = placement_of_cell(cell);
-            record_fault_of_cell_unless(p.used && std::pair(p.first, p.last) == life, cell,
-                                        "wrong lifetime");
-            check_placement_size(cell);
-            record_fault_of_cell_unless(p.heap < ends.size(), cell, "no such heap");
+        for (const auto& [subresource, life] : lives) {
+            const MemoryPlacement& p = placement_of_subresource(subresource);
+            record_fault_of_subresource_unless(p.used && std::pair(p.first, p.last) == life,
+                                               subresource, "wrong lifetime");
+            check_placement_size(subresource);
+            record_fault_of_subresource_unless(p.heap < ends.size(), subresource, "no such heap");
             ends.at(p.heap) = std::max(ends.at(p.heap), p.offset + p.bytes);
             for (const auto& [other, life2] : lives) {
-                if (!(cell < other) || !do_cells_share_memory(cell, other)) continue;
-                record_fault_of_cell_unless(life.second < life2.first || life2.second < life.first,
-                                            cell, "shares memory while alive");
-                record_fault_of_cell_unless(!must_cell_have_own_memory(cell) &&
-                                                !must_cell_have_own_memory(other),
-                                            cell, "should be alone");
+                if (!(subresource < other) || !do_subresources_share_memory(subresource, other))
+                    continue;
+                record_fault_of_subresource_unless(life.second < life2.first ||
+                                                       life2.second < life.first,
+                                                   subresource, "shares memory while alive");
+                record_fault_of_subresource_unless(!must_subresource_have_own_memory(subresource) &&
+                                                       !must_subresource_have_own_memory(other),
+                                                   subresource, "should be alone");
             }
         }
         std::uint64_t sum = 0;
@@ -150,37 +156,38 @@ private:
             faults_.push_back("heap sizes are wrong");
     }
 
-    bool must_cell_have_own_memory(const GraphSubresource& cell) const {
-        if (cell.kind == GraphSubresourceKind::buffer)
-            return std::ranges::count(replayed_graph_.list_output_buffers(), cell.id,
+    bool must_subresource_have_own_memory(const GraphSubresource& subresource) const {
+        if (subresource.kind == GraphSubresourceKind::buffer)
+            return std::ranges::count(replayed_graph_.list_output_buffers(), subresource.id,
                                       &BufferHandle::id) > 0;
-        return (replayed_graph_.image_lifetime(cell.id) == ImageLifetime::previous) ||
-               std::ranges::count(replayed_graph_.list_output_images(), cell.id, &ImageHandle::id) >
-                   0;
+        return (replayed_graph_.image_lifetime(subresource.id) == ImageLifetime::previous) ||
+               std::ranges::count(replayed_graph_.list_output_images(), subresource.id,
+                                  &ImageHandle::id) > 0;
     }
 
-    void check_placement_size(const GraphSubresource& cell) {
-        const MemoryPlacement& p = placement_of_cell(cell);
-        const bool is_buffer = cell.kind == GraphSubresourceKind::buffer;
+    void check_placement_size(const GraphSubresource& subresource) {
+        const MemoryPlacement& p = placement_of_subresource(subresource);
+        const bool is_buffer = subresource.kind == GraphSubresourceKind::buffer;
         const MemoryRequirements wanted =
-            is_buffer ? sizer_.buffer(replayed_graph_.list_buffers()[cell.id])
-                      : sizer_.image(replayed_graph_.list_images()[cell.id]);
+            is_buffer ? sizer_.buffer(replayed_graph_.list_buffers()[subresource.id])
+                      : sizer_.image(replayed_graph_.list_images()[subresource.id]);
         std::uint64_t bytes = wanted.bytes;
-        if (!is_buffer && (replayed_graph_.image_lifetime(cell.id) == ImageLifetime::previous)) {
+        if (!is_buffer &&
+            (replayed_graph_.image_lifetime(subresource.id) == ImageLifetime::previous)) {
             const std::uint64_t padding = wanted.alignment - 1;
             bytes = 2 * ((bytes + padding) / wanted.alignment * wanted.alignment);
         }
-        record_fault_of_cell_unless(p.bytes == bytes && p.heap == wanted.heap &&
-                                        p.offset % wanted.alignment == 0,
-                                    cell, "wrong size, heap or alignment");
-        record_fault_of_cell_unless(p.alone == must_cell_have_own_memory(cell), cell,
-                                    "wrong `alone`");
+        record_fault_of_subresource_unless(p.bytes == bytes && p.heap == wanted.heap &&
+                                               p.offset % wanted.alignment == 0,
+                                           subresource, "wrong size, heap or alignment");
+        record_fault_of_subresource_unless(p.alone == must_subresource_have_own_memory(subresource),
+                                           subresource, "wrong `alone`");
     }
 
     /// Applies all barriers of one pass at once, because barriers of the same command do not order
     /// each other.
     void apply_barriers_of_pass(const std::vector<PlannedBarrier>& barriers) {
-        std::vector<std::tuple<PastCellAccess*, GraphSubresource, AccessState>> ordered;
+        std::vector<std::tuple<PastSubresourceAccess*, GraphSubresource, AccessState>> ordered;
         std::map<GraphSubresource, AccessState> transitions;
         for (const PlannedBarrier& b : barriers) {
             std::vector<AccessState> scope = b.shared;
@@ -189,62 +196,67 @@ private:
                                               : b.previous ? GraphSubresourceKind::previous
                                                            : GraphSubresourceKind::image;
             for (std::uint32_t l = 0; l < b.layer_count; ++l) {
-                const GraphSubresource cell{kind, b.id, b.first_layer + l};
+                const GraphSubresource subresource{kind, b.id, b.first_layer + l};
                 const bool same = !b.before.nothing && b.before.use == b.after.use;
                 const bool moves = !b.is_buffer && !same;
                 if (!b.is_buffer && !b.before.nothing)
-                    record_fault_of_cell_unless(layouts_.contains(cell) &&
-                                                    layouts_[cell] == b.before.use,
-                                                cell, "barrier from a layout that it has not");
-                if (b.before.nothing) contents_.set_content_of_cell(cell, kGarbageContent);
-                if (moves) transitions[cell] = b.after;
+                    record_fault_of_subresource_unless(
+                        layouts_.contains(subresource) && layouts_[subresource] == b.before.use,
+                        subresource, "barrier from a layout that it has not");
+                if (b.before.nothing)
+                    contents_.set_content_of_subresource(subresource, kGarbageContent);
+                if (moves) transitions[subresource] = b.after;
                 for (auto& [other, events] : events_) {
-                    if (other != cell && !do_cells_share_memory(cell, other)) continue;
-                    for (PastCellAccess& e : events) {
-                        if (e.is_in_barrier_scope(cell, scope))
-                            ordered.emplace_back(&e, cell, b.after);
+                    if (other != subresource && !do_subresources_share_memory(subresource, other))
+                        continue;
+                    for (PastSubresourceAccess& e : events) {
+                        if (e.is_in_barrier_scope(subresource, scope))
+                            ordered.emplace_back(&e, subresource, b.after);
                         else if (moves)
-                            record_fault_of_cell_unless(false, cell, "change of layout races");
+                            record_fault_of_subresource_unless(false, subresource,
+                                                               "change of layout races");
                     }
                 }
             }
         }
-        for (auto& [event, cell, after] : ordered) event->ordered.emplace_back(cell, after);
-        for (const auto& [cell, after] : transitions) {
-            layouts_[cell] = after.use;
-            events_[cell] = {{cell, after, true, true, {{cell, after}}}};
+        for (auto& [event, subresource, after] : ordered)
+            event->ordered.emplace_back(subresource, after);
+        for (const auto& [subresource, after] : transitions) {
+            layouts_[subresource] = after.use;
+            events_[subresource] = {{subresource, after, true, true, {{subresource, after}}}};
         }
     }
 
     void execute_planned_pass(const PlannedPass& planned) {
         const std::uint32_t index = planned.pass;
         const Pass& pass = replayed_graph_.list_passes()[index];
-        const std::vector<GraphSubresourceUse> uses = list_cell_uses_of_pass(pass);
+        const std::vector<GraphSubresourceUse> uses = list_subresource_uses_of_pass(pass);
         for (const GraphSubresourceUse& u : uses)
             check_access_state_of_use(u, make_access_state_of_use(pass, u));
         for (const GraphSubresourceUse& u : uses)
             for (const auto& [other, events] : events_)
-                if (u.write && do_cells_share_memory(u.cell, other))
+                if (u.write && do_subresources_share_memory(u.subresource, other))
                     contents_.set_contents_to_garbage(other.kind, other.id);
         contents_.execute_pass(pass, index);
         for (std::size_t i = 0; i < pass.images.size(); ++i)
             if (planned.unread >> i & 1) mark_attachment_lost(pass.images[i]);
         for (const GraphSubresourceUse& u : uses) {
-            std::vector<PastCellAccess>& events = events_[u.cell];
+            std::vector<PastSubresourceAccess>& events = events_[u.subresource];
             if (u.write) events.clear();
-            events.push_back({u.cell, make_access_state_of_use(pass, u), u.write, false, {}});
+            events.push_back(
+                {u.subresource, make_access_state_of_use(pass, u), u.write, false, {}});
         }
     }
 
     /// Marks the contents of an attachment that a pass does not store as lost.
     void mark_attachment_lost(const ImageUse& use) {
         for (std::uint32_t l = 0; l < use.image.layer_count; ++l) {
-            const GraphSubresource cell{GraphSubresourceKind::image, use.image.id,
-                                        use.image.first_layer + l};
-            record_fault_of_cell_unless(
+            const GraphSubresource subresource{GraphSubresourceKind::image, use.image.id,
+                                               use.image.first_layer + l};
+            record_fault_of_subresource_unless(
                 use.write && (use.use == ResourceUse::colour || use.use == ResourceUse::depth),
-                cell, "not stored, but no attachment");
-            contents_.set_content_of_cell(cell, kGarbageContent);
+                subresource, "not stored, but no attachment");
+            contents_.set_content_of_subresource(subresource, kGarbageContent);
         }
     }
 
@@ -253,35 +265,39 @@ private:
     }
 
     void check_access_state_of_use(const GraphSubresourceUse& u, const AccessState& t) {
-        if (u.cell.kind != GraphSubresourceKind::buffer)
-            record_fault_of_cell_unless(layouts_.contains(u.cell) && layouts_[u.cell] == u.use,
-                                        u.cell, "wrong layout for ",
-                                        std::string(resource_use_name(u.use)));
+        if (u.subresource.kind != GraphSubresourceKind::buffer)
+            record_fault_of_subresource_unless(
+                layouts_.contains(u.subresource) && layouts_[u.subresource] == u.use, u.subresource,
+                "wrong layout for ", std::string(resource_use_name(u.use)));
         for (const auto& [other, events] : events_) {
-            if (other != u.cell && !do_cells_share_memory(u.cell, other)) continue;
-            for (const PastCellAccess& e : events)
+            if (other != u.subresource && !do_subresources_share_memory(u.subresource, other))
+                continue;
+            for (const PastSubresourceAccess& e : events)
                 if (u.write || e.is_write)
-                    record_fault_of_cell_unless(e.is_ordered_before(u.cell, t), u.cell,
-                                                std::string(resource_use_name(u.use)),
-                                                " races with ",
-                                                std::string(resource_use_name(e.touch.use)),
-                                                " of image ", std::to_string(other.id));
+                    record_fault_of_subresource_unless(
+                        e.is_ordered_before(u.subresource, t), u.subresource,
+                        std::string(resource_use_name(u.use)), " races with ",
+                        std::string(resource_use_name(e.touch.use)), " of image ",
+                        std::to_string(other.id));
         }
     }
 
     void check_contents_at_frame_end() {
         std::vector<std::uint32_t> all(replayed_graph_.list_passes().size());
         for (std::uint32_t p = 0; p < all.size(); ++p) all[p] = p;
-        const std::vector<GraphSubresource> cells = list_outcome_cells(replayed_graph_, plan_);
-        const std::vector<Value> ideal = simulate_with_separate_memory(replayed_graph_, all, cells);
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            const GraphSubresource& cell = cells[i];
-            record_fault_of_cell_unless(contents_.content_of_cell(cell) == ideal[i], cell,
-                                        "wrong contents");
-            if (cell.kind == GraphSubresourceKind::image)
-                check_no_access_left_unordered(cell);
+        const std::vector<GraphSubresource> subresources = list_outcome_subresources(
+            replayed_graph_, plan_);
+        const std::vector<Value> ideal = simulate_with_separate_memory(replayed_graph_, all,
+                                                                       subresources);
+        for (std::size_t i = 0; i < subresources.size(); ++i) {
+            const GraphSubresource& subresource = subresources[i];
+            record_fault_of_subresource_unless(contents_.content_of_subresource(subresource) ==
+                                                   ideal[i],
+                                               subresource, "wrong contents");
+            if (subresource.kind == GraphSubresourceKind::image)
+                check_no_access_left_unordered(subresource);
             else
-                expect_ordered_access(cell, ResourceUse::copy_from);
+                expect_ordered_access(subresource, ResourceUse::copy_from);
         }
         for (std::uint32_t i = 0; i < plan_.images.size(); ++i)
             for (std::uint32_t l = 0; l < replayed_graph_.list_images()[i].layers; ++l)
@@ -290,19 +306,22 @@ private:
                     check_no_access_left_unordered({GraphSubresourceKind::image, i, l});
     }
 
-    void check_no_access_left_unordered(const GraphSubresource& cell) {
-        const ResourceUse use = (replayed_graph_.image_lifetime(cell.id) == ImageLifetime::previous)
+    void check_no_access_left_unordered(const GraphSubresource& subresource) {
+        const ResourceUse use = (replayed_graph_.image_lifetime(subresource.id) ==
+                                 ImageLifetime::previous)
                                     ? ResourceUse::sampled
                                     : ResourceUse::copy_from;
-        record_fault_of_cell_unless(layouts_.contains(cell) && layouts_[cell] == use, cell,
-                                    "left in a wrong layout");
-        expect_ordered_access(cell, use);
+        record_fault_of_subresource_unless(layouts_.contains(subresource) &&
+                                               layouts_[subresource] == use,
+                                           subresource, "left in a wrong layout");
+        expect_ordered_access(subresource, use);
     }
 
-    void expect_ordered_access(const GraphSubresource& cell, ResourceUse use) {
-        for (const PastCellAccess& e : events_[cell])
-            record_fault_of_cell_unless(e.is_ordered_before(cell, {.nothing = false, .use = use}),
-                                        cell, "races with its reader");
+    void expect_ordered_access(const GraphSubresource& subresource, ResourceUse use) {
+        for (const PastSubresourceAccess& e : events_[subresource])
+            record_fault_of_subresource_unless(
+                e.is_ordered_before(subresource, {.nothing = false, .use = use}), subresource,
+                "races with its reader");
     }
 
     const Graph& replayed_graph_;
@@ -312,7 +331,7 @@ private:
     std::vector<std::string> faults_;
     SimulatedGraphContents contents_;
     std::map<GraphSubresource, ResourceUse> layouts_;
-    std::map<GraphSubresource, std::vector<PastCellAccess>> events_;
+    std::map<GraphSubresource, std::vector<PastSubresourceAccess>> events_;
 };
 
 } // namespace
