@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts right and wrong verdicts of `compare --baseline` on a known slowdown of one pass, and on none.
 
-trials.py CATOPTRIC OUT [--trials N] [--frames N] [--work] [--technique T] [--pass P] [--knob K --before A --now B]
+trials.py CATOPTRIC OUT [--trials N] [--frames N] [--rounds N] [--ratio R] [--work] [--technique T] [--pass P] [--knob K --before A --now B]
 
 A trial measures a row three times: the baseline with the knob's value A, the same settings again, and the value B,
 which makes one pass slower. The label of the baseline's row is rewritten for the third run, so that the gate takes it
@@ -23,7 +23,7 @@ def compare(program, folder, technique, options, baseline=None):
     """Runs one comparison. Returns its report, and the verdict of each quantity if there is a baseline."""
     folder.mkdir(exist_ok=True)
     command = [program, "compare", options.scene, "-o", str(folder), "-q", "--size", options.size, "--frames",
-               str(options.frames), "--warmup", "4", "--reference", "raytrace:depth=16,samples=16", "--techniques", technique]
+               str(options.frames), "--rounds", str(options.rounds), "--warmup", "4", "--reference", "raytrace:depth=16,samples=16", "--techniques", technique]
     if options.work:
         command.append("--work")
     if baseline:
@@ -60,6 +60,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--trials", type=int, default=20)
     parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--rounds", type=int, default=6)
     parser.add_argument("--scene", default="cornell-mirrors")
     parser.add_argument("--size", default="64x64")
     parser.add_argument("--technique", default="raytrace")

@@ -166,8 +166,8 @@ std::string choose_from_bank(const ViewBank& bank, const std::string& costs, int
     return choice.chosen ? choice.proofs[*choice.chosen].plan.text : "";
 }
 
-const std::set<std::string> kRayWork{"camera_rays", "mirror_rays", "shadow_rays", "nodes",
-                                     "triangles"};
+const std::set<std::string> kRayWork{"camera_rays", "mirror_rays", "shadow_rays",   "nodes",
+                                     "triangles",   "node_lanes",  "triangle_lanes"};
 
 /// Writes costs in which every kind of ray work costs 30 times as much as in the file `from`.
 void write_costs_with_expensive_rays(const std::filesystem::path& from,
