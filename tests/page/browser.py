@@ -1,5 +1,6 @@
 """Opens pages in Chromium, for the tests of pages."""
 
+import re
 import time
 
 from selenium import webdriver
@@ -42,3 +43,14 @@ def wait(browser, script, wanted=None):
 def expect(holds, what):
     if not holds:
         raise AssertionError(what)
+
+
+def told_values(browser):
+    """Returns the pixel and the values of each picture that the comparer's line tells."""
+    text = browser.execute_script("return document.querySelector('.values').textContent")
+    x, y = map(int, re.match(r"Pixel (\d+), (\d+)", text).groups())
+    values = {}
+    for part in text.split("Linear values, as half floats: ")[1].rstrip(".").split("; "):
+        label, numbers = part.rsplit(": ", 1)
+        values[label] = [float(number) for number in numbers.split()]
+    return x, y, values

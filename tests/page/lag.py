@@ -7,7 +7,7 @@ import struct
 import subprocess
 import time
 
-from browser import expect, open_page, wait
+from browser import expect, open_page, told_values, wait
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -53,17 +53,6 @@ def read_exr(path):
         rounded = struct.unpack("<3e", struct.pack("<3e", *map(float, values.split()[:3])))
         pixels[int(x), int(y)] = [float(f"{value:.4g}") for value in rounded]
     return pixels
-
-
-def told_values(browser):
-    """Returns the pixel of the line of values, and the values by picture."""
-    text = browser.execute_script("return document.querySelector('.values').textContent")
-    x, y = map(int, re.match(r"Pixel (\d+), (\d+)", text).groups())
-    values = {}
-    for part in text.split("Linear values, as half floats: ")[1].rstrip(".").split("; "):
-        label, numbers = part.rsplit(": ", 1)
-        values[label] = [float(number) for number in numbers.split()]
-    return (x, y), values
 
 
 def find_most_different_pixel(a, b):
@@ -140,7 +129,8 @@ def test_lag(program, folder):
             move_to(browser, pixel, target)
             pixel = target
             time.sleep(0.3)
-            place, told = told_values(browser)
+            x, y, told = told_values(browser)
+            place = (x, y)
             expect(set(told) == {labels[0], labels[left], labels[right]}, f"told are the pictures {list(told)}")
             for label, values in told.items():
                 found = pictures[label][place]
@@ -155,7 +145,7 @@ def test_lag(program, folder):
                                                           f"the EXR {there}")
     press(browser, "i")
     expect(browser.execute_script(f"return {picker}.selectedIndex") == 0, "the key I does not return to the rows")
-    _, told = told_values(browser)
+    _, _, told = told_values(browser)
     expect(all(label in ROWS + OTHERS or label.startswith("reference raytrace") for label in told), f"at rest, told are the pictures {list(told)}")
     problems = [entry["message"] for entry in browser.get_log("browser")]
     expect(not problems, f"the console says {problems}")

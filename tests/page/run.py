@@ -12,7 +12,7 @@ import time
 
 import charts
 import lag
-from browser import expect, open_page, wait
+from browser import expect, open_page, told_values, wait
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -25,17 +25,6 @@ def read_pixel(folder, name, x, y):
     text = (folder / "images" / f"{name}.js").read_text()
     data = base64.b64decode(re.search(r', "(.*)"\);', text).group(1))
     return struct.unpack_from("<3e", data, 6 * (y * SIZE[0] + x))
-
-
-def told_values(browser):
-    """Returns the pixel and the values of each picture that the comparer's line tells."""
-    text = browser.execute_script("return document.querySelector('.values').textContent")
-    x, y = map(int, re.match(r"Pixel (\d+), (\d+)", text).groups())
-    values = {}
-    for part in text.split("Linear values, as half floats: ")[1].rstrip(".").split("; "):
-        label, numbers = part.rsplit(": ", 1)
-        values[label] = [float(number) for number in numbers.split()]
-    return x, y, values
 
 
 def choose(browser, name, text):
