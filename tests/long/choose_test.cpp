@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -22,16 +23,37 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 
 namespace {
 
 using namespace catoptric;
 
-constexpr int kInstants = 24, kCamerasOfInstant = 10;
-constexpr uvec2 kViewSize{48, 48},
-    kTimedSize{512, 512}; // pictures for errors, and for counted work
+constexpr uvec2 kTimedSize{512, 512}; // pictures for counted work
 constexpr int kChoicesPerScene = 200;
 constexpr double kShare = .95; // of views, which a certificate states
+
+/// The number of recorded views of a bank, and the side of their square pictures, pixels.
+struct BankSize {
+    int instants = 24, cameras_per_instant = 10;
+    unsigned side = 48;
+};
+
+/// Returns the size in the environment variable CATOPTRIC_TEST_BANK, such as "100 40 96" for 100
+/// instants with 40 cameras each in pictures of 96x96; the default size if the variable is not set.
+BankSize read_bank_size() {
+    BankSize size;
+    if (const char* text = std::getenv("CATOPTRIC_TEST_BANK")) {
+        std::istringstream words(text);
+        if (!(words >> size.instants >> size.cameras_per_instant >> size.side) || size.side == 0 ||
+            size.instants < 1 || size.cameras_per_instant < 1)
+            throw std::invalid_argument(
+                std::string("CATOPTRIC_TEST_BANK: wanted 'INSTANTS CAMERAS SIDE', found '") + text +
+                "'");
+    }
+    return size;
+}
 
 /// Returns the plans that a choice may take in a scene: techniques and one mix of two.
 std::vector<std::string> list_bank_plans(const scene::Scene& scene) {
@@ -51,8 +73,9 @@ std::vector<std::string> list_bank_plans(const scene::Scene& scene) {
 }
 
 /// Errors, counted work and times of all plans of a scene in all views of the bank. Neighbouring
-/// groups of kCamerasOfInstant views share an instant.
+/// groups of `size.cameras_per_instant` views share an instant.
 struct ViewBank {
+    BankSize size;
     std::vector<std::string> plans;
     measure::Comparison comparison;
 
@@ -94,22 +117,24 @@ std::vector<double> list_limits(const ViewBank& bank, double share, double facto
 
 ViewBank record_view_bank(const char* name) {
     const scene::Scene scene = scene::load(name);
-    ViewBank bank{.plans = list_bank_plans(scene), .comparison = {}};
+    const BankSize size = read_bank_size();
+    const int views = size.instants * size.cameras_per_instant;
+    ViewBank bank{.size = size, .plans = list_bank_plans(scene), .comparison = {}};
     app::CompareRequest request;
     request.base = test::make_test_request(scene, bank.plans, kTimedSize);
     request.base.warmup = 2;
     request.studies = {{"work"}};
     bank.comparison = app::compare(test::get_test_engine(), request);
     EXPECT_FALSE(bank.comparison.stopped);
-    request.base.size = kViewSize;
-    request.studies = {{"views", kInstants * kCamerasOfInstant}};
-    request.cameras_per_instant = kCamerasOfInstant;
+    request.base.size = {size.side, size.side};
+    request.studies = {{"views", views}};
+    request.cameras_per_instant = size.cameras_per_instant;
     measure::Comparison drawn = app::compare(test::get_test_engine(), request);
     EXPECT_FALSE(drawn.stopped);
     for (std::size_t i = 0; i < bank.plans.size(); ++i) {
         measure::Row& row = bank.comparison.rows.at(i);
         row.views = std::move(drawn.rows.at(i).views);
-        EXPECT_EQ(row.views.size(), std::size_t(kInstants) * kCamerasOfInstant) << row.label;
+        EXPECT_EQ(row.views.size(), std::size_t(views)) << row.label;
         row.hdr = {}, row.display = {}, row.flip_map = {}; // not used, and large to copy
     }
     return bank;
@@ -121,15 +146,16 @@ measure::Comparison draw_views_from_bank(const ViewBank& bank,
                                          const std::vector<std::string>& plans, int views,
                                          std::uint64_t seed, int cameras_per_instant) {
     std::mt19937_64 random(seed);
-    std::vector<std::size_t> drawn, cameras(kCamerasOfInstant);
+    const auto cameras_of_instant = static_cast<std::size_t>(bank.size.cameras_per_instant);
+    std::vector<std::size_t> drawn, cameras(cameras_of_instant);
     std::iota(cameras.begin(), cameras.end(), 0);
     std::size_t instant = 0;
     for (int view = 0; view < views; ++view) {
         if (view % cameras_per_instant == 0) {
-            instant = random() % kInstants;
+            instant = random() % static_cast<std::size_t>(bank.size.instants);
             std::ranges::shuffle(cameras, random);
         }
-        drawn.push_back(instant * kCamerasOfInstant +
+        drawn.push_back(instant * cameras_of_instant +
                         cameras[static_cast<std::size_t>(view % cameras_per_instant)]);
     }
     measure::Comparison comparison;
